@@ -1,0 +1,76 @@
+#include "pipeline/formats/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace blocklift::pipeline {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, int code) {
+  throw std::runtime_error(path.string() + ": " + what + ": " +
+                           std::generic_category().message(code));
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  if (std::filesystem::is_directory(path_)) fail(path_, "cannot write a file here", EISDIR);
+  const std::filesystem::path folder = path_.parent_path();
+  if (!folder.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail(folder, "cannot make the folder", error.value());
+  }
+  temporary_path_ =
+      folder / ("." + path_.filename().string() + ".part-" + std::to_string(::getpid()));
+}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary_path_, ignored);
+}
+
+void AtomicFile::commit() {
+  const int file = ::open(temporary_path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail(path_, "cannot write the file", errno);
+  // A full disk may show itself only here.
+  const int flushed = ::fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  if (flushed != 0) fail(path_, "cannot write the file", flushed);
+  std::error_code error;
+  std::filesystem::rename(temporary_path_, path_, error);
+  if (error) fail(path_, "cannot move the finished file into place", error.value());
+  committed_ = true;
+}
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  AtomicFile file(path);
+  errno = 0;
+  std::ofstream stream(file.temporary_path(), std::ios::binary | std::ios::trunc);
+  if (!stream) fail(path, "cannot write the file", errno);
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  stream.close();
+  if (!stream) fail(path, "cannot write the file", errno == 0 ? EIO : errno);
+  file.commit();
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) fail(path, "cannot read the file", EISDIR);
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) fail(path, "cannot read the file", errno == 0 ? EIO : errno);
+  std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (stream.bad()) fail(path, "cannot read the file", errno == 0 ? EIO : errno);
+  return content;
+}
+
+}  // namespace blocklift::pipeline
