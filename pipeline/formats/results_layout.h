@@ -1,0 +1,118 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// Where everything lies in results.h5 and summary.json: the one place that names it.
+///
+/// The report is made from these two files alone. Parts marked (o) are optional: a case with a load
+/// table has no /static, /dynamic, /operation and /scene; a run without structure has no /structure.
+/// Sizes: n samples of the stage, b boxes, k rope points, N surface points, M surface quadrangles.
+/// Frames: W world, B a body, all SI. Poses are x y z, then the unit quaternion w x y z.
+///
+/// results.h5
+///   /                                  attributes format = "blocklift results", format_version = 1
+///   /case                              attributes name, title, created (ISO 8601), program_version
+///   /case/yaml                         text of the case file
+///   /operation/stage_names         (o) texts [s]
+///   /operation/stage_start             s [s]      /operation/stage_end   s [s]
+///   /static, /dynamic              (o) the two histories, alike inside:
+///     time                             s [n]
+///     ropes/<rope>/tension             N [n]      elongation (o)         m [n]
+///     hoists/<hoist>/tension       (o) N [n]      length (o)             m [n]    swing (o) rad [n]
+///     bodies/<body>/pose           (o) m, 1 [n x 7], X_WB
+///     bodies/<body>/velocity       (o) rad/s, m/s [n x 6], angular then linear (acceleration alike)
+///     drives/<drive>/position      (o) m or rad [n]                      force (o) N or N m [n]
+///     energy/<term>                (o) J [n]; the term `balance` is what the others leave unexplained
+///   /scene                         (o) what the drawing shows; bodies are those of .../bodies, or "world"
+///     bodies/<body>/boxes              m [b x 6], size x y z and centre x y z, in B (may have no rows);
+///                                      attribute kind (o): crane, hook block, load, ...
+///     ropes/<rope>/bodies              texts [k], the body each point of the path belongs to
+///     ropes/<rope>/points              m [k x 3], each in its body's frame; attribute kind: sling or hoist
+///     lugs/names                       texts [l]   lugs/points           m [l x 3], in the load's frame
+///                                      attribute body of /scene/lugs: the load's body; the surface of
+///                                      /structure is drawn at this body's pose
+///   /structure/surface             (o)
+///     points                           m [N x 3], block frame             quads   indices [M x 4]
+///     quad_group                       index [M] into group_names         group_names   texts
+///   /structure/<way>/<state>       (o) way: simultaneous, per_rope_maxima; state: static, dynamic
+///     displacement                     m [N x 3], relative to the rigid motion
+///     von_mises                        Pa [N]
+///     peak_stress_point (o), checked_stress_point (o), max_displacement_point (o)   m [3], block frame
+///                                      attributes of the group (o): rope (the governing one), time
+///
+/// summary.json, one object; everything but case and verdict may be missing, null stands for "not known"
+///   case, title, program_version, created
+///   verdict            "pass" | "fail";   verdict_reasons   list of text
+///   checks             [{name, demand, limit, unit, utilisation, pass, time_s (o), note (o)}]
+///                      unit as given is turned into the report's: N -> kN, Pa -> MPa, m -> mm, rad -> deg
+///   ropes              [{name, lug (o), hoist (o), breaking_load_N (o), max_static_tension_N,
+///                      time_of_max_static_s, max_dynamic_tension_N, time_of_max_dynamic_s, dynamic_over_static,
+///                      linked_static_N (o), linked_dynamic_N (o)}]; linked: {rope: tension} at that instant
+///   hoists         (o) like ropes, and crane, capacity_N (o), max_swing_rad (o)
+///   cranes         (o) like ropes, max_static_load_N and max_dynamic_load_N instead of tensions, capacity_N
+///   comparison     (o) {source, ropes: [{name, published_static_N, published_dynamic_N,
+///                      static_difference_percent, dynamic_difference_percent}],
+///                      stress_increase_percent (o), deformation_increase_percent (o)}: published figures
+///   structure      (o) {unknowns, elements, element_degree, mesh_size_m, material (o), yield_Pa (o),
+///                      per_rope_maxima: WAY, simultaneous: WAY,
+///                      simultaneous_by_rope (o): [{rope} + WAY], lugs (o): [{name, rope (o),
+///                      simultaneous: {static_checked_von_mises_Pa, dynamic_checked_von_mises_Pa,
+///                      stress_increase_percent}, per_rope_maxima: the same}],
+///                      mass: {total_kg, steel_kg, outfitting_kg, centre_of_mass_m, steel_centre_of_mass_m (o)}}
+///     WAY = {static: STATE, dynamic: STATE, stress_increase_percent, deformation_increase_percent}
+///     STATE = {checked_von_mises_Pa, peak_von_mises_Pa, max_displacement_m, force_residual, moment_residual,
+///              reaction_over_weight, rope (o), time_s (o), checked_group (o), peak_group (o),
+///              checked_point_m (o), peak_point_m (o), max_displacement_point_m (o)}
+///   energy         (o) {largest_energy_J, largest_imbalance_J, relative_imbalance}
+///   solver         (o) {any name: number or text}, shown as it stands, underscores as spaces
+///   timing         (o) {static_s, dynamic_s, simulated_s, assembly_s, factorisation_s, solve_s, report_s, ...}
+///   assumptions    (o) list of text;   warnings (o) list of text
+///   files          (o) [{name, content}]
+namespace blocklift::pipeline::layout {
+
+inline constexpr std::string_view results_file = "results.h5";
+inline constexpr std::string_view summary_file = "summary.json";
+inline constexpr std::string_view report_file = "report.html";
+
+inline constexpr std::string_view format_name = "blocklift results";
+inline constexpr double format_version = 1;
+
+inline constexpr std::string_view case_group = "/case";
+inline constexpr std::string_view case_yaml = "/case/yaml";
+
+inline constexpr std::string_view stage_names = "/operation/stage_names";
+inline constexpr std::string_view stage_start = "/operation/stage_start";
+inline constexpr std::string_view stage_end = "/operation/stage_end";
+
+inline constexpr std::string_view static_history = "/static";
+inline constexpr std::string_view dynamic_history = "/dynamic";
+
+inline constexpr std::string_view scene_group = "/scene";
+inline constexpr std::string_view scene_bodies = "/scene/bodies";
+inline constexpr std::string_view scene_ropes = "/scene/ropes";
+inline constexpr std::string_view scene_lugs = "/scene/lugs";
+inline constexpr std::string_view scene_lug_names = "/scene/lugs/names";
+inline constexpr std::string_view scene_lug_points = "/scene/lugs/points";
+inline constexpr std::string_view world = "world";
+
+inline constexpr std::string_view structure_group = "/structure";
+inline constexpr std::string_view surface_points = "/structure/surface/points";
+inline constexpr std::string_view surface_quads = "/structure/surface/quads";
+inline constexpr std::string_view surface_quad_group = "/structure/surface/quad_group";
+inline constexpr std::string_view surface_group_names = "/structure/surface/group_names";
+
+inline constexpr std::string_view simultaneous = "simultaneous";
+inline constexpr std::string_view per_rope_maxima = "per_rope_maxima";
+inline constexpr std::string_view static_state = "static";
+inline constexpr std::string_view dynamic_state = "dynamic";
+
+/// `group`/`member`, for example join("/dynamic", "ropes", "R1", "tension").
+template <typename... Names>
+std::string join(std::string_view group, const Names&... names) {
+  std::string path(group);
+  ((path += '/', path += std::string_view(names)), ...);
+  return path;
+}
+
+}  // namespace blocklift::pipeline::layout
