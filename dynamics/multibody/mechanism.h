@@ -1,0 +1,174 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dynamics/multibody/joint.h"
+#include "dynamics/spatial/spatial_inertia.h"
+
+namespace blocklift::dynamics {
+
+/// Index of a body within its mechanism; 0 is the world. Parents have smaller indices than
+/// children.
+using BodyIndex = int;
+inline constexpr BodyIndex world_index = 0;
+inline constexpr std::string_view world_name = "world";
+
+/// What a modeller says about a body B and the joint that carries it.
+struct BodyDefinition {
+  std::string name;
+  std::string parent{world_name};  ///< name of the body P that carries B
+  Joint joint;
+  Pose X_PJ = Pose::identity();         ///< joint frame in the parent's body frame
+  double mass = not_a_number;           ///< kg; zero is allowed where a child carries mass
+  Vector3 p_BoBcm_B = Vector3::Zero();  ///< centre of mass, m
+  Matrix3 I_BBcm_B = Matrix3::Zero();   ///< about the centre of mass, in B, kg m2
+  /// Viscous damping for each v of the joint (N s/m or N m s): tau = -d v. Empty: none.
+  std::vector<double> damping;
+  /// Which v of the joint follow a prescribed motion. Empty: none. Each v of its own for joints
+  /// whose v is dq/dt; all or none for spherical and free, whose q has no entry of its own for each
+  /// v.
+  std::vector<bool> driven;
+};
+
+/// One body of a mechanism, immutable.
+struct Body {
+  std::string name;
+  BodyIndex parent = -1;  ///< -1 for the world
+  BodyIndex carrier =
+      -1;       ///< the nearest body below that moves or is the world; fixed joints skipped
+  Joint joint;  ///< axes of unit length
+  Pose X_PJ;    ///< joint frame in the parent
+  Pose X_CJ;    ///< joint frame in the carrier
+  RigidBodyInertia inertia;     ///< of this body alone
+  int q_offset = 0;             ///< first coordinate within q
+  int v_offset = 0;             ///< first velocity within v
+  std::vector<double> damping;  ///< for each v
+  std::vector<bool> driven;     ///< for each v
+
+  int nq() const { return coordinate_count(joint.kind); }
+  int nv() const { return velocity_count(joint.kind); }
+};
+
+/// A moving body as the recursive algorithms see it: bodies fixed to it are part of its inertia.
+struct Link {
+  JointKind kind;
+  BodyIndex body;
+  BodyIndex carrier;  ///< 0: the world
+  int q_offset;
+  int v_offset;
+  int nv;
+  // Rotation of joints turning about one axis: R_CB = rotation_constant + sin rotation_sine + cos
+  // rotation_cosine. Others use rotation_constant = R_CJ.
+  Matrix3 rotation_constant;
+  Matrix3 rotation_sine;
+  Matrix3 rotation_cosine;
+  Vector3 p_CJ;                ///< joint's origin in the carrier
+  Vector3 axis_C;              ///< first axis, in the carrier
+  Vector3 first_direction_C;   ///< planar: first displacement's direction, in the carrier
+  Vector3 second_direction_C;  ///< planar: second displacement's direction
+  Vector3 axis_J;              ///< first axis, in the joint frame
+  Vector3 second_axis_B;       ///< universal: second axis, in the body (and joint) frame
+  double mass;                 ///< with fixed bodies, kg
+  Vector3 mass_moment;         ///< mass times centre of mass, in B, kg m
+  Vector3 p_BoBcm;             ///< centre of mass, in B, m (zero for a massless link)
+  Symmetric3 I_BBcm;           ///< about the centre of mass, in B, kg m2
+};
+
+/// Tree of bodies joined by joints: immutable, shared by all states and threads.
+///
+/// Looking up by name is for set-up only. Indices order everything: body i of the mechanism is
+/// entry i of every per-body array, and body i's joint owns q[q_offset ..] and v[v_offset ..].
+class Mechanism {
+ public:
+  int body_count() const { return static_cast<int>(bodies_.size()); }  ///< with the world
+  int nq() const { return nq_; }
+  int nv() const { return nv_; }
+  const Vector3& gravity() const { return gravity_; }  ///< acceleration of gravity in W, m/s2
+
+  const Body& body(BodyIndex i) const { return bodies_.at(static_cast<std::size_t>(i)); }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  /// @throws ModelError if no body has that name; the message lists those that exist.
+  BodyIndex body_index(std::string_view name) const;
+  bool has_body(std::string_view name) const;
+
+  const std::vector<Link>& links() const { return links_; }
+  /// Bodies on a fixed joint, parents first.
+  const std::vector<BodyIndex>& fixed_bodies() const { return fixed_bodies_; }
+
+  /// For each v: does it follow a prescribed motion?
+  const std::vector<char>& driven() const { return driven_; }
+  /// For each v: does it turn the body (true) or displace it (false)?
+  const std::vector<char>& angular() const { return angular_; }
+  /// For each v, viscous damping, N s/m or N m s.
+  const std::vector<double>& damping() const { return damping_; }
+  /// The body whose joint owns entry k of v.
+  BodyIndex body_of_velocity(int k) const { return velocity_body_.at(static_cast<std::size_t>(k)); }
+  /// "trolley (prismatic)" or "hook (universal, second angle)": entry k of v in words.
+  std::string velocity_name(int k) const;
+
+  const std::vector<int>& free_velocities() const { return free_v_; }  ///< integrated entries of v
+  const std::vector<int>& driven_velocities() const {
+    return driven_v_;
+  }                                                                     ///< prescribed entries of v
+  const std::vector<int>& free_coordinates() const { return free_q_; }  ///< integrated entries of q
+  const std::vector<int>& driven_coordinates() const {
+    return driven_q_;
+  }  ///< prescribed entries of q
+
+  /// q at which every body coincides with its joint frame.
+  Eigen::VectorXd zero_configuration() const;
+  /// dq/dt from q and v (sizes nq, nv, nq).
+  void calc_rates(ConstVectorRef q, ConstVectorRef v, VectorRef rates) const;
+  /// result = q (+) s v on the manifold of poses; see integrate_joint. `result` may be `q`.
+  void integrate(ConstVectorRef q, ConstVectorRef v, double s, VectorRef result) const;
+  /// The v that carries q_from to q_to in one second; see difference_joint.
+  void difference(ConstVectorRef q_from, ConstVectorRef q_to, VectorRef v) const;
+  /// Scales every quaternion in q back to unit length.
+  /// @throws SimulationError if one is zero or not finite, naming the body.
+  void normalise(VectorRef q) const;
+
+ private:
+  friend class MechanismBuilder;
+  Mechanism() = default;
+
+  std::vector<Body> bodies_;
+  std::vector<Link> links_;
+  std::vector<BodyIndex> fixed_bodies_;
+  std::vector<BodyIndex> velocity_body_;
+  std::vector<char> driven_;
+  std::vector<char> angular_;
+  std::vector<double> damping_;
+  std::vector<int> free_v_, driven_v_, free_q_, driven_q_;
+  Vector3 gravity_ = Vector3::Constant(not_a_number);
+  int nq_ = 0;
+  int nv_ = 0;
+};
+
+/// Collects bodies and makes a mechanism of them.
+class MechanismBuilder {
+ public:
+  /// Standard gravity, 9.80665 m/s2 along -z, unless set.
+  void set_gravity(const Vector3& gravity_W) { gravity_ = gravity_W; }
+
+  /// Adds a body; its parent must have been added before.
+  /// @returns its index in the mechanism.
+  /// @throws ModelError if the name is empty or taken, the parent unknown, the mass negative or
+  /// missing, the inertia impossible for any distribution of mass, an axis without length,
+  /// universal axes not perpendicular, or damping or drives not one a velocity.
+  BodyIndex add_body(const BodyDefinition& definition);
+
+  /// @throws ModelError if a moving joint carries no mass at all that would resist its motion.
+  Mechanism build() const;
+
+ private:
+  void check_carried_mass() const;
+
+  std::vector<Body> bodies_{world()};
+  Vector3 gravity_ = Vector3(0, 0, -9.80665);
+
+  static Body world();
+};
+
+}  // namespace blocklift::dynamics
