@@ -1,0 +1,100 @@
+#include "dynamics/force/spring.h"
+
+#include <cmath>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+void require_not_negative(const std::string& element, const char* what, double value) {
+  if (!std::isfinite(value) || value < 0.0) {
+    throw ModelError("spring \"" + element + "\" has the " + what + " " + std::to_string(value) +
+                     "; a finite number, zero or more, is due");
+  }
+}
+
+}  // namespace
+
+PointSpring::PointSpring(Definition definition) : definition_(std::move(definition)) {
+  require_not_negative(definition_.name, "stiffness", definition_.stiffness);
+  require_not_negative(definition_.name, "damping", definition_.damping);
+  require_not_negative(definition_.name, "free length", definition_.free_length);
+  if (definition_.from.body == definition_.to.body) {
+    throw ModelError("spring \"" + definition_.name +
+                     "\" has both ends on one body, so it can do nothing; join two bodies");
+  }
+}
+
+PointSpring::Line PointSpring::calc_line(const MotionState& state) const {
+  const BodyPoint& a = definition_.from;
+  const BodyPoint& b = definition_.to;
+  const Kinematics& k = state.kinematics;
+  const Vector3 span = point_position(k, b.body, b.p_BoQ_B) - point_position(k, a.body, a.p_BoQ_B);
+  const double length = span.norm();
+  if (!(length > 1e-12)) {
+    throw ModelError("spring \"" + definition_.name +
+                     "\": its ends coincide, so the direction of its force is undefined");
+  }
+  const Vector3 direction = span / length;
+  const Vector3 rate = point_velocity(k, b.body, b.p_BoQ_B) - point_velocity(k, a.body, a.p_BoQ_B);
+  return {direction, length, direction.dot(rate)};
+}
+
+double PointSpring::calc_tension(const MotionState& state) const {
+  const Line line = calc_line(state);
+  return definition_.stiffness * (line.length - definition_.free_length) +
+         definition_.damping * line.length_rate;
+}
+
+void PointSpring::add_forces(const MotionState& state, Loads& loads) const {
+  const Line line = calc_line(state);
+  const double tension = definition_.stiffness * (line.length - definition_.free_length) +
+                         definition_.damping * line.length_rate;
+  const Vector3 f_W = tension * line.direction_W;
+  add_point_force(state.kinematics, definition_.from.body, definition_.from.p_BoQ_B, f_W,
+                  loads.F_Bo_W);
+  add_point_force(state.kinematics, definition_.to.body, definition_.to.p_BoQ_B, -f_W,
+                  loads.F_Bo_W);
+}
+
+EnergyAccount PointSpring::calc_energy(const MotionState& state) const {
+  const Line line = calc_line(state);
+  const double elongation = line.length - definition_.free_length;
+  return {.stored_energy = 0.5 * definition_.stiffness * elongation * elongation,
+          .dissipated_power = definition_.damping * line.length_rate * line.length_rate};
+}
+
+JointSpring::JointSpring(const Mechanism& mechanism, Definition definition)
+    : definition_(std::move(definition)) {
+  require_not_negative(definition_.name, "stiffness", definition_.stiffness);
+  require_not_negative(definition_.name, "damping", definition_.damping);
+  if (!std::isfinite(definition_.free_coordinate)) {
+    throw ModelError("spring \"" + definition_.name +
+                     "\" needs the joint coordinate at which it is free of force");
+  }
+  const Body& body = mechanism.body(definition_.body);
+  if (body.nv() != 1) {
+    throw ModelError("spring \"" + definition_.name + "\" acts on the " +
+                     std::string(joint_kind_name(body.joint.kind)) + " joint of \"" + body.name +
+                     "\"; a joint with one degree of freedom (revolute, prismatic) is due");
+  }
+  q_offset_ = body.q_offset;
+  v_offset_ = body.v_offset;
+}
+
+void JointSpring::add_forces(const MotionState& state, Loads& loads) const {
+  loads.tau[v_offset_] -=
+      definition_.stiffness * (state.q[q_offset_] - definition_.free_coordinate) +
+      definition_.damping * state.v[v_offset_];
+}
+
+EnergyAccount JointSpring::calc_energy(const MotionState& state) const {
+  const double deflection = state.q[q_offset_] - definition_.free_coordinate;
+  const double rate = state.v[v_offset_];
+  return {.stored_energy = 0.5 * definition_.stiffness * deflection * deflection,
+          .dissipated_power = definition_.damping * rate * rate};
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,81 @@
+#include "dynamics/force/support.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+
+SupportPad::SupportPad(Definition definition) : definition_(std::move(definition)) {
+  const Definition& d = definition_;
+  if (!(d.stiffness > 0.0) || !std::isfinite(d.stiffness)) {
+    throw ModelError("support \"" + d.name + "\" has the stiffness " + std::to_string(d.stiffness) +
+                     "; a number above zero is due");
+  }
+  for (const double value :
+       {d.damping, d.friction_coefficient, d.tangential_stiffness, d.tangential_damping}) {
+    if (!(value >= 0.0) || !std::isfinite(value)) {
+      throw ModelError("support \"" + d.name +
+                       "\": damping, friction coefficient and tangential stiffness and damping "
+                       "must be finite and not negative");
+    }
+  }
+  if (!d.p_WG.allFinite()) {
+    throw ModelError("support \"" + d.name + "\" needs the place on the ground where it stands");
+  }
+}
+
+SupportLoad SupportPad::calc_depth(const Kinematics& kinematics) const {
+  const BodyPoint& point = definition_.point;
+  SupportLoad load;
+  load.depth = definition_.p_WG.z() - point_position(kinematics, point.body, point.p_BoQ_B).z();
+  load.depth_rate = -point_velocity(kinematics, point.body, point.p_BoQ_B).z();
+  load.elastic_force = definition_.stiffness * load.depth;
+  load.damping_force = definition_.damping * load.depth_rate;
+  return load;
+}
+
+void SupportPad::set_force(const Kinematics& kinematics, SupportLoad& load) const {
+  const BodyPoint& point = definition_.point;
+  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - definition_.p_WG;
+  const Vector3 rate = point_velocity(kinematics, point.body, point.p_BoQ_B);
+  Vector3 f = -(definition_.tangential_stiffness * s + definition_.tangential_damping * rate);
+  f.z() = 0.0;
+  const double most = definition_.friction_coefficient * std::max(0.0, load.normal_force);
+  const double length = f.norm();
+  if (length > most) f *= most / length;
+  load.force_W = f + Vector3(0.0, 0.0, load.normal_force);
+}
+
+SupportLoad SupportPad::calc_load(const Kinematics& kinematics) const {
+  SupportLoad load = calc_depth(kinematics);
+  load.normal_force =
+      load.depth > 0.0 ? std::max(0.0, load.elastic_force + load.damping_force) : 0.0;
+  set_force(kinematics, load);
+  return load;
+}
+
+SupportLoad SupportPad::calc_load(const Kinematics& kinematics, bool carries) const {
+  SupportLoad load = calc_depth(kinematics);
+  load.normal_force = carries ? load.elastic_force + load.damping_force : 0.0;
+  set_force(kinematics, load);
+  return load;
+}
+
+void SupportPad::add_force(const Kinematics& kinematics, const SupportLoad& load,
+                           Loads& loads) const {
+  add_point_force(kinematics, definition_.point.body, definition_.point.p_BoQ_B, load.force_W,
+                  loads.F_Bo_W);
+}
+
+EnergyAccount SupportPad::calc_energy(const Kinematics& kinematics, const SupportLoad& load) const {
+  const double elastic = std::max(0.0, load.elastic_force);
+  const Vector3 rate =
+      point_velocity(kinematics, definition_.point.body, definition_.point.p_BoQ_B);
+  const double friction_power = load.force_W.x() * rate.x() + load.force_W.y() * rate.y();
+  return {.stored_energy = 0.5 * elastic * std::max(0.0, load.depth),
+          .dissipated_power = (load.normal_force - elastic) * load.depth_rate - friction_power};
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,57 @@
+#include "dynamics/force/wind.h"
+
+#include <cmath>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+
+Wind Wind::level(double speed, double heading, double air_density) {
+  return {speed * Vector3(std::cos(heading), std::sin(heading), 0.0), air_density};
+}
+
+WindArea::WindArea(const Wind& wind, Definition definition)
+    : definition_(std::move(definition)),
+      velocity_W_(wind.velocity_W),
+      half_density_area_(0.5 * wind.air_density * definition_.coefficient * definition_.area) {
+  const auto require = [&](const char* what, double value) {
+    if (!std::isfinite(value) || value < 0.0) {
+      throw ModelError("wind area \"" + definition_.name + "\" has the " + what + " " +
+                       std::to_string(value) + "; a finite number, zero or more, is due");
+    }
+  };
+  require("area", definition_.area);
+  require("coefficient", definition_.coefficient);
+  require("air density", wind.air_density);
+  require("wind speed", wind.velocity_W.norm());
+  if (definition_.normal_B) {
+    const double length = definition_.normal_B->norm();
+    if (!(length > 0.0) || !std::isfinite(length)) {
+      throw ModelError("wind area \"" + definition_.name + "\" has a normal without length");
+    }
+    *definition_.normal_B /= length;
+  }
+}
+
+Vector3 WindArea::calc_force(const MotionState& state) const {
+  const BodyPoint& centre = definition_.centre_of_pressure;
+  const Vector3 u = velocity_W_ - point_velocity(state.kinematics, centre.body, centre.p_BoQ_B);
+  if (!definition_.normal_B) return half_density_area_ * u.norm() * u;
+  const Vector3 n =
+      state.kinematics.X_WB[static_cast<std::size_t>(centre.body)].R * *definition_.normal_B;
+  const double normal_speed = u.dot(n);
+  return half_density_area_ * std::abs(normal_speed) * normal_speed * n;
+}
+
+void WindArea::add_forces(const MotionState& state, Loads& loads) const {
+  const BodyPoint& centre = definition_.centre_of_pressure;
+  add_point_force(state.kinematics, centre.body, centre.p_BoQ_B, calc_force(state), loads.F_Bo_W);
+}
+
+EnergyAccount WindArea::calc_energy(const MotionState& state) const {
+  const BodyPoint& centre = definition_.centre_of_pressure;
+  return {.supplied_power =
+              calc_force(state).dot(point_velocity(state.kinematics, centre.body, centre.p_BoQ_B))};
+}
+
+}  // namespace blocklift::dynamics

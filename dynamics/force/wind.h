@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "dynamics/force/force_element.h"
+
+namespace blocklift::dynamics {
+
+/// Wind that is the same everywhere and at all times.
+struct Wind {
+  Vector3 velocity_W = Vector3::Zero();  ///< of the air, m/s
+  double air_density = 1.25;             ///< kg/m3
+
+  /// Wind of a speed (m/s) blowing towards a heading (rad from +x towards +y), level.
+  static Wind level(double speed, double heading, double air_density = 1.25);
+};
+
+/// Wind force on an area of a body. With u the velocity of the air relative to the point where the
+/// force acts:
+///
+///   flat area with the normal n (either side):  F = 1/2 rho C A |u.n| (u.n) n,
+///   area without direction (a hook block):      F = 1/2 rho C A |u| u      (N).
+///
+/// Source: the quasi-static pressure form of the crane codes (ISO 4302, EN 13001-2), with the
+/// velocity relative to the moving area, so that motion is damped by the air.
+class WindArea {
+ public:
+  struct Definition {
+    std::string name;
+    BodyPoint centre_of_pressure;
+    double area = not_a_number;         ///< A, m2
+    double coefficient = not_a_number;  ///< C
+    std::optional<Vector3> normal_B;    ///< in the body's frame; none: no direction
+  };
+
+  /// @throws ModelError if area, coefficient or density is negative or not finite, or the normal
+  /// has no length.
+  WindArea(const Wind& wind, Definition definition);
+
+  const std::string& name() const { return definition_.name; }
+  const Definition& definition() const { return definition_; }
+
+  /// Force on the body at the centre of pressure, in W, N.
+  Vector3 calc_force(const MotionState& state) const;
+  void add_forces(const MotionState& state, Loads& loads) const;
+  /// The supplied power is that of the force on the moving body: negative where the air brakes.
+  EnergyAccount calc_energy(const MotionState& state) const;
+
+ private:
+  Definition definition_;
+  Vector3 velocity_W_;
+  double half_density_area_;  ///< 1/2 rho C A, kg/m
+};
+
+static_assert(ForceElement<WindArea>);
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,155 @@
+#include "dynamics/rope/rope.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+// Shorter segments than this have no usable direction (m).
+constexpr double shortest_segment = 1e-9;
+
+void require_positive(const std::string& rope, const char* what, double value, bool finite) {
+  if (!(value > 0.0) || (finite && !std::isfinite(value))) {
+    throw ModelError("rope \"" + rope + "\" has the " + what + " " + std::to_string(value) +
+                     "; a number above zero is due");
+  }
+}
+
+void require_not_negative(const std::string& rope, const char* what, double value) {
+  if (!(value >= 0.0) || !std::isfinite(value)) {
+    throw ModelError("rope \"" + rope + "\" has the " + what + " " + std::to_string(value) +
+                     "; a finite number, zero or more, is due");
+  }
+}
+
+}  // namespace
+
+Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
+    : definition_(std::move(definition)), crane_compliance_(1.0 / definition_.crane_stiffness) {
+  const RopeDefinition& d = definition_;
+  if (d.points.size() < 2) {
+    throw ModelError("rope \"" + d.name + "\" has " + std::to_string(d.points.size()) +
+                     " point(s); two ends are due, sheaves between them at will");
+  }
+  for (std::size_t i = 0; i < d.points.size(); ++i) {
+    const BodyPoint& point = d.points[i];
+    if (point.body < 0 || point.body >= mechanism.body_count() || !point.p_BoQ_B.allFinite()) {
+      throw ModelError("rope \"" + d.name + "\": point " + std::to_string(i) +
+                       " is not a point of a body of the mechanism");
+    }
+    if (i > 0 && d.points[i - 1].body == point.body &&
+        (d.points[i - 1].p_BoQ_B - point.p_BoQ_B).norm() < shortest_segment) {
+      throw ModelError("rope \"" + d.name + "\": points " + std::to_string(i - 1) + " and " +
+                       std::to_string(i) + " are the same point of \"" +
+                       mechanism.body(point.body).name + "\"");
+    }
+  }
+  require_positive(d.name, "axial stiffness", d.axial_stiffness, true);
+  require_positive(d.name, "crane stiffness", d.crane_stiffness, false);
+  require_positive(d.name, "unstretched length", d.unstretched_length, true);
+  require_not_negative(d.name, "damping time", d.damping_time);
+  require_not_negative(d.name, "damping", d.damping);
+}
+
+void Rope::calc_path(const Kinematics& kinematics, RopePath& path) const {
+  const std::vector<BodyPoint>& points = definition_.points;
+  double length = 0.0;
+  double rate = 0.0;
+  Vector3 p_previous = Vector3::Zero();
+  Vector3 v_previous = Vector3::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto body = static_cast<std::size_t>(points[i].body);
+    const Pose& X_WB = kinematics.X_WB[body];
+    const MotionVector& V_WB = kinematics.V_WB[body];
+    const Vector3 r = X_WB.R * points[i].p_BoQ_B;
+    const Vector3 p = X_WB.p + r;
+    const Vector3 v = V_WB.linear + V_WB.angular.cross(r);
+    path.r_W[i] = r;
+    if (i > 0) {
+      const Vector3 span = p - p_previous;
+      const double segment = span.norm();
+      if (!(segment > shortest_segment)) {
+        throw ModelError("rope \"" + definition_.name + "\": its points " + std::to_string(i - 1) +
+                         " and " + std::to_string(i) +
+                         " lie on one another, so the direction of its pull is undefined; "
+                         "is it hoisted into its sheave?");
+      }
+      path.direction_W[i - 1] = span / segment;
+      length += segment;
+      rate += path.direction_W[i - 1].dot(v - v_previous);
+    }
+    p_previous = p;
+    v_previous = v;
+  }
+  path.length = length;
+  path.length_rate = rate;
+}
+
+RopeLoad Rope::calc_elastic_and_damping(const RopePath& path, const RopeFeed& feed) const {
+  if (!(feed.unstretched_length > 0.0)) {
+    throw ModelError("rope \"" + definition_.name + "\": the winch has pulled it in to " +
+                     std::to_string(feed.unstretched_length) +
+                     " m; some length must stay out, so move the winch less");
+  }
+  RopeLoad load;
+  load.length = path.length;
+  load.length_rate = path.length_rate;
+  load.unstretched_length = feed.unstretched_length;
+  load.unstretched_rate = feed.rate;
+  load.stiffness = stiffness(feed.unstretched_length);
+  load.elastic_force = load.stiffness * (path.length - feed.unstretched_length);
+  load.damping_force = (definition_.damping_time * load.stiffness + definition_.damping) *
+                       (path.length_rate - feed.rate);
+  return load;
+}
+
+RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed) const {
+  RopeLoad load = calc_elastic_and_damping(path, feed);
+  load.tension =
+      load.elastic_force > 0.0 ? std::max(0.0, load.elastic_force + load.damping_force) : 0.0;
+  return load;
+}
+
+RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed, bool taut) const {
+  RopeLoad load = calc_elastic_and_damping(path, feed);
+  load.tension = taut ? load.elastic_force + load.damping_force : 0.0;
+  return load;
+}
+
+void Rope::add_forces(const RopePath& path, double tension,
+                      std::vector<ForceVector>& F_Bo_W) const {
+  const std::vector<BodyPoint>& points = definition_.points;
+  const std::size_t last = points.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    Vector3 f = i < last ? path.direction_W[i] : Vector3(Vector3::Zero());
+    if (i > 0) f -= path.direction_W[i - 1];
+    f *= tension;
+    ForceVector& F = F_Bo_W[static_cast<std::size_t>(points[i].body)];
+    F.moment += path.r_W[i].cross(f);
+    F.force += f;
+  }
+}
+
+EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
+  const double elastic = std::max(0.0, load.elastic_force);
+  const double elongation = std::max(0.0, load.elongation());
+  return {.stored_energy = 0.5 * elastic * elongation,
+          .dissipated_power = (load.tension - elastic) * (load.length_rate - load.unstretched_rate),
+          .supplied_power = -load.unstretched_rate *
+                            (load.tension + 0.5 * elastic * elastic / definition_.axial_stiffness)};
+}
+
+RopePath make_rope_path(const std::vector<Rope>& ropes) {
+  std::size_t most = 2;
+  for (const Rope& rope : ropes) most = std::max(most, rope.points().size());
+  RopePath path;
+  path.r_W.assign(most, Vector3::Zero());
+  path.direction_W.assign(most - 1, Vector3::Zero());
+  return path;
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <limits>
+
+#include "dynamics/force/force_element.h"
+
+namespace blocklift::dynamics {
+
+/// What a modeller says about a rope.
+struct RopeDefinition {
+  std::string name;
+  std::vector<BodyPoint> points;          ///< from the winch's end through sheaves to the far end
+  double axial_stiffness = not_a_number;  ///< EA of all falls together, N
+  /// Stiffness of what the rope hangs from, in series with it, N/m; infinite: rigid.
+  double crane_stiffness = std::numeric_limits<double>::infinity();
+  double damping_time = 0.0;  ///< Kelvin-Voigt: this time the stiffness is the damping, s
+  double damping = 0.0;       ///< further damping that does not change with the length, N s/m
+  double unstretched_length = not_a_number;  ///< at the start of the operation, m
+};
+
+/// What the winch leaves out: unstretched length of the rope (m) and its rate (m/s).
+struct RopeFeed {
+  double unstretched_length = not_a_number;
+  double rate = 0.0;
+};
+
+/// Where a rope runs at one instant. Made once for the longest rope, filled without allocating.
+struct RopePath {
+  std::vector<Vector3> r_W;           ///< for each point, from its body's origin, in W, m
+  std::vector<Vector3> direction_W;   ///< for each segment, unit, towards the next point
+  double length = not_a_number;       ///< m
+  double length_rate = not_a_number;  ///< m/s
+};
+
+/// A rope's load at one instant.
+struct RopeLoad {
+  double length = not_a_number;              ///< L, m
+  double length_rate = not_a_number;         ///< m/s
+  double unstretched_length = not_a_number;  ///< L0, m
+  double unstretched_rate = not_a_number;    ///< m/s
+  double stiffness = not_a_number;           ///< k at this L0, N/m
+  double elastic_force = not_a_number;       ///< k (L - L0), N; negative when slack
+  double damping_force = not_a_number;       ///< c (Ldot - L0dot), N
+  double tension = not_a_number;             ///< T, N
+
+  double elongation() const { return length - unstretched_length; }
+  /// Positive where the rope pulls, negative where it is slack, continuous between: N.
+  double slack_indicator() const { return elastic_force + std::min(0.0, damping_force); }
+};
+
+/// Elastic rope that pulls but never pushes, led over frictionless sheaves.
+///
+/// One tension acts along the whole path p_W0 .. p_Wn (world positions, m):
+///   L = sum |p_Wi+1 - p_Wi|,   1/k = L0/EA + 1/k_crane,   c = damping_time k + damping,
+///   T = max(0, k (L - L0) + c (Ldot - L0dot)) where L > L0, else 0,
+/// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
+/// rope hangs from (N/m). The sheaves are points: the wrap around them is not part of the path.
+///
+/// Energy: stored 1/2 k (L - L0)^2; dissipated (T - k (L - L0)) (Ldot - L0dot); supplied by the
+/// winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the rope
+/// that runs onto the drum. Then the power on the bodies, -T Ldot, is exactly
+/// supplied - dissipated - d(stored)/dt, and it equals the power of the point forces.
+/// Source: first variation of the path length; SIMO theory manual for stiffness in series.
+class Rope {
+ public:
+  /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
+  /// point of one body, a stiffness or length is not positive, or a damping is negative.
+  Rope(const Mechanism& mechanism, RopeDefinition definition);
+
+  const std::string& name() const { return definition_.name; }
+  const RopeDefinition& definition() const { return definition_; }
+  const std::vector<BodyPoint>& points() const { return definition_.points; }
+
+  /// k at an unstretched length (m), N/m.
+  double stiffness(double unstretched_length) const {
+    return 1.0 / (unstretched_length / definition_.axial_stiffness + crane_compliance_);
+  }
+
+  /// Geometry and its rate.
+  /// @throws ModelError if a point lies on its neighbour (the direction of the pull is undefined).
+  void calc_path(const Kinematics& kinematics, RopePath& path) const;
+
+  /// Load by the law above.
+  /// @throws ModelError if the winch has pulled the whole rope in (L0 <= 0).
+  RopeLoad calc_load(const RopePath& path, const RopeFeed& feed) const;
+
+  /// Load where the rope is known to be taut or slack: the same law without its kink, so that it
+  /// is smooth across the instant at which the rope changes. For integrators that locate it.
+  RopeLoad calc_load(const RopePath& path, const RopeFeed& feed, bool taut) const;
+
+  /// Adds the pull of a tension (N) to the bodies along the path.
+  void add_forces(const RopePath& path, double tension, std::vector<ForceVector>& F_Bo_W) const;
+
+  /// Energy account of a load, see above.
+  EnergyAccount calc_energy(const RopeLoad& load) const;
+
+  /// Force on the body at the first or last point, in W, N.
+  static Vector3 first_force(const RopePath& path, double tension) {
+    return tension * path.direction_W.front();
+  }
+  Vector3 last_force(const RopePath& path, double tension) const {
+    return -tension * path.direction_W[definition_.points.size() - 2];
+  }
+
+ private:
+  RopeLoad calc_elastic_and_damping(const RopePath& path, const RopeFeed& feed) const;
+
+  RopeDefinition definition_;
+  double crane_compliance_;  ///< 1/k_crane, m/N
+};
+
+/// Path workspace large enough for each of the ropes.
+RopePath make_rope_path(const std::vector<Rope>& ropes);
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dynamics/simulation/lift_system.h"
+
+namespace blocklift::dynamics {
+
+/// What is known of a body at each sample; a row a sample.
+struct BodyHistory {
+  using Rows7 = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
+  using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+  std::string name;
+  Rows7 pose;          ///< p_WBo (m), quaternion of R_WB (w, x, y, z), its sign without jumps
+  Rows6 velocity;      ///< angular velocity (rad/s), velocity of Bo (m/s), in W
+  Rows6 acceleration;  ///< angular acceleration (rad/s2), acceleration of Bo (m/s2), in W
+
+  Pose X_WB(Eigen::Index sample) const;
+  MotionVector V_WB(Eigen::Index sample) const {
+    return {velocity.row(sample).head<3>(), velocity.row(sample).tail<3>()};
+  }
+  MotionVector A_WB(Eigen::Index sample) const {
+    return {acceleration.row(sample).head<3>(), acceleration.row(sample).tail<3>()};
+  }
+};
+
+/// What is known of a rope at each sample.
+struct RopeHistory {
+  using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  std::string name;
+  Eigen::VectorXd tension;     ///< N
+  Eigen::VectorXd elongation;  ///< stretched less unstretched length, m; negative when slack
+  Eigen::VectorXd unstretched_length;  ///< m
+  Eigen::VectorXd unstretched_rate;    ///< m/s
+  Rows3 first_force;                   ///< on the body at the rope's first point, in W, N
+  Rows3 last_force;                    ///< on the body at the rope's last point, in W, N
+};
+
+/// What is known of a driven joint velocity at each sample.
+struct DriveHistory {
+  std::string name;  ///< of the operation's drive, or of the joint where it has none
+  Eigen::VectorXd
+      position;  ///< coordinate of the joint, m or rad; NaN for joints with a quaternion
+  Eigen::VectorXd velocity;  ///< m/s or rad/s
+  Eigen::VectorXd force;     ///< that the drive must give, N or N m
+};
+
+/// What is known of a support pad at each sample.
+struct SupportHistory {
+  std::string name;
+  Eigen::VectorXd normal_force;  ///< upwards on the body, N
+};
+
+/// Energies at each sample. The works are sums since the start and exist for time integrations
+/// only; then  E(t) - E(0) = drive_work + winch_work + wind_work - dissipated,
+/// E = kinetic + gravity + elastic (J).
+struct EnergyHistory {
+  Eigen::VectorXd kinetic, gravity, elastic;
+  Eigen::VectorXd drive_work, winch_work, wind_work, dissipated;
+};
+
+/// Record of an operation at samples in time: static (a sweep of equilibria, rates zero) or
+/// dynamic (a time integration). Bodies, ropes, drives and pads in the order of the system; the
+/// world is body 0 in the system and is left out here, so that bodies[i - 1] is body i.
+class History {
+ public:
+  History(const LiftSystem& system, Eigen::Index sample_count, bool with_works);
+
+  Eigen::Index sample_count() const { return time.size(); }
+
+  Eigen::VectorXd time;  ///< s
+  std::vector<BodyHistory> bodies;
+  std::vector<RopeHistory> ropes;
+  std::vector<DriveHistory> drives;
+  std::vector<SupportHistory> supports;
+  EnergyHistory energy;
+
+  /// For set-up and evaluation afterwards.
+  /// @throws ModelError if there is none of that name; the message lists those that exist.
+  const BodyHistory& body(std::string_view name) const;
+  const RopeHistory& rope(std::string_view name) const;
+
+  /// Records the instant that the workspace holds: kinematics, loads, accelerations (w.vdot).
+  /// `contacts` as in calc_loads.
+  void record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w);
+  /// Energies done since the start, J, in the order of EnergyRates.
+  void record_works(Eigen::Index sample, const Eigen::Vector4d& works);
+
+ private:
+  std::vector<MotionVector> A_WB_;  ///< workspace
+};
+
+/// A rope's largest load with every other rope's load at that instant (linked statistics).
+struct LinkedMaximum {
+  int rope = -1;
+  double tension = not_a_number;  ///< N
+  double time = not_a_number;     ///< s
+  Eigen::Index sample = -1;
+  Eigen::VectorXd tensions;  ///< of all ropes at that instant, N
+};
+
+/// For each rope its largest tension among the samples.
+std::vector<LinkedMaximum> find_largest_tensions(const History& history);
+
+}  // namespace blocklift::dynamics

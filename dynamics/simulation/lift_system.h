@@ -1,0 +1,140 @@
+#pragma once
+
+#include <tuple>
+
+#include "dynamics/force/spring.h"
+#include "dynamics/force/support.h"
+#include "dynamics/force/wind.h"
+#include "dynamics/multibody/forward_dynamics.h"
+#include "dynamics/rope/rope.h"
+#include "dynamics/simulation/operation.h"
+
+namespace blocklift::dynamics {
+
+/// The kinds of force elements; a new kind is entered here and nowhere else.
+using ForceElements =
+    std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>>;
+
+/// All that a lift consists of, before it is checked.
+struct LiftDefinition {
+  Mechanism mechanism;
+  std::vector<Rope> ropes;
+  std::vector<SupportPad> supports;
+  ForceElements elements;
+  Operation operation;
+  Eigen::VectorXd q_start;  ///< nq; driven coordinates are exact, the others may be a guess
+  Eigen::VectorXd v_start;  ///< nv; empty: at rest
+};
+
+/// Mechanism, force elements, ropes and operation: an immutable model of a lift, and the layout of
+/// its state.
+///
+/// State y = (q_free, v_free): the coordinates and velocities that no drive prescribes, in the
+/// order of the mechanism; y has nq_free + nv_free entries. The driven ones follow from the time.
+/// Ropes and support pads are one-sided: each acts or does not act, and changes at an instant.
+/// `Contacts` says which act, ropes first, then pads.
+class LiftSystem {
+ public:
+  /// @throws ModelError if sizes do not fit, two ropes share a name, or a driven joint with a
+  /// quaternion is not still.
+  explicit LiftSystem(LiftDefinition definition);
+
+  const Mechanism& mechanism() const { return d_.mechanism; }
+  const std::vector<Rope>& ropes() const { return d_.ropes; }
+  const std::vector<SupportPad>& supports() const { return d_.supports; }
+  const ForceElements& elements() const { return d_.elements; }
+  const Operation& operation() const { return d_.operation; }
+  const Eigen::VectorXd& q_start() const { return d_.q_start; }
+  const Eigen::VectorXd& v_start() const { return d_.v_start; }
+
+  int nq_free() const { return nq_free_; }
+  int nv_free() const { return nv_free_; }
+  int state_size() const { return nq_free_ + nv_free_; }
+  /// Number of one-sided elements: ropes, then support pads.
+  int contact_count() const { return static_cast<int>(d_.ropes.size() + d_.supports.size()); }
+  /// Winch of a rope, -1 if its length does not change.
+  int winch_of_rope(int rope) const { return winch_of_rope_[static_cast<std::size_t>(rope)]; }
+  /// Index of a rope by its name, for set-up.
+  /// @throws ModelError if there is none; the message lists those that exist.
+  int rope_index(std::string_view name) const;
+
+ private:
+  void check_driven_joints() const;
+
+  LiftDefinition d_;
+  int nq_free_ = 0;
+  int nv_free_ = 0;
+  std::vector<int> winch_of_rope_;
+};
+
+/// Which one-sided elements act: an entry for each rope (taut?), then for each pad (loaded?).
+using Contacts = std::vector<char>;
+
+/// Rates of the energies that an integration accumulates, W.
+struct EnergyRates {
+  double drive_power = 0.0;       ///< of the driven joints on the mechanism
+  double winch_power = 0.0;       ///< of the winches on their ropes
+  double wind_power = 0.0;        ///< of everything else from outside, wind above all
+  double dissipated_power = 0.0;  ///< in ropes, springs, joints and supports
+};
+
+/// Energies stored at one instant, J.
+struct StoredEnergy {
+  double kinetic = 0.0;
+  double gravity = 0.0;  ///< potential; zero with all centres of mass at the height z = 0
+  double elastic = 0.0;  ///< ropes, springs and supports
+  double sum() const { return kinetic + gravity + elastic; }
+};
+
+/// Everything that one evaluation of a lift system writes; made once, used again without
+/// allocation. One thread each.
+struct LiftWorkspace {
+  explicit LiftWorkspace(const LiftSystem& system);
+
+  Eigen::VectorXd q, v, vdot, rates;  ///< whole vectors: free and driven, nq, nv, nv, nq
+  Kinematics kinematics;
+  Loads loads;
+  ForwardDynamicsWorkspace dynamics;
+  std::vector<RopeFeed> feeds;  ///< for each rope
+  std::vector<RopeLoad> rope_loads;
+  RopePath path;  ///< of the rope evaluated last
+};
+
+/// q, v of the driven joints, their vdot, and the ropes' feeds at a time into the workspace.
+/// @param moving false: positions only, all rates zero (static equilibrium).
+void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& w);
+
+/// Free coordinates and velocities of a state into the workspace.
+void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w);
+/// Free coordinates and velocities of whole vectors q and v into a state.
+void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, VectorRef y);
+
+/// Kinematics and loads of the workspace's q, v and feeds. `contacts`: which one-sided elements
+/// act; null: each as its own law says.
+void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w);
+
+/// dy/dt at (t, y): the right-hand side. Leaves accelerations (w.vdot), drive forces
+/// (w.loads.tau at driven entries) and rope loads in the workspace. Does not allocate.
+/// @throws ModelError or SimulationError where the geometry is degenerate or the pose singular.
+void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
+                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot);
+
+/// For each one-sided element a value (N over 1 kN) that is positive where it acts and negative
+/// where it does not, continuous between, from the workspace's kinematics. Size contact_count.
+void calc_contact_indicators(const LiftSystem& system, double t, LiftWorkspace& w,
+                             VectorRef indicators);
+
+/// Which one-sided elements act at a state. One that is just at the change is judged by where it
+/// is going: by its rate, then by its acceleration without it.
+Contacts find_contacts(const LiftSystem& system, double t, ConstVectorRef y, LiftWorkspace& w);
+
+/// Powers at the instant that calc_right_hand_side has just evaluated.
+EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w);
+/// Stored energies at that instant.
+StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w);
+
+/// What a failed run tells: ropes that are slack or carry the most, bodies with the largest
+/// acceleration, at the workspace's instant.
+std::string describe_trouble(const LiftSystem& system, const LiftWorkspace& w);
+
+}  // namespace blocklift::dynamics

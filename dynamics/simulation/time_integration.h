@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+
+#include "dynamics/simulation/history.h"
+
+namespace blocklift::dynamics {
+
+struct IntegrationSettings {
+  /// Local error allowed over one step, relative to 1 m for displacements, 1 rad for angles, and to
+  /// the larger of 1 m/s (1 rad/s) and the value for velocities: it does not depend on where the
+  /// world's origin lies.
+  double relative_tolerance = 1e-6;
+  double sample_interval = 0.05;  ///< s
+  bool works = true;              ///< accumulate the works of drives, winches, wind and dissipation
+  long largest_step_count = 50'000'000;
+  /// Called now and then with the fraction done and the time (s); may be empty.
+  std::function<void(double, double)> progress;
+};
+
+/// What the integration cost.
+struct IntegrationStatistics {
+  long steps = 0;
+  long right_hand_sides = 0;  ///< of the equations, those for finite differences included
+  long jacobians = 0;
+  long error_test_failures = 0;
+  long nonlinear_failures = 0;
+  long restarts = 0;         ///< at events and jumps of a motion
+  long contact_changes = 0;  ///< ropes that went slack or taut, pads loaded or lifted off
+};
+
+/// A rope or pad that began or ceased to act.
+struct ContactEvent {
+  double time = not_a_number;  ///< s
+  int contact = -1;            ///< rope, or rope count + pad
+  bool acts = false;
+};
+
+struct IntegrationResult {
+  History history;
+  IntegrationStatistics statistics;
+  std::vector<ContactEvent> events;  ///< in order of time
+  Eigen::VectorXd q_end, v_end;      ///< state at the end, nq and nv
+};
+
+/// Integrates the operation from (q, v) (nq and nv; driven entries are replaced by the drives') over
+/// its whole duration.
+///
+/// BDF with Newton's method (CVODES), quaternions projected back to unit length at every step. Steps
+/// end at stage changes and wherever a motion is not smooth, and at each instant at which a rope
+/// goes slack or taut or a pad is loaded or lifts off: which of them act is fixed during a step,
+/// so that no step crosses a change, and the integration starts anew behind it. Samples come from
+/// the method's own interpolation; accelerations, tensions and drive forces are computed anew from
+/// the interpolated state, so that each sample is consistent in itself. Largest loads are those of
+/// the samples.
+///
+/// @throws SimulationError when a step fails: time, ropes, bodies, and what to try.
+IntegrationResult integrate(const LiftSystem& system, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& v, const IntegrationSettings& settings = {});
+
+}  // namespace blocklift::dynamics
