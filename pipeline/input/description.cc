@@ -25,8 +25,7 @@ bool Range::contains(double value) const {
 std::string Range::text(Dimension dimension) const {
   if (lower && upper) {
     return fmt::format("{} {} {} {}", lower_allowed && upper_allowed ? "from" : "between",
-                       limit_text(*lower, dimension),
-                       lower_allowed && upper_allowed ? "to" : "and",
+                       limit_text(*lower, dimension), lower_allowed && upper_allowed ? "to" : "and",
                        limit_text(*upper, dimension));
   }
   if (lower) {
@@ -64,7 +63,8 @@ std::string ValueDescription::phrase() const {
       return all;
     }
     case Kind::list:
-      if (fewest == most) return fmt::format("a list of {}, each {}", most, element->phrase());
+      if (fewest == most)
+        return fmt::format("a list of {} items, each {}", most, element->phrase());
       return fmt::format("a list, each item {}", element->phrase());
     case Kind::names_to:
       return fmt::format("names, each with {}", element->phrase());

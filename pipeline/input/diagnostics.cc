@@ -104,8 +104,8 @@ std::string list_of_names(const std::vector<std::string>& names) {
 
 std::string names_hint(std::string_view introduction, const std::vector<std::string>& candidates,
                        std::string_view wrong_name) {
-  std::string hint = fmt::format("{} {}", introduction,
-                                 candidates.empty() ? "none" : list_of_names(candidates));
+  std::string hint =
+      fmt::format("{} {}", introduction, candidates.empty() ? "none" : list_of_names(candidates));
   const std::string nearest = nearest_name(wrong_name, candidates);
   if (!nearest.empty()) hint += fmt::format("; did you mean \"{}\"?", nearest);
   return hint;

@@ -58,8 +58,7 @@ class Diagnostics {
 /// The input cannot be used; what() is the text of all complaints.
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const Diagnostics& diagnostics)
-      : std::runtime_error(diagnostics.to_text()) {}
+  explicit InputError(const Diagnostics& diagnostics) : std::runtime_error(diagnostics.to_text()) {}
 };
 
 /// The candidate that is most probably meant by a mistyped name: the nearest by the number of

@@ -29,8 +29,7 @@ bool check_range(const YAML::Node& node, const Range& range, const Quantity& fou
 
 Format<std::string> word_format(Kind kind) {
   auto description = describe(kind);
-  return {description,
-          [description](const YAML::Node& node, Reading& reading, std::string& value) {
+  return {description, [description](const YAML::Node& node, Reading& reading, std::string& value) {
             return reading.scalar_text(node, *description, value);
           }};
 }
@@ -90,8 +89,8 @@ Format<int> integer(Range range) {
             if (!reading.scalar_text(node, *description, written)) return false;
             int found = 0;
             if (!YAML::convert<int>::decode(node, found)) {
-              reading.error(node, fmt::format("{} \"{}\" is no whole number", reading.key(),
-                                              written));
+              reading.error(node,
+                            fmt::format("{} \"{}\" is no whole number", reading.key(), written));
               return false;
             }
             if (!check_range(node, description->range,
@@ -109,8 +108,8 @@ Format<bool> boolean() {
             std::string written;
             if (!reading.scalar_text(node, *description, written)) return false;
             if (written != "true" && written != "false") {
-              reading.error(node, fmt::format("{} \"{}\" must be true or false", reading.key(),
-                                              written));
+              reading.error(node,
+                            fmt::format("{} \"{}\" must be true or false", reading.key(), written));
               return false;
             }
             value = written == "true";
@@ -125,7 +124,8 @@ Format<std::string> reference() { return word_format(Kind::reference); }
 Format<std::string> name() {
   Format<std::string> word = word_format(Kind::name);
   return {word.description, [word](const YAML::Node& node, Reading& reading, std::string& value) {
-            return word.read(node, reading, value) && check_name(node, value, reading);
+            return word.read(node, reading, value) &&
+                   check_name(reading.mark_of(node), value, reading);
           }};
 }
 
@@ -138,8 +138,7 @@ Format<std::size_t> choice_index(std::vector<std::string> words) {
             const auto& choices = description->choices;
             const auto found = std::find(choices.begin(), choices.end(), written);
             if (found == choices.end()) {
-              reading.error(node,
-                            fmt::format("{} \"{}\" does not exist", reading.key(), written),
+              reading.error(node, fmt::format("{} \"{}\" does not exist", reading.key(), written),
                             {names_hint("it must be one of", choices, written)});
               return false;
             }
@@ -148,13 +147,13 @@ Format<std::size_t> choice_index(std::vector<std::string> words) {
           }};
 }
 
-bool check_name(const YAML::Node& node, const std::string& text, Reading& reading) {
+bool check_name(const Mark& mark, const std::string& text, Reading& reading) {
   const bool allowed = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   });
   if (allowed) return true;
-  reading.error(node, fmt::format("\"{}\" cannot be a name", text),
+  reading.error(mark, fmt::format("\"{}\" cannot be a name", text),
                 {"names have letters, digits, _ and - only"});
   return false;
 }
@@ -168,13 +167,12 @@ bool check_list(const YAML::Node& node, const ValueDescription& due, Reading& re
     return false;
   }
   if (node.size() >= due.fewest && node.size() <= due.most) return true;
-  const std::string number = due.fewest == due.most ? fmt::format("{}", due.most)
-                             : node.size() < due.fewest
-                                 ? fmt::format("at least {}", due.fewest)
-                                 : fmt::format("at most {}", due.most);
-  reading.error(node, fmt::format("{} has {} item{}; {} are due, each {}", reading.key(),
-                                  node.size(), node.size() == 1 ? "" : "s", number,
-                                  due.element->phrase()));
+  const std::string number = due.fewest == due.most     ? fmt::format("{}", due.most)
+                             : node.size() < due.fewest ? fmt::format("at least {}", due.fewest)
+                                                        : fmt::format("at most {}", due.most);
+  reading.error(node,
+                fmt::format("{} has {} item{}; {} are due, each {}", reading.key(), node.size(),
+                            node.size() == 1 ? "" : "s", number, due.element->phrase()));
   return false;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -7,6 +8,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <yaml-cpp/yaml.h>
 
 #include "pipeline/input/description.h"
 #include "pipeline/input/reading.h"
@@ -48,7 +51,7 @@ Format<std::string> reference();
 Format<std::size_t> choice_index(std::vector<std::string> words);
 
 /// Complains unless the text may be a name.
-bool check_name(const YAML::Node& node, const std::string& text, Reading& reading);
+bool check_name(const Mark& mark, const std::string& text, Reading& reading);
 /// Complains unless the node is a list of fewest to most items; `due` describes the whole list.
 bool check_list(const YAML::Node& node, const ValueDescription& due, Reading& reading);
 /// Complains unless the node is a mapping.
@@ -103,8 +106,8 @@ Format<std::vector<T>> list_of(Format<T> element, std::size_t fewest = 0,
   description->element = element.description;
   description->fewest = fewest;
   description->most = most;
-  return {description, [element, description](const YAML::Node& node, Reading& reading,
-                                              std::vector<T>& values) {
+  return {description,
+          [element, description](const YAML::Node& node, Reading& reading, std::vector<T>& values) {
             if (!check_list(node, *description, reading)) return false;
             bool done = true;
             for (const YAML::Node& item : node) {
@@ -144,8 +147,10 @@ Format<std::vector<Named<T>>> names_to(Format<T> element) {
             for (const Entry& entry : reading.entries_of(node)) {
               Named<T> named{{entry.key, entry.mark}, {}};
               reading.set_name(entry.key);
-              done &= reading.with_key(
-                  entry.key, [&] { return element.read(entry.value, reading, named.value); });
+              done &= reading.has_value(entry, *element.description) &&
+                      reading.with_key(entry.key, [&] {
+                        return element.read(entry.value, reading, named.value);
+                      });
               reading.take_name();
               values.push_back(std::move(named));
             }
@@ -157,20 +162,14 @@ Format<std::vector<Named<T>>> names_to(Format<T> element) {
 template <class T>
 Format<std::vector<T>> named_tables(Format<T> table) {
   Format<std::vector<Named<T>>> names = names_to(table);
-  return {names.description, [names](const YAML::Node& node, Reading& reading,
-                                     std::vector<T>& values) {
+  return {names.description,
+          [names](const YAML::Node& node, Reading& reading, std::vector<T>& values) {
             std::vector<Named<T>> items;
             bool done = names.read(node, reading, items);
             for (Named<T>& item : items) {
+              done &= check_name(item.name.mark, item.name.value, reading);
               item.value.name = item.name;
               values.push_back(std::move(item.value));
-            }
-            if (node.IsMap()) {
-              for (const auto& pair : node) {
-                if (pair.first.IsScalar() && pair.first.Scalar() != "<<") {
-                  done &= check_name(pair.first, pair.first.Scalar(), reading);
-                }
-              }
             }
             return done;
           }};

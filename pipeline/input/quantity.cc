@@ -66,8 +66,7 @@ const DimensionEntry& entry_of(Dimension dimension) {
        {{2, 1, -1, -1}, {"a rotational damping", "N m s/rad", "20 kN m s/rad"}}},
       {Dimension::moment_of_inertia,
        {{2, 1, 0, 0}, {"a moment of inertia", "kg m^2", "450 t m^2"}}},
-      {Dimension::mass_per_length,
-       {{-1, 1, 0, 0}, {"a mass per length", "kg/m", "60 kg/m"}}},
+      {Dimension::mass_per_length, {{-1, 1, 0, 0}, {"a mass per length", "kg/m", "60 kg/m"}}},
   };
   return entries.at(dimension);
 }
@@ -227,7 +226,8 @@ double leading_number(std::string_view text, std::string_view& rest, const std::
   rest = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
   if (rest.starts_with(',')) {
     throw QuantityError(fmt::format(
-        "\"{}\" has a comma; decimals take a point (1.5) and thousands nothing (1000){}", all, due));
+        "\"{}\" has a comma; decimals take a point (1.5) and thousands nothing (1000){}", all,
+        due));
   }
   return value;
 }
@@ -287,8 +287,7 @@ Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& all
   }
   for (const Dimension dimension : allowed) {
     if (entry_of(dimension).exponents == meaning->exponents) return {si_value, dimension};
-    if (dimension == Dimension::load &&
-        meaning->exponents == entry_of(Dimension::mass).exponents) {
+    if (dimension == Dimension::load && meaning->exponents == entry_of(Dimension::mass).exponents) {
       return {si_value * standard_gravity, dimension};
     }
   }

@@ -29,8 +29,8 @@ void Reading::error(Mark mark, std::string message, std::vector<std::string> hin
 bool Reading::count_value(const YAML::Node& node) {
   ++value_count_;
   if (value_count_ == most_values + 1) {
-    error(node, fmt::format("the file has more than {} values, aliases counted each time",
-                            most_values));
+    error(node,
+          fmt::format("the file has more than {} values, aliases counted each time", most_values));
   }
   return value_count_ <= most_values;
 }
@@ -81,6 +81,12 @@ void Reading::merge_entries(const YAML::Node& merged, int merge_depth,
   } else {
     error(merged, "the merge key \"<<\" takes a table of keys or a list of them");
   }
+}
+
+bool Reading::has_value(const Entry& entry, const ValueDescription& due) {
+  if (!entry.value.IsNull()) return true;
+  error(entry.mark, fmt::format("{} has no value; {} is due", entry.key, due.phrase()));
+  return false;
 }
 
 bool Reading::scalar_text(const YAML::Node& node, const ValueDescription& due, std::string& text) {

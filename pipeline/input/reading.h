@@ -44,6 +44,9 @@ class Reading {
   /// about keys that are no plain text.
   std::vector<Entry> entries_of(const YAML::Node& mapping);
 
+  /// Complains if the entry has a key and nothing behind it; `due` is what should stand there.
+  bool has_value(const Entry& entry, const ValueDescription& due);
+
   /// The text of a scalar for a value that is described; complains about anything else.
   bool scalar_text(const YAML::Node& node, const ValueDescription& due, std::string& text);
 

@@ -99,14 +99,14 @@ class Table {
   template <class U, class M>
   Table& add(KeyDescription description, M T::*member, Format<U> format) {
     description_->keys.push_back(description);
-    keys_.push_back({std::move(description), [member, format](const YAML::Node& node,
-                                                              const Mark& mark, Reading& reading,
-                                                              T& value) {
-                       U read{};
-                       const bool done = format.read(node, reading, read);
-                       table_detail::store(value.*member, std::move(read), mark);
-                       return done;
-                     }});
+    keys_.push_back(
+        {std::move(description),
+         [member, format](const YAML::Node& node, const Mark& mark, Reading& reading, T& value) {
+           U read{};
+           const bool done = format.read(node, reading, read);
+           table_detail::store(value.*member, std::move(read), mark);
+           return done;
+         }});
     return *this;
   }
 
@@ -128,6 +128,7 @@ class Table {
   void read_entry(const Entry& entry, Reading& reading, T& value) const {
     for (const Key& key : keys_) {
       if (key.description.name != entry.key) continue;
+      if (!reading.has_value(entry, *key.description.value)) return;
       reading.with_key(entry.key, [&] {
         return key.read(entry.value, reading.mark_of(entry.value), reading, value);
       });
