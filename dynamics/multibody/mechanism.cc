@@ -185,15 +185,14 @@ Link make_link(const Body& body, BodyIndex index, const RigidBodyInertia& inerti
     link.rotation_cosine = R_CJ - link.rotation_constant;
   }
   link.p_CJ = body.X_CJ.p;
-  link.axis_J = joint.axis;
   link.axis_C = R_CJ * joint.axis;
   link.second_axis_B = joint.second_axis;
   link.first_direction_C = R_CJ * joint.second_axis;
   link.second_direction_C = link.axis_C.cross(link.first_direction_C);
   link.mass = inertia.mass;
-  link.p_BoBcm = inertia.p_BoBcm;
   link.mass_moment = inertia.mass * inertia.p_BoBcm;
-  link.I_BBcm = inertia.I_BBcm;
+  link.I_BBo = SpatialInertia::of(inertia).J;
+  link.has_driven = std::count(body.driven.begin(), body.driven.end(), true) > 0;
   return link;
 }
 

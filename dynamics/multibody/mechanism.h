@@ -68,12 +68,11 @@ struct Link {
   Vector3 axis_C;              ///< first axis, in the carrier
   Vector3 first_direction_C;   ///< planar: first displacement's direction, in the carrier
   Vector3 second_direction_C;  ///< planar: second displacement's direction
-  Vector3 axis_J;              ///< first axis, in the joint frame
   Vector3 second_axis_B;       ///< universal: second axis, in the body (and joint) frame
   double mass;                 ///< with fixed bodies, kg
   Vector3 mass_moment;         ///< mass times centre of mass, in B, kg m
-  Vector3 p_BoBcm;             ///< centre of mass, in B, m (zero for a massless link)
-  Symmetric3 I_BBcm;           ///< about the centre of mass, in B, kg m2
+  Symmetric3 I_BBo;            ///< about Bo, in B, kg m2
+  bool has_driven;             ///< does any of its velocities follow a prescribed motion?
 };
 
 /// Tree of bodies joined by joints: immutable, shared by all states and threads.

@@ -2,10 +2,6 @@
 
 namespace blocklift::dynamics {
 
-Symmetric3 rotate(const Matrix3& R_AB, const Symmetric3& S_B) {
-  return Symmetric3::of(R_AB * S_B.matrix() * R_AB.transpose());
-}
-
 ForceVector RigidBodyInertia::operator*(const MotionVector& V) const {
   const Vector3 momentum = mass * (V.linear + V.angular.cross(p_BoBcm));
   return {I_BBcm * V.angular + p_BoBcm.cross(momentum), momentum};

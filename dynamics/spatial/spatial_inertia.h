@@ -43,7 +43,13 @@ struct Symmetric3 {
 };
 
 /// R S R^T: a symmetric tensor given in B, expressed in A by R_AB.
-Symmetric3 rotate(const Matrix3& R_AB, const Symmetric3& S_B);
+inline Symmetric3 rotate(const Matrix3& R_AB, const Symmetric3& S_B) {
+  const Vector3 row0 = S_B * R_AB.row(0).transpose();
+  const Vector3 row1 = S_B * R_AB.row(1).transpose();
+  const Vector3 row2 = S_B * R_AB.row(2).transpose();
+  return {R_AB.row(0).dot(row0), R_AB.row(0).dot(row1), R_AB.row(0).dot(row2),
+          R_AB.row(1).dot(row1), R_AB.row(1).dot(row2), R_AB.row(2).dot(row2)};
+}
 
 /// Mass properties of a rigid body B in its own frame.
 struct RigidBodyInertia {
