@@ -1,0 +1,36 @@
+#include "structure/elasticity/elastic_model.h"
+
+#include <utility>
+
+#include "structure/mesh/block_generator.h"
+
+namespace blocklift::structure {
+
+ElasticModel::ElasticModel(BlockMesh mesh, int degree, std::optional<double> total_mass,
+                           std::optional<Vector3> centre_of_mass_B)
+    : mesh_(std::move(mesh)),
+      space_(mesh_, degree),
+      mass_(find_mass_properties(mesh_, space_, total_mass ? &*total_mass : nullptr,
+                                 centre_of_mass_B ? &*centre_of_mass_B : nullptr)),
+      mass_moments_(nodal_moments(mesh_, space_,
+                                  [this](int cell, const Vector3& x) {
+                                    return mesh_.material_of_cell(cell).density *
+                                           mass_.density_factor(x);
+                                  })),
+      lug_loads_(space_.unknowns(), 3 * lug_count()),
+      inertia_loads_(structure::inertia_loads(mass_moments_)) {
+  for (int lug = 0; lug < lug_count(); ++lug) {
+    const LugRegion& region = mesh_.lugs[static_cast<std::size_t>(lug)];
+    const auto volume = nodal_moments(mesh_, space_, [&](int cell, const Vector3&) {
+      return mesh_.cell_group[static_cast<std::size_t>(cell)] == region.group ? 1.0 : 0.0;
+    });
+    lug_loads_.middleCols(3 * lug, 3) = pin_loads(volume, space_.nodes, region.p_BPin);
+  }
+}
+
+ElasticModel make_elastic_model(const BlockDescription& description, int degree) {
+  return ElasticModel(generate_block_mesh(description), degree, description.total_mass,
+                      description.centre_of_mass_B);
+}
+
+}  // namespace blocklift::structure

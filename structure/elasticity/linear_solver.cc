@@ -1,0 +1,103 @@
+#include "structure/elasticity/linear_solver.h"
+
+#include <fstream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/CholmodSupport>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+
+namespace blocklift::structure {
+
+struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLower, Eigen::Lower> {
+  Factor() {
+    cholmod().nmethods = 1;
+    cholmod().method[0].ordering = CHOLMOD_NATURAL;
+    cholmod().postorder = 1;
+    cholmod().print = 0;
+  }
+  double bytes() const {
+    return 8.0 * static_cast<double>(m_cholmodFactor->xsize) +
+           8.0 * static_cast<double>(m_cholmodFactor->ssize);
+  }
+};
+
+double available_memory() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("MemAvailable:", 0) == 0) return 1024 * std::stod(line.substr(13));
+  return std::numeric_limits<double>::infinity();
+}
+
+ConstrainedSystem::ConstrainedSystem(SparseLower stiffness, std::vector<FixedUnknown> fixed)
+    : stiffness_(std::move(stiffness)), fixed_(std::move(fixed)), factor_(new Factor) {
+  separate_fixed();
+  factor_->analyzePattern(stiffness_);
+  if (factor_->info() != Eigen::Success)
+    throw ModelError("the stiffness matrix could not be analysed for its factorisation");
+  const double needed = 1.3 * factor_bytes(), available = available_memory();
+  if (needed > available)
+    throw ModelError(fmt::format(
+        "factorising {} unknowns needs about {:.1f} GB and {:.1f} GB are free; use larger elements "
+        "or a lower element degree",
+        stiffness_.rows(), needed / 1e9, available / 1e9));
+}
+
+ConstrainedSystem::~ConstrainedSystem() = default;
+
+double ConstrainedSystem::factor_bytes() const { return factor_->bytes(); }
+
+// Keeps the rows of fixed unknowns aside, empties them in the matrix and leaves their diagonal.
+void ConstrainedSystem::separate_fixed() {
+  std::vector<int> place(static_cast<std::size_t>(stiffness_.rows()), -1);
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    place[static_cast<std::size_t>(fixed_[i].unknown)] = static_cast<int>(i);
+  std::vector<Eigen::Triplet<double, long>> rows;
+  for (long column = 0; column < stiffness_.cols(); ++column)
+    for (SparseLower::InnerIterator entry(stiffness_, column); entry; ++entry) {
+      const int of_row = place[static_cast<std::size_t>(entry.row())];
+      const int of_column = place[static_cast<std::size_t>(column)];
+      if (of_row < 0 && of_column < 0) continue;
+      if (of_row >= 0) rows.emplace_back(of_row, column, entry.value());
+      if (entry.row() == column) continue;
+      if (of_column >= 0) rows.emplace_back(of_column, entry.row(), entry.value());
+      entry.valueRef() = 0;
+    }
+  fixed_rows_.resize(static_cast<long>(fixed_.size()), stiffness_.cols());
+  fixed_rows_.setFromTriplets(rows.begin(), rows.end());
+}
+
+void ConstrainedSystem::factorise() {
+  factor_->factorize(stiffness_);
+  if (factor_->info() != Eigen::Success)
+    throw ModelError(
+        "the stiffness matrix is not positive definite: the supports leave a part free to move, "
+        "or the memory did not suffice");
+  stiffness_ = SparseLower();
+}
+
+Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads) const {
+  Eigen::VectorXd given(static_cast<Eigen::Index>(fixed_.size()));
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    given[static_cast<Eigen::Index>(i)] = fixed_[i].value;
+  if (!given.isZero(0)) loads.colwise() -= (fixed_rows_.transpose() * given).eval();
+  for (const FixedUnknown& fixed : fixed_) loads.row(fixed.unknown).setZero();
+  Eigen::MatrixXd displacements = factor_->solve(loads);
+  for (const FixedUnknown& fixed : fixed_)
+    displacements.row(fixed.unknown).setConstant(fixed.value);
+  return displacements;
+}
+
+Eigen::MatrixXd ConstrainedSystem::reactions(const Eigen::MatrixXd& displacements,
+                                             const Eigen::MatrixXd& loads) const {
+  Eigen::MatrixXd forces = fixed_rows_ * displacements;
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    forces.row(static_cast<Eigen::Index>(i)) -= loads.row(fixed_[i].unknown);
+  return forces;
+}
+
+}  // namespace blocklift::structure

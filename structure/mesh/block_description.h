@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/mesh/material.h"
+
+namespace blocklift::structure {
+
+using Vector3 = Eigen::Vector3d;
+
+/// Axes of the block frame B: x along, y across, z up. All lengths below are in B, m.
+enum class Axis { x = 0, y = 1, z = 2 };
+
+/// "x", "y" or "z".
+std::string name_of(Axis axis);
+
+/// Closed interval on one axis, m.
+struct Interval {
+  double lower = 0;
+  double upper = 0;
+};
+
+/// Flat rectangular plates of one kind, all normal to one axis: one for each position.
+/// Thickness is laid half on each side of the mid-plane `axis = position`.
+///
+/// An edge that ends inside another plate's thickness is led through to that plate's far face, so
+/// that corners are full and no edge hangs on half a plate.
+struct Plate {
+  std::string name;
+  Axis normal = Axis::z;
+  std::vector<double> positions;   ///< of the mid-planes along the normal, m
+  std::array<Interval, 3> extent;  ///< along x, y, z, m; the entry of the normal is not read
+  double thickness = 0;            ///< m
+  std::string material;            ///< name of one of BlockDescription::materials
+};
+
+/// Rectangular hole through plates. It cuts the named plates only: what crosses them stays.
+struct Opening {
+  std::string name;
+  std::string plate;              ///< name of the plates that it cuts
+  std::vector<double> positions;  ///< which of the plates, by position (m); empty: all of them
+  std::array<Interval, 3> extent;
+};
+
+/// Thickened region of a plate around a lug: layers on both sides of the plate fill up to
+/// `thickness` in total.
+struct Pad {
+  std::string name;
+  std::string plate;  ///< name of the plate that it thickens; empty: whichever lies there
+  Axis normal = Axis::z;
+  double position = 0;  ///< of the mid-plane along the normal, m
+  std::array<Interval, 3> extent;
+  double thickness = 0;  ///< in total, m
+  std::string material;  ///< empty: that of the plate
+};
+
+/// Lug: a plate that stands on (or lies in) a pad, with the pin centre at which the rope pulls.
+/// The rope's force is spread over the lug plate with exact resultant and moment about the pin.
+struct Lug {
+  std::string name;
+  std::string pad;  ///< name of the pad that it is joined to
+  Axis normal = Axis::z;
+  double position = 0;
+  std::array<Interval, 3> extent;
+  double thickness = 0;
+  std::string material;  ///< empty: that of the pad
+  Vector3 p_BPin = Vector3::Zero();
+};
+
+/// Stiffened block of flat plates, as a block file describes it.
+struct BlockDescription {
+  std::string name;
+  std::vector<Material> materials;
+  std::vector<Plate> plates;
+  std::vector<Opening> openings;
+  std::vector<Pad> pads;
+  std::vector<Lug> lugs;
+  /// Mass and centre of mass in the lift, outfitting included; absent: those of the plates alone.
+  std::optional<double> total_mass;         ///< kg
+  std::optional<Vector3> centre_of_mass_B;  ///< m
+  double largest_element = 2;               ///< longest edge of an element, m
+};
+
+}  // namespace blocklift::structure

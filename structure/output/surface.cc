@@ -1,0 +1,129 @@
+#include "structure/output/surface.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "structure/response/cell_stress.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Grid of points on a face of the unit cube; the two free axes in ascending order.
+Eigen::Matrix3Xd face_points(int face, const std::array<int, 2>& parts) {
+  const int normal = face / 2, u = normal == 0 ? 1 : 0, v = normal == 2 ? 1 : 2;
+  Eigen::Matrix3Xd points(3, (parts[0] + 1) * (parts[1] + 1));
+  Eigen::Index q = 0;
+  for (int j = 0; j <= parts[1]; ++j)
+    for (int i = 0; i <= parts[0]; ++i) {
+      points(normal, q) = face % 2;
+      points(u, q) = static_cast<double>(i) / parts[0];
+      points(v, q++) = static_cast<double>(j) / parts[1];
+    }
+  return points;
+}
+
+std::array<int, 2> face_parts(const HexMesh& mesh, int cell, int face, int division) {
+  const int normal = face / 2, u = normal == 0 ? 1 : 0, v = normal == 2 ? 1 : 2;
+  const Eigen::Matrix3d edges = jacobian(mesh, cell, Vector3::Constant(0.5));
+  const double fine = 3 * edges.colwise().norm().minCoeff();
+  const auto parts = [&](int axis) { return edges.col(axis).norm() > fine ? division : 1; };
+  return {parts(u), parts(v)};
+}
+
+}  // namespace
+
+Surface::Surface(const ElasticModel& model, int largest_point_count) {
+  for (const CellGroup& group : model.mesh().groups) group_names_.push_back(group.name);
+  for (int division = model.space().element.degree(); division >= 1; --division) {
+    build(model, division);
+    if (static_cast<int>(points_.size()) <= largest_point_count) break;
+  }
+}
+
+void Surface::build(const ElasticModel& model, int division) {
+  points_.clear();
+  quads_.clear();
+  quad_groups_.clear();
+  faces_.clear();
+  const BlockMesh& mesh = model.mesh();
+  using Key = std::tuple<int, int, std::int64_t, std::int64_t, std::int64_t>;
+  std::map<Key, int> known;  // (plate, face direction, place)
+  for (const auto& [cell, face] : boundary_faces(mesh)) {
+    FacePatch patch{cell, face, face_parts(mesh, cell, face, division), {}};
+    const Eigen::Matrix3Xd unit = face_points(face, patch.parts);
+    for (Eigen::Index q = 0; q < unit.cols(); ++q) {
+      const Vector3 place = position(mesh, cell, unit.col(q));
+      const Key key{mesh.cell_sheet[at(cell)], face, std::llround(place.x() * 1e6),
+                    std::llround(place.y() * 1e6), std::llround(place.z() * 1e6)};
+      const auto [entry, is_new] = known.try_emplace(key, static_cast<int>(points_.size()));
+      if (is_new) points_.push_back(place);
+      patch.points.push_back(entry->second);
+    }
+    // With the free axes ascending, the quadrangle's normal points along +x, -y, +z.
+    const bool outwards = (face % 2 == 1) != (face / 2 == 1);
+    const int row = patch.parts[0] + 1;
+    for (int j = 0; j < patch.parts[1]; ++j)
+      for (int i = 0; i < patch.parts[0]; ++i) {
+        const auto point = [&](int a, int b) { return patch.points[at((j + b) * row + i + a)]; };
+        if (outwards)
+          quads_.push_back({point(0, 0), point(1, 0), point(1, 1), point(0, 1)});
+        else
+          quads_.push_back({point(0, 0), point(0, 1), point(1, 1), point(1, 0)});
+        quad_groups_.push_back(mesh.cell_group[at(cell)]);
+      }
+    faces_.push_back(std::move(patch));
+  }
+}
+
+SurfaceField Surface::evaluate(const UnitResponses& responses, const LoadCase& load_case) const {
+  const ElasticModel& model = responses.model();
+  const BlockMesh& mesh = model.mesh();
+  const Discretisation& space = model.space();
+  const Eigen::VectorXd displacement =
+      responses.without_rigid_motion(responses.displacement(load_case));
+  struct Sampler {
+    CellStress stress;
+    Eigen::MatrixXd shapes;
+  };
+  std::map<std::array<int, 3>, Sampler> samplers;  // (face, parts)
+  SurfaceField field;
+  field.displacement.assign(points_.size(), Vector3::Zero());
+  field.von_mises.assign(points_.size(), 0);
+  std::vector<int> shares(points_.size(), 0);
+  for (const FacePatch& patch : faces_) {
+    const std::array<int, 3> key{patch.face, patch.parts[0], patch.parts[1]};
+    auto found = samplers.find(key);
+    if (found == samplers.end()) {
+      const Eigen::Matrix3Xd unit = face_points(patch.face, patch.parts);
+      found =
+          samplers.emplace(key, Sampler{CellStress(mesh, space, unit), space.element.values(unit)})
+              .first;
+    }
+    Eigen::MatrixX3d local(space.nodes_per_cell, 3);
+    for (int i = 0; i < space.nodes_per_cell; ++i)
+      local.row(i) = displacement.segment<3>(3 * space.node(patch.cell, i)).transpose();
+    const Eigen::MatrixX3d moved = found->second.shapes * local;
+    const Eigen::VectorXd stress = found->second.stress.von_mises(patch.cell, displacement);
+    for (std::size_t q = 0; q < patch.points.size(); ++q) {
+      const std::size_t point = at(patch.points[q]);
+      field.displacement[point] = moved.row(static_cast<Eigen::Index>(q)).transpose();
+      field.von_mises[point] += stress[static_cast<Eigen::Index>(q)];
+      ++shares[point];
+    }
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p) field.von_mises[p] /= shares[p];
+  return field;
+}
+
+}  // namespace blocklift::structure

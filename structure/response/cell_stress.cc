@@ -1,0 +1,57 @@
+#include "structure/response/cell_stress.h"
+
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Dense>
+
+namespace blocklift::structure {
+
+double von_mises(const Stress& s) {
+  const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
+  return std::sqrt((xy * xy + yz * yz + zx * zx) / 2 +
+                   3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+Stress stress_of_gradient(const Material& material, const Eigen::Matrix3d& g) {
+  const double mu = material.shear_modulus();
+  const double pressure = material.lame_lambda() * g.trace();
+  Stress stress;
+  stress << pressure + 2 * mu * g(0, 0), pressure + 2 * mu * g(1, 1), pressure + 2 * mu * g(2, 2),
+      mu * (g(0, 1) + g(1, 0)), mu * (g(1, 2) + g(2, 1)), mu * (g(2, 0) + g(0, 2));
+  return stress;
+}
+
+CellStress::CellStress(const HexMesh& mesh, const Discretisation& space, Eigen::Matrix3Xd points)
+    : mesh_(mesh),
+      space_(space),
+      points_(std::move(points)),
+      gradients_(space.element.gradients(points_)) {}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> CellStress::operator()(
+    int cell, const Eigen::VectorXd& displacement) const {
+  Eigen::MatrixX3d local(space_.nodes_per_cell, 3);
+  for (int i = 0; i < space_.nodes_per_cell; ++i)
+    local.row(i) = displacement.segment<3>(3 * space_.node(cell, i)).transpose();
+  const Eigen::MatrixX3d by_unit = gradients_ * local;  // row 3 q + c: du/dxi_c
+  const bool affine = space_.shape_affine[static_cast<std::size_t>(
+                          space_.cell_shape[static_cast<std::size_t>(cell)])] != 0;
+  Eigen::Matrix3d inverse = jacobian(mesh_, cell, points_.col(0)).inverse();
+  const Material& material = mesh_.material_of_cell(cell);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> stress(6, points_.cols());
+  for (Eigen::Index q = 0; q < points_.cols(); ++q) {
+    if (!affine) inverse = jacobian(mesh_, cell, points_.col(q)).inverse();
+    stress.col(q) =
+        stress_of_gradient(material, by_unit.middleRows<3>(3 * q).transpose() * inverse);
+  }
+  return stress;
+}
+
+Eigen::VectorXd CellStress::von_mises(int cell, const Eigen::VectorXd& displacement) const {
+  const auto stress = (*this)(cell, displacement);
+  Eigen::VectorXd result(stress.cols());
+  for (Eigen::Index q = 0; q < stress.cols(); ++q) result[q] = structure::von_mises(stress.col(q));
+  return result;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "structure/elasticity/discretisation.h"
+
+namespace blocklift::structure {
+
+/// Stress as (xx, yy, zz, xy, yz, zx), Pa.
+using Stress = Eigen::Matrix<double, 6, 1>;
+
+/// Von Mises stress, Pa: sqrt(((sx-sy)^2 + (sy-sz)^2 + (sz-sx)^2) / 2 + 3 (sxy^2 + syz^2 + szx^2)).
+double von_mises(const Stress& stress);
+
+/// Hooke's law on a displacement gradient du_a/dx_b.
+Stress stress_of_gradient(const Material& material, const Eigen::Matrix3d& gradient);
+
+/// Stresses of one displacement at fixed unit points of any cell.
+class CellStress {
+ public:
+  /// @param points on the unit cube, 3 x m.
+  CellStress(const HexMesh& mesh, const Discretisation& space, Eigen::Matrix3Xd points);
+
+  const Eigen::Matrix3Xd& points() const { return points_; }
+  /// Stresses (6 x m) of the displacement (3 a node), Pa.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> operator()(int cell,
+                                                      const Eigen::VectorXd& displacement) const;
+  /// Von Mises at the m points, Pa.
+  Eigen::VectorXd von_mises(int cell, const Eigen::VectorXd& displacement) const;
+
+ private:
+  const HexMesh& mesh_;
+  const Discretisation& space_;
+  Eigen::Matrix3Xd points_;
+  Eigen::MatrixXd gradients_;
+};
+
+}  // namespace blocklift::structure

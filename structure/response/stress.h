@@ -1,0 +1,72 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/response/patches.h"
+#include "structure/response/unit_responses.h"
+
+namespace blocklift::structure {
+
+/// Largest value of a field and where it is.
+struct Extreme {
+  double value = 0;                   ///< Pa, or m
+  Vector3 point_B = Vector3::Zero();  ///< m
+  std::string part;                   ///< such as "web_frames at x = 4 m"
+};
+
+/// Stresses of one group (plates of a name, a pad, a lug).
+struct GroupStress {
+  std::string group;
+  std::string material;
+  double yield_stress = 0;    ///< Pa
+  Extreme checked_von_mises;  ///< Pa
+  Extreme peak_von_mises;     ///< Pa
+};
+
+/// What happens within a sphere about a lug's pin.
+struct LugNeighbourhood {
+  std::string lug;
+  double radius = 0;  ///< m
+  Extreme checked_von_mises;
+  Extreme peak_von_mises;
+  Extreme displacement;  ///< relative to the block's mean rigid motion, m
+};
+
+/// Stress and deformation of the block in one load case.
+struct LoadCaseResult {
+  std::string name;
+  Extreme checked_von_mises;  ///< largest membrane stress over patches (MembraneStress), Pa
+  Extreme peak_von_mises;     ///< largest nodal value within any cell, nothing averaged, Pa
+  Extreme displacement;       ///< largest, relative to the mean rigid motion, m
+  std::vector<GroupStress> groups;
+  std::vector<LugNeighbourhood> lugs;
+  LoadBalance balance;
+};
+
+/// Evaluates load cases from unit responses. The checked stress costs a product with stored unit
+/// stresses; the raw peak needs the superposed displacement once through all cells.
+class StressRecovery {
+ public:
+  struct Options {
+    double patch_size = 0.05;  ///< of the checked stress, m
+    /// Radius about each pin that counts as its neighbourhood, m; 0: as far as pad and lug reach.
+    double lug_radius = 3;
+  };
+
+  /// The responses must outlive this object.
+  explicit StressRecovery(const UnitResponses& responses) : StressRecovery(responses, Options{}) {}
+  StressRecovery(const UnitResponses& responses, const Options& options);
+
+  LoadCaseResult evaluate(const LoadCase& load_case) const;
+  const MembraneStress& membrane() const { return membrane_; }
+
+ private:
+  const UnitResponses& responses_;
+  Options options_;
+  MembraneStress membrane_;
+};
+
+}  // namespace blocklift::structure

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/elasticity/linear_solver.h"
+
+namespace blocklift::structure {
+
+/// 3-2-1 support: six unknowns at three nodes far apart, which remove the rigid motions and
+/// nothing else. The first node is held along x, y, z; of the components at the other two, those
+/// three are held that best resist the rigid motions (largest smallest singular value).
+/// @throws ModelError if all nodes lie on one line.
+std::vector<FixedUnknown> statically_determinate_support(const Eigen::Matrix3Xd& nodes);
+
+}  // namespace blocklift::structure

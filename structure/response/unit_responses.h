@@ -1,0 +1,94 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/elasticity/elastic_model.h"
+
+namespace blocklift::structure {
+
+/// Loads on a free block at one instant: forces at the pins and the field of inertia and gravity.
+struct LoadCase {
+  std::string name;
+  std::vector<Vector3> lug_forces_B;  ///< on the block at each lug's pin, in the mesh's order, N
+  InertiaField field;
+};
+
+/// How well a load case is in balance.
+struct LoadBalance {
+  Wrench resultant;  ///< of all loads about B's origin; the moment about the centre of mass
+  double force_residual = 0;        ///< |force| over the sum of the lug forces' magnitudes
+  double moment_residual = 0;       ///< |moment about the centre of mass| over that sum times the
+                                    ///< radius of gyration
+  double reaction_over_weight = 0;  ///< largest support reaction over mass times |field| (or 9.81)
+};
+
+/// Wall-clock times of the stages, s, and sizes.
+struct SolutionTiming {
+  double assembly_s = 0;
+  double analysis_s = 0;
+  double factorisation_s = 0;
+  double solve_s = 0;
+  double factor_bytes = 0;
+};
+
+/// Linear response of the free block to its unit loads, one factorisation for all.
+///
+/// The basis is 3 unit forces a lug and 12 unit inertia fields. Each lug force and each product of
+/// angular velocities is solved together with the rigid acceleration that balances it, so that
+/// the block floats freely on its 3-2-1 support and nothing large cancels on superposition; six
+/// plain acceleration fields complete the span and carry what a load case lacks in balance.
+class UnitResponses {
+ public:
+  /// Assembles, factorises and solves. The model must outlive this object.
+  /// @param threads of the assembly; 0: as many as the machine has. OpenBLAS has its own setting.
+  /// @throws ModelError if memory does not suffice or a part is free to move.
+  explicit UnitResponses(const ElasticModel& model, int threads = 0);
+  ~UnitResponses();
+
+  const ElasticModel& model() const { return model_; }
+  const SolutionTiming& timing() const { return timing_; }
+
+  /// Number of basis loads, 3 lugs + 12.
+  int count() const { return static_cast<int>(displacements_.cols()); }
+  /// Displacements of the basis, unknowns x count, m.
+  const Eigen::MatrixXd& displacements() const { return displacements_; }
+  /// Factors of the basis that make up a load case.
+  /// @throws ModelError if the number of lug forces is not that of the lugs.
+  Eigen::VectorXd coefficients(const LoadCase& load_case) const;
+
+  /// Load vector of a load case, N.
+  Eigen::VectorXd load_vector(const LoadCase& load_case) const;
+  /// Displacement of a load case, m, against the 3-2-1 support.
+  Eigen::VectorXd displacement(const LoadCase& load_case) const;
+  /// Displacement relative to the block's mean rigid motion (mass-weighted least squares), m, one
+  /// column a node.
+  Eigen::Matrix3Xd elastic_displacement(const LoadCase& load_case) const;
+  LoadBalance balance(const LoadCase& load_case) const;
+
+  /// Solves a load case directly, without the basis: for checks of the superposition.
+  Eigen::VectorXd solve_directly(const LoadCase& load_case) const;
+
+  /// First natural period of the free block, s: inverse iteration on the inertia-relieved block
+  /// with lumped mass. Loads that rise over several of these periods are quasi-static.
+  double first_elastic_period(int iterations = 12) const;
+
+  /// Takes the best-fitting rigid motion (mass-weighted) out of a displacement.
+  Eigen::VectorXd without_rigid_motion(const Eigen::VectorXd& displacement) const;
+
+ private:
+  struct System;
+  Eigen::MatrixXd basis_loads();
+
+  const ElasticModel& model_;
+  SolutionTiming timing_;
+  std::unique_ptr<System> system_;
+  Eigen::MatrixXd balancing_;      ///< 6 x (lug forces + products): rigid accelerations added
+  Eigen::MatrixXd displacements_;  ///< of the basis
+  Eigen::MatrixXd reactions_;      ///< 6 x count, N
+};
+
+}  // namespace blocklift::structure
