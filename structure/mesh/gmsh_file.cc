@@ -24,23 +24,19 @@ constexpr std::array<std::size_t, 8> gmsh_order = {0, 1, 3, 2, 4, 5, 7, 6};
 // Gmsh keeps one global session; this opens it for a scope, quietly.
 class GmshSession {
  public:
-  GmshSession() : was_open_(gmsh::isInitialized() != 0) {
-    if (!was_open_) gmsh::initialize(0, nullptr, false);
+  GmshSession() {
+    gmsh::initialize(0, nullptr, false);
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::model::add("blocklift");
   }
   ~GmshSession() {
     try {
-      gmsh::model::remove();
-      if (!was_open_) gmsh::finalize();
+      gmsh::finalize();
     } catch (...) {  // a destructor must not throw; the session is lost anyhow
     }
   }
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;
-
- private:
-  bool was_open_;
 };
 
 void fill_session(const BlockMesh& mesh) {
@@ -142,8 +138,7 @@ HexMesh take_from_session(const std::string& path,
             vertex_of_tag.try_emplace(tag, static_cast<int>(mesh.vertices.size()));
         if (first) {
           std::vector<double> coordinates, parameters;
-          int entity_dimension = 0, entity = 0;
-          gmsh::model::mesh::getNode(tag, coordinates, parameters, entity_dimension, entity);
+          gmsh::model::mesh::getNode(tag, coordinates, parameters);
           mesh.vertices.emplace_back(coordinates[0], coordinates[1], coordinates[2]);
         }
         cell[gmsh_order[v]] = entry->second;

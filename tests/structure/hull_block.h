@@ -1,0 +1,18 @@
+#pragma once
+
+#include "structure/mesh/block_description.h"
+
+namespace blocklift::structure::testing {
+
+/// Shipbuilding steel AH36.
+Material steel();
+
+/// Stiffened hull block of 32 x 20 x 8 m with six lugs on its deck: bottom, tween deck and deck,
+/// sides, nine web frames, girders and longitudinal stiffeners, 860 t with outfitting.
+BlockDescription hull_block();
+
+/// Open box of 4 x 3 x 2 m with one web frame, a pad and a lug on each of four corners: small
+/// enough for unit tests (about 10,000 unknowns with cubic elements).
+BlockDescription small_block();
+
+}  // namespace blocklift::structure::testing
