@@ -1,0 +1,86 @@
+// Nothing is allocated once the workspaces stand: every call of the C allocator in this executable is
+// counted, operator new and Eigen's included. (Sanitizers bring their own allocator: skipped there.)
+#include <atomic>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/multibody/energy.h"
+#include "dynamics/multibody/forward_dynamics.h"
+#include "dynamics/multibody/inverse_dynamics.h"
+#include "dynamics/multibody/mass_matrix.h"
+#include "dynamics/multibody/motion_profile.h"
+#include "tests/dynamics/multibody/random_mechanism.h"
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define BLOCKLIFT_COUNTS_ALLOCATIONS
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+}
+#endif
+
+namespace blocklift::dynamics {
+namespace {
+
+TEST(Allocation, NoneInTheRecursiveAlgorithms) {
+#ifndef BLOCKLIFT_COUNTS_ALLOCATIONS
+  GTEST_SKIP() << "allocations cannot be counted in this build";
+#else
+  testing::Random random(31);
+  const Mechanism mechanism = testing::random_tree(random, 18, true);
+  const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  const Eigen::VectorXd v = random.values(mechanism.nv(), 1);
+  const std::vector<ForceVector> forces = testing::random_forces(random, mechanism);
+  Eigen::VectorXd tau = random.values(mechanism.nv(), 1);
+  Eigen::VectorXd vdot = random.values(mechanism.nv(), 1);
+  Eigen::VectorXd rates(mechanism.nq());
+  Eigen::VectorXd moved(mechanism.nq());
+  Eigen::VectorXd difference(mechanism.nv());
+  Eigen::MatrixXd M(mechanism.nv(), mechanism.nv());
+  Eigen::Matrix3Xd J(3, mechanism.nv());
+  Kinematics kinematics(mechanism);
+  ForwardDynamicsWorkspace forward(mechanism);
+  InverseDynamicsWorkspace inverse(mechanism);
+  MassMatrixWorkspace composite(mechanism);
+  const MotionProfile profile = MotionProfile::cam(MotionProfile::sequence(0, {{0, 1, {1, 1, 1}}}),
+                                                   NaturalSpline({0, 0.5, 1}, {0, 2, 1}));
+  double sum = 0;
+
+  // The counter counts.
+  const long start = allocations;
+  std::vector<double> probe(100, 1.0);
+  ASSERT_GT(allocations, start);
+
+  const long before = allocations;
+  compute_kinematics(mechanism, q, v, kinematics);
+  compute_forward_dynamics(mechanism, kinematics, v, forces, forward, tau, vdot);
+  compute_inverse_dynamics(mechanism, kinematics, v, vdot, forces, inverse, tau);
+  compute_mass_matrix(mechanism, kinematics, composite, M);
+  mechanism.calc_rates(q, v, rates);
+  mechanism.integrate(q, v, 0.1, moved);
+  mechanism.difference(q, moved, difference);
+  mechanism.normalise(moved);
+  point_jacobian(mechanism, kinematics, mechanism.body_count() - 1, Vector3::Ones(), J);
+  // As an integrator calls it: states are parts of its own arrays.
+  const Eigen::Map<const Eigen::VectorXd> q_map(q.data(), q.size());
+  const Eigen::Map<const Eigen::VectorXd> v_map(v.data(), v.size());
+  compute_kinematics(mechanism, q_map, v_map, kinematics);
+  sum += calc_kinetic_energy(mechanism, kinematics) + calc_gravity_potential(mechanism, kinematics);
+  sum += calc_momentum(mechanism, kinematics).force.x() + profile.evaluate(0.7).position;
+  sum += calc_mass_properties(mechanism, kinematics).mass;
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(std::isfinite(sum));
+#endif
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics
