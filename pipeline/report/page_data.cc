@@ -1,0 +1,336 @@
+#include "pipeline/report/page_data.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/report/decimation.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using layout::join;
+using nlohmann::json;
+
+/// Histories are thinned to this many buckets: enough to zoom in by four on a wide screen.
+constexpr std::size_t history_buckets = 4000;
+constexpr std::size_t small_history_buckets = 1000;
+constexpr std::size_t motion_frames = 600;
+/// Bytes (in base64) that the pictures of the structure may take of the page's 10 MB.
+constexpr std::size_t picture_budget = 8'000'000;
+
+// --------------------------------------------------------------------------------- packed arrays
+
+template <typename Number>
+json packed(const std::vector<Number>& numbers, const char* type, double scale = 1.0) {
+  static_assert(std::endian::native == std::endian::little,
+                "the page expects little-endian numbers");
+  const auto* bytes = reinterpret_cast<const unsigned char*>(numbers.data());
+  json array{{"type", type}, {"data", base64({bytes, numbers.size() * sizeof(Number)})}};
+  if (scale != 1.0) array["scale"] = scale;
+  return array;
+}
+
+json floats(const std::vector<double>& values) {
+  return packed(std::vector<float>(values.begin(), values.end()), "f32");
+}
+
+/// Values as integers of 16 bits, the largest magnitude being the largest integer.
+template <typename Integer>
+json shares(const std::vector<double>& values, const char* type) {
+  double largest = 0.0;
+  for (const double value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  const double range = std::numeric_limits<Integer>::max();
+  const double lowest = std::numeric_limits<Integer>::min();
+  std::vector<Integer> integers;
+  integers.reserve(values.size());
+  for (const double value : values) {
+    const double share = largest > 0.0 && std::isfinite(value) ? value / largest * range : 0.0;
+    integers.push_back(static_cast<Integer>(std::clamp(std::round(share), lowest, range)));
+  }
+  return packed(integers, type, largest / range);
+}
+
+// -------------------------------------------------------------------------------------- histories
+
+std::vector<std::string> children_of(const ResultsReader& results, const std::string& group) {
+  return results.has(group) ? results.children(group) : std::vector<std::string>{};
+}
+
+json series(const ResultsReader& results, const std::string& dataset, const std::string& name,
+            const std::string& quantity, const std::vector<double>& time, std::size_t buckets) {
+  const Array<double> values = results.read(dataset);
+  if (values.values.size() != time.size())
+    throw ResultsError("\"" + dataset + "\" has " + std::to_string(values.values.size()) +
+                       " samples, its time has " + std::to_string(time.size()));
+  std::vector<double> kept_time;
+  std::vector<double> kept_values;
+  for (const std::size_t i : indices_to_draw(values.values, buckets)) {
+    if (!std::isfinite(values.values[i])) continue;
+    kept_time.push_back(time[i]);
+    kept_values.push_back(values.values[i]);
+  }
+  const Meaning meaning = results.read_meaning(dataset);
+  return {{"name", name},
+          {"quantity", quantity},
+          {"units", meaning.units},
+          {"description", meaning.description},
+          {"time", floats(kept_time)},
+          {"values", floats(kept_values)}};
+}
+
+/// All series of one kind of thing: <history>/<things>/<thing>/<quantity>.
+json series_of_things(const ResultsReader& results, const std::string& group,
+                      const std::vector<std::pair<std::string, std::size_t>>& quantities,
+                      const std::vector<double>& time) {
+  json list = json::array();
+  for (const std::string& thing : children_of(results, group))
+    for (const auto& [quantity, buckets] : quantities) {
+      const std::string dataset = join(group, thing, quantity);
+      if (results.has(dataset))
+        list.push_back(series(results, dataset, thing, quantity, time, buckets));
+    }
+  return list;
+}
+
+json history(const ResultsReader& results, const std::string& group) {
+  if (!results.has(group)) return nullptr;
+  const std::vector<double> time = results.read(join(group, "time")).values;
+  if (time.empty()) return nullptr;
+  json energy = json::array();
+  for (const std::string& term : children_of(results, join(group, "energy")))
+    energy.push_back(
+        series(results, join(group, "energy", term), term, "energy", time, small_history_buckets));
+  return {
+      {"start", time.front()},
+      {"end", time.back()},
+      {"samples", time.size()},
+      {"ropes",
+       series_of_things(results, join(group, "ropes"), {{"tension", history_buckets}}, time)},
+      {"hoists", series_of_things(
+                     results, join(group, "hoists"),
+                     {{"tension", small_history_buckets}, {"swing", small_history_buckets}}, time)},
+      {"drives",
+       series_of_things(results, join(group, "drives"),
+                        {{"position", small_history_buckets}, {"force", small_history_buckets}},
+                        time)},
+      {"energy", std::move(energy)}};
+}
+
+json motion(const ResultsReader& results, const std::string& group) {
+  if (!results.has(join(group, "bodies"))) return nullptr;
+  const std::vector<double> time = results.read(join(group, "time")).values;
+  const std::vector<std::size_t> frames = evenly_spread_indices(time.size(), motion_frames);
+  std::vector<double> frame_time;
+  for (const std::size_t frame : frames) frame_time.push_back(time[frame]);
+  json bodies = json::object();
+  for (const std::string& body : results.children(join(group, "bodies"))) {
+    const std::string dataset = join(group, "bodies", body, "pose");
+    if (!results.has(dataset)) continue;
+    const Array<double> pose = results.read(dataset);
+    if (pose.rows() != time.size() || pose.columns() != 7)
+      throw ResultsError("\"" + dataset + "\" is " + std::to_string(pose.rows()) + " x " +
+                         std::to_string(pose.columns()) + "; " + std::to_string(time.size()) +
+                         " x 7 is due");
+    std::vector<double> kept;
+    for (const std::size_t frame : frames)
+      for (std::size_t k = 0; k < 7; ++k) kept.push_back(pose(frame, k));
+    bodies[body] = floats(kept);
+  }
+  return {{"time", floats(frame_time)}, {"bodies", std::move(bodies)}};
+}
+
+json stages(const ResultsReader& results) {
+  json list = json::array();
+  if (!results.has(layout::stage_names)) return list;
+  const auto names = results.read_texts(layout::stage_names);
+  const auto start = results.read(layout::stage_start);
+  const auto end = results.read(layout::stage_end);
+  if (start.values.size() != names.size() || end.values.size() != names.size())
+    throw ResultsError("the stages' names, starts and ends differ in number");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list.push_back({{"name", names[i]}, {"start", start(i)}, {"end", end(i)}});
+  return list;
+}
+
+// ------------------------------------------------------------------------------------------ scene
+
+json points_of(const ResultsReader& results, const std::string& dataset, std::size_t columns) {
+  const Array<double> values = results.read(dataset);
+  json rows = json::array();
+  if (values.values.empty()) return rows;
+  if (values.columns() != columns)
+    throw ResultsError("\"" + dataset + "\" has " + std::to_string(values.columns()) +
+                       " columns; " + std::to_string(columns) + " are due");
+  for (std::size_t i = 0; i < values.rows(); ++i) {
+    json row = json::array();
+    for (std::size_t k = 0; k < columns; ++k) row.push_back(values(i, k));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string attribute_or(const ResultsReader& results, std::string_view object, const char* name,
+                         const std::string& otherwise) {
+  return results.has_attribute(object, name) ? results.read_text_attribute(object, name)
+                                             : otherwise;
+}
+
+json scene(const ResultsReader& results) {
+  if (!results.has(layout::scene_group)) return nullptr;
+  json bodies = json::array();
+  for (const std::string& body : children_of(results, std::string(layout::scene_bodies))) {
+    const std::string group = join(layout::scene_bodies, body);
+    bodies.push_back({{"name", body},
+                      {"kind", attribute_or(results, group, "kind", "")},
+                      {"boxes", points_of(results, join(group, "boxes"), 6)}});
+  }
+  json ropes = json::array();
+  for (const std::string& rope : children_of(results, std::string(layout::scene_ropes))) {
+    const std::string group = join(layout::scene_ropes, rope);
+    ropes.push_back({{"name", rope},
+                     {"kind", attribute_or(results, group, "kind", "sling")},
+                     {"bodies", results.read_texts(join(group, "bodies"))},
+                     {"points", points_of(results, join(group, "points"), 3)}});
+  }
+  json lugs = json::array();
+  if (results.has(layout::scene_lug_names)) {
+    const auto names = results.read_texts(layout::scene_lug_names);
+    const json points = points_of(results, std::string(layout::scene_lug_points), 3);
+    for (std::size_t i = 0; i < std::min(names.size(), points.size()); ++i)
+      lugs.push_back({{"name", names[i]}, {"point", points[i]}});
+  }
+  return {{"load", attribute_or(results, layout::scene_lugs, "body", "")},
+          {"bodies", std::move(bodies)},
+          {"ropes", std::move(ropes)},
+          {"lugs", std::move(lugs)}};
+}
+
+// -------------------------------------------------------------------------------------- structure
+
+json field(const ResultsReader& results, const std::string& group, std::size_t point_count) {
+  const Array<double> von_mises = results.read(join(group, "von_mises"));
+  const Array<double> displacement = results.read(join(group, "displacement"));
+  if (von_mises.values.size() != point_count || displacement.values.size() != 3 * point_count)
+    throw ResultsError("\"" + group + "\" does not fit the " + std::to_string(point_count) +
+                       " points of the surface");
+  json entry{{"von_mises", shares<std::uint16_t>(von_mises.values, "u16")},
+             {"displacement", shares<std::int16_t>(displacement.values, "i16")}};
+  for (const char* place : {"peak_stress_point", "checked_stress_point", "max_displacement_point"})
+    if (results.has(join(group, place))) entry[place] = results.read(join(group, place)).values;
+  if (results.has_attribute(group, "rope"))
+    entry["rope"] = results.read_text_attribute(group, "rope");
+  if (results.has_attribute(group, "time"))
+    entry["time"] = results.read_number_attribute(group, "time");
+  return entry;
+}
+
+json fields(const ResultsReader& results, std::string_view way, std::size_t point_count) {
+  json states = json::object();
+  for (const std::string_view state : {layout::static_state, layout::dynamic_state}) {
+    const std::string group = join(layout::structure_group, way, state);
+    if (results.has(join(group, "von_mises")))
+      states[std::string(state)] = field(results, group, point_count);
+  }
+  return states;
+}
+
+json surface(const ResultsReader& results) {
+  if (!results.has(layout::surface_points)) return nullptr;
+  const Array<double> points = results.read(layout::surface_points);
+  const Array<std::int32_t> quads = results.read_indices(layout::surface_quads);
+  const std::size_t point_count = points.rows();
+  for (const std::int32_t corner : quads.values)
+    if (corner < 0 || static_cast<std::size_t>(corner) >= point_count)
+      throw ResultsError("a quadrangle of the surface names point " + std::to_string(corner) +
+                         " of " + std::to_string(point_count));
+
+  // Bytes in the file, base64 taking 4 for 3: points 12, a field 8 a point; quads 16 + 2 each.
+  const std::size_t shape_bytes = (12 * point_count + 18 * quads.rows()) * 4 / 3;
+  const std::size_t pair_bytes = 16 * point_count * 4 / 3;
+  if (shape_bytes + pair_bytes > picture_budget)
+    return {{"note",
+             "The mesh is too fine for pictures in this page; open the .vtu files of the "
+             "result folder in ParaView."}};
+
+  json result{{"points", floats(points.values)},
+              {"quads", packed(std::vector<std::uint32_t>(quads.values.begin(), quads.values.end()),
+                               "u32")}};
+  if (results.has(layout::surface_quad_group) && results.has(layout::surface_group_names)) {
+    const auto groups = results.read_indices(layout::surface_quad_group).values;
+    result["quad_group"] = packed(std::vector<std::uint16_t>(groups.begin(), groups.end()), "u16");
+    result["groups"] = results.read_texts(layout::surface_group_names);
+  }
+  json ways = json::object();
+  const std::string first(layout::simultaneous);
+  const std::string second(layout::per_rope_maxima);
+  if (json states = fields(results, first, point_count); !states.empty())
+    ways[first] = std::move(states);
+  if (ways.empty() || shape_bytes + 2 * pair_bytes <= picture_budget) {
+    if (json states = fields(results, second, point_count); !states.empty())
+      ways[second] = std::move(states);
+  } else {
+    result["note"] =
+        "To keep this page small the pictures show the simultaneous loads only; the "
+        "per-rope maxima are in the .vtu files.";
+  }
+  result["fields"] = std::move(ways);
+  return result;
+}
+
+json case_of(const ResultsReader& results, const json& summary) {
+  const auto take = [&](const char* name) -> std::string {
+    if (results.has_attribute(layout::case_group, name))
+      return results.read_text_attribute(layout::case_group, name);
+    return summary.contains(name) && summary[name].is_string() ? summary[name].get<std::string>()
+                                                               : "";
+  };
+  std::string name = take("name");
+  if (name.empty()) name = summary.value("case", "");
+  return {{"name", name},
+          {"title", take("title")},
+          {"created", take("created")},
+          {"program_version", take("program_version")},
+          {"yaml", results.has(layout::case_yaml) ? results.read_text(layout::case_yaml) : ""}};
+}
+
+}  // namespace
+
+std::string base64(std::span<const unsigned char> bytes) {
+  static constexpr char digits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < count ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += k <= count ? digits[group >> (18 - 6 * k) & 63U] : '=';
+  }
+  return text;
+}
+
+json make_page_data(const ResultsReader& results, const json& summary) {
+  const std::string still(layout::static_history);
+  const std::string moving(layout::dynamic_history);
+  return {
+      {"summary", summary},
+      {"case", case_of(results, summary)},
+      {"stages", stages(results)},
+      {"histories", {{"static", history(results, still)}, {"dynamic", history(results, moving)}}},
+      {"motion", {{"static", motion(results, still)}, {"dynamic", motion(results, moving)}}},
+      {"scene", scene(results)},
+      {"surface", surface(results)}};
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "pipeline/formats/results_store.h"
+
+namespace blocklift::pipeline {
+
+/// What the page of the report draws, as one JSON object (its twin is pipeline/report/web/src/data.ts):
+///
+///   summary     summary.json as it stands
+///   case        {name, title, created, program_version, yaml}
+///   stages      [{name, start, end}]
+///   histories   {static, dynamic}: {start, end, ropes, hoists, drives, energy}, lists of
+///               {name, quantity, units, description, time, values}, thinned by indices_to_draw
+///   motion      {static, dynamic}: {time, bodies: {name: poses}}, some hundred instants
+///   scene       {load, bodies: [{name, kind, boxes}], ropes: [{name, kind, bodies, points}], lugs}
+///   surface     {points, quads, quad_group, groups, fields: {way: {state: {...}}}, note}
+///
+/// Arrays are base64 of little-endian numbers: {"type": "f32" | "u16" | "i16" | "u32", "scale", "data"}.
+/// Field values are stored as 16-bit shares of their largest value, which is finer than any screen.
+///
+/// Parts that the results do not have are null.
+/// @throws ResultsError if the file lacks what it must have or its parts do not fit together.
+nlohmann::json make_page_data(const ResultsReader& results, const nlohmann::json& summary);
+
+/// Base64 (RFC 4648) of bytes.
+std::string base64(std::span<const unsigned char> bytes);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,100 @@
+#include "pipeline/report/report.h"
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results_store.h"
+#include "pipeline/report/page_data.h"
+#include "pipeline/report/report_page.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+nlohmann::json read_summary(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) throw ResultsError(path.string() + ": there is no such file");
+  try {
+    nlohmann::json summary = nlohmann::json::parse(read_file(path));
+    if (!summary.is_object()) throw ResultsError(path.string() + ": is not a JSON object");
+    return summary;
+  } catch (const nlohmann::json::exception& error) {
+    throw ResultsError(path.string() + ": is not readable JSON: " + error.what());
+  }
+}
+
+/// Text as HTML content or attribute value.
+std::string escape_html(std::string_view text) {
+  std::string escaped;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += letter;
+    }
+  }
+  return escaped;
+}
+
+/// JSON that may stand inside a script element: no "<" can end the element early.
+std::string script_safe(const nlohmann::json& data) {
+  const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char letter : text) {
+    if (letter == '<')
+      safe += "\\u003c";
+    else
+      safe += letter;
+  }
+  return safe;
+}
+
+/// The page with its placeholders %TITLE% and %DATA% filled; each stands in it once.
+std::string fill_page(std::string_view page, const std::string& title, const std::string& data) {
+  std::string filled;
+  filled.reserve(page.size() + data.size());
+  for (const auto& [mark, text] :
+       {std::pair<std::string_view, const std::string&>("%TITLE%", title),
+        std::pair<std::string_view, const std::string&>("%DATA%", data)}) {
+    const std::size_t at = page.find(mark);
+    filled += page.substr(0, at);
+    filled += text;
+    page.remove_prefix(at + mark.size());
+  }
+  filled += page;
+  return filled;
+}
+
+}  // namespace
+
+std::filesystem::path write_report(const std::filesystem::path& folder) {
+  const nlohmann::json summary = read_summary(folder / layout::summary_file);
+  const ResultsReader results(folder / layout::results_file);
+  nlohmann::json data;
+  try {
+    data = make_page_data(results, summary);
+  } catch (const nlohmann::json::exception& error) {
+    throw ResultsError((folder / layout::summary_file).string() + ": " + error.what());
+  }
+  const std::string name = data["case"]["name"].get<std::string>();
+  const std::filesystem::path path = folder / layout::report_file;
+  write_file(path, fill_page(report_page(), escape_html(name), script_safe(data)));
+  return path;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,51 @@
+// Bundles the page and writes it as a C++ source that defines report_page().
+//   node build.mjs report_page.cc
+import { readFileSync, writeFileSync } from "node:fs";
+import { build } from "esbuild";
+
+const common = { bundle: true, minify: true, write: false, target: "es2020", charset: "utf8", legalComments: "eof" };
+const script = (await build({ ...common, entryPoints: ["src/main.ts"], format: "iife" })).outputFiles[0].text;
+const style = (await build({ ...common, entryPoints: ["src/style.css"] })).outputFiles[0].text;
+
+// A "</script" inside a string of the bundle would end the element that holds it.
+const fill = (text, mark, content) => {
+  const parts = text.split(mark);
+  if (parts.length !== 2) throw new Error(`page.html must hold ${mark} exactly once`);
+  return parts[0] + content + parts[1];
+};
+let page = readFileSync("src/page.html", "utf8");
+for (const mark of ["%TITLE%", "%DATA%"]) fill(page, mark, "");
+page = fill(page, "%STYLE%", style.replaceAll("</style", "<\\/style"));
+page = fill(page, "%SCRIPT%", script.replaceAll("</script", "<\\/script").replaceAll("<!--", "\\x3c!--"));
+if (page.indexOf("%TITLE%") > page.indexOf("%DATA%")) throw new Error("%TITLE% must stand before %DATA%");
+if (script.includes("%DATA%") || script.includes("%TITLE%")) throw new Error("the script holds a placeholder");
+
+// Octal escapes: unlike hexadecimal ones they end after three digits.
+const literal = (bytes) => {
+  let text = "";
+  for (const byte of bytes) {
+    const letter = String.fromCharCode(byte);
+    const plain = byte >= 32 && byte < 127 && letter !== '"' && letter !== "\\" && letter !== "?";
+    text += plain ? letter : "\\" + byte.toString(8).padStart(3, "0");
+  }
+  return `"${text}"`;
+};
+const bytes = Buffer.from(page, "utf8");
+const lines = [];
+for (let at = 0; at < bytes.length; at += 4096) lines.push("    " + literal(bytes.subarray(at, at + 4096)));
+writeFileSync(
+  process.argv[2],
+  `// Generated from pipeline/report/web.
+#include "pipeline/report/report_page.h"
+
+namespace blocklift::pipeline {
+namespace {
+constexpr char page[] =
+${lines.join("\n")};
+}  // namespace
+
+std::string_view report_page() { return {page, sizeof(page) - 1}; }
+
+}  // namespace blocklift::pipeline
+`,
+);

@@ -1,0 +1,167 @@
+// What the program puts into the page; the twin of pipeline/report/page_data.h. SI units throughout.
+
+export type State = "static" | "dynamic";
+export type Way = "simultaneous" | "per_rope_maxima";
+export const states: State[] = ["static", "dynamic"];
+type Maybe<T> = T | null | undefined;
+
+export interface Packed { type: "f32" | "u16" | "i16" | "u32"; data: string; scale?: number }
+
+export interface PackedSeries {
+  name: string; quantity: string; units: string; description: string; time: Packed; values: Packed;
+}
+export interface History {
+  start: number; end: number; samples: number;
+  ropes: PackedSeries[]; hoists: PackedSeries[]; drives: PackedSeries[]; energy: PackedSeries[];
+}
+export interface Motion { time: Packed; bodies: Record<string, Packed> }
+export interface Stage { name: string; start: number; end: number }
+export interface Scene {
+  load: string;
+  bodies: { name: string; kind: string; boxes: number[][] }[];
+  ropes: { name: string; kind: string; bodies: string[]; points: number[][] }[];
+  lugs: { name: string; point: number[] }[];
+}
+export interface Field {
+  von_mises: Packed; displacement: Packed; rope?: string; time?: number;
+  peak_stress_point?: number[]; checked_stress_point?: number[]; max_displacement_point?: number[];
+}
+export interface Surface {
+  points?: Packed; quads?: Packed; quad_group?: Packed; groups?: string[];
+  fields?: Partial<Record<Way, Partial<Record<State, Field>>>>; note?: string;
+}
+
+export interface Check {
+  name: string; demand?: Maybe<number>; limit?: Maybe<number>; unit?: string; utilisation?: Maybe<number>;
+  pass: boolean; time_s?: Maybe<number>; note?: string;
+}
+export interface LoadMaxima {
+  name: string; lug?: string; hoist?: string; crane?: string;
+  breaking_load_N?: Maybe<number>; capacity_N?: Maybe<number>; max_swing_rad?: Maybe<number>;
+  max_static_tension_N?: Maybe<number>; max_dynamic_tension_N?: Maybe<number>;
+  max_static_load_N?: Maybe<number>; max_dynamic_load_N?: Maybe<number>;
+  time_of_max_static_s?: Maybe<number>; time_of_max_dynamic_s?: Maybe<number>;
+  dynamic_over_static?: Maybe<number>;
+  linked_static_N?: Record<string, Maybe<number>>; linked_dynamic_N?: Record<string, Maybe<number>>;
+}
+export interface StructureState {
+  checked_von_mises_Pa?: Maybe<number>; peak_von_mises_Pa?: Maybe<number>; max_displacement_m?: Maybe<number>;
+  force_residual?: Maybe<number>; moment_residual?: Maybe<number>; reaction_over_weight?: Maybe<number>;
+  rope?: string; time_s?: Maybe<number>; checked_group?: string; peak_group?: string;
+  checked_point_m?: number[]; peak_point_m?: number[]; max_displacement_point_m?: number[];
+}
+export interface StructureWay {
+  rope?: string; static?: StructureState; dynamic?: StructureState;
+  stress_increase_percent?: Maybe<number>; deformation_increase_percent?: Maybe<number>;
+}
+interface LugStress {
+  static_checked_von_mises_Pa?: Maybe<number>; dynamic_checked_von_mises_Pa?: Maybe<number>;
+  stress_increase_percent?: Maybe<number>;
+}
+export interface Structure {
+  unknowns?: number; elements?: number; element_degree?: number; mesh_size_m?: number;
+  material?: string; yield_Pa?: Maybe<number>;
+  per_rope_maxima?: StructureWay; simultaneous?: StructureWay; simultaneous_by_rope?: StructureWay[];
+  lugs?: { name: string; rope?: string; simultaneous?: LugStress; per_rope_maxima?: LugStress }[];
+  mass?: {
+    total_kg?: Maybe<number>; steel_kg?: Maybe<number>; outfitting_kg?: Maybe<number>;
+    centre_of_mass_m?: number[]; steel_centre_of_mass_m?: number[];
+  };
+}
+export interface Comparison {
+  source?: string; stress_increase_percent?: Maybe<number>; deformation_increase_percent?: Maybe<number>;
+  ropes?: {
+    name: string; published_static_N?: Maybe<number>; published_dynamic_N?: Maybe<number>;
+    static_difference_percent?: Maybe<number>; dynamic_difference_percent?: Maybe<number>;
+  }[];
+}
+export interface Summary {
+  verdict?: string; verdict_reasons?: string[]; checks?: Check[];
+  ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[];
+  comparison?: Maybe<Comparison>; structure?: Maybe<Structure>;
+  energy?: Maybe<{ largest_energy_J?: number; largest_imbalance_J?: number; relative_imbalance?: number }>;
+  solver?: Maybe<Record<string, unknown>>; timing?: Maybe<Record<string, unknown>>;
+  assumptions?: string[]; warnings?: string[]; files?: { name: string; content: string }[];
+}
+export interface PageData {
+  summary: Summary;
+  case: { name: string; title: string; created: string; program_version: string; yaml: string };
+  stages: Stage[];
+  histories: Record<State, History | null>;
+  motion: Record<State, Motion | null>;
+  scene: Scene | null;
+  surface: Surface | null;
+}
+
+export function readPageData(): PageData {
+  const element = document.getElementById("data")!;
+  const data = JSON.parse(element.textContent!) as PageData;
+  element.textContent = "";  // the text would keep megabytes alive
+  return data;
+}
+
+function bytesOf(text: string): ArrayBuffer {
+  const raw = atob(text);
+  const bytes = new Uint8Array(raw.length);
+  for (let i = 0; i < raw.length; ++i) bytes[i] = raw.charCodeAt(i);
+  return bytes.buffer;
+}
+
+/** Numbers of a packed array, scaled back to their units. */
+export function unpack(array: Packed): Float32Array {
+  const buffer = bytesOf(array.data);
+  if (array.type === "f32" && array.scale === undefined) return new Float32Array(buffer);
+  const source = array.type === "f32" ? new Float32Array(buffer)
+    : array.type === "u16" ? new Uint16Array(buffer)
+    : array.type === "i16" ? new Int16Array(buffer) : new Uint32Array(buffer);
+  const scale = array.scale ?? 1;
+  return Float32Array.from(source, (value) => value * scale);
+}
+
+/** Indices of a packed array, exact. */
+export function unpackIndices(array: Packed): Uint32Array {
+  const buffer = bytesOf(array.data);
+  return array.type === "u16" ? Uint32Array.from(new Uint16Array(buffer)) : new Uint32Array(buffer);
+}
+
+/** A series in memory, with linear interpolation between its samples. */
+export class Series {
+  readonly time: Float32Array;
+  readonly values: Float32Array;
+  constructor(packed: PackedSeries) {
+    this.time = unpack(packed.time);
+    this.values = unpack(packed.values);
+  }
+
+  at(time: number): number {
+    const { time: t, values: v } = this;
+    if (t.length === 0 || time < t[0] - 1e-3 || time > t[t.length - 1] + 1e-3) return NaN;
+    const [low, share] = locate(t, time);
+    return low + 1 < t.length ? v[low] + share * (v[low + 1] - v[low]) : v[low];
+  }
+}
+
+/** The sample at or before `time`, and how far towards the next one it lies (0 to 1). */
+export function locate(times: Float32Array, time: number): [number, number] {
+  let low = 0;
+  let high = times.length - 1;
+  if (time <= times[0] || high === 0) return [0, 0];
+  if (time >= times[high]) return [high - 1, 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle; else high = middle;
+  }
+  const step = times[high] - times[low];
+  return [low, step > 0 ? (time - times[low]) / step : 0];
+}
+
+export function known(value: unknown): value is number {
+  return typeof value === "number" && Number.isFinite(value);
+}
+
+export function stageAt(stages: Stage[], time: number): string {
+  const stage = stages.find((one) => time >= one.start && time <= one.end);
+  if (stage) return stage.name;
+  const next = stages.find((one) => time < one.start);
+  return stages.length === 0 ? "" : next ? `before ${next.name}` : `after ${stages[stages.length - 1].name}`;
+}

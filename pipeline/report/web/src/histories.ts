@@ -1,0 +1,338 @@
+// Histories of tension, static over dynamic: one large plot, a small one for each rope, zoomed together.
+import uPlot from "uplot";
+
+import { Clock } from "./clock";
+import { stateColour } from "./colours";
+import { History, known, PackedSeries, PageData, Series, Stage, stageAt, State, states } from "./data";
+import { h } from "./dom";
+import type { Section } from "./main";
+import { change, fixed, kilonewtons, seconds, tonnesForce } from "./numbers";
+
+/** One curve pair: what is plotted as static and as dynamic. */
+interface Curve { name: string; kind: string; series: Partial<Record<State, Series>> }
+
+function curvesOf(data: PageData): Curve[] {
+  const curves: Curve[] = [];
+  for (const [kind, label] of [["ropes", "rope"], ["hoists", "hoist"]] as const)
+    for (const state of states)
+      for (const packed of data.histories[state]?.[kind] ?? []) {
+        if (packed.quantity !== "tension") continue;
+        let curve = curves.find((one) => one.name === packed.name && one.kind === label);
+        if (!curve) curves.push((curve = { name: packed.name, kind: label, series: {} }));
+        curve.series[state] = new Series(packed);
+      }
+  return curves;
+}
+
+/** Both series on the union of their instants, in the given unit. */
+function aligned(series: (Series | undefined)[], factor: number): uPlot.AlignedData {
+  const present = series.filter((one): one is Series => one !== undefined);
+  const all = new Set<number>();
+  for (const one of present) for (const time of one.time) all.add(time);
+  const time = Float64Array.from(all).sort();
+  return [time, ...series.map((one) => {
+    const values = new Array<number | null>(time.length).fill(null);
+    if (one) for (let i = 0; i < time.length; ++i) {
+      const value = one.at(time[i]);
+      values[i] = Number.isFinite(value) ? value * factor : null;
+    }
+    return values;
+  })] as unknown as uPlot.AlignedData;
+}
+
+function largestOf(series: Series | undefined): { time: number; value: number } | null {
+  if (!series || series.values.length === 0) return null;
+  let best = 0;
+  series.values.forEach((value, i) => { if (value > series.values[best]) best = i; });
+  return { time: series.time[best], value: series.values[best] };
+}
+
+const font = (size: number): string => `${size}px system-ui, "Segoe UI", Helvetica, Arial, sans-serif`;
+
+/** Bands behind the curves, one a stage, with their names if there is room. */
+function stageBands(stages: Stage[], named: boolean): uPlot.Plugin {
+  return {
+    hooks: {
+      drawClear: (u) => {
+        const { ctx } = u;
+        ctx.save();
+        ctx.beginPath();
+        ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
+        ctx.clip();
+        stages.forEach((stage, i) => {
+          const left = u.valToPos(stage.start, "x", true);
+          const right = u.valToPos(stage.end, "x", true);
+          ctx.fillStyle = i % 2 ? "#eef2f5" : "#e6ecf1";
+          ctx.fillRect(left, u.bbox.top, right - left, u.bbox.height);
+          if (!named) return;
+          const inside = Math.min(right, u.bbox.left + u.bbox.width) - Math.max(left, u.bbox.left);
+          ctx.font = font(11 * devicePixelRatio);
+          if (ctx.measureText(stage.name).width + 8 > inside) return;
+          ctx.fillStyle = "#5a6875";
+          ctx.textAlign = "left";
+          ctx.textBaseline = "top";
+          ctx.fillText(stage.name, Math.max(left, u.bbox.left) + 5 * devicePixelRatio, u.bbox.top + 5 * devicePixelRatio);
+        });
+        ctx.restore();
+      },
+    },
+  };
+}
+
+/** Rings at the largest values and a line at the instant of the drawing. */
+function marks(curve: () => Curve, clock: Clock, factor: number, labelled: boolean): uPlot.Plugin {
+  return {
+    hooks: {
+      draw: (u) => {
+        const { ctx } = u;
+        const right = u.bbox.left + u.bbox.width;
+        ctx.save();
+        ctx.beginPath();
+        ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
+        ctx.clip();
+        const now = u.valToPos(clock.time, "x", true);
+        ctx.strokeStyle = "#1d2730";
+        ctx.lineWidth = devicePixelRatio;
+        ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
+        ctx.beginPath();
+        ctx.moveTo(now, u.bbox.top);
+        ctx.lineTo(now, u.bbox.top + u.bbox.height);
+        ctx.stroke();
+        ctx.setLineDash([]);
+        for (const state of states) {
+          const top = largestOf(curve().series[state]);
+          if (!top) continue;
+          const x = u.valToPos(top.time, "x", true);
+          const y = u.valToPos(top.value * factor, "y", true);
+          ctx.strokeStyle = stateColour[state];
+          ctx.fillStyle = "#ffffff";
+          ctx.lineWidth = 2 * devicePixelRatio;
+          ctx.beginPath();
+          ctx.arc(x, y, (labelled ? 4.5 : 3) * devicePixelRatio, 0, 2 * Math.PI);
+          ctx.fill();
+          ctx.stroke();
+          if (!labelled) continue;
+          const text = `${kilonewtons(top.value)} kN at ${seconds(top.time)} s`;
+          ctx.font = `600 ${font(12 * devicePixelRatio)}`;
+          const wide = ctx.measureText(text).width;
+          const rightwards = x + wide + 14 * devicePixelRatio < right;
+          ctx.textAlign = rightwards ? "left" : "right";
+          ctx.textBaseline = state === "static" ? "top" : "bottom";
+          const shift = (rightwards ? 9 : -9) * devicePixelRatio;
+          ctx.lineWidth = 4 * devicePixelRatio;
+          ctx.strokeStyle = "rgba(255,255,255,.85)";
+          ctx.strokeText(text, x + shift, y);
+          ctx.fillStyle = stateColour[state];
+          ctx.fillText(text, x + shift, y);
+        }
+        ctx.restore();
+      },
+    },
+  };
+}
+
+/** Plots that zoom as one. */
+class Group {
+  private plots: uPlot[] = [];
+  private busy = false;
+  constructor(readonly start: number, readonly end: number) {}
+
+  add(plot: uPlot): void { this.plots.push(plot); }
+
+  zoom(from: number, to: number): void {
+    if (this.busy) return;
+    this.busy = true;
+    for (const plot of this.plots) plot.setScale("x", { min: from, max: to });
+    this.busy = false;
+  }
+
+  all(): void { this.zoom(this.start, this.end); }
+  redraw(): void { for (const plot of this.plots) plot.redraw(false); }
+
+  /** Moves by a share of the window, or makes it larger by a factor. */
+  move(share: number, factor: number): void {
+    const { min, max } = this.plots[0].scales.x;
+    if (!known(min) || !known(max)) return;
+    const middle = (min + max) / 2 + share * (max - min);
+    const half = Math.min((max - min) / 2 * factor, (this.end - this.start) / 2);
+    const from = Math.min(Math.max(middle - half, this.start), this.end - 2 * half);
+    this.zoom(from, from + 2 * half);
+  }
+}
+
+interface PlotSettings {
+  host: HTMLElement; height: number; group: Group; clock: Clock; plugins: uPlot.Plugin[]; series: uPlot.Series[];
+  unit: string; small: boolean; range?: uPlot.Range.MinMax | uPlot.Range.Function; cursor?: (time: number | null) => void;
+}
+
+function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
+  const { host, group, small } = settings;
+  const axis: uPlot.Axis = {
+    font: font(small ? 10 : 12), stroke: "#4b5864", grid: { stroke: "rgba(40,60,80,.09)", width: 1 },
+    ticks: { stroke: "rgba(40,60,80,.25)", width: 1, size: 4 },
+  };
+  const plot = new uPlot({
+    width: Math.max(host.clientWidth, 120), height: settings.height, legend: { show: false }, pxAlign: 0,
+    cursor: { sync: { key: "tension" }, drag: { x: true, y: false, setScale: true }, points: { size: 6 } },
+    scales: { x: { time: false, range: (_, min, max) => [min, max] }, y: { range: settings.range } },
+    axes: [
+      { ...axis, size: small ? 22 : 42, gap: 3, space: small ? 60 : 90, label: small ? undefined : "time, s", labelFont: font(12), labelSize: 18 },
+      { ...axis, size: small ? 40 : 58, gap: 3, space: small ? 34 : 44, label: small ? undefined : settings.unit, labelFont: font(12), labelSize: 18,
+        values: (_, ticks) => ticks.map((tick) => fixed(tick, Number.isInteger(tick) ? 0 : 2)) },
+    ],
+    series: [{}, ...settings.series], plugins: settings.plugins,
+    hooks: {
+      setScale: [(u, key) => {
+        const { min, max } = u.scales.x;
+        if (key === "x" && known(min) && known(max)) group.zoom(min, max);
+      }],
+      setCursor: [(u) => settings.cursor?.(known(u.cursor.left) && u.cursor.left >= 0 ? u.posToVal(u.cursor.left, "x") : null)],
+      ready: [(u) => {
+        let pressed = 0;
+        u.over.addEventListener("pointerdown", (event) => { pressed = event.clientX; });
+        u.over.addEventListener("click", (event) => {
+          if (Math.abs(event.clientX - pressed) < 3) settings.clock.set(u.posToVal(event.offsetX, "x"));
+        });
+      }],
+    },
+  }, data, host);
+  new ResizeObserver(() => {
+    if (host.clientWidth > 0 && host.clientWidth !== plot.width) plot.setSize({ width: host.clientWidth, height: settings.height });
+  }).observe(host);
+  group.add(plot);
+  return plot;
+}
+
+const pairSeries = (small: boolean): uPlot.Series[] => [
+  { label: "static", stroke: stateColour.static, width: small ? 1.2 : 2, spanGaps: true, points: { show: false } },
+  { label: "dynamic", stroke: stateColour.dynamic, width: small ? 0.9 : 1.2, spanGaps: true, points: { show: false } },
+];
+
+/** The names of stages as buttons that zoom to them. */
+function stageButtons(data: PageData, group: Group): HTMLElement {
+  const margin = 0.03;
+  return h("div", { class: "buttons", role: "group", "aria-label": "Zoom to" },
+    h("button", { type: "button", onclick: () => group.all() }, "whole lift"),
+    data.stages.map((stage) => h("button", {
+      type: "button", onclick: () => {
+        const spread = margin * (stage.end - stage.start);
+        group.zoom(Math.max(stage.start - spread, group.start), Math.min(stage.end + spread, group.end));
+      },
+    }, stage.name)));
+}
+
+function readoutText(curve: Curve, stages: Stage[], time: number): string {
+  const value = (state: State): number => curve.series[state]?.at(time) ?? NaN;
+  const still = value("static");
+  const moving = value("dynamic");
+  const parts = [`${seconds(time)} s`, stageAt(stages, time)];
+  if (Number.isFinite(still)) parts.push(`static ${kilonewtons(still)} kN (${tonnesForce(still)} t)`);
+  if (Number.isFinite(moving)) parts.push(`dynamic ${kilonewtons(moving)} kN (${tonnesForce(moving)} t)`);
+  if (Number.isFinite(still) && Number.isFinite(moving) && still > 0) parts.push(change((moving / still - 1) * 100));
+  return parts.filter(Boolean).join("   ·   ");
+}
+
+export function historiesSection(data: PageData, clock: Clock): Section | null {
+  const curves = curvesOf(data);
+  if (curves.length === 0) return null;
+  const group = new Group(clock.start, clock.end);
+  const factor = 1e-3;
+  const ropes = data.summary.ropes ?? [];
+  const loudest = [...ropes].sort((a, b) => (b.max_dynamic_tension_N ?? 0) - (a.max_dynamic_tension_N ?? 0))[0];
+  let shown = curves.find((curve) => curve.name === loudest?.name) ?? curves[0];
+
+  const readout = h("p", { class: "readout", "aria-live": "off" });
+  const read = (time: number | null): void => { readout.textContent = readoutText(shown, data.stages, time ?? clock.time); };
+  const host = h("div", {
+    class: "plot large", tabindex: 0, role: "img", "aria-label": "Tension over time; arrow keys move, plus and minus zoom, 0 shows all",
+    onkeydown: (event: KeyboardEvent) => {
+      const keys: Record<string, () => void> = {
+        ArrowLeft: () => group.move(-0.1, 1), ArrowRight: () => group.move(0.1, 1),
+        "+": () => group.move(0, 0.8), "=": () => group.move(0, 0.8), "-": () => group.move(0, 1.25), "0": () => group.all(),
+      };
+      if (keys[event.key]) { keys[event.key](); event.preventDefault(); }
+    },
+  });
+  const tiles = curves.map((curve) => {
+    const plotHost = h("div", { class: "plot" });
+    const tile = h("button", {
+      type: "button", class: "tile-name", "aria-pressed": String(curve === shown),
+      title: "Show in the large plot", onclick: () => choose(curve),
+    }, curve.name);
+    return { curve, plotHost, tile };
+  });
+  let large: uPlot | null = null;
+  const choose = (curve: Curve): void => {
+    shown = curve;
+    for (const one of tiles) one.tile.setAttribute("aria-pressed", String(one.curve === curve));
+    if (large) {
+      const { min, max } = large.scales.x;
+      large.setData(aligned(states.map((state) => curve.series[state]), factor), false);
+      large.setScale("x", { min: min!, max: max! });
+    }
+    heading.textContent = `${curve.kind === "rope" ? "Rope" : "Hoist"} ${curve.name}`;
+    read(null);
+  };
+  const heading = h("h3", {}, "");
+  const top = Math.max(...curves.filter((curve) => curve.kind === "rope")
+    .flatMap((curve) => states.map((state) => largestOf(curve.series[state])?.value ?? 0)), 1) * factor * 1.05;
+
+  // The plots need the width of their places, which they have once the section stands in the page.
+  requestAnimationFrame(() => {
+    large = makePlot({
+      host, height: 340, group, clock, unit: "tension, kN", small: false, series: pairSeries(false), cursor: read,
+      plugins: [stageBands(data.stages, true), marks(() => shown, clock, factor, true)],
+      range: (_, min, max) => { const room = 0.12 * Math.max(max - min, 1); return [min >= 0 ? Math.max(min - room, 0) : min - room, max + room]; },
+    }, aligned(states.map((state) => shown.series[state]), factor));
+    for (const { curve, plotHost } of tiles) {
+      makePlot({
+        host: plotHost, height: 130, group, clock, unit: "kN", small: true, series: pairSeries(true),
+        plugins: [stageBands(data.stages, false), marks(() => curve, clock, factor, false)],
+        range: curve.kind === "rope" ? [0, top] : (_, min, max) => [Math.min(min, 0), max * 1.05],
+      }, aligned(states.map((state) => curve.series[state]), factor));
+    }
+    choose(shown);
+    clock.listen(() => { group.redraw(); read(null); });
+  });
+
+  const grid = (kind: string): HTMLElement => h("div", { class: "tiles" }, tiles.filter((one) => one.curve.kind === kind)
+    .map((one) => h("div", { class: "tile" }, one.tile, one.plotHost)));
+  return {
+    id: "histories", title: "Rope tensions", content: [
+      h("div", { class: "plot-head" }, heading, legend()),
+      stageButtons(data, group), host, readout,
+      h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's instant (dashed). Rings mark the largest values. "
+        + "The small plots share one scale, kN; choose one by its name."),
+      grid("rope"),
+      tiles.some((one) => one.curve.kind === "hoist") && h("details", {}, h("summary", {}, "Hoists"), grid("hoist"))],
+  };
+}
+
+function legend(): HTMLElement {
+  return h("span", { class: "legend" }, states.map((state) =>
+    h("span", {}, h("i", { style: `background:${stateColour[state]}` }), state)));
+}
+
+const palette = ["#2f6396", "#d2601a", "#3f8f5b", "#8d5aa5", "#a8842c", "#c2456b", "#4aa3b5", "#6b7682"];
+
+/** Terms of energy over time; the balance, that should be nothing, in a plot of its own. */
+export function energyPlot(data: PageData, history: History): HTMLElement {
+  const group = new Group(history.start, history.end);
+  const clock = new Clock(history.start, history.start, history.end);
+  const plots: HTMLElement[] = [];
+  const add = (title: string, packed: PackedSeries[], factor: number, unit: string): void => {
+    if (packed.length === 0) return;
+    const host = h("div", { class: "plot" });
+    const series = packed.map((one) => new Series(one));
+    const colour = (i: number): string => (packed.length === 1 ? "#4b5864" : palette[i % palette.length]);
+    plots.push(h("div", { class: "tile" }, h("h4", {}, title), host, packed.length > 1 && h("span", { class: "legend" },
+      packed.map((one, i) => h("span", { title: one.description }, h("i", { style: `background:${colour(i)}` }), one.name.replace(/_/g, " "))))));
+    requestAnimationFrame(() => makePlot({
+      host, height: 200, group, clock, unit, small: false, plugins: [stageBands(data.stages, false)],
+      series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, spanGaps: true, points: { show: false } })),
+    }, aligned(series, factor)));
+  };
+  add("Energies of the dynamic run", history.energy.filter((one) => one.name !== "balance"), 1e-6, "MJ");
+  add("What the balance leaves unexplained", history.energy.filter((one) => one.name === "balance"), 1, "J");
+  return h("div", { class: "tiles two" }, plots);
+}

@@ -1,0 +1,246 @@
+// The drawing of the lift: a scene to turn and to play, elevations of its stages, the tensions of the instant.
+import * as three from "three";
+
+import { Clock } from "./clock";
+import { stateColour } from "./colours";
+import { PageData, Scene, Series, stageAt, State, states } from "./data";
+import { checkbox, choice, h, slider } from "./dom";
+import { elevation, frameOf } from "./elevation";
+import type { Section } from "./main";
+import { Bodies, boxCorners, inWorld, ropePath, Vector } from "./motion";
+import { kilonewtons, missing, seconds, tonnesForce } from "./numbers";
+import { BlockSurface } from "./surface";
+import { canDraw, Viewer } from "./viewer";
+
+const shades: Record<string, number> = { crane: 0xdfe5ea, trolley: 0xb9c6d1, "hook block": 0xe0b04c, load: 0xa9bccd };
+
+interface Rope { name: string; sling: boolean; segments: three.Mesh[]; label?: { point: three.Vector3 }; path: (time: number) => Vector[] }
+
+/** The scene in three dimensions; show() puts everything where it is at an instant. */
+class LiftView {
+  readonly viewer = new Viewer(1, 520, "Drawing of the lift; drag or arrow keys turn it, plus and minus zoom");
+  followLoad = false;
+  private groups = new Map<string, three.Group>();
+  private ropes: Rope[] = [];
+  private bounds = new three.Box3();
+  private lug: { point: three.Vector3; at: Vector }[] = [];
+
+  constructor(private data: PageData, private scene: Scene, private bodies: () => Bodies, times: number[]) {
+    const world = this.viewer.panes[0].scene;
+    world.add(new three.HemisphereLight(0xffffff, 0xc8d0d8, 2.2));
+    const sun = new three.DirectionalLight(0xffffff, 1.6);
+    sun.position.set(-1, -2, 3);
+    world.add(sun);
+    for (const body of scene.bodies) world.add(this.makeBody(body));
+    for (const rope of scene.ropes) this.makeRope(rope, world);
+    for (const lug of scene.lugs) this.lug.push({ point: this.viewer.addLabel(0, lug.name, "lug").point, at: lug.point as Vector });
+    for (const time of times) for (const body of scene.bodies) for (const box of body.boxes) for (const corner of boxCorners(box))
+      this.bounds.expandByPoint(new three.Vector3(...inWorld(bodies().pose(body.name, time), corner)));
+    this.addGround(world);
+  }
+
+  private makeBody(body: Scene["bodies"][number]): three.Group {
+    const group = new three.Group();
+    const isLoad = body.name === this.scene.load;
+    const colour = shades[isLoad ? "load" : body.kind] ?? shades.crane;
+    const material = new three.MeshLambertMaterial({ color: colour, side: three.DoubleSide, flatShading: true,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+    const lines = new three.LineBasicMaterial({ color: isLoad ? 0x34495c : 0x8693a0 });
+    if (isLoad && this.data.surface?.points) {
+      const surface = new BlockSurface(this.data.surface);
+      const position = new three.BufferAttribute(surface.points, 3);
+      group.add(new three.Mesh(new three.BufferGeometry().setAttribute("position", position)
+        .setIndex(new three.BufferAttribute(surface.triangles(), 1)), material));
+      group.add(new three.LineSegments(new three.BufferGeometry().setAttribute("position", position)
+        .setIndex(new three.BufferAttribute(surface.outlines(), 1)), new three.LineBasicMaterial({ color: 0x4d6276 })));
+    } else {
+      for (const box of body.boxes) {
+        const shape = new three.BoxGeometry(box[0], box[1], box[2]).translate(box[3], box[4], box[5]);
+        group.add(new three.Mesh(shape, material), new three.LineSegments(new three.EdgesGeometry(shape), lines));
+      }
+    }
+    this.groups.set(body.name, group);
+    return group;
+  }
+
+  private makeRope(rope: Scene["ropes"][number], world: three.Scene): void {
+    const sling = rope.kind === "sling";
+    const cylinder = new three.CylinderGeometry(1, 1, 1, 8, 1, true);
+    const material = new three.MeshBasicMaterial({ color: sling ? 0xa8450f : 0x4b5864 });
+    const segments = rope.points.slice(1).map(() => new three.Mesh(cylinder, material));
+    world.add(...segments);
+    this.ropes.push({ name: rope.name, sling, segments, path: (time) => ropePath(rope, this.bodies(), time),
+      label: sling ? this.viewer.addLabel(0, rope.name, "rope") : undefined });
+  }
+
+  private addGround(world: three.Scene): void {
+    const { min, max } = this.bounds;
+    const size = 20 * Math.ceil(Math.max(max.x - min.x, max.y - min.y) / 20 + 1);
+    const grid = new three.GridHelper(size, size / 10, 0xc3ccd4, 0xe1e6ea);
+    grid.rotation.x = Math.PI / 2;
+    grid.position.set(10 * Math.round((min.x + max.x) / 20), 10 * Math.round((min.y + max.y) / 20), -0.05);
+    world.add(grid);
+  }
+
+  show(time: number): void {
+    for (const [name, group] of this.groups) {
+      const { p, q } = this.bodies().pose(name, time);
+      group.position.set(...p);
+      group.quaternion.set(q[1], q[2], q[3], q[0]);
+    }
+    const radius = Math.max(this.bounds.max.z - this.bounds.min.z, 10) / 700;
+    for (const rope of this.ropes) {
+      const path = rope.path(time).map((point) => new three.Vector3(...point));
+      rope.segments.forEach((segment, i) => {
+        const along = path[i + 1].clone().sub(path[i]);
+        segment.position.copy(path[i]).addScaledVector(along, 0.5);
+        segment.scale.set(radius, along.length(), radius);
+        segment.quaternion.setFromUnitVectors(new three.Vector3(0, 1, 0), along.normalize());
+      });
+      rope.label?.point.copy(path[0]).add(path[path.length - 1]).multiplyScalar(0.5);
+    }
+    const loadPose = this.bodies().pose(this.scene.load, time);
+    for (const { point, at } of this.lug) point.set(...inWorld(loadPose, at));
+    if (this.followLoad) this.viewer.follow(this.loadCentre(time));
+    this.viewer.draw();
+  }
+
+  loadCentre(time: number): three.Vector3 {
+    const box = new three.Box3();
+    const load = this.scene.bodies.find((body) => body.name === this.scene.load);
+    const pose = this.bodies().pose(this.scene.load, time);
+    for (const one of load?.boxes ?? []) for (const corner of boxCorners(one)) box.expandByPoint(new three.Vector3(...inWorld(pose, corner)));
+    return box.isEmpty() ? new three.Vector3(...pose.p) : box.getCenter(new three.Vector3());
+  }
+
+  look(name: "oblique" | "side" | "front" | "top" | "load", time: number): void {
+    const size = this.bounds.getSize(new three.Vector3());
+    const centre = this.bounds.getCenter(new three.Vector3());
+    const pad = 1.06;
+    if (name === "load") this.viewer.look([-0.9, -1, 0.55], this.loadCentre(time), size.z * 0.5, size.z * 0.5);
+    else if (name === "side") this.viewer.look([1, 0, 0], centre, size.z * pad, size.y * pad);
+    else if (name === "front") this.viewer.look([0, -1, 0], centre, size.z * pad, size.x * pad);
+    else if (name === "top") this.viewer.look([0, 0, 1], centre, size.y * pad, size.x * pad);
+    else this.viewer.look([0.75, -1, 0.42], centre, size.z * 0.95 + (size.x + size.y) * 0.24, (size.x + size.y) * 0.78);
+    this.viewer.draw();
+  }
+}
+
+/** Tension of every sling at the instant, static and dynamic, as bars. */
+function tensionPanel(data: PageData, clock: Clock): HTMLElement | null {
+  const ropes = (data.histories.dynamic ?? data.histories.static)?.ropes.filter((one) => one.quantity === "tension") ?? [];
+  if (ropes.length === 0) return null;
+  const series = (state: State, name: string): Series | undefined => {
+    const packed = data.histories[state]?.ropes.find((one) => one.name === name && one.quantity === "tension");
+    return packed && new Series(packed);
+  };
+  let top = 1;
+  const rows = ropes.map(({ name }) => {
+    const curves = { static: series("static", name), dynamic: series("dynamic", name) };
+    for (const state of states) for (const value of curves[state]?.values ?? []) top = Math.max(top, value);
+    const bars = { static: h("i", { style: `background:${stateColour.static}` }), dynamic: h("i", { style: `background:${stateColour.dynamic}` }) };
+    const value = h("span", { class: "value" });
+    return { curves, bars, value, element: h("div", { class: "rope" }, h("b", {}, name), h("span", { class: "bars" }, bars.static, bars.dynamic), value) };
+  });
+  const show = (time: number): void => {
+    for (const { curves, bars, value } of rows) {
+      let last = NaN;
+      for (const state of states) {
+        const now = curves[state]?.at(time) ?? NaN;
+        bars[state].style.width = `${Number.isFinite(now) ? Math.max(now / top, 0) * 100 : 0}%`;
+        if (Number.isFinite(now)) last = now;
+      }
+      value.textContent = Number.isFinite(last) ? `${kilonewtons(last)} kN` : missing;
+      value.title = `${tonnesForce(last)} t`;
+    }
+  };
+  clock.listen(show);
+  show(clock.time);
+  return h("div", { class: "tensions", "aria-label": "Rope tensions at this instant" },
+    h("p", { class: "legend" }, states.map((state) => h("span", {}, h("i", { style: `background:${stateColour[state]}` }), state))),
+    rows.map((row) => row.element));
+}
+
+/** The lift at its start and at the end of each stage; each is a button that goes there. */
+function stageStrip(data: PageData, scene: Scene, bodies: Bodies, clock: Clock): HTMLElement {
+  const instants = [{ name: "start", time: clock.start },
+    ...data.stages.map((stage) => ({ name: `after ${stage.name}`, time: stage.end }))];
+  const frame = frameOf(scene, bodies, instants.map((one) => one.time), "side");
+  return h("div", { class: "strip" }, instants.map(({ name, time }) => h("button", {
+    type: "button", title: "Show this instant", onclick: () => clock.set(time),
+  }, elevation(scene, bodies, time, "side", frame, false), h("span", {}, name, h("small", {}, `${seconds(time)} s`)))));
+}
+
+export function liftSection(data: PageData, clock: Clock): Section | null {
+  const { scene } = data;
+  const moving = states.filter((state) => data.motion[state]);
+  if (!scene || moving.length === 0) return null;
+  const all = new Map(moving.map((state) => [state, new Bodies(data.motion[state]!)]));
+  let state: State = all.has("dynamic") ? "dynamic" : "static";
+  const bodies = (): Bodies => all.get(state)!;
+  const times = [clock.start, ...data.stages.flatMap((stage) => [stage.start, (stage.start + stage.end) / 2, stage.end]), clock.end];
+
+  const drawings = h("div", { class: "elevations" });
+  const drawElevations = (): void => {
+    drawings.replaceChildren(...(["side", "front"] as const).map((side) => h("figure", {},
+      elevation(scene, bodies(), clock.time, side, frameOf(scene, bodies(), times, side), true) as unknown as HTMLElement,
+      h("figcaption", {}, `${side === "side" ? "Side" : "Front"} elevation at ${seconds(clock.time)} s, ${stageAt(data.stages, clock.time)}`))));
+  };
+  drawElevations();
+
+  const now = h("output", { class: "now" });
+  const time = slider("Instant of the lift, s", clock.start, clock.end, "any", clock.time, (value) => clock.set(value));
+  time.addEventListener("keydown", (event) => {  // a step of one second; the browser's own would be a hundredth of the lift
+    const steps: Record<string, number> = { ArrowLeft: -1, ArrowRight: 1, PageDown: -30, PageUp: 30 };
+    if (steps[event.key]) { clock.set(clock.time + steps[event.key]); event.preventDefault(); }
+  });
+  const show = (value: number): void => {
+    time.value = String(value);
+    now.textContent = `${seconds(value)} s, ${stageAt(data.stages, value)}`;
+  };
+  clock.listen(show);
+  show(clock.time);
+  window.addEventListener("beforeprint", drawElevations);
+
+  const strip = stageStrip(data, scene, bodies(), clock);
+  if (!canDraw()) {
+    clock.listen(drawElevations);
+    drawings.classList.add("always");
+    return { id: "lift", title: "The lift", content: [h("div", { class: "player" }, time, now), drawings, tensionPanel(data, clock), strip,
+      h("p", { class: "hint" }, "This browser does not draw in three dimensions (WebGL); the elevations take its place.")] };
+  }
+  const view = new LiftView(data, scene, bodies, times);
+  clock.listen((value) => view.show(value));
+  const views = choice("View", [["oblique", "oblique"], ["side", "side"], ["front", "front"], ["top", "top"], ["load", "load"]], "oblique",
+    (name) => view.look(name, clock.time));
+  const which = choice("Motion", moving.map((one) => [one, one]), state, (value) => { state = value; view.show(clock.time); });
+  view.look("oblique", clock.time);
+  view.show(clock.time);
+  return {
+    id: "lift", title: "The lift", content: [
+      h("div", { class: "controls" }, views.element, moving.length > 1 && which.element,
+        checkbox("follow the load", false, (on) => { view.followLoad = on; view.show(clock.time); })),
+      h("div", { class: "stage-view" }, view.viewer.element, tensionPanel(data, clock)),
+      h("div", { class: "player" }, playButton(clock), time, now), strip, drawings],
+  };
+}
+
+function playButton(clock: Clock): HTMLElement {
+  const speeds = 60;  // seconds of the lift in one second
+  let playing = false;
+  let last = 0;
+  const button = h("button", { type: "button", class: "play", title: `Play, ${speeds} times as fast as the lift`, onclick: () => {
+    playing = !playing;
+    last = performance.now();
+    button.textContent = playing ? "pause" : "play";
+    if (playing && clock.time >= clock.end) clock.set(clock.start);
+    if (playing) requestAnimationFrame(step);
+  } }, "play");
+  const step = (moment: number): void => {
+    if (!playing) return;
+    clock.set(clock.time + Math.max(moment - last, 0) / 1000 * speeds);
+    last = moment;
+    if (clock.time >= clock.end) { playing = false; button.textContent = "play"; } else requestAnimationFrame(step);
+  };
+  return button;
+}

@@ -1,0 +1,115 @@
+// Load tables: largest loads, what the other ropes carry at that instant, hoists and cranes.
+import { Clock } from "./clock";
+import { known, LoadMaxima, PageData, stageAt, State } from "./data";
+import { Child, Column, h, table } from "./dom";
+import type { Section } from "./main";
+import { change, fixed, kilonewtons, missing, ratio, seconds, share, tonnesForce } from "./numbers";
+
+function timeCell(data: PageData, clock: Clock, time: unknown): Child {
+  if (!known(time)) return missing;
+  if (!data.scene) return seconds(time);
+  return h("button", {
+    class: "time", type: "button", title: `Show this instant in the drawing (${stageAt(data.stages, time)})`,
+    onclick: () => { clock.set(time); document.getElementById("lift")?.scrollIntoView({ behavior: "smooth" }); },
+  }, seconds(time));
+}
+
+function both(newtons: unknown): Child[] {
+  return [kilonewtons(newtons), tonnesForce(newtons)];
+}
+
+function ropeTable(data: PageData, clock: Clock): Child {
+  const ropes = data.summary.ropes ?? [];
+  const timed = ropes.some((rope) => known(rope.time_of_max_dynamic_s));
+  const broken = ropes.some((rope) => known(rope.breaking_load_N));
+  const lugs = ropes.some((rope) => rope.lug);
+  const columns: Column[] = [
+    { head: "Rope", align: "left" }, ...(lugs ? [{ head: "Lug", align: "left" } as Column] : []),
+    { head: "Static, kN" }, { head: "t" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
+    { head: "Dynamic, kN" }, { head: "t" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
+    { head: "Dynamic / static" },
+    ...(broken ? [{ head: "Share of breaking load", title: "largest dynamic tension over breaking load" }] : []),
+  ];
+  const instant = (time: unknown): Child[] => timed
+    ? [timeCell(data, clock, time), h("span", { class: "stage" }, known(time) ? stageAt(data.stages, time) : missing)] : [];
+  const rows = ropes.map((rope) => [
+    rope.name, ...(lugs ? [rope.lug ?? missing] : []),
+    ...both(rope.max_static_tension_N), ...instant(rope.time_of_max_static_s),
+    ...both(rope.max_dynamic_tension_N), ...instant(rope.time_of_max_dynamic_s),
+    ratio(rope.dynamic_over_static),
+    ...(broken ? [share(known(rope.max_dynamic_tension_N) && known(rope.breaking_load_N)
+      ? rope.max_dynamic_tension_N / rope.breaking_load_N : null)] : []),
+  ]);
+  return table("Largest rope loads", columns, rows);
+}
+
+function comparisonTable(data: PageData): Child {
+  const comparison = data.summary.comparison;
+  if (!comparison?.ropes?.length) return null;
+  const ours = new Map((data.summary.ropes ?? []).map((rope) => [rope.name, rope]));
+  const columns: Column[] = [
+    { head: "Rope", align: "left" },
+    { head: "Static, t" }, { head: "published, t" }, { head: "difference" },
+    { head: "Dynamic, t" }, { head: "published, t" }, { head: "difference" },
+    { head: "Ratio" }, { head: "published" },
+  ];
+  const rows = comparison.ropes.map((one) => {
+    const rope = ours.get(one.name);
+    return [one.name, tonnesForce(rope?.max_static_tension_N), tonnesForce(one.published_static_N), change(one.static_difference_percent),
+      tonnesForce(rope?.max_dynamic_tension_N), tonnesForce(one.published_dynamic_N), change(one.dynamic_difference_percent),
+      ratio(rope?.dynamic_over_static),
+      ratio(known(one.published_dynamic_N) && known(one.published_static_N) ? one.published_dynamic_N / one.published_static_N : null)];
+  });
+  return [table("Beside published values", columns, rows),
+    comparison.source && h("p", { class: "source" }, `Published: ${comparison.source}.`)];
+}
+
+function linkedTable(data: PageData, clock: Clock, state: State): Child {
+  const ropes = data.summary.ropes ?? [];
+  const linked = (rope: LoadMaxima) => (state === "static" ? rope.linked_static_N : rope.linked_dynamic_N);
+  if (!ropes.some(linked)) return null;
+  const columns: Column[] = [{ head: "Largest in", align: "left" }, { head: "at, s" },
+    ...ropes.map((rope) => ({ head: rope.name })), { head: "Sum" }];
+  const rows = ropes.map((rope) => {
+    const values = ropes.map((other) => linked(rope)?.[other.name]);
+    const sum = values.every(known) ? (values as number[]).reduce((total, value) => total + value, 0) : null;
+    return [rope.name, timeCell(data, clock, state === "static" ? rope.time_of_max_static_s : rope.time_of_max_dynamic_s),
+      ...values.map((value, i) => (ropes[i] === rope ? h("b", {}, kilonewtons(value)) : kilonewtons(value))), kilonewtons(sum)];
+  });
+  return table(`All ropes at the instant of each rope's largest ${state} load, kN`, columns, rows);
+}
+
+function capacityTable(caption: string, head: string, loads: LoadMaxima[] | undefined, data: PageData, clock: Clock): Child {
+  if (!loads?.length) return null;
+  const swing = loads.some((load) => known(load.max_swing_rad));
+  const capacity = loads.some((load) => known(load.capacity_N));
+  const columns: Column[] = [{ head, align: "left" }, { head: "Static, kN" }, { head: "t" }, { head: "at, s" },
+    { head: "Dynamic, kN" }, { head: "t" }, { head: "at, s" }, { head: "Dynamic / static" },
+    ...(capacity ? [{ head: "Capacity, t" }, { head: "Share of capacity" }] : []),
+    ...(swing ? [{ head: "Largest swing, °" }] : [])];
+  const rows = loads.map((load) => {
+    const still = load.max_static_tension_N ?? load.max_static_load_N;
+    const moving = load.max_dynamic_tension_N ?? load.max_dynamic_load_N;
+    return [load.name, ...both(still), timeCell(data, clock, load.time_of_max_static_s),
+      ...both(moving), timeCell(data, clock, load.time_of_max_dynamic_s), ratio(load.dynamic_over_static),
+      ...(capacity ? [tonnesForce(load.capacity_N),
+        share(known(moving) && known(load.capacity_N) ? moving / load.capacity_N : null)] : []),
+      ...(swing ? [known(load.max_swing_rad) ? fixed(load.max_swing_rad * 180 / Math.PI, 2) : missing] : [])];
+  });
+  return table(caption, columns, rows);
+}
+
+export function loadsSection(data: PageData, clock: Clock): Section | null {
+  if (!data.summary.ropes?.length) return null;
+  const moved = data.histories.dynamic !== null;
+  return {
+    id: "loads", title: "Loads", content: [
+      h("p", { class: "lead" }, moved
+        ? "Static: equilibrium of the same operation at the same winch lengths and crane positions, without waves. Dynamic: the integration in time. Each maximum is over the whole operation."
+        : "The rope loads were given in the case file; no motion was computed."),
+      ropeTable(data, clock), comparisonTable(data),
+      linkedTable(data, clock, "static"), linkedTable(data, clock, "dynamic"),
+      capacityTable("Hoists", "Hoist", data.summary.hoists, data, clock),
+      capacityTable("Cranes", "Crane", data.summary.cranes, data, clock)],
+  };
+}

@@ -1,0 +1,101 @@
+// What the loads do to the block: three ways of taking maxima, lugs, balance, masses.
+import { known, PageData, Structure, StructureWay } from "./data";
+import { Child, Column, h, table } from "./dom";
+import type { Section } from "./main";
+import { change, fixed, megapascals, millimetres, missing, point, scientific, seconds, tonnes } from "./numbers";
+
+const left = (head: string): Column => ({ head, align: "left" });
+
+/** The published pair belongs to the way in which it was computed: each rope at its own maximum. */
+function waysTable(data: PageData, structure: Structure): Child {
+  const rows: Child[][] = [];
+  const row = (name: Child, way: StructureWay | undefined): void => {
+    if (!way) return;
+    rows.push([name,
+      megapascals(way.static?.checked_von_mises_Pa), megapascals(way.dynamic?.checked_von_mises_Pa), change(way.stress_increase_percent),
+      millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), change(way.deformation_increase_percent)]);
+  };
+  row(h("b", {}, "Headline: the worst instant"), structure.simultaneous);
+  for (const way of structure.simultaneous_by_rope ?? []) row(`Instant of largest load in ${way.rope ?? missing}`, way);
+  row("Per-rope maxima, all at once", structure.per_rope_maxima);
+  const published = data.summary.comparison;
+  if (published && (known(published.stress_increase_percent) || known(published.deformation_increase_percent))) {
+    rows.push([h("i", {}, "Published, per-rope maxima"), missing, missing, change(published.stress_increase_percent, 2),
+      missing, missing, change(published.deformation_increase_percent, 2)]);
+  }
+  return table("Checked stress and largest deformation of the block", [left("Loads"),
+    { head: "Static, MPa" }, { head: "Dynamic, MPa" }, { head: "Increase" },
+    { head: "Static, mm" }, { head: "Dynamic, mm" }, { head: "Increase" }], rows);
+}
+
+function placesTable(structure: Structure): Child {
+  const rows: Child[][] = [];
+  for (const [name, way] of [["Simultaneous", structure.simultaneous], ["Per-rope maxima", structure.per_rope_maxima]] as const)
+    for (const state of ["static", "dynamic"] as const) {
+      const one = way?.[state];
+      if (!one) continue;
+      rows.push([`${name}, ${state}`, one.rope ?? missing, seconds(one.time_s), megapascals(one.peak_von_mises_Pa),
+        megapascals(one.checked_von_mises_Pa), one.checked_group ?? missing, point(one.checked_point_m),
+        millimetres(one.max_displacement_m), point(one.max_displacement_point_m)]);
+    }
+  return table("Where it is largest (points in the block's frame, m)", [left("Loads"), left("Rope"), { head: "at, s" },
+    { head: "Raw peak, MPa" }, { head: "Checked, MPa" }, left("in"), { head: "at x, y, z" }, { head: "Deformation, mm" },
+    { head: "at x, y, z" }], rows);
+}
+
+function lugsTable(structure: Structure): Child {
+  const lugs = structure.lugs ?? [];
+  if (lugs.length === 0) return null;
+  const cells = (one: (typeof lugs)[number]["simultaneous"]): Child[] => [
+    megapascals(one?.static_checked_von_mises_Pa), megapascals(one?.dynamic_checked_von_mises_Pa), change(one?.stress_increase_percent)];
+  return table("Checked stress around each lug", [left("Lug"), left("Rope"),
+    { head: "Simultaneous: static, MPa" }, { head: "dynamic, MPa" }, { head: "increase" },
+    { head: "Per-rope maxima: static, MPa" }, { head: "dynamic, MPa" }, { head: "increase" }],
+  lugs.map((lug) => [lug.name, lug.rope ?? missing, ...cells(lug.simultaneous), ...cells(lug.per_rope_maxima)]));
+}
+
+function balanceTable(structure: Structure): Child {
+  const rows: Child[][] = [];
+  const row = (name: string, way: StructureWay | undefined): void => {
+    for (const state of ["static", "dynamic"] as const) {
+      const one = way?.[state];
+      if (one) rows.push([`${name}, ${state}`, scientific(one.force_residual), scientific(one.moment_residual), scientific(one.reaction_over_weight)]);
+    }
+  };
+  row("Simultaneous", structure.simultaneous);
+  row("Per-rope maxima", structure.per_rope_maxima);
+  return table("Balance: what must vanish for a hanging block", [left("Loads"),
+    { head: "Force residual / load" }, { head: "Moment residual / load" }, { head: "Support reactions / weight" }], rows);
+}
+
+function massTable(structure: Structure): Child {
+  const mass = structure.mass;
+  if (!mass) return null;
+  const part = (kilograms: unknown): string =>
+    known(kilograms) && known(mass.total_kg) ? fixed(kilograms / mass.total_kg * 100, 1) : missing;
+  return table("Mass of the block", [left("Part"), { head: "t" }, { head: "%" }, { head: "Centre x, y, z, m" }], [
+    ["Steel of the mesh", tonnes(mass.steel_kg), part(mass.steel_kg), point(mass.steel_centre_of_mass_m)],
+    ["Outfitting, spread over the plates", tonnes(mass.outfitting_kg), part(mass.outfitting_kg), missing],
+    [h("b", {}, "Total"), tonnes(mass.total_kg), part(mass.total_kg), point(mass.centre_of_mass_m)]]);
+}
+
+function modelText(structure: Structure): string {
+  const parts: string[] = [];
+  if (known(structure.elements)) parts.push(`${fixed(structure.elements, 0)} hexahedra${known(structure.element_degree)
+    ? ` of degree ${structure.element_degree}` : ""}`);
+  if (known(structure.unknowns)) parts.push(`${fixed(structure.unknowns, 0)} unknowns`);
+  if (known(structure.mesh_size_m)) parts.push(`largest element ${fixed(structure.mesh_size_m, 2)} m`);
+  if (structure.material) parts.push(structure.material + (known(structure.yield_Pa) ? ` (yield ${megapascals(structure.yield_Pa)} MPa)` : ""));
+  return parts.length ? `Model: ${parts.join(", ")}.` : "";
+}
+
+export function structureSection(data: PageData): Section | null {
+  const structure = data.summary.structure;
+  if (!structure) return null;
+  return {
+    id: "structure", title: "Block", content: [
+      h("p", { class: "lead" }, "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
+        + "headline is the largest of these. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
+      waysTable(data, structure), lugsTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
+  };
+}

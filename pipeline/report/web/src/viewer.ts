@@ -1,0 +1,147 @@
+// What the three-dimensional pictures share: renderer, camera, orbit, labels, drawing on demand.
+import * as three from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+
+import { h } from "./dom";
+
+export const background = 0xfafbfc;
+
+/** Whether the browser can draw with WebGL 2; asked once. */
+export const canDraw: () => boolean = (() => {
+  let answer: boolean | undefined;
+  return () => {
+    if (answer === undefined) {
+      const context = document.createElement("canvas").getContext("webgl2");
+      answer = context !== null;
+      context?.getExtension("WEBGL_lose_context")?.loseContext();
+    }
+    return answer;
+  };
+})();
+
+export interface Pane { scene: three.Scene; labels: { point: three.Vector3; element: HTMLElement }[] }
+
+/** A canvas with one or more panes side by side that share camera and orbit. */
+export class Viewer {
+  readonly element: HTMLElement;
+  readonly camera = new three.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
+  readonly renderer: three.WebGLRenderer;
+  readonly controls: OrbitControls;
+  readonly panes: Pane[];
+  readonly overlay = h("div", { class: "overlay" });
+  private height = 10;  // of the view at zoom 1, m
+  private wide = 10;    // what must fit across
+  private waiting = false;
+
+  constructor(paneCount: number, pixelHeight: number, label: string) {
+    this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setScissorTest(true);
+    const canvas = this.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", label);
+    this.element = h("div", { class: "viewer", style: `height:${pixelHeight}px` }, canvas, this.overlay);
+    this.panes = Array.from({ length: paneCount }, () => ({ scene: new three.Scene(), labels: [] }));
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.zoomToCursor = paneCount === 1;
+    this.controls.addEventListener("change", () => this.draw());
+    canvas.addEventListener("wheel", (event) => event.preventDefault(), { passive: false });
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    new ResizeObserver(() => this.resize()).observe(this.element);
+  }
+
+  addLabel(pane: number, text: string, className = ""): Pane["labels"][number] {
+    const label = { point: new three.Vector3(), element: h("span", { class: `label ${className}` }, text) };
+    this.overlay.appendChild(label.element);
+    this.panes[pane].labels.push(label);
+    return label;
+  }
+
+  /** Looks from `direction` (from the target towards the eye) at a box-shaped region around `target`. */
+  look(direction: [number, number, number], target: three.Vector3, height: number, wide: number): void {
+    this.height = height;
+    this.wide = wide;
+    const distance = 2 * Math.max(height, wide);
+    this.camera.near = -distance;
+    this.camera.far = 4 * distance;
+    const eye = new three.Vector3(...direction).normalize().multiplyScalar(distance);
+    // Straight down the up vector the orbit has no azimuth: lean by a hair.
+    if (Math.hypot(eye.x, eye.y) < 1e-6 * distance) eye.y = -1e-3 * distance;
+    this.camera.position.copy(target).add(eye);
+    this.controls.target.copy(target);
+    this.camera.zoom = 1;
+    this.resize();
+    this.controls.update();
+  }
+
+  /** Moves the eye along with the target. */
+  follow(target: three.Vector3): void {
+    const step = target.clone().sub(this.controls.target);
+    this.camera.position.add(step);
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.draw();
+  }
+
+  private key(event: KeyboardEvent): void {
+    const turn = Math.PI / 24;
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const sphere = new three.Spherical().setFromVector3(new three.Vector3(offset.x, offset.z, -offset.y));
+    const moves: Record<string, () => void> = {
+      ArrowLeft: () => { sphere.theta -= turn; }, ArrowRight: () => { sphere.theta += turn; },
+      ArrowUp: () => { sphere.phi -= turn; }, ArrowDown: () => { sphere.phi += turn; },
+      "+": () => { this.camera.zoom *= 1.15; }, "=": () => { this.camera.zoom *= 1.15; }, "-": () => { this.camera.zoom /= 1.15; },
+    };
+    if (!moves[event.key]) return;
+    moves[event.key]();
+    event.preventDefault();
+    const moved = new three.Vector3().setFromSpherical(sphere.makeSafe());
+    this.camera.position.copy(this.controls.target).add(new three.Vector3(moved.x, -moved.z, moved.y));
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    const aspect = width / this.panes.length / height;
+    const tall = Math.max(this.height, this.wide / aspect);
+    this.camera.top = tall / 2;
+    this.camera.bottom = -tall / 2;
+    this.camera.right = (tall / 2) * aspect;
+    this.camera.left = -this.camera.right;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Draws before the browser's next picture; many calls make one. */
+  draw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => { this.waiting = false; this.drawNow(); });
+  }
+
+  private drawNow(): void {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (width === 0 || height === 0) return;
+    const paneWidth = width / this.panes.length;
+    this.camera.updateMatrixWorld();
+    this.panes.forEach(({ scene, labels }, i) => {
+      this.renderer.setViewport(i * paneWidth, 0, paneWidth, height);
+      this.renderer.setScissor(i * paneWidth, 0, paneWidth, height);
+      this.renderer.setClearColor(background);
+      this.renderer.render(scene, this.camera);
+      for (const { point, element } of labels) {
+        const place = point.clone().project(this.camera);
+        const inside = Math.abs(place.x) <= 1 && Math.abs(place.y) <= 1;
+        element.style.visibility = inside ? "visible" : "hidden";
+        element.style.transform = `translate(${i * paneWidth + (place.x + 1) / 2 * paneWidth}px, ${(1 - place.y) / 2 * height}px)`;
+      }
+    });
+  }
+}
