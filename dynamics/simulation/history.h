@@ -83,12 +83,14 @@ class History {
   const RopeHistory& rope(std::string_view name) const;
 
   /// Records the instant that the workspace holds: kinematics, loads, accelerations (w.vdot).
-  /// `contacts` as in calc_loads.
   void record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w);
   /// Energies done since the start, J, in the order of EnergyRates.
   void record_works(Eigen::Index sample, const Eigen::Vector4d& works);
 
  private:
+  void record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
+  void record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
+
   std::vector<MotionVector> A_WB_;  ///< workspace
 };
 

@@ -35,8 +35,8 @@ struct LiftDefinition {
 /// `Contacts` says which act, ropes first, then pads.
 class LiftSystem {
  public:
-  /// @throws ModelError if sizes do not fit, two ropes share a name, or a driven joint with a
-  /// quaternion is not still.
+  /// A driven joint without a drive in the operation stands still where q_start has it.
+  /// @throws ModelError if sizes do not fit, two ropes share a name, or a winch has no rope.
   explicit LiftSystem(LiftDefinition definition);
 
   const Mechanism& mechanism() const { return d_.mechanism; }
@@ -59,8 +59,6 @@ class LiftSystem {
   int rope_index(std::string_view name) const;
 
  private:
-  void check_driven_joints() const;
-
   LiftDefinition d_;
   int nq_free_ = 0;
   int nv_free_ = 0;
@@ -92,6 +90,7 @@ struct LiftWorkspace {
   explicit LiftWorkspace(const LiftSystem& system);
 
   Eigen::VectorXd q, v, vdot, rates;  ///< whole vectors: free and driven, nq, nv, nv, nq
+  Eigen::VectorXd joint_force;        ///< nv; driven entries: what the drive must give, N or N m
   Kinematics kinematics;
   Loads loads;
   ForwardDynamicsWorkspace dynamics;
@@ -114,15 +113,14 @@ void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, Vec
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w);
 
 /// dy/dt at (t, y): the right-hand side. Leaves accelerations (w.vdot), drive forces
-/// (w.loads.tau at driven entries) and rope loads in the workspace. Does not allocate.
+/// (driven entries of w.joint_force) and rope loads in the workspace. Does not allocate.
 /// @throws ModelError or SimulationError where the geometry is degenerate or the pose singular.
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
                           const Contacts* contacts, LiftWorkspace& w, VectorRef ydot);
 
-/// For each one-sided element a value (N over 1 kN) that is positive where it acts and negative
-/// where it does not, continuous between, from the workspace's kinematics. Size contact_count.
-void calc_contact_indicators(const LiftSystem& system, double t, LiftWorkspace& w,
-                             VectorRef indicators);
+/// For each one-sided element a value (kN) that is positive where it acts and negative where it does
+/// not, continuous between, of the instant that calc_loads has just evaluated. Size contact_count.
+void calc_contact_indicators(const LiftWorkspace& w, VectorRef indicators);
 
 /// Which one-sided elements act at a state. One that is just at the change is judged by where it
 /// is going: by its rate, then by its acceleration without it.
@@ -133,8 +131,7 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
 /// Stored energies at that instant.
 StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w);
 
-/// What a failed run tells: ropes that are slack or carry the most, bodies with the largest
-/// acceleration, at the workspace's instant.
-std::string describe_trouble(const LiftSystem& system, const LiftWorkspace& w);
+/// Which ropes are slack and which carry the most, at the workspace's instant, for error messages.
+std::string describe_ropes(const LiftSystem& system, const LiftWorkspace& w);
 
 }  // namespace blocklift::dynamics

@@ -16,34 +16,31 @@ struct Stage {
   double end = not_a_number;
 };
 
-/// A joint velocity that follows a motion: travel since the start of the operation (m or rad).
+/// A joint coordinate that follows a motion.
 struct JointDrive {
   std::string name;
   BodyIndex body = -1;        ///< the body that the joint carries
   int velocity_index = -1;    ///< within v
   int coordinate_index = -1;  ///< within q
-  ProfileSequence travel;
+  MotionProfile position = MotionProfile::constant(0.0);  ///< the coordinate itself, m or rad
 };
 
-/// A rope whose unstretched length follows a motion: length paid out since the start (m).
+/// A rope whose unstretched length follows a motion.
 struct Winch {
   std::string name;
   int rope = -1;
-  ProfileSequence payout;
+  MotionProfile length = MotionProfile::constant(0.0);  ///< unstretched length left out, m
 };
 
 /// Who moves when: the stages of the lift and the motion of every drive and winch. Immutable.
 class Operation {
  public:
-  /// No drive moves; everything hangs for `duration` (s).
-  static Operation at_rest(double duration);
-
   double duration() const { return duration_; }  ///< s, from 0
   const std::vector<Stage>& stages() const { return stages_; }
   const std::vector<JointDrive>& joint_drives() const { return joint_drives_; }
   const std::vector<Winch>& winches() const { return winches_; }
-  /// Times (s) at which a stage changes or a motion is not smooth: ascending, each once, from 0 to
-  /// the duration, both included. Integration steps end there.
+  /// Times (s) at which a stage changes or a motion's jerk jumps: ascending, at least a microsecond
+  /// apart, from 0 to the duration, both included. Integration steps end there.
   const std::vector<double>& breakpoints() const { return breakpoints_; }
 
  private:
@@ -55,52 +52,69 @@ class Operation {
   double duration_ = 0.0;
 };
 
-/// Collects stages, drives and moves and makes an operation of them.
+/// Collects stages, drives, winches and moves and makes an operation of them. Drives and winches
+/// share one set of names: moves and followers name either.
 class OperationBuilder {
  public:
-  OperationBuilder(const Mechanism& mechanism, const std::vector<Rope>& ropes)
-      : mechanism_(mechanism), ropes_(ropes) {}
-
-  /// @throws ModelError if the stage does not begin at or after the last one's end, or ends before
-  /// it begins.
+  /// @throws ModelError if the stage begins before the last one's end, or ends before it begins.
   void add_stage(std::string name, double start, double end);
 
-  /// Drive of entry `degree_of_freedom` of the velocities of the joint that carries `body`.
-  /// @throws ModelError if the name is taken, or that velocity is not one of the driven ones, or
-  /// its joint has a quaternion (spherical, free), which no single travel describes.
-  void add_joint_drive(std::string name, BodyIndex body, int degree_of_freedom = 0);
+  /// Drive of one velocity of the joint that carries `body`; its coordinate starts at `start` (m or
+  /// rad) and stays there until it is moved.
+  /// @throws ModelError if the name is taken, or that velocity is not declared as driven, or its
+  /// joint has a quaternion (spherical, free), which no single profile describes.
+  void add_joint_drive(const Mechanism& mechanism, std::string name, BodyIndex body,
+                       double start, int degree_of_freedom = 0);
 
-  /// Winch of a rope.
-  /// @throws ModelError if the name is taken, the rope unknown, or it has a winch already.
-  void add_winch(std::string name, std::string_view rope);
+  /// Winch of a rope (its index in the lift), which starts with `start` m of unstretched rope out.
+  /// @throws ModelError if the name is taken, or the rope has a winch already.
+  void add_winch(std::string name, int rope, double start);
 
-  /// A move of a drive or winch that begins at `start` (s).
-  /// @throws ModelError if there is no such drive, the move begins before 0, or it overlaps
-  /// another move of the same drive.
-  void add_move(std::string_view drive, double start, const MotionProfile& move);
+  /// A move of a drive or winch.
+  /// @throws ModelError if there is no such drive, the move begins before 0, or it overlaps another
+  /// move of the same drive.
+  void add_move(std::string_view drive, const RestToRestMove& move);
 
-  /// @param duration when the operation ends, s; at least the end of the last stage and move.
-  /// @throws ModelError if the duration is not positive or too short, or a winch would pull its
-  /// rope in entirely.
+  /// From `start` to `end` (s) the drive follows another: its own travel is a smooth function of the
+  /// leader's travel since `start` (both zero there), like a cam. Leader's moves come first.
+  /// @throws ModelError if there is no such drive or leader, the leader follows another drive itself
+  /// or does not move in that time, its travel leaves the spline's range, or the drive moves
+  /// otherwise in that time.
+  void add_follower(std::string_view drive, std::string_view leader, double start, double end,
+                    const NaturalSpline& own_travel_over_leaders);
+
+  /// When the last stage or move ends, s.
+  double end() const;
+
+  /// @param duration when the operation ends, s; at least end().
+  /// @throws ModelError if the duration is not positive or too short, or a winch would pull its rope
+  /// in entirely.
   Operation build(double duration) const;
 
  private:
-  struct Move {
+  struct Interval {
     double start;
     double end;
   };
+  struct Follower {
+    MotionProfile travel;
+    Interval interval;
+  };
+  /// One drive or winch on its way to a profile.
   struct Track {
     std::string name;
     bool is_winch;
     std::size_t index;
-    std::vector<Move> moves;
+    double start_value;
+    std::vector<RestToRestMove> moves;
+    std::vector<Follower> followers;
   };
   Track& find_track(std::string_view drive);
-  void add_track(const std::string& name, bool is_winch, std::size_t index);
-  std::vector<double> collect_breakpoints(double duration) const;
+  void add_track(const std::string& name, bool is_winch, std::size_t index, double start);
+  void check_free(const Track& track, Interval wanted) const;
+  MotionProfile make_profile(const Track& track) const;
+  std::vector<double> collect_breakpoints(const Operation& operation) const;
 
-  const Mechanism& mechanism_;
-  const std::vector<Rope>& ropes_;
   Operation operation_;
   std::vector<Track> tracks_;
 };

@@ -1,0 +1,429 @@
+#include "dynamics/simulation/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <numeric>
+#include <sstream>
+
+#include <kinsol/kinsol.h>
+
+#include "dynamics/multibody/inverse_dynamics.h"
+#include "dynamics/multibody/mass_matrix.h"
+#include "dynamics/simulation/sundials.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+// Increment for the stiffness by differences: m and rad.
+constexpr double difference_step = 1e-6;
+// Stiffness added to every direction, relative to its weight over 1 m: holds neutral directions.
+constexpr double holding_stiffness = 1e-7;
+
+}  // namespace
+
+struct EquilibriumSolver::Implementation {
+  Implementation(const LiftSystem& lift, EquilibriumSettings s);
+  ~Implementation() { KINFree(&kinsol); }
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+
+  void calc_scales();
+  void calc_residual(const Eigen::VectorXd& u, const Contacts* set, Eigen::VectorXd& residual);
+  void calc_stiffness(const Eigen::VectorXd& u, const Contacts* set, Eigen::MatrixXd& stiffness);
+  double scaled_norm(const Eigen::VectorXd& residual) const;
+  bool newton();
+  bool solve_active_set();
+  bool relax();
+  bool try_step(double h, double force, Eigen::VectorXd& f);
+  bool solve_at(double t, Eigen::VectorXd& q);
+  void accept(const Eigen::VectorXd& u);
+  void finish(Eigen::VectorXd& q);
+  [[noreturn]] void fail(double t);
+
+  static int residual_callback(N_Vector u, N_Vector f, void* data);
+  static int jacobian_callback(N_Vector u, N_Vector f, SUNMatrix J, void* data, N_Vector, N_Vector);
+  static void silent(int, const char*, const char*, char*, void*) {}
+
+  const LiftSystem& system;
+  const Mechanism& mechanism;
+  EquilibriumSettings settings;
+  LiftWorkspace w;
+  InverseDynamicsWorkspace inverse;
+  double time = 0.0;
+  Eigen::VectorXd q_reference;  ///< increments count from here
+  Eigen::VectorXd tangent;      ///< nv
+  Eigen::VectorXd tau, zero;    ///< nv
+  Eigen::VectorXd weight;       ///< for each free velocity: force that its residual is compared with
+  Eigen::MatrixXd mass;         ///< of the free velocities
+  Contacts contacts;            ///< fixed set of acting ropes and pads
+  bool contacts_known = false;
+  Eigen::VectorXd plus, minus, increment;
+  Eigen::MatrixXd stiffness;
+
+  sundials::Context context;
+  sundials::Vector unknowns, unknown_scale, force_scale;
+  sundials::Matrix matrix;
+  sundials::LinearSolver linear_solver;
+  void* kinsol = nullptr;
+  std::exception_ptr exception;
+};
+
+EquilibriumSolver::Implementation::Implementation(const LiftSystem& lift, EquilibriumSettings s)
+    : system(lift),
+      mechanism(lift.mechanism()),
+      settings(s),
+      w(lift),
+      inverse(lift.mechanism()),
+      q_reference(lift.q_start()),
+      tangent(Eigen::VectorXd::Zero(mechanism.nv())),
+      tau(Eigen::VectorXd::Zero(mechanism.nv())),
+      zero(Eigen::VectorXd::Zero(mechanism.nv())),
+      contacts(static_cast<std::size_t>(lift.contact_count()), 1),
+      context(sundials::make_context()) {
+  const Eigen::Index n = system.nv_free();
+  weight.setOnes(n);
+  plus.resize(n);
+  minus.resize(n);
+  increment.setZero(n);
+  stiffness.resize(n, n);
+  if (n == 0) return;
+  unknowns = sundials::make_vector(n, context);
+  unknown_scale = sundials::make_vector(n, context);
+  force_scale = sundials::make_vector(n, context);
+  matrix = sundials::Matrix(SUNDenseMatrix(n, n, context.get()));
+  linear_solver =
+      sundials::LinearSolver(SUNLinSol_Dense(unknowns.get(), matrix.get(), context.get()));
+  kinsol = KINCreate(context.get());
+  sundials::check(KINSetErrHandlerFn(kinsol, silent, nullptr), "KINSetErrHandlerFn");
+  sundials::check(KINInit(kinsol, residual_callback, unknowns.get()), "KINInit");
+  sundials::check(KINSetUserData(kinsol, this), "KINSetUserData");
+  sundials::check(KINSetLinearSolver(kinsol, linear_solver.get(), matrix.get()),
+                  "KINSetLinearSolver");
+  sundials::check(KINSetJacFn(kinsol, jacobian_callback), "KINSetJacFn");
+  sundials::check(KINSetFuncNormTol(kinsol, settings.tolerance), "KINSetFuncNormTol");
+  sundials::check(KINSetScaledStepTol(kinsol, 1e-14), "KINSetScaledStepTol");
+  sundials::check(KINSetNumMaxIters(kinsol, settings.largest_iterations), "KINSetNumMaxIters");
+  sundials::check(KINSetMaxSetupCalls(kinsol, 1), "KINSetMaxSetupCalls");
+  sundials::view(unknown_scale.get()).setOnes();
+}
+
+void EquilibriumSolver::Implementation::calc_scales() {
+  const std::vector<int>& free = mechanism.free_velocities();
+  MassMatrixWorkspace workspace(mechanism);
+  Eigen::MatrixXd whole(mechanism.nv(), mechanism.nv());
+  compute_mass_matrix(mechanism, w.kinematics, workspace, whole);
+  const auto n = static_cast<Eigen::Index>(free.size());
+  mass.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      mass(i, j) =
+          whole(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
+    }
+  }
+  const double g = std::max(1.0, mechanism.gravity().norm());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const int k = free[static_cast<std::size_t>(i)];
+    const double m = workspace.composite[static_cast<std::size_t>(mechanism.body_of_velocity(k))]
+                         .M.trace() / 3.0;
+    const bool turns = mechanism.angular()[static_cast<std::size_t>(k)] != 0;
+    weight[i] = turns ? g * std::sqrt(mass(i, i) * m) : g * mass(i, i);
+  }
+  if (n > 0) sundials::view(force_scale.get()) = weight.cwiseInverse();
+}
+
+// Generalised force on each free velocity with everything at rest at q_reference (+) u.
+void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, const Contacts* set,
+                                                      Eigen::VectorXd& residual) {
+  Eigen::Index i = 0;
+  for (const int k : mechanism.free_velocities()) tangent[k] = u[i++];
+  mechanism.integrate(q_reference, tangent, 1.0, w.q);
+  w.v.setZero();
+  w.vdot.setZero();
+  set_drives(system, time, false, w);
+  calc_loads(system, time, set, w);
+  compute_inverse_dynamics(mechanism, w.kinematics, w.v, w.vdot, w.loads.F_Bo_W, inverse, tau);
+  i = 0;
+  for (const int k : mechanism.free_velocities()) residual[i++] = w.loads.tau[k] - tau[k];
+}
+
+// Minus the derivative of the residual, by central differences.
+void EquilibriumSolver::Implementation::calc_stiffness(const Eigen::VectorXd& u,
+                                                       const Contacts* set,
+                                                       Eigen::MatrixXd& result) {
+  Eigen::VectorXd& shifted = increment;
+  shifted = u;
+  for (Eigen::Index k = 0; k < u.size(); ++k) {
+    shifted[k] = u[k] + difference_step;
+    calc_residual(shifted, set, plus);
+    shifted[k] = u[k] - difference_step;
+    calc_residual(shifted, set, minus);
+    shifted[k] = u[k];
+    result.col(k) = (minus - plus) / (2.0 * difference_step);
+  }
+  result.diagonal() += holding_stiffness * weight;
+}
+
+double EquilibriumSolver::Implementation::scaled_norm(const Eigen::VectorXd& residual) const {
+  return residual.size() == 0 ? 0.0 : residual.cwiseQuotient(weight).lpNorm<Eigen::Infinity>();
+}
+
+int EquilibriumSolver::Implementation::residual_callback(N_Vector u, N_Vector f, void* data) {
+  auto& self = *static_cast<Implementation*>(data);
+  try {
+    Eigen::VectorXd residual(self.system.nv_free());
+    self.calc_residual(sundials::view(u), &self.contacts, residual);
+    sundials::view(f) = residual;
+    return residual.allFinite() ? 0 : 1;
+  } catch (...) {
+    self.exception = std::current_exception();
+    return 1;
+  }
+}
+
+int EquilibriumSolver::Implementation::jacobian_callback(N_Vector u, N_Vector, SUNMatrix J,
+                                                         void* data, N_Vector, N_Vector) {
+  auto& self = *static_cast<Implementation*>(data);
+  try {
+    self.calc_stiffness(sundials::view(u), &self.contacts, self.stiffness);
+    sundials::view(J) = -self.stiffness;
+    return 0;
+  } catch (...) {
+    self.exception = std::current_exception();
+    return -1;
+  }
+}
+
+void EquilibriumSolver::Implementation::accept(const Eigen::VectorXd& u) {
+  Eigen::Index i = 0;
+  for (const int k : mechanism.free_velocities()) tangent[k] = u[i++];
+  const Eigen::VectorXd q_old = q_reference;
+  mechanism.integrate(q_old, tangent, 1.0, q_reference);
+}
+
+// Newton's method with the contacts as they stand; true when it converged.
+bool EquilibriumSolver::Implementation::newton() {
+  auto u = sundials::view(unknowns.get());
+  u.setZero();
+  sundials::check(KINSetMaxNewtonStep(kinsol, 1e3), "KINSetMaxNewtonStep");
+  const int flag = KINSol(kinsol, unknowns.get(), KIN_LINESEARCH, unknown_scale.get(),
+                          force_scale.get());
+  const Eigen::VectorXd solution = u;
+  if (!solution.allFinite()) return false;
+  Eigen::VectorXd residual(system.nv_free());
+  try {
+    calc_residual(solution, &contacts, residual);
+  } catch (const ModelError&) {
+    return false;
+  }
+  // A step that can no longer shrink the residual (rounding) counts if the residual is small.
+  if (flag < 0 && scaled_norm(residual) > 1e3 * settings.tolerance) return false;
+  if (flag == KIN_STEP_LT_STPTOL && scaled_norm(residual) > 1e3 * settings.tolerance) return false;
+  accept(solution);
+  return true;
+}
+
+// Newton with a fixed set of acting ropes and pads, the set then corrected, until both agree.
+bool EquilibriumSolver::Implementation::solve_active_set() {
+  const int most_rounds = 3 * static_cast<int>(contacts.size()) + 3;
+  Eigen::VectorXd indicators(system.contact_count());
+  Eigen::VectorXd residual(system.nv_free());
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!newton()) return false;
+    calc_residual(Eigen::VectorXd::Zero(system.nv_free()), &contacts, residual);
+    calc_contact_indicators(w, indicators);
+    bool agrees = true;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const double indicator = indicators[static_cast<Eigen::Index>(i)];
+      const char acts = indicator > 0.0 ? 1 : 0;
+      if (acts != contacts[i] && std::abs(indicator) > 1e-9) {
+        contacts[i] = acts;
+        agrees = false;
+      }
+    }
+    if (agrees) return true;
+  }
+  return false;
+}
+
+// One step of the descent, (K + M/h^2) du = f, taken if the force along it has not turned round
+// by more than it was: the potential energy has then fallen. False: h is too long.
+bool EquilibriumSolver::Implementation::try_step(double h, double largest_move,
+                                                 Eigen::VectorXd& f) {
+  Eigen::VectorXd du =
+      (stiffness + mass / (h * h)).partialPivLu().solve(f);
+  const double before = f.dot(du);
+  if (!du.allFinite() || !(before > 0.0) || du.lpNorm<Eigen::Infinity>() > largest_move) {
+    return false;
+  }
+  Eigen::VectorXd f_new(system.nv_free());
+  try {
+    calc_residual(du, nullptr, f_new);
+  } catch (const ModelError&) {
+    return false;
+  }
+  if (!f_new.allFinite() || f_new.dot(du) < -before) return false;
+  accept(du);
+  f = f_new;
+  return true;
+}
+
+// Descent from a rough guess with the ropes' own laws; true when forces are small enough for Newton.
+bool EquilibriumSolver::Implementation::relax() {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.nv_free());
+  Eigen::VectorXd f(system.nv_free());
+  double h = 0.1;  // s; grows into Newton's method
+  for (int i = 0; i < settings.largest_relaxations; ++i) {
+    calc_residual(rest, nullptr, f);
+    if (scaled_norm(f) < 1e-6) return true;
+    calc_scales();
+    calc_stiffness(rest, nullptr, stiffness);
+    while (!try_step(h, 1.0, f)) {
+      h *= 0.25;
+      if (h < 1e-7) return false;
+    }
+    h = std::min(2.0 * h, 1e3);
+  }
+  return false;
+}
+
+bool EquilibriumSolver::Implementation::solve_at(double t, Eigen::VectorXd& q) {
+  time = t;
+  q_reference = q;
+  exception = nullptr;
+  if (!solve_active_set()) return false;
+  finish(q);
+  return true;
+}
+
+// Leaves the workspace at the solution by the elements' own laws, with the drive forces.
+void EquilibriumSolver::Implementation::finish(Eigen::VectorXd& q) {
+  Eigen::VectorXd residual(system.nv_free());
+  calc_residual(Eigen::VectorXd::Zero(system.nv_free()), nullptr, residual);
+  w.joint_force = tau - w.loads.tau;
+  q = w.q;
+}
+
+void EquilibriumSolver::Implementation::fail(double t) {
+  std::ostringstream text;
+  text << "no static equilibrium was found at t = " << t << " s";
+  try {
+    if (exception) std::rethrow_exception(exception);
+  } catch (const std::exception& error) {
+    text << " (" << error.what() << ")";
+  }
+  Eigen::VectorXd residual(system.nv_free());
+  try {
+    calc_residual(Eigen::VectorXd::Zero(system.nv_free()), nullptr, residual);
+    text << "; " << describe_ropes(system, w) << "; largest residuals: ";
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(residual.size()));
+    std::iota(order.begin(), order.end(), 0);
+    const Eigen::VectorXd relative = residual.cwiseQuotient(weight).cwiseAbs();
+    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return relative[a] > relative[b];
+    });
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) {
+      const int k = mechanism.free_velocities()[static_cast<std::size_t>(order[i])];
+      text << (i > 0 ? ", " : "") << mechanism.velocity_name(k) << " ("
+           << 100.0 * relative[order[i]] << " % of its weight)";
+    }
+  } catch (const ModelError& error) {
+    text << "; " << error.what();
+  }
+  text << "; try a start position nearer to where the load will hang, check that the ropes named "
+          "are long enough to reach and that every body hangs from something";
+  throw SimulationError(text.str());
+}
+
+EquilibriumSolver::EquilibriumSolver(const LiftSystem& system, EquilibriumSettings settings)
+    : implementation_(std::make_unique<Implementation>(system, settings)) {}
+EquilibriumSolver::~EquilibriumSolver() = default;
+EquilibriumSolver::EquilibriumSolver(EquilibriumSolver&&) noexcept = default;
+
+LiftWorkspace& EquilibriumSolver::workspace() { return implementation_->w; }
+
+void EquilibriumSolver::solve(double t, Eigen::VectorXd& q) {
+  Implementation& s = *implementation_;
+  s.time = t;
+  s.q_reference = q;
+  s.exception = nullptr;
+  if (s.system.nv_free() == 0) {
+    s.finish(q);
+    return;
+  }
+  Eigen::VectorXd residual(s.system.nv_free());
+  Eigen::VectorXd indicators(s.system.contact_count());
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(s.system.nv_free());
+  s.calc_residual(rest, nullptr, residual);
+  s.calc_scales();
+  const bool relaxed = s.relax();
+  s.calc_residual(rest, nullptr, residual);
+  calc_contact_indicators(s.w, indicators);
+  for (std::size_t i = 0; i < s.contacts.size(); ++i) {
+    s.contacts[i] = indicators[static_cast<Eigen::Index>(i)] > 0.0 ? 1 : 0;
+  }
+  q = s.q_reference;
+  if (!relaxed || !s.solve_at(t, q)) s.fail(t);
+}
+
+void EquilibriumSolver::follow(double t_from, double t, Eigen::VectorXd& q) {
+  Implementation& s = *implementation_;
+  if (s.system.nv_free() == 0) {
+    solve(t, q);
+    return;
+  }
+  double reached = t_from;
+  double step = t - t_from;
+  int halvings = 0;
+  while (reached < t) {
+    const double next = std::min(t, reached + step);
+    Eigen::VectorXd q_next = q;
+    const Contacts before = s.contacts;
+    if (s.solve_at(next, q_next)) {
+      q = q_next;
+      reached = next;
+      continue;
+    }
+    s.contacts = before;
+    step *= 0.5;
+    if (++halvings <= s.settings.largest_subdivisions) continue;
+    solve(next, q);  // a jump from one equilibrium to another: let it fall there
+    reached = next;
+    step = t - reached;
+    halvings = 0;
+  }
+}
+
+History static_sweep(const LiftSystem& system, const Eigen::VectorXd& times,
+                     const Eigen::VectorXd& q_start, const EquilibriumSettings& settings,
+                     const std::function<void(double, double)>& progress) {
+  History history(system, times.size(), false);
+  EquilibriumSolver solver(system, settings);
+  Eigen::VectorXd q = q_start;
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    if (i == 0) {
+      solver.solve(times[i], q);
+    } else {
+      solver.follow(times[i - 1], times[i], q);
+    }
+    history.record(system, i, times[i], solver.workspace());
+    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(times.size()), times[i]);
+  }
+  return history;
+}
+
+Eigen::VectorXd sample_times(double duration, double interval) {
+  if (!(interval > 0.0) || !(duration >= 0.0)) {
+    throw ModelError("samples every " + std::to_string(interval) + " s over " +
+                     std::to_string(duration) + " s: both must be positive");
+  }
+  // A sample that would fall within a thousandth of an interval before the end is the end.
+  const auto whole = static_cast<Eigen::Index>(std::floor(duration / interval - 1e-3));
+  Eigen::VectorXd times(whole + 2);
+  for (Eigen::Index i = 0; i <= whole; ++i) times[i] = static_cast<double>(i) * interval;
+  times[whole + 1] = duration;
+  return times;
+}
+
+}  // namespace blocklift::dynamics

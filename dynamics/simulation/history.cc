@@ -1,0 +1,163 @@
+#include "dynamics/simulation/history.h"
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+template <class Record>
+const Record& find_by_name(const std::vector<Record>& records, std::string_view name,
+                           const char* what) {
+  std::string names;
+  for (const Record& record : records) {
+    if (record.name == name) return record;
+    names += (names.empty() ? "" : ", ") + record.name;
+  }
+  throw ModelError("the history has no " + std::string(what) + " \"" + std::string(name) +
+                   "\"; it has " + (names.empty() ? "none" : names));
+}
+
+std::string drive_name(const LiftSystem& system, int velocity_index) {
+  for (const JointDrive& drive : system.operation().joint_drives()) {
+    if (drive.velocity_index == velocity_index) return drive.name;
+  }
+  return system.mechanism().velocity_name(velocity_index);
+}
+
+// Coordinate that belongs to a velocity, -1 for joints with a quaternion.
+int coordinate_of(const Mechanism& mechanism, int velocity_index) {
+  const Body& body = mechanism.body(mechanism.body_of_velocity(velocity_index));
+  if (!velocities_are_rates(body.joint.kind)) return -1;
+  return body.q_offset + velocity_index - body.v_offset;
+}
+
+}  // namespace
+
+Pose BodyHistory::X_WB(Eigen::Index sample) const {
+  return {rotation_from_quaternion(pose.row(sample).tail<4>()), pose.row(sample).head<3>()};
+}
+
+History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
+    : time(n), A_WB_(static_cast<std::size_t>(system.mechanism().body_count())) {
+  for (const Body& body : system.mechanism().bodies()) {
+    if (body.parent < 0) continue;
+    BodyHistory& b = bodies.emplace_back();
+    b.name = body.name;
+    b.pose.resize(n, 7);
+    b.velocity.resize(n, 6);
+    b.acceleration.resize(n, 6);
+  }
+  for (const Rope& rope : system.ropes()) {
+    RopeHistory& r = ropes.emplace_back();
+    r.name = rope.name();
+    for (auto* values : {&r.tension, &r.elongation, &r.unstretched_length, &r.unstretched_rate}) {
+      values->resize(n);
+    }
+    r.first_force.resize(n, 3);
+    r.last_force.resize(n, 3);
+  }
+  for (const int k : system.mechanism().driven_velocities()) {
+    DriveHistory& d = drives.emplace_back();
+    d.name = drive_name(system, k);
+    for (auto* values : {&d.position, &d.velocity, &d.force}) values->resize(n);
+  }
+  for (const SupportPad& pad : system.supports()) {
+    supports.push_back({pad.name(), Eigen::VectorXd(n)});
+  }
+  for (auto* values : {&energy.kinetic, &energy.gravity, &energy.elastic}) values->resize(n);
+  if (with_works) {
+    for (auto* values :
+         {&energy.drive_work, &energy.winch_work, &energy.wind_work, &energy.dissipated}) {
+      values->resize(n);
+    }
+  }
+}
+
+const BodyHistory& History::body(std::string_view name) const {
+  return find_by_name(bodies, name, "body");
+}
+
+const RopeHistory& History::rope(std::string_view name) const {
+  return find_by_name(ropes, name, "rope");
+}
+
+void History::record_bodies(const LiftSystem& system, Eigen::Index sample,
+                            const LiftWorkspace& w) {
+  compute_accelerations(system.mechanism(), w.kinematics, w.vdot, A_WB_);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    BodyHistory& b = bodies[i];
+    const Pose& X_WB = w.kinematics.X_WB[i + 1];
+    Vector4 quaternion = quaternion_from_rotation(X_WB.R);
+    if (sample > 0 && b.pose.row(sample - 1).tail<4>().dot(quaternion.transpose()) < 0.0) {
+      quaternion = -quaternion;
+    }
+    b.pose.row(sample) << X_WB.p.transpose(), quaternion.transpose();
+    const MotionVector& V = w.kinematics.V_WB[i + 1];
+    b.velocity.row(sample) << V.angular.transpose(), V.linear.transpose();
+    const MotionVector& A = A_WB_[i + 1];
+    b.acceleration.row(sample) << A.angular.transpose(), A.linear.transpose();
+  }
+}
+
+void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w) {
+  for (std::size_t i = 0; i < ropes.size(); ++i) {
+    RopeHistory& r = ropes[i];
+    const RopeLoad& load = w.rope_loads[i];
+    // Within rounding of an instant of change the fixed set may leave a push of no account.
+    const double tension = std::max(0.0, load.tension);
+    r.tension[sample] = tension;
+    r.elongation[sample] = load.elongation();
+    r.unstretched_length[sample] = load.unstretched_length;
+    r.unstretched_rate[sample] = load.unstretched_rate;
+    system.ropes()[i].calc_path(w.kinematics, w.path);
+    r.first_force.row(sample) = Rope::first_force(w.path, tension).transpose();
+    r.last_force.row(sample) = system.ropes()[i].last_force(w.path, tension).transpose();
+  }
+}
+
+void History::record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w) {
+  time[sample] = t;
+  record_bodies(system, sample, w);
+  record_ropes(system, sample, w);
+  const std::vector<int>& driven = system.mechanism().driven_velocities();
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const int coordinate = coordinate_of(system.mechanism(), driven[i]);
+    drives[i].position[sample] = coordinate < 0 ? not_a_number : w.q[coordinate];
+    drives[i].velocity[sample] = w.v[driven[i]];
+    drives[i].force[sample] = w.joint_force[driven[i]];
+  }
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    supports[i].normal_force[sample] = std::max(0.0, w.support_loads[i].normal_force);
+  }
+  const StoredEnergy stored = calc_stored_energy(system, t, w);
+  energy.kinetic[sample] = stored.kinetic;
+  energy.gravity[sample] = stored.gravity;
+  energy.elastic[sample] = stored.elastic;
+}
+
+void History::record_works(Eigen::Index sample, const Eigen::Vector4d& works) {
+  energy.drive_work[sample] = works[0];
+  energy.winch_work[sample] = works[1];
+  energy.wind_work[sample] = works[2];
+  energy.dissipated[sample] = works[3];
+}
+
+std::vector<LinkedMaximum> find_largest_tensions(const History& history) {
+  std::vector<LinkedMaximum> maxima;
+  const auto count = static_cast<Eigen::Index>(history.ropes.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    LinkedMaximum& maximum = maxima.emplace_back();
+    maximum.rope = static_cast<int>(i);
+    maximum.tension =
+        history.ropes[static_cast<std::size_t>(i)].tension.maxCoeff(&maximum.sample);
+    maximum.time = history.time[maximum.sample];
+    maximum.tensions.resize(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      maximum.tensions[k] = history.ropes[static_cast<std::size_t>(k)].tension[maximum.sample];
+    }
+  }
+  return maxima;
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,266 @@
+#include "dynamics/simulation/lift_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "dynamics/errors.h"
+#include "dynamics/multibody/energy.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+template <class Function>
+void for_each_element(const ForceElements& elements, Function&& function) {
+  std::apply(
+      [&](const auto&... kinds) {
+        const auto each = [&](const auto& kind) {
+          for (const auto& element : kind) function(element);
+        };
+        (each(kinds), ...);
+      },
+      elements);
+}
+
+}  // namespace
+
+LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
+  const Mechanism& m = d_.mechanism;
+  if (d_.v_start.size() == 0) d_.v_start = Eigen::VectorXd::Zero(m.nv());
+  if (d_.q_start.size() != m.nq() || d_.v_start.size() != m.nv()) {
+    throw ModelError("the lift starts from " + std::to_string(d_.q_start.size()) +
+                     " coordinates and " + std::to_string(d_.v_start.size()) +
+                     " velocities; the mechanism has " + std::to_string(m.nq()) + " and " +
+                     std::to_string(m.nv()));
+  }
+  if (!d_.q_start.allFinite() || !d_.v_start.allFinite()) {
+    throw ModelError("the lift starts from coordinates or velocities that are not finite");
+  }
+  m.normalise(d_.q_start);
+  nq_free_ = static_cast<int>(m.free_coordinates().size());
+  nv_free_ = static_cast<int>(m.free_velocities().size());
+  for (std::size_t i = 0; i < d_.ropes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (d_.ropes[i].name() == d_.ropes[j].name()) {
+        throw ModelError("two ropes are named \"" + d_.ropes[i].name() + "\"");
+      }
+    }
+  }
+  winch_of_rope_.assign(d_.ropes.size(), -1);
+  for (std::size_t i = 0; i < d_.operation.winches().size(); ++i) {
+    const int rope = d_.operation.winches()[i].rope;
+    if (rope < 0 || rope >= static_cast<int>(d_.ropes.size())) {
+      throw ModelError("winch \"" + d_.operation.winches()[i].name + "\" has no rope");
+    }
+    winch_of_rope_[static_cast<std::size_t>(rope)] = static_cast<int>(i);
+  }
+}
+
+int LiftSystem::rope_index(std::string_view name) const {
+  std::string names;
+  for (std::size_t i = 0; i < d_.ropes.size(); ++i) {
+    if (d_.ropes[i].name() == name) return static_cast<int>(i);
+    names += (names.empty() ? "" : ", ") + d_.ropes[i].name();
+  }
+  throw ModelError("there is no rope \"" + std::string(name) + "\"; the ropes are " +
+                   (names.empty() ? "none" : names));
+}
+
+LiftWorkspace::LiftWorkspace(const LiftSystem& system)
+    : q(system.q_start()),
+      v(system.v_start()),
+      vdot(Eigen::VectorXd::Zero(system.mechanism().nv())),
+      rates(Eigen::VectorXd::Zero(system.mechanism().nq())),
+      joint_force(Eigen::VectorXd::Zero(system.mechanism().nv())),
+      kinematics(system.mechanism()),
+      loads(system.mechanism()),
+      dynamics(system.mechanism()),
+      feeds(system.ropes().size()),
+      rope_loads(system.ropes().size()),
+      support_loads(system.supports().size()),
+      path(make_rope_path(system.ropes())) {
+  for (std::size_t i = 0; i < feeds.size(); ++i) {
+    feeds[i] = {system.ropes()[i].definition().unstretched_length, 0.0};
+  }
+}
+
+void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& w) {
+  for (const int k : system.mechanism().driven_velocities()) {
+    w.v[k] = 0.0;
+    w.vdot[k] = 0.0;
+  }
+  for (const JointDrive& drive : system.operation().joint_drives()) {
+    const ProfileValue value = drive.position.evaluate(t);
+    w.q[drive.coordinate_index] = value.position;
+    if (!moving) continue;
+    w.v[drive.velocity_index] = value.velocity;
+    w.vdot[drive.velocity_index] = value.acceleration;
+  }
+  for (const Winch& winch : system.operation().winches()) {
+    const ProfileValue value = winch.length.evaluate(t);
+    w.feeds[static_cast<std::size_t>(winch.rope)] = {value.position,
+                                                     moving ? value.velocity : 0.0};
+  }
+}
+
+void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w) {
+  Eigen::Index i = 0;
+  for (const int k : system.mechanism().free_coordinates()) w.q[k] = y[i++];
+  for (const int k : system.mechanism().free_velocities()) w.v[k] = y[i++];
+}
+
+void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, VectorRef y) {
+  Eigen::Index i = 0;
+  for (const int k : system.mechanism().free_coordinates()) y[i++] = q[k];
+  for (const int k : system.mechanism().free_velocities()) y[i++] = v[k];
+}
+
+void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w) {
+  compute_kinematics(system.mechanism(), w.q, w.v, w.kinematics);
+  w.loads.set_zero();
+  const std::vector<Rope>& ropes = system.ropes();
+  for (std::size_t i = 0; i < ropes.size(); ++i) {
+    ropes[i].calc_path(w.kinematics, w.path);
+    RopeLoad& load = w.rope_loads[i];
+    load = contacts ? ropes[i].calc_load(w.path, w.feeds[i], (*contacts)[i] != 0)
+                    : ropes[i].calc_load(w.path, w.feeds[i]);
+    if (load.tension != 0.0) ropes[i].add_forces(w.path, load.tension, w.loads.F_Bo_W);
+  }
+  const std::vector<SupportPad>& supports = system.supports();
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    SupportLoad& load = w.support_loads[i];
+    load = contacts ? supports[i].calc_load(w.kinematics, (*contacts)[ropes.size() + i] != 0)
+                    : supports[i].calc_load(w.kinematics);
+    supports[i].add_force(w.kinematics, load, w.loads);
+  }
+  const MotionState state{t, w.q, w.v, w.kinematics};
+  for_each_element(system.elements(),
+                   [&](const auto& element) { element.add_forces(state, w.loads); });
+}
+
+void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
+                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot) {
+  const Mechanism& mechanism = system.mechanism();
+  set_state(system, y, w);
+  set_drives(system, t, true, w);
+  calc_loads(system, t, contacts, w);
+  w.joint_force = w.loads.tau;
+  compute_forward_dynamics(mechanism, w.kinematics, w.v, w.loads.F_Bo_W, w.dynamics, w.joint_force,
+                           w.vdot);
+  // What forward dynamics finds at a driven joint includes the springs there.
+  for (const int k : mechanism.driven_velocities()) w.joint_force[k] -= w.loads.tau[k];
+  mechanism.calc_rates(w.q, w.v, w.rates);
+  get_state(system, w.rates, w.vdot, ydot);
+}
+
+void calc_contact_indicators(const LiftWorkspace& w, VectorRef indicators) {
+  Eigen::Index i = 0;
+  for (const RopeLoad& load : w.rope_loads) indicators[i++] = 1e-3 * load.slack_indicator();
+  for (const SupportLoad& load : w.support_loads) indicators[i++] = 1e-3 * load.indicator();
+}
+
+Contacts find_contacts(const LiftSystem& system, double t, ConstVectorRef y, LiftWorkspace& w) {
+  constexpr double undecided = 1e-6;   // kN
+  constexpr double look_ahead = 1e-4;  // s
+  const auto count = static_cast<std::size_t>(system.contact_count());
+  Eigen::VectorXd indicators(system.contact_count());
+  set_state(system, y, w);
+  set_drives(system, t, true, w);
+  calc_loads(system, t, nullptr, w);
+  calc_contact_indicators(w, indicators);
+  Contacts contacts(count, 0);
+  bool all_decided = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double indicator = indicators[static_cast<Eigen::Index>(i)];
+    contacts[i] = indicator > undecided ? 1 : 0;
+    all_decided = all_decided && std::abs(indicator) > undecided;
+  }
+  if (all_decided) return contacts;
+
+  Eigen::VectorXd ydot(system.state_size());
+  calc_right_hand_side(system, t, y, &contacts, w, ydot);
+  const Eigen::VectorXd mean_velocity = w.v + 0.5 * look_ahead * w.vdot;
+  Eigen::VectorXd q_ahead(w.q.size());
+  system.mechanism().integrate(w.q, mean_velocity, look_ahead, q_ahead);
+  w.q = q_ahead;
+  w.v += look_ahead * w.vdot;
+  set_drives(system, t + look_ahead, true, w);
+  calc_loads(system, t + look_ahead, &contacts, w);
+  const Eigen::VectorXd now = indicators;
+  calc_contact_indicators(w, indicators);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (std::abs(now[k]) <= undecided) contacts[i] = indicators[k] > 0.0 ? 1 : 0;
+  }
+  return contacts;
+}
+
+EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w) {
+  EnergyRates rates;
+  for (const int k : system.mechanism().driven_velocities()) {
+    rates.drive_power += w.joint_force[k] * w.v[k];
+  }
+  rates.dissipated_power = calc_damping_power(system.mechanism(), w.v);
+  for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
+    const EnergyAccount account = system.ropes()[i].calc_energy(w.rope_loads[i]);
+    rates.winch_power += account.supplied_power;
+    rates.dissipated_power += account.dissipated_power;
+  }
+  for (std::size_t i = 0; i < w.support_loads.size(); ++i) {
+    rates.dissipated_power +=
+        system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).dissipated_power;
+  }
+  const MotionState state{t, w.q, w.v, w.kinematics};
+  for_each_element(system.elements(), [&](const auto& element) {
+    const EnergyAccount account = element.calc_energy(state);
+    rates.wind_power += account.supplied_power;
+    rates.dissipated_power += account.dissipated_power;
+  });
+  return rates;
+}
+
+StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w) {
+  StoredEnergy energy;
+  energy.kinetic = calc_kinetic_energy(system.mechanism(), w.kinematics);
+  energy.gravity = calc_gravity_potential(system.mechanism(), w.kinematics);
+  for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
+    energy.elastic += system.ropes()[i].calc_energy(w.rope_loads[i]).stored_energy;
+  }
+  for (std::size_t i = 0; i < w.support_loads.size(); ++i) {
+    energy.elastic +=
+        system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).stored_energy;
+  }
+  const MotionState state{t, w.q, w.v, w.kinematics};
+  for_each_element(system.elements(), [&](const auto& element) {
+    energy.elastic += element.calc_energy(state).stored_energy;
+  });
+  return energy;
+}
+
+std::string describe_ropes(const LiftSystem& system, const LiftWorkspace& w) {
+  std::vector<std::size_t> order(w.rope_loads.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return w.rope_loads[a].elastic_force > w.rope_loads[b].elastic_force;
+  });
+  std::ostringstream slack, loaded;
+  int listed = 0;
+  for (const std::size_t i : order) {
+    const RopeLoad& load = w.rope_loads[i];
+    const std::string& name = system.ropes()[i].name();
+    if (!(load.elastic_force > 0.0)) {
+      slack << (slack.tellp() > 0 ? ", " : "") << name;
+    } else if (listed++ < 3) {
+      loaded << (loaded.tellp() > 0 ? ", " : "") << name << " (" << load.elastic_force / 1e3
+             << " kN)";
+    }
+  }
+  std::ostringstream text;
+  text << "slack ropes: " << (slack.tellp() > 0 ? slack.str() : "none")
+       << "; most loaded: " << (loaded.tellp() > 0 ? loaded.str() : "none");
+  return text.str();
+}
+
+}  // namespace blocklift::dynamics

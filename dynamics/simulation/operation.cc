@@ -1,0 +1,216 @@
+#include "dynamics/simulation/operation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+// Moves may touch; they overlap when they share more than this (s).
+constexpr double touching = 1e-9;
+// Breakpoints nearer to one another than this are one for the integrator (s).
+constexpr double smallest_interval = 1e-6;
+
+std::string seconds(double t) { return std::to_string(t) + " s"; }
+
+}  // namespace
+
+void OperationBuilder::add_stage(std::string name, double start, double end) {
+  const double earliest = operation_.stages_.empty() ? 0.0 : operation_.stages_.back().end;
+  if (!(start >= earliest - touching)) {
+    throw ModelError("stage \"" + name + "\" begins at " + seconds(start) +
+                     ", before the one before it ends at " + seconds(earliest));
+  }
+  if (!(end >= start) || !std::isfinite(end)) {
+    throw ModelError("stage \"" + name + "\" ends at " + seconds(end) + ", before it begins at " +
+                     seconds(start));
+  }
+  operation_.stages_.push_back({std::move(name), start, end});
+}
+
+void OperationBuilder::add_track(const std::string& name, bool is_winch, std::size_t index,
+                                 double start) {
+  if (!std::isfinite(start)) {
+    throw ModelError("drive \"" + name + "\" needs the position at which it starts");
+  }
+  for (const Track& track : tracks_) {
+    if (track.name == name) throw ModelError("there are two drives named \"" + name + "\"");
+  }
+  tracks_.push_back({name, is_winch, index, start, {}, {}});
+}
+
+void OperationBuilder::add_joint_drive(const Mechanism& mechanism, std::string name, BodyIndex body,
+                                       double start, int degree_of_freedom) {
+  const Body& b = mechanism.body(body);
+  const auto k = static_cast<std::size_t>(degree_of_freedom);
+  if (degree_of_freedom < 0 || degree_of_freedom >= b.nv() || k >= b.driven.size() ||
+      !b.driven[k]) {
+    throw ModelError("drive \"" + name + "\": the " + std::string(joint_kind_name(b.joint.kind)) +
+                     " joint of \"" + b.name + "\" has no driven degree of freedom " +
+                     std::to_string(degree_of_freedom) + "; declare it as driven in the mechanism");
+  }
+  if (!velocities_are_rates(b.joint.kind)) {
+    throw ModelError("drive \"" + name + "\": a " + std::string(joint_kind_name(b.joint.kind)) +
+                     " joint cannot follow a single profile; use joints of one degree of freedom");
+  }
+  const int velocity_index = b.v_offset + degree_of_freedom;
+  for (const JointDrive& other : operation_.joint_drives_) {
+    if (other.velocity_index == velocity_index) {
+      throw ModelError("drives \"" + other.name + "\" and \"" + name + "\" move the same joint");
+    }
+  }
+  add_track(name, false, operation_.joint_drives_.size(), start);
+  operation_.joint_drives_.push_back({std::move(name), body, velocity_index,
+                                      b.q_offset + degree_of_freedom,
+                                      MotionProfile::constant(start)});
+}
+
+void OperationBuilder::add_winch(std::string name, int rope, double start) {
+  for (const Winch& other : operation_.winches_) {
+    if (other.rope == rope) {
+      throw ModelError("winches \"" + other.name + "\" and \"" + name + "\" pull the same rope");
+    }
+  }
+  add_track(name, true, operation_.winches_.size(), start);
+  operation_.winches_.push_back({std::move(name), rope, MotionProfile::constant(start)});
+}
+
+OperationBuilder::Track& OperationBuilder::find_track(std::string_view drive) {
+  std::string names;
+  for (Track& track : tracks_) {
+    if (track.name == drive) return track;
+    names += (names.empty() ? "" : ", ") + track.name;
+  }
+  throw ModelError("there is no drive \"" + std::string(drive) + "\"; the drives are " +
+                   (names.empty() ? "none" : names));
+}
+
+void OperationBuilder::check_free(const Track& track, Interval wanted) const {
+  const auto check = [&](double start, double end) {
+    if (wanted.start < end - touching && wanted.end > start + touching) {
+      throw ModelError("drive \"" + track.name + "\" is moved from " + seconds(wanted.start) +
+                       " to " + seconds(wanted.end) + " while it still moves from " +
+                       seconds(start) + " to " + seconds(end) +
+                       "; let one move end before the next begins");
+    }
+  };
+  if (!(wanted.start >= 0.0)) {
+    throw ModelError("drive \"" + track.name + "\" is moved at " + seconds(wanted.start) +
+                     ", before the operation begins at 0 s");
+  }
+  for (const RestToRestMove& move : track.moves) check(move.start(), move.end());
+  for (const Follower& follower : track.followers) {
+    check(follower.interval.start, follower.interval.end);
+  }
+}
+
+void OperationBuilder::add_move(std::string_view drive, const RestToRestMove& move) {
+  Track& track = find_track(drive);
+  check_free(track, {move.start(), move.end()});
+  const auto later = std::find_if(track.moves.begin(), track.moves.end(), [&](const auto& other) {
+    return other.start() > move.start();
+  });
+  track.moves.insert(later, move);
+}
+
+void OperationBuilder::add_follower(std::string_view drive, std::string_view leader, double start,
+                                    double end, const NaturalSpline& own_travel_over_leaders) {
+  Track& track = find_track(drive);
+  const Track& leading = find_track(leader);
+  if (!leading.followers.empty()) {
+    throw ModelError("drive \"" + track.name + "\" follows \"" + leading.name +
+                     "\", which follows another drive itself; follow that one");
+  }
+  std::vector<RestToRestMove> moves;
+  for (const RestToRestMove& move : leading.moves) {
+    if (move.start() >= start - touching && move.end() <= end + touching) moves.push_back(move);
+  }
+  if (moves.empty()) {
+    throw ModelError("drive \"" + track.name + "\" follows \"" + leading.name +
+                     "\", which does not move between " + seconds(start) + " and " + seconds(end));
+  }
+  const double first = moves.front().start();
+  const double last = moves.back().end();
+  check_free(track, {first, last});
+  try {
+    const MotionProfile travel = MotionProfile::cam(
+        MotionProfile::sequence(0.0, std::move(moves)), own_travel_over_leaders);
+    track.followers.push_back({travel, {first, last}});
+  } catch (const ModelError& error) {
+    throw ModelError("drive \"" + track.name + "\" follows \"" + leading.name +
+                     "\": " + error.what());
+  }
+}
+
+double OperationBuilder::end() const {
+  double end = operation_.stages_.empty() ? 0.0 : operation_.stages_.back().end;
+  for (const Track& track : tracks_) {
+    for (const RestToRestMove& move : track.moves) end = std::max(end, move.end());
+  }
+  return end;
+}
+
+MotionProfile OperationBuilder::make_profile(const Track& track) const {
+  MotionProfile own = MotionProfile::sequence(track.start_value, track.moves);
+  if (track.followers.empty()) return own;
+  std::vector<MotionProfile> parts{std::move(own)};
+  for (const Follower& follower : track.followers) {
+    // The cam's own value at the leader's start is not travel.
+    parts.push_back(follower.travel);
+    const double offset = follower.travel.evaluate(follower.interval.start).position;
+    if (offset != 0.0) parts.push_back(MotionProfile::constant(-offset));
+  }
+  return MotionProfile::sum(std::move(parts));
+}
+
+Operation OperationBuilder::build(double duration) const {
+  if (!(duration > 0.0) || !std::isfinite(duration) || duration < end() - touching) {
+    throw ModelError("the operation lasts " + seconds(duration) + ", but its last move ends at " +
+                     seconds(end()) + "; it must last longer than 0 s and until then");
+  }
+  Operation operation = operation_;
+  operation.duration_ = duration;
+  for (const Track& track : tracks_) {
+    if (!track.is_winch) {
+      operation.joint_drives_[track.index].position = make_profile(track);
+      continue;
+    }
+    MotionProfile& length = operation.winches_[track.index].length;
+    length = make_profile(track);
+    const double shortest = length.range().lowest;
+    if (!(shortest > 0.0)) {
+      throw ModelError("winch \"" + track.name + "\" would pull its rope in to " +
+                       std::to_string(shortest) + " m; some length must stay out");
+    }
+  }
+  operation.breakpoints_ = collect_breakpoints(operation);
+  return operation;
+}
+
+std::vector<double> OperationBuilder::collect_breakpoints(const Operation& operation) const {
+  std::vector<double> times{0.0, operation.duration_};
+  const auto add = [&](const std::vector<double>& more) {
+    times.insert(times.end(), more.begin(), more.end());
+  };
+  for (const Stage& stage : operation.stages_) add({stage.start, stage.end});
+  for (const JointDrive& drive : operation.joint_drives_) add(drive.position.breakpoints());
+  for (const Winch& winch : operation.winches_) add(winch.length.breakpoints());
+  std::sort(times.begin(), times.end());
+  std::vector<double> breakpoints;
+  for (const double t : times) {
+    if (t < 0.0 || t > operation.duration_) continue;
+    if (breakpoints.empty() || t > breakpoints.back() + smallest_interval) breakpoints.push_back(t);
+  }
+  if (breakpoints.size() == 1) {
+    breakpoints.push_back(operation.duration_);
+  } else {
+    breakpoints.back() = operation.duration_;
+  }
+  return breakpoints;
+}
+
+}  // namespace blocklift::dynamics

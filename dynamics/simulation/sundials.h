@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/spatial/pose.h"
+
+/// Ownership of SUNDIALS' C objects, for the two files that use them.
+namespace blocklift::dynamics::sundials {
+
+struct ContextDeleter {
+  void operator()(SUNContext_* context) const { SUNContext_Free(&context); }
+};
+struct VectorDeleter {
+  void operator()(_generic_N_Vector* vector) const { N_VDestroy(vector); }
+};
+struct MatrixDeleter {
+  void operator()(_generic_SUNMatrix* matrix) const { SUNMatDestroy(matrix); }
+};
+struct LinearSolverDeleter {
+  void operator()(_generic_SUNLinearSolver* solver) const { SUNLinSolFree(solver); }
+};
+
+using Context = std::unique_ptr<SUNContext_, ContextDeleter>;
+using Vector = std::unique_ptr<_generic_N_Vector, VectorDeleter>;
+using Matrix = std::unique_ptr<_generic_SUNMatrix, MatrixDeleter>;
+using LinearSolver = std::unique_ptr<_generic_SUNLinearSolver, LinearSolverDeleter>;
+
+/// @throws SimulationError naming the call if its return flag tells of a failure.
+inline void check(int flag, const char* call) {
+  if (flag < 0) {
+    throw SimulationError(std::string("SUNDIALS: ") + call + " failed with flag " +
+                          std::to_string(flag));
+  }
+}
+
+inline Context make_context() {
+  SUNContext context = nullptr;
+  check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  return Context(context);
+}
+
+inline Vector make_vector(Eigen::Index size, const Context& context) {
+  return Vector(N_VNew_Serial(size, context.get()));
+}
+
+inline Eigen::Map<Eigen::VectorXd> view(N_Vector vector) {
+  return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
+}
+
+inline Eigen::Map<Eigen::MatrixXd> view(SUNMatrix matrix) {
+  return {SUNDenseMatrix_Data(matrix), SUNDenseMatrix_Rows(matrix), SUNDenseMatrix_Columns(matrix)};
+}
+
+}  // namespace blocklift::dynamics::sundials

@@ -1,0 +1,430 @@
+#include "dynamics/simulation/time_integration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <numeric>
+#include <optional>
+#include <sstream>
+
+#include <cvodes/cvodes.h>
+#include <cvodes/cvodes_proj.h>
+
+#include "dynamics/simulation/equilibrium.h"
+#include "dynamics/simulation/sundials.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+// How far beside a breakpoint its two sides are looked at (s): further than breakpoints that count
+// as one.
+constexpr double beside = 2e-6;
+
+/// One run of CVODES over an operation.
+class Integrator {
+ public:
+  Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+             const IntegrationSettings& settings);
+  ~Integrator() { CVodeFree(&cvode_); }
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  IntegrationResult run();
+
+ private:
+  void set_up_cvode();
+  void find_quaternions();
+  void integrate_interval(double start, double end);
+  void step(double end);
+  void restart(double t);
+  void count_before_restart();
+  void record_samples(double up_to);
+  void change_contacts(double t);
+  void repair_contacts(double t);
+  bool motion_jumps(double t) const;
+  double within_interval(double t) const { return std::clamp(t, from_, to_); }
+  void report_progress(double t);
+  [[noreturn]] void fail(const char* what);
+
+  static int right_hand_side(double t, N_Vector y, N_Vector ydot, void* data);
+  static int indicators(double t, N_Vector y, double* g, void* data);
+  static int works(double t, N_Vector y, N_Vector rates, void* data);
+  static int project(double t, N_Vector y, N_Vector correction, double tolerance, N_Vector error,
+                     void* data);
+  static int error_weights(N_Vector y, N_Vector weights, void* data);
+  static void keep_message(int code, const char* module, const char* function, char* message,
+                           void* data);
+  template <class Function>
+  int guarded(Function&& function);
+
+  const LiftSystem& system_;
+  const IntegrationSettings& settings_;
+  LiftWorkspace w_;
+  Contacts contacts_;
+  Eigen::VectorXd sample_times_;
+  Eigen::Index next_sample_ = 0;
+  std::vector<Eigen::Index> quaternions_;  ///< first entries within y
+  std::vector<char> is_velocity_or_quaternion_;
+  Eigen::VectorXd indicators_;    ///< at the end of the last step, where no root was found
+  double from_ = 0.0, to_ = 0.0;  ///< times between which motions are evaluated now
+  double time_ = 0.0;
+
+  sundials::Context context_;
+  sundials::Vector y_, rates_, sample_, work_, sampled_work_;
+  sundials::Matrix matrix_;
+  sundials::LinearSolver linear_solver_;
+  void* cvode_ = nullptr;
+  std::exception_ptr exception_;
+  std::string message_;
+  IntegrationResult result_;
+  double reported_ = -1.0;  ///< fraction of the operation
+  long steps_taken_ = 0;
+};
+
+Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                       const IntegrationSettings& settings)
+    : system_(system),
+      settings_(settings),
+      w_(system),
+      sample_times_(sample_times(system.operation().duration(), settings.sample_interval)),
+      context_(sundials::make_context()),
+      result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}} {
+  if (!(settings.relative_tolerance > 0.0) || settings.relative_tolerance > 0.1) {
+    throw ModelError("the relative tolerance is " + std::to_string(settings.relative_tolerance) +
+                     "; a number between 1e-12 and 0.1 is due");
+  }
+  w_.q = q;
+  w_.v = v;
+  system.mechanism().normalise(w_.q);
+  y_ = sundials::make_vector(system.state_size(), context_);
+  sample_ = sundials::make_vector(system.state_size(), context_);
+  rates_ = sundials::make_vector(system.state_size(), context_);
+  work_ = sundials::make_vector(4, context_);
+  sampled_work_ = sundials::make_vector(4, context_);
+  indicators_.setZero(system.contact_count());
+  sundials::view(work_.get()).setZero();
+  get_state(system, w_.q, w_.v, sundials::view(y_.get()));
+  find_quaternions();
+}
+
+void Integrator::find_quaternions() {
+  const Mechanism& m = system_.mechanism();
+  is_velocity_or_quaternion_.assign(static_cast<std::size_t>(system_.state_size()), 0);
+  for (std::size_t i = 0; i < m.free_coordinates().size(); ++i) {
+    const int k = m.free_coordinates()[i];
+    for (const Body& body : m.bodies()) {
+      const auto offset = quaternion_offset(body.joint.kind);
+      if (!offset || k < body.q_offset + *offset || k >= body.q_offset + *offset + 4) continue;
+      if (body.parent < 0) continue;
+      is_velocity_or_quaternion_[i] = 1;
+      if (k == body.q_offset + *offset) quaternions_.push_back(static_cast<Eigen::Index>(i));
+    }
+  }
+  for (auto i = static_cast<std::size_t>(system_.nq_free());
+       i < static_cast<std::size_t>(system_.state_size()); ++i) {
+    is_velocity_or_quaternion_[i] = 1;
+  }
+}
+
+template <class Function>
+int Integrator::guarded(Function&& function) {
+  try {
+    function();
+    return 0;
+  } catch (const std::runtime_error&) {
+    // A trial step may have gone too far: let CVODES try a shorter one.
+    exception_ = std::current_exception();
+    return 1;
+  } catch (...) {
+    exception_ = std::current_exception();
+    return -1;
+  }
+}
+
+int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data) {
+  auto& self = *static_cast<Integrator*>(data);
+  return self.guarded([&] {
+    calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y),
+                         &self.contacts_, self.w_, sundials::view(ydot));
+  });
+}
+
+int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
+  auto& self = *static_cast<Integrator*>(data);
+  return self.guarded([&] {
+    set_state(self.system_, sundials::view(y), self.w_);
+    set_drives(self.system_, self.within_interval(t), true, self.w_);
+    calc_loads(self.system_, t, &self.contacts_, self.w_);
+    calc_contact_indicators(self.w_, self.indicators_);
+    Eigen::Map<Eigen::VectorXd>(g, self.system_.contact_count()) = self.indicators_;
+  });
+}
+
+int Integrator::works(double t, N_Vector y, N_Vector rates, void* data) {
+  auto& self = *static_cast<Integrator*>(data);
+  return self.guarded([&] {
+    calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y),
+                         &self.contacts_, self.w_, sundials::view(self.rates_.get()));
+    const EnergyRates powers = calc_energy_rates(self.system_, t, self.w_);
+    sundials::view(rates) << powers.drive_power, powers.winch_power, powers.wind_power,
+        powers.dissipated_power;
+  });
+}
+
+int Integrator::project(double, N_Vector y, N_Vector correction, double, N_Vector error,
+                        void* data) {
+  const auto& self = *static_cast<Integrator*>(data);
+  const auto state = sundials::view(y);
+  auto change = sundials::view(correction);
+  change.setZero();
+  for (const Eigen::Index i : self.quaternions_) {
+    const Vector4 quaternion = state.segment<4>(i);
+    const double norm = quaternion.norm();
+    if (!(norm > 0.0) || !std::isfinite(norm)) return 1;
+    const Vector4 unit = quaternion / norm;
+    change.segment<4>(i) = unit - quaternion;
+    if (error) {
+      auto e = sundials::view(error).segment<4>(i);
+      e -= (unit.dot(e) * unit).eval();
+    }
+  }
+  return 0;
+}
+
+int Integrator::error_weights(N_Vector y, N_Vector weights, void* data) {
+  const auto& self = *static_cast<Integrator*>(data);
+  const auto state = sundials::view(y);
+  auto weight = sundials::view(weights);
+  const double tolerance = self.settings_.relative_tolerance;
+  for (Eigen::Index i = 0; i < state.size(); ++i) {
+    const double size = self.is_velocity_or_quaternion_[static_cast<std::size_t>(i)] != 0
+                            ? std::max(1.0, std::abs(state[i]))
+                            : 1.0;
+    weight[i] = 1.0 / (tolerance * size);
+  }
+  return 0;
+}
+
+void Integrator::keep_message(int code, const char*, const char*, char* message, void* data) {
+  if (code < 0) static_cast<Integrator*>(data)->message_ = message;
+}
+
+void Integrator::set_up_cvode() {
+  using sundials::check;
+  cvode_ = CVodeCreate(CV_BDF, context_.get());
+  if (!cvode_) throw SimulationError("SUNDIALS: CVodeCreate gave no memory");
+  check(CVodeSetErrHandlerFn(cvode_, keep_message, this), "CVodeSetErrHandlerFn");
+  check(CVodeInit(cvode_, right_hand_side, 0.0, y_.get()), "CVodeInit");
+  check(CVodeSetUserData(cvode_, this), "CVodeSetUserData");
+  check(CVodeWFtolerances(cvode_, error_weights), "CVodeWFtolerances");
+  const Eigen::Index n = system_.state_size();
+  matrix_ = sundials::Matrix(SUNDenseMatrix(n, n, context_.get()));
+  linear_solver_ = sundials::LinearSolver(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
+  check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
+  if (!quaternions_.empty()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
+  if (system_.contact_count() > 0) {
+    check(CVodeRootInit(cvode_, system_.contact_count(), indicators), "CVodeRootInit");
+    check(CVodeSetNoInactiveRootWarn(cvode_), "CVodeSetNoInactiveRootWarn");
+  }
+  if (settings_.works) {
+    check(CVodeQuadInit(cvode_, works, work_.get()), "CVodeQuadInit");
+    check(CVodeSetQuadErrCon(cvode_, SUNFALSE), "CVodeSetQuadErrCon");
+  }
+}
+
+// Does a velocity or acceleration of a drive or winch differ on the two sides of t?
+bool Integrator::motion_jumps(double t) const {
+  const auto jumps = [&](const MotionProfile& profile) {
+    const ProfileValue a = profile.evaluate(t - beside);
+    const ProfileValue b = profile.evaluate(t + beside);
+    return std::abs(a.velocity - b.velocity) > 1e-4 ||
+           std::abs(a.acceleration - b.acceleration) > 1e-3;
+  };
+  for (const JointDrive& drive : system_.operation().joint_drives()) {
+    if (jumps(drive.position)) return true;
+  }
+  for (const Winch& winch : system_.operation().winches()) {
+    if (jumps(winch.length)) return true;
+  }
+  return false;
+}
+
+void Integrator::count_before_restart() {
+  long steps = 0, evaluations = 0, jacobian_evaluations = 0, jacobians = 0, errors = 0,
+       nonlinear = 0;
+  CVodeGetNumSteps(cvode_, &steps);
+  CVodeGetNumRhsEvals(cvode_, &evaluations);
+  CVodeGetNumLinRhsEvals(cvode_, &jacobian_evaluations);
+  CVodeGetNumJacEvals(cvode_, &jacobians);
+  CVodeGetNumErrTestFails(cvode_, &errors);
+  CVodeGetNumNonlinSolvConvFails(cvode_, &nonlinear);
+  IntegrationStatistics& s = result_.statistics;
+  s.steps += steps;
+  s.right_hand_sides += evaluations + jacobian_evaluations;
+  s.jacobians += jacobians;
+  s.error_test_failures += errors;
+  s.nonlinear_failures += nonlinear;
+}
+
+// Begins anew at (t, y_): the method's memory of the past does not hold any more.
+void Integrator::restart(double t) {
+  count_before_restart();
+  auto y = sundials::view(y_.get());
+  for (const Eigen::Index i : quaternions_) y.segment<4>(i).normalize();
+  sundials::check(CVodeReInit(cvode_, t, y_.get()), "CVodeReInit");
+  if (settings_.works) sundials::check(CVodeQuadReInit(cvode_, work_.get()), "CVodeQuadReInit");
+  ++result_.statistics.restarts;
+}
+
+void Integrator::record_samples(double up_to) {
+  while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
+    const double t = sample_times_[next_sample_];
+    if (t > 0.0) {
+      sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");
+    } else {
+      sundials::view(sample_.get()) = sundials::view(y_.get());
+    }
+    auto y = sundials::view(sample_.get());
+    for (const Eigen::Index i : quaternions_) y.segment<4>(i).normalize();
+    calc_right_hand_side(system_, within_interval(t), y, &contacts_, w_,
+                         sundials::view(rates_.get()));
+    result_.history.record(system_, next_sample_, t, w_);
+    if (settings_.works) {
+      sundials::view(sampled_work_.get()).setZero();
+      if (t > 0.0) {
+        sundials::check(CVodeGetQuadDky(cvode_, t, 0, sampled_work_.get()), "CVodeGetQuadDky");
+      }
+      result_.history.record_works(next_sample_, sundials::view(sampled_work_.get()));
+    }
+    ++next_sample_;
+  }
+}
+
+void Integrator::change_contacts(double t) {
+  std::vector<int> found(contacts_.size());
+  sundials::check(CVodeGetRootInfo(cvode_, found.data()), "CVodeGetRootInfo");
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] == 0) continue;
+    const bool acts = found[i] > 0;
+    if (acts == (contacts_[i] != 0)) continue;
+    contacts_[i] = acts ? 1 : 0;
+    result_.events.push_back({t, static_cast<int>(i), acts});
+    ++result_.statistics.contact_changes;
+  }
+}
+
+// A change that root-finding could not see (it began at the very start of a step) is made good at
+// the step's end.
+void Integrator::repair_contacts(double t) {
+  constexpr double beyond = 1e-4;  // kN
+  bool changed = false;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const double value = indicators_[static_cast<Eigen::Index>(i)];
+    if (std::abs(value) < beyond || (value > 0.0) == (contacts_[i] != 0)) continue;
+    contacts_[i] = value > 0.0 ? 1 : 0;
+    result_.events.push_back({t, static_cast<int>(i), value > 0.0});
+    ++result_.statistics.contact_changes;
+    changed = true;
+  }
+  if (changed) restart(t);
+}
+
+void Integrator::step(double end) {
+  const int flag = CVode(cvode_, end, y_.get(), &time_, CV_ONE_STEP);
+  if (flag < 0) fail(CVodeGetReturnFlagName(flag));
+  if (settings_.works) {
+    double t = 0.0;
+    sundials::check(CVodeGetQuad(cvode_, &t, work_.get()), "CVodeGetQuad");
+  }
+  record_samples(time_);
+  if (flag == CV_ROOT_RETURN) {
+    change_contacts(time_);
+    restart(time_);
+  } else {
+    repair_contacts(time_);
+  }
+}
+
+void Integrator::integrate_interval(double start, double end) {
+  // Behind a jump the motion counts as it is then, from the first step on.
+  const bool jumps = motion_jumps(start);
+  from_ = jumps ? std::min(start + beside, end) : start;
+  to_ = end;
+  if (jumps && start > 0.0) restart(time_);
+  sundials::check(CVodeSetStopTime(cvode_, end), "CVodeSetStopTime");
+  const double reached = end - 1e-12 * std::max(1.0, end);
+  while (time_ < reached) {
+    if (++steps_taken_ > settings_.largest_step_count) fail("more steps than allowed");
+    step(end);
+    report_progress(time_);
+  }
+}
+
+void Integrator::report_progress(double t) {
+  if (!settings_.progress) return;
+  const double fraction = t / system_.operation().duration();
+  if (fraction < reported_ + 0.01 && fraction < 1.0) return;
+  reported_ = fraction;
+  settings_.progress(fraction, t);
+}
+
+void Integrator::fail(const char* what) {
+  std::ostringstream text;
+  text << "the time integration failed at t = " << time_ << " s (" << what;
+  try {
+    if (exception_) std::rethrow_exception(exception_);
+    if (!message_.empty()) text << ": " << message_;
+  } catch (const std::exception& error) {
+    text << ": " << error.what();
+  }
+  text << ")";
+  try {
+    calc_right_hand_side(system_, within_interval(time_), sundials::view(y_.get()), nullptr, w_,
+                         sundials::view(rates_.get()));
+    text << "; " << describe_ropes(system_, w_) << "; fastest bodies: ";
+    const std::size_t n = w_.kinematics.V_WB.size();
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return w_.kinematics.V_WB[a].linear.norm() > w_.kinematics.V_WB[b].linear.norm();
+    });
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, n); ++i) {
+      text << (i > 0 ? ", " : "") << system_.mechanism().body(static_cast<int>(order[i])).name
+           << " (" << w_.kinematics.V_WB[order[i]].linear.norm() << " m/s)";
+    }
+  } catch (const std::exception& error) {
+    text << "; " << error.what();
+  }
+  text << "; try gentler motions, more rope damping (damping_time) or a smaller tolerance, and see "
+          "whether a rope is hoisted into its sheave";
+  throw SimulationError(text.str());
+}
+
+IntegrationResult Integrator::run() {
+  from_ = 0.0;
+  to_ = system_.operation().breakpoints()[1];
+  contacts_ = find_contacts(system_, 0.0, sundials::view(y_.get()), w_);
+  set_up_cvode();
+  record_samples(0.0);
+  const std::vector<double>& breakpoints = system_.operation().breakpoints();
+  for (std::size_t i = 0; i + 1 < breakpoints.size(); ++i) {
+    integrate_interval(breakpoints[i], breakpoints[i + 1]);
+  }
+  count_before_restart();
+  set_state(system_, sundials::view(y_.get()), w_);
+  set_drives(system_, system_.operation().duration(), true, w_);
+  result_.q_end = w_.q;
+  result_.v_end = w_.v;
+  system_.mechanism().normalise(result_.q_end);
+  return std::move(result_);
+}
+
+}  // namespace
+
+IntegrationResult integrate(const LiftSystem& system, const Eigen::VectorXd& q,
+                            const Eigen::VectorXd& v, const IntegrationSettings& settings) {
+  return Integrator(system, q, v, settings).run();
+}
+
+}  // namespace blocklift::dynamics
