@@ -55,9 +55,9 @@ struct EquilibriumSolver::Implementation {
   Eigen::VectorXd q_reference;  ///< increments count from here
   Eigen::VectorXd tangent;      ///< nv
   Eigen::VectorXd tau, zero;    ///< nv
-  Eigen::VectorXd weight;       ///< for each free velocity: force that its residual is compared with
-  Eigen::MatrixXd mass;         ///< of the free velocities
-  Contacts contacts;            ///< fixed set of acting ropes and pads
+  Eigen::VectorXd weight;  ///< for each free velocity: force that its residual is compared with
+  Eigen::MatrixXd mass;    ///< of the free velocities
+  Contacts contacts;       ///< fixed set of acting ropes and pads
   bool contacts_known = false;
   Eigen::VectorXd plus, minus, increment;
   Eigen::MatrixXd stiffness;
@@ -118,15 +118,15 @@ void EquilibriumSolver::Implementation::calc_scales() {
   mass.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
-      mass(i, j) =
-          whole(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
+      mass(i, j) = whole(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
     }
   }
   const double g = std::max(1.0, mechanism.gravity().norm());
   for (Eigen::Index i = 0; i < n; ++i) {
     const int k = free[static_cast<std::size_t>(i)];
-    const double m = workspace.composite[static_cast<std::size_t>(mechanism.body_of_velocity(k))]
-                         .M.trace() / 3.0;
+    const double m =
+        workspace.composite[static_cast<std::size_t>(mechanism.body_of_velocity(k))].M.trace() /
+        3.0;
     const bool turns = mechanism.angular()[static_cast<std::size_t>(k)] != 0;
     weight[i] = turns ? g * std::sqrt(mass(i, i) * m) : g * mass(i, i);
   }
@@ -207,8 +207,8 @@ bool EquilibriumSolver::Implementation::newton() {
   auto u = sundials::view(unknowns.get());
   u.setZero();
   sundials::check(KINSetMaxNewtonStep(kinsol, 1e3), "KINSetMaxNewtonStep");
-  const int flag = KINSol(kinsol, unknowns.get(), KIN_LINESEARCH, unknown_scale.get(),
-                          force_scale.get());
+  const int flag =
+      KINSol(kinsol, unknowns.get(), KIN_LINESEARCH, unknown_scale.get(), force_scale.get());
   const Eigen::VectorXd solution = u;
   if (!solution.allFinite()) return false;
   Eigen::VectorXd residual(system.nv_free());
@@ -251,8 +251,7 @@ bool EquilibriumSolver::Implementation::solve_active_set() {
 // by more than it was: the potential energy has then fallen. False: h is too long.
 bool EquilibriumSolver::Implementation::try_step(double h, double largest_move,
                                                  Eigen::VectorXd& f) {
-  Eigen::VectorXd du =
-      (stiffness + mass / (h * h)).partialPivLu().solve(f);
+  Eigen::VectorXd du = (stiffness + mass / (h * h)).partialPivLu().solve(f);
   const double before = f.dot(du);
   if (!du.allFinite() || !(before > 0.0) || du.lpNorm<Eigen::Infinity>() > largest_move) {
     return false;
@@ -320,9 +319,8 @@ void EquilibriumSolver::Implementation::fail(double t) {
     std::vector<Eigen::Index> order(static_cast<std::size_t>(residual.size()));
     std::iota(order.begin(), order.end(), 0);
     const Eigen::VectorXd relative = residual.cwiseQuotient(weight).cwiseAbs();
-    std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-      return relative[a] > relative[b];
-    });
+    std::sort(order.begin(), order.end(),
+              [&](Eigen::Index a, Eigen::Index b) { return relative[a] > relative[b]; });
     for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) {
       const int k = mechanism.free_velocities()[static_cast<std::size_t>(order[i])];
       text << (i > 0 ? ", " : "") << mechanism.velocity_name(k) << " ("
@@ -408,7 +406,8 @@ History static_sweep(const LiftSystem& system, const Eigen::VectorXd& times,
       solver.follow(times[i - 1], times[i], q);
     }
     history.record(system, i, times[i], solver.workspace());
-    if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(times.size()), times[i]);
+    if (progress)
+      progress(static_cast<double>(i + 1) / static_cast<double>(times.size()), times[i]);
   }
   return history;
 }

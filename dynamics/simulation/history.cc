@@ -82,8 +82,7 @@ const RopeHistory& History::rope(std::string_view name) const {
   return find_by_name(ropes, name, "rope");
 }
 
-void History::record_bodies(const LiftSystem& system, Eigen::Index sample,
-                            const LiftWorkspace& w) {
+void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w) {
   compute_accelerations(system.mechanism(), w.kinematics, w.vdot, A_WB_);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     BodyHistory& b = bodies[i];
@@ -149,8 +148,7 @@ std::vector<LinkedMaximum> find_largest_tensions(const History& history) {
   for (Eigen::Index i = 0; i < count; ++i) {
     LinkedMaximum& maximum = maxima.emplace_back();
     maximum.rope = static_cast<int>(i);
-    maximum.tension =
-        history.ropes[static_cast<std::size_t>(i)].tension.maxCoeff(&maximum.sample);
+    maximum.tension = history.ropes[static_cast<std::size_t>(i)].tension.maxCoeff(&maximum.sample);
     maximum.time = history.time[maximum.sample];
     maximum.tensions.resize(count);
     for (Eigen::Index k = 0; k < count; ++k) {

@@ -100,8 +100,7 @@ void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& 
   }
   for (const Winch& winch : system.operation().winches()) {
     const ProfileValue value = winch.length.evaluate(t);
-    w.feeds[static_cast<std::size_t>(winch.rope)] = {value.position,
-                                                     moving ? value.velocity : 0.0};
+    w.feeds[static_cast<std::size_t>(winch.rope)] = {value.position, moving ? value.velocity : 0.0};
   }
 }
 

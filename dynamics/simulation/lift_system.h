@@ -96,6 +96,7 @@ struct LiftWorkspace {
   ForwardDynamicsWorkspace dynamics;
   std::vector<RopeFeed> feeds;  ///< for each rope
   std::vector<RopeLoad> rope_loads;
+  std::vector<SupportLoad> support_loads;
   RopePath path;  ///< of the rope evaluated last
 };
 

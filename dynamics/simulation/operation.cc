@@ -111,9 +111,8 @@ void OperationBuilder::check_free(const Track& track, Interval wanted) const {
 void OperationBuilder::add_move(std::string_view drive, const RestToRestMove& move) {
   Track& track = find_track(drive);
   check_free(track, {move.start(), move.end()});
-  const auto later = std::find_if(track.moves.begin(), track.moves.end(), [&](const auto& other) {
-    return other.start() > move.start();
-  });
+  const auto later = std::find_if(track.moves.begin(), track.moves.end(),
+                                  [&](const auto& other) { return other.start() > move.start(); });
   track.moves.insert(later, move);
 }
 
@@ -137,8 +136,8 @@ void OperationBuilder::add_follower(std::string_view drive, std::string_view lea
   const double last = moves.back().end();
   check_free(track, {first, last});
   try {
-    const MotionProfile travel = MotionProfile::cam(
-        MotionProfile::sequence(0.0, std::move(moves)), own_travel_over_leaders);
+    const MotionProfile travel =
+        MotionProfile::cam(MotionProfile::sequence(0.0, std::move(moves)), own_travel_over_leaders);
     track.followers.push_back({travel, {first, last}});
   } catch (const ModelError& error) {
     throw ModelError("drive \"" + track.name + "\" follows \"" + leading.name +
@@ -168,7 +167,7 @@ MotionProfile OperationBuilder::make_profile(const Track& track) const {
 }
 
 Operation OperationBuilder::build(double duration) const {
-  if (!(duration > 0.0) || !std::isfinite(duration) || duration < end() - touching) {
+  if (!(duration > 0.0) || !std::isfinite(duration) || duration < end() - smallest_interval) {
     throw ModelError("the operation lasts " + seconds(duration) + ", but its last move ends at " +
                      seconds(end()) + "; it must last longer than 0 s and until then");
   }

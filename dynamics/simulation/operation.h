@@ -19,9 +19,9 @@ struct Stage {
 /// A joint coordinate that follows a motion.
 struct JointDrive {
   std::string name;
-  BodyIndex body = -1;        ///< the body that the joint carries
-  int velocity_index = -1;    ///< within v
-  int coordinate_index = -1;  ///< within q
+  BodyIndex body = -1;                                    ///< the body that the joint carries
+  int velocity_index = -1;                                ///< within v
+  int coordinate_index = -1;                              ///< within q
   MotionProfile position = MotionProfile::constant(0.0);  ///< the coordinate itself, m or rad
 };
 
@@ -63,8 +63,8 @@ class OperationBuilder {
   /// rad) and stays there until it is moved.
   /// @throws ModelError if the name is taken, or that velocity is not declared as driven, or its
   /// joint has a quaternion (spherical, free), which no single profile describes.
-  void add_joint_drive(const Mechanism& mechanism, std::string name, BodyIndex body,
-                       double start, int degree_of_freedom = 0);
+  void add_joint_drive(const Mechanism& mechanism, std::string name, BodyIndex body, double start,
+                       int degree_of_freedom = 0);
 
   /// Winch of a rope (its index in the lift), which starts with `start` m of unstretched rope out.
   /// @throws ModelError if the name is taken, or the rope has a winch already.

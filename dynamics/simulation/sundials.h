@@ -15,7 +15,7 @@
 namespace blocklift::dynamics::sundials {
 
 struct ContextDeleter {
-  void operator()(SUNContext_* context) const { SUNContext_Free(&context); }
+  void operator()(_SUNContext* context) const { SUNContext_Free(&context); }
 };
 struct VectorDeleter {
   void operator()(_generic_N_Vector* vector) const { N_VDestroy(vector); }
@@ -27,7 +27,7 @@ struct LinearSolverDeleter {
   void operator()(_generic_SUNLinearSolver* solver) const { SUNLinSolFree(solver); }
 };
 
-using Context = std::unique_ptr<SUNContext_, ContextDeleter>;
+using Context = std::unique_ptr<_SUNContext, ContextDeleter>;
 using Vector = std::unique_ptr<_generic_N_Vector, VectorDeleter>;
 using Matrix = std::unique_ptr<_generic_SUNMatrix, MatrixDeleter>;
 using LinearSolver = std::unique_ptr<_generic_SUNLinearSolver, LinearSolverDeleter>;

@@ -145,8 +145,8 @@ int Integrator::guarded(Function&& function) {
 int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data) {
   auto& self = *static_cast<Integrator*>(data);
   return self.guarded([&] {
-    calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y),
-                         &self.contacts_, self.w_, sundials::view(ydot));
+    calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y), &self.contacts_,
+                         self.w_, sundials::view(ydot));
   });
 }
 
@@ -164,8 +164,8 @@ int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
 int Integrator::works(double t, N_Vector y, N_Vector rates, void* data) {
   auto& self = *static_cast<Integrator*>(data);
   return self.guarded([&] {
-    calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y),
-                         &self.contacts_, self.w_, sundials::view(self.rates_.get()));
+    calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y), &self.contacts_,
+                         self.w_, sundials::view(self.rates_.get()));
     const EnergyRates powers = calc_energy_rates(self.system_, t, self.w_);
     sundials::view(rates) << powers.drive_power, powers.winch_power, powers.wind_power,
         powers.dissipated_power;
