@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dynamics/simulation/history.h"
+#include "pipeline/assessment/block_assessment.h"
+#include "pipeline/formats/results_store.h"
+
+/// What of an assessment goes where in results.h5 (pipeline/formats/results_layout.h).
+namespace blocklift::pipeline {
+
+/// A body as it is drawn: boxes fixed in it.
+struct DrawnBox {
+  dynamics::Vector3 size;
+  dynamics::Vector3 centre;
+};
+struct DrawnBody {
+  std::string name;
+  std::string kind;  ///< "crane", "hook block", "load"
+  std::vector<DrawnBox> boxes;
+};
+
+/// Names and roles that the dynamics itself does not know.
+struct Scene {
+  std::vector<DrawnBody> bodies;
+  std::vector<int> hoists;  ///< ropes of the system that are hoist tackle; all others are lines
+  std::string load_body;
+  std::vector<structure::LugRegion> lugs;
+};
+
+void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
+                const std::string& yaml);
+void write_operation(ResultsWriter& file, const dynamics::Operation& operation);
+/// @param group layout::static_history or layout::dynamic_history
+void write_history(ResultsWriter& file, std::string_view group, const dynamics::LiftSystem& system,
+                   const dynamics::History& history, const Scene& scene);
+void write_scene(ResultsWriter& file, const dynamics::LiftSystem& system, const Scene& scene);
+/// Surface of the block and the four states of both ways that the report shows.
+void write_block(ResultsWriter& file, const structure::Surface& surface,
+                 const structure::UnitResponses& responses, const BlockAssessment& assessment);
+
+/// Angle of the rope's first segment against the vertical at each sample, rad.
+Eigen::VectorXd swing_angles(const dynamics::RopeHistory& rope);
+
+/// What the energy terms leave unexplained at each sample: E(t) - E(0) - (supplied - dissipated), J.
+Eigen::VectorXd energy_imbalance(const dynamics::EnergyHistory& energy);
+
+}  // namespace blocklift::pipeline

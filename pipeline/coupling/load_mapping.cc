@@ -1,0 +1,130 @@
+#include "pipeline/coupling/load_mapping.h"
+
+#include <stdexcept>
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using dynamics::History;
+using dynamics::Pose;
+using structure::InertiaField;
+using structure::LoadCase;
+using structure::Vector3;
+using structure::Wrench;
+
+constexpr double pin_tolerance = 1e-6;  // m
+
+/// Force of the rope on the block at its lug, in B.
+Vector3 lug_force(const History& history, const LugRope& end, Eigen::Index sample,
+                  const Pose& X_WB) {
+  const auto& rope = history.ropes[static_cast<std::size_t>(end.rope)];
+  const Vector3 f_W = end.at_last_point ? Vector3(rope.last_force.row(sample))
+                                        : Vector3(rope.first_force.row(sample));
+  return X_WB.R.transpose() * f_W;
+}
+
+const dynamics::BodyHistory& block_history(const History& history,
+                                           const BlockAttachment& attachment) {
+  return history.bodies[static_cast<std::size_t>(attachment.body - 1)];
+}
+
+Wrench wrench_of_lug_forces(const std::vector<Vector3>& forces,
+                            const std::vector<structure::LugRegion>& lugs) {
+  Wrench wrench;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    wrench.force += forces[i];
+    wrench.moment += lugs[i].p_BPin.cross(forces[i]);
+  }
+  return wrench;
+}
+
+/// Field that spreads a wrench over the block's mass.
+InertiaField spread_over_mass(const structure::MassProperties& mass, const Wrench& wrench) {
+  return structure::balancing_field(mass, Wrench{-wrench.force, -wrench.moment});
+}
+
+InertiaField operator+(InertiaField a, const InertiaField& b) {
+  a.acceleration_less_gravity += b.acceleration_less_gravity;
+  a.angular_acceleration += b.angular_acceleration;
+  a.angular_velocity_products += b.angular_velocity_products;
+  return a;
+}
+
+/// Inertia and gravity of the recorded motion, in B.
+InertiaField field_of_motion(const dynamics::BodyHistory& block, Eigen::Index sample,
+                             const Vector3& gravity_W) {
+  const dynamics::Matrix3 R_BW = block.X_WB(sample).R.transpose();
+  const dynamics::MotionVector V = block.V_WB(sample);
+  const dynamics::MotionVector A = block.A_WB(sample);
+  return InertiaField::moving(R_BW * A.linear, R_BW * gravity_W, R_BW * A.angular,
+                              R_BW * V.angular);
+}
+
+}  // namespace
+
+BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyIndex body,
+                             const std::vector<structure::LugRegion>& lugs) {
+  BlockAttachment attachment;
+  attachment.body = body;
+  attachment.lugs = lugs;
+  attachment.gravity_W = system.mechanism().gravity();
+  for (std::size_t r = 0; r < system.ropes().size(); ++r) {
+    const auto& points = system.ropes()[r].points();
+    for (const bool last : {false, true}) {
+      const dynamics::BodyPoint& end = last ? points.back() : points.front();
+      if (end.body != body) continue;
+      for (std::size_t l = 0; l < lugs.size(); ++l) {
+        if ((lugs[l].p_BPin - end.p_BoQ_B).norm() < pin_tolerance)
+          attachment.ropes.push_back({static_cast<int>(r), static_cast<int>(l), last});
+      }
+    }
+  }
+  if (attachment.ropes.empty())
+    throw std::runtime_error("no rope ends at a lug of the block: nothing loads it");
+  return attachment;
+}
+
+LoadCase map_instant(const History& history, Eigen::Index sample, const BlockAttachment& attachment,
+                     const structure::MassProperties& mass) {
+  const dynamics::BodyHistory& block = block_history(history, attachment);
+  const Pose X_WB = block.X_WB(sample);
+  LoadCase result;
+  result.lug_forces_B.assign(attachment.lugs.size(), Vector3::Zero());
+  // All that acts on the body, less the ropes at lugs, is left for the spread load.
+  Wrench rest;
+  rest.moment = X_WB.R.transpose() * Vector3(block.load.row(sample).head<3>());
+  rest.force = X_WB.R.transpose() * Vector3(block.load.row(sample).tail<3>());
+  for (const LugRope& end : attachment.ropes) {
+    const Vector3 f_B = lug_force(history, end, sample, X_WB);
+    result.lug_forces_B[static_cast<std::size_t>(end.lug)] += f_B;
+    rest.force -= f_B;
+    rest.moment -= attachment.lugs[static_cast<std::size_t>(end.lug)].p_BPin.cross(f_B);
+  }
+  result.field =
+      field_of_motion(block, sample, attachment.gravity_W) + spread_over_mass(mass, rest);
+  return result;
+}
+
+LoadCase map_rope_maxima(const History& history, const std::vector<dynamics::LinkedMaximum>& maxima,
+                         const BlockAttachment& attachment, const structure::MassProperties& mass) {
+  const dynamics::BodyHistory& block = block_history(history, attachment);
+  std::vector<Vector3> forces(attachment.lugs.size(), Vector3::Zero());
+  for (const LugRope& end : attachment.ropes) {
+    const Eigen::Index sample = maxima[static_cast<std::size_t>(end.rope)].sample;
+    forces[static_cast<std::size_t>(end.lug)] +=
+        lug_force(history, end, sample, block.X_WB(sample));
+  }
+  return map_load_table(forces, attachment.lugs, mass);
+}
+
+LoadCase map_load_table(const std::vector<Vector3>& lug_forces_B,
+                        const std::vector<structure::LugRegion>& lugs,
+                        const structure::MassProperties& mass) {
+  LoadCase result;
+  result.lug_forces_B = lug_forces_B;
+  result.field = structure::balancing_field(mass, wrench_of_lug_forces(lug_forces_B, lugs));
+  return result;
+}
+
+}  // namespace blocklift::pipeline

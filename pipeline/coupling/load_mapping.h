@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dynamics/simulation/history.h"
+#include "structure/response/unit_responses.h"
+
+/// From rope tensions in time to loads on the block: where the dynamics and the structure meet.
+///
+/// A lifted block is a free body: the forces at its lugs, whatever else acts on it (wind), gravity
+/// and its own inertia are in balance at every instant. All loads are given in the block frame B,
+/// which is the frame of the load's body in the dynamics and of its mesh in the structure.
+namespace blocklift::pipeline {
+
+/// A rope that ends at a lug of the block.
+struct LugRope {
+  int rope = -1;              ///< index in the lift system (and in histories)
+  int lug = -1;               ///< index in the mesh
+  bool at_last_point = true;  ///< which end of the rope's path is at the lug
+};
+
+/// The block within the lift.
+struct BlockAttachment {
+  dynamics::BodyIndex body = -1;
+  std::vector<LugRope> ropes;
+  std::vector<structure::LugRegion> lugs;  ///< all of the block's, loaded or not
+  dynamics::Vector3 gravity_W = dynamics::Vector3::Constant(dynamics::not_a_number);  ///< m/s2
+};
+
+/// Finds the ropes that end at a lug: those whose first or last point is a point of the body that
+/// coincides (to a micrometre) with the lug's pin.
+/// @throws std::runtime_error if no rope ends at any lug.
+BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyIndex body,
+                             const std::vector<structure::LugRegion>& lugs);
+
+/// Loads on the block at one sample: every rope's force at that instant, gravity, and the inertia
+/// of the motion that the dynamics found. What else acts on the body (wind, tugger lines that end
+/// elsewhere) is spread over the block's mass. Nothing is adjusted: the balance of the result
+/// measures how well the two stages agree.
+structure::LoadCase map_instant(const dynamics::History& history, Eigen::Index sample,
+                                const BlockAttachment& attachment,
+                                const structure::MassProperties& mass);
+
+/// Every rope at its own largest load, all at once (the practice of Ku, Ha and Roh, section VII):
+/// each force in the block frame of its own instant. Since these instants differ, no motion belongs
+/// to the set, and it is balanced by the rigid-body acceleration that it would give the block.
+structure::LoadCase map_rope_maxima(const dynamics::History& history,
+                                    const std::vector<dynamics::LinkedMaximum>& maxima,
+                                    const BlockAttachment& attachment,
+                                    const structure::MassProperties& mass);
+
+/// Forces at the lugs from a table (magnitude in N and unit direction in B, one a lug), balanced by
+/// the rigid-body acceleration that they would give the block.
+structure::LoadCase map_load_table(const std::vector<structure::Vector3>& lug_forces_B,
+                                   const std::vector<structure::LugRegion>& lugs,
+                                   const structure::MassProperties& mass);
+
+}  // namespace blocklift::pipeline
