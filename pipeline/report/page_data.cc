@@ -18,7 +18,7 @@ namespace blocklift::pipeline {
 namespace {
 
 using layout::join;
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // the tables of the page keep the order of the summary
 
 /// Histories are thinned to this many buckets: enough to zoom in by four on a wide screen.
 constexpr std::size_t history_buckets = 4000;
@@ -320,7 +320,7 @@ std::string base64(std::span<const unsigned char> bytes) {
   return text;
 }
 
-json make_page_data(const ResultsReader& results, const json& summary) {
+nlohmann::ordered_json make_page_data(const ResultsReader& results, const json& summary) {
   const std::string still(layout::static_history);
   const std::string moving(layout::dynamic_history);
   return {

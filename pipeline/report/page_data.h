@@ -25,7 +25,8 @@ namespace blocklift::pipeline {
 ///
 /// Parts that the results do not have are null.
 /// @throws ResultsError if the file lacks what it must have or its parts do not fit together.
-nlohmann::json make_page_data(const ResultsReader& results, const nlohmann::json& summary);
+nlohmann::ordered_json make_page_data(const ResultsReader& results,
+                                      const nlohmann::ordered_json& summary);
 
 /// Base64 (RFC 4648) of bytes.
 std::string base64(std::span<const unsigned char> bytes);

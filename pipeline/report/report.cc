@@ -15,10 +15,10 @@
 namespace blocklift::pipeline {
 namespace {
 
-nlohmann::json read_summary(const std::filesystem::path& path) {
+nlohmann::ordered_json read_summary(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) throw ResultsError(path.string() + ": there is no such file");
   try {
-    nlohmann::json summary = nlohmann::json::parse(read_file(path));
+    nlohmann::ordered_json summary = nlohmann::ordered_json::parse(read_file(path));
     if (!summary.is_object()) throw ResultsError(path.string() + ": is not a JSON object");
     return summary;
   } catch (const nlohmann::json::exception& error) {
@@ -51,8 +51,9 @@ std::string escape_html(std::string_view text) {
 }
 
 /// JSON that may stand inside a script element: no "<" can end the element early.
-std::string script_safe(const nlohmann::json& data) {
-  const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+std::string script_safe(const nlohmann::ordered_json& data) {
+  const std::string text =
+      data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char letter : text) {
@@ -83,9 +84,9 @@ std::string fill_page(std::string_view page, const std::string& title, const std
 }  // namespace
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
-  const nlohmann::json summary = read_summary(folder / layout::summary_file);
+  const nlohmann::ordered_json summary = read_summary(folder / layout::summary_file);
   const ResultsReader results(folder / layout::results_file);
-  nlohmann::json data;
+  nlohmann::ordered_json data;
   try {
     data = make_page_data(results, summary);
   } catch (const nlohmann::json::exception& error) {

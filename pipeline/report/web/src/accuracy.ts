@@ -15,7 +15,7 @@ function valueText(value: unknown): string {
   if (typeof value === "string") return value;
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (!known(value)) return missing;
-  return Number.isInteger(value) ? fixed(value, 0) : significant(value, 3);
+  return Number.isInteger(value) ? fixed(value, 0) : Math.abs(value) < 1e-3 ? scientific(value) : significant(value, 3);
 }
 
 function energyTable(data: PageData): Child {
@@ -57,7 +57,7 @@ export function methodSection(data: PageData): Section {
   const moved = data.histories.dynamic !== null || data.histories.static !== null;
   const structure = Boolean(summary.structure);
   return {
-    id: "method", title: "Assumptions and method", content: [
+    id: "method", title: "Assumptions and method", short: "Method", content: [
       (summary.assumptions ?? []).length > 0 && [h("h3", {}, "Assumptions"),
         h("ul", { class: "assumptions" }, summary.assumptions!.map((text) => h("li", {}, text)))],
       h("h3", {}, "Method"),

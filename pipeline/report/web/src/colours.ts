@@ -7,8 +7,8 @@ export const stateName = { static: "static", dynamic: "dynamic" };
 // so that equal steps of stress look equal, in print without colour too. Anchors are lightness, chroma and
 // hue in OKLCh; they are interpolated there and turned into sRGB.
 const anchors: [number, number, number][] = [
-  [0.30, 0.115, 285], [0.41, 0.115, 262], [0.52, 0.095, 225], [0.62, 0.105, 178],
-  [0.72, 0.145, 148], [0.82, 0.165, 122], [0.92, 0.165, 104],
+  [0.38, 0.145, 275], [0.47, 0.125, 255], [0.56, 0.105, 225], [0.65, 0.115, 180],
+  [0.74, 0.155, 148], [0.83, 0.175, 122], [0.92, 0.175, 104],
 ];
 
 function oklchToSrgb(lightness: number, chroma: number, hue: number): [number, number, number] {

@@ -8,8 +8,9 @@ import { h } from "./dom";
 import type { Section } from "./main";
 import { change, fixed, kilonewtons, seconds, tonnesForce } from "./numbers";
 
-/** One curve pair: what is plotted as static and as dynamic. */
-interface Curve { name: string; kind: string; series: Partial<Record<State, Series>> }
+interface Peak { time: number; value: number }
+/** One curve pair: what is plotted as static and as dynamic, and the largest of each. */
+interface Curve { name: string; kind: string; series: Partial<Record<State, Series>>; peaks: Partial<Record<State, Peak>> }
 
 function curvesOf(data: PageData): Curve[] {
   const curves: Curve[] = [];
@@ -18,8 +19,12 @@ function curvesOf(data: PageData): Curve[] {
       for (const packed of data.histories[state]?.[kind] ?? []) {
         if (packed.quantity !== "tension") continue;
         let curve = curves.find((one) => one.name === packed.name && one.kind === label);
-        if (!curve) curves.push((curve = { name: packed.name, kind: label, series: {} }));
+        if (!curve) curves.push((curve = { name: packed.name, kind: label, series: {}, peaks: {} }));
         curve.series[state] = new Series(packed);
+        const summary = (data.summary[kind] ?? []).find((one) => one.name === packed.name);
+        const [time, value] = state === "static" ? [summary?.time_of_max_static_s, summary?.max_static_tension_N]
+          : [summary?.time_of_max_dynamic_s, summary?.max_dynamic_tension_N];
+        curve.peaks[state] = known(time) && known(value) ? { time, value } : largestOf(curve.series[state]);
       }
   return curves;
 }
@@ -40,11 +45,21 @@ function aligned(series: (Series | undefined)[], factor: number): uPlot.AlignedD
   })] as unknown as uPlot.AlignedData;
 }
 
-function largestOf(series: Series | undefined): { time: number; value: number } | null {
-  if (!series || series.values.length === 0) return null;
+function largestOf(series: Series | undefined): Peak | undefined {
+  if (!series || series.values.length === 0) return undefined;
   let best = 0;
   series.values.forEach((value, i) => { if (value > series.values[best]) best = i; });
   return { time: series.time[best], value: series.values[best] };
+}
+
+/** Smallest and largest value of a curve pair. */
+function extent(curve: Curve): { low: number; high: number } {
+  let [low, high] = [Infinity, -Infinity];
+  for (const state of states) for (const value of curve.series[state]?.values ?? []) {
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  return { low, high };
 }
 
 const font = (size: number): string => `${size}px system-ui, "Segoe UI", Helvetica, Arial, sans-serif`;
@@ -70,8 +85,8 @@ function stageBands(stages: Stage[], named: boolean): uPlot.Plugin {
           if (ctx.measureText(stage.name).width + 8 > inside) return;
           ctx.fillStyle = "#5a6875";
           ctx.textAlign = "left";
-          ctx.textBaseline = "top";
-          ctx.fillText(stage.name, Math.max(left, u.bbox.left) + 5 * devicePixelRatio, u.bbox.top + 5 * devicePixelRatio);
+          ctx.textBaseline = "bottom";
+          ctx.fillText(stage.name, Math.max(left, u.bbox.left) + 5 * devicePixelRatio, u.bbox.top + u.bbox.height - 4 * devicePixelRatio);
         });
         ctx.restore();
       },
@@ -100,7 +115,7 @@ function marks(curve: () => Curve, clock: Clock, factor: number, labelled: boole
         ctx.stroke();
         ctx.setLineDash([]);
         for (const state of states) {
-          const top = largestOf(curve().series[state]);
+          const top = curve().peaks[state];
           if (!top) continue;
           const x = u.valToPos(top.time, "x", true);
           const y = u.valToPos(top.value * factor, "y", true);
@@ -121,9 +136,10 @@ function marks(curve: () => Curve, clock: Clock, factor: number, labelled: boole
           const shift = (rightwards ? 9 : -9) * devicePixelRatio;
           ctx.lineWidth = 4 * devicePixelRatio;
           ctx.strokeStyle = "rgba(255,255,255,.85)";
-          ctx.strokeText(text, x + shift, y);
+          const lower = y + (state === "static" ? 6 : -2) * devicePixelRatio;
+          ctx.strokeText(text, x + shift, lower);
           ctx.fillStyle = stateColour[state];
-          ctx.fillText(text, x + shift, y);
+          ctx.fillText(text, x + shift, lower);
         }
         ctx.restore();
       },
@@ -176,8 +192,8 @@ function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
     cursor: { sync: { key: "tension" }, drag: { x: true, y: false, setScale: true }, points: { size: 6 } },
     scales: { x: { time: false, range: (_, min, max) => [min, max] }, y: { range: settings.range } },
     axes: [
-      { ...axis, size: small ? 22 : 42, gap: 3, space: small ? 60 : 90, label: small ? undefined : "time, s", labelFont: font(12), labelSize: 18 },
-      { ...axis, size: small ? 40 : 58, gap: 3, space: small ? 34 : 44, label: small ? undefined : settings.unit, labelFont: font(12), labelSize: 18,
+      { ...axis, size: small ? 22 : 24, gap: 3, space: small ? 60 : 90, label: small ? undefined : "time, s", labelFont: font(12), labelSize: 20, labelGap: 0 },
+      { ...axis, size: small ? 42 : 46, gap: 3, space: small ? 24 : 44, label: small ? undefined : settings.unit, labelFont: font(12), labelSize: 18,
         values: (_, ticks) => ticks.map((tick) => fixed(tick, Number.isInteger(tick) ? 0 : 2)) },
     ],
     series: [{}, ...settings.series], plugins: settings.plugins,
@@ -203,9 +219,11 @@ function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
   return plot;
 }
 
+/** Static is drawn over dynamic, which would hide it. */
+const drawingOrder: State[] = ["dynamic", "static"];
 const pairSeries = (small: boolean): uPlot.Series[] => [
-  { label: "static", stroke: stateColour.static, width: small ? 1.2 : 2, spanGaps: true, points: { show: false } },
-  { label: "dynamic", stroke: stateColour.dynamic, width: small ? 0.9 : 1.2, spanGaps: true, points: { show: false } },
+  { label: "dynamic", stroke: stateColour.dynamic, width: small ? 0.9 : 1.1, spanGaps: true, points: { show: false } },
+  { label: "static", stroke: stateColour.static, width: small ? 1.3 : 2, spanGaps: true, points: { show: false } },
 ];
 
 /** The names of stages as buttons that zoom to them. */
@@ -267,15 +285,25 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
     for (const one of tiles) one.tile.setAttribute("aria-pressed", String(one.curve === curve));
     if (large) {
       const { min, max } = large.scales.x;
-      large.setData(aligned(states.map((state) => curve.series[state]), factor), false);
+      large.setData(aligned(drawingOrder.map((state) => curve.series[state]), factor), false);
       large.setScale("x", { min: min!, max: max! });
     }
     heading.textContent = `${curve.kind === "rope" ? "Rope" : "Hoist"} ${curve.name}`;
     read(null);
   };
   const heading = h("h3", {}, "");
-  const top = Math.max(...curves.filter((curve) => curve.kind === "rope")
-    .flatMap((curve) => states.map((state) => largestOf(curve.series[state])?.value ?? 0)), 1) * factor * 1.05;
+  const widest: Record<string, number> = {};
+  for (const curve of curves) {
+    const { low, high } = extent(curve);
+    widest[curve.kind] = Math.max(widest[curve.kind] ?? 0, (high - low) * factor * 1.12);
+  }
+  /** Every small plot spans the same number of kN, around its own middle, so that swings can be compared. */
+  const sameSpan = (curve: Curve): uPlot.Range.MinMax => {
+    const { low, high } = extent(curve);
+    const middle = (low + high) / 2 * factor;
+    const half = Math.max(widest[curve.kind] / 2, 0.5);
+    return middle - half < 0 && low >= 0 ? [0, 2 * half] : [middle - half, middle + half];
+  };
 
   // The plots need the width of their places, which they have once the section stands in the page.
   requestAnimationFrame(() => {
@@ -283,13 +311,13 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
       host, height: 340, group, clock, unit: "tension, kN", small: false, series: pairSeries(false), cursor: read,
       plugins: [stageBands(data.stages, true), marks(() => shown, clock, factor, true)],
       range: (_, min, max) => { const room = 0.12 * Math.max(max - min, 1); return [min >= 0 ? Math.max(min - room, 0) : min - room, max + room]; },
-    }, aligned(states.map((state) => shown.series[state]), factor));
+    }, aligned(drawingOrder.map((state) => shown.series[state]), factor));
     for (const { curve, plotHost } of tiles) {
       makePlot({
         host: plotHost, height: 130, group, clock, unit: "kN", small: true, series: pairSeries(true),
         plugins: [stageBands(data.stages, false), marks(() => curve, clock, factor, false)],
-        range: curve.kind === "rope" ? [0, top] : (_, min, max) => [Math.min(min, 0), max * 1.05],
-      }, aligned(states.map((state) => curve.series[state]), factor));
+        range: sameSpan(curve),
+      }, aligned(drawingOrder.map((state) => curve.series[state]), factor));
     }
     choose(shown);
     clock.listen(() => { group.redraw(); read(null); });
@@ -302,7 +330,7 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
       h("div", { class: "plot-head" }, heading, legend()),
       stageButtons(data, group), host, readout,
       h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's instant (dashed). Rings mark the largest values. "
-        + "The small plots share one scale, kN; choose one by its name."),
+        + "The small plots all span the same number of kN; choose one by its name."),
       grid("rope"),
       tiles.some((one) => one.curve.kind === "hoist") && h("details", {}, h("summary", {}, "Hoists"), grid("hoist"))],
   };

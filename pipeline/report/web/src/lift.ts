@@ -22,8 +22,9 @@ class LiftView {
   followLoad = false;
   private groups = new Map<string, three.Group>();
   private ropes: Rope[] = [];
+  private corners: three.Vector3[] = [];  // of everything drawn, at instants along the lift
   private bounds = new three.Box3();
-  private lug: { point: three.Vector3; at: Vector }[] = [];
+  private lugs: { point: three.Vector3; element: HTMLElement; at: Vector }[] = [];
 
   constructor(private data: PageData, private scene: Scene, private bodies: () => Bodies, times: number[]) {
     const world = this.viewer.panes[0].scene;
@@ -33,9 +34,10 @@ class LiftView {
     world.add(sun);
     for (const body of scene.bodies) world.add(this.makeBody(body));
     for (const rope of scene.ropes) this.makeRope(rope, world);
-    for (const lug of scene.lugs) this.lug.push({ point: this.viewer.addLabel(0, lug.name, "lug").point, at: lug.point as Vector });
+    for (const lug of scene.lugs) this.lugs.push({ ...this.viewer.addLabel(0, lug.name, "lug"), at: lug.point as Vector });
     for (const time of times) for (const body of scene.bodies) for (const box of body.boxes) for (const corner of boxCorners(box))
-      this.bounds.expandByPoint(new three.Vector3(...inWorld(bodies().pose(body.name, time), corner)));
+      this.corners.push(new three.Vector3(...inWorld(bodies().pose(body.name, time), corner)));
+    this.bounds.setFromPoints(this.corners);
     this.addGround(world);
   }
 
@@ -100,28 +102,30 @@ class LiftView {
       rope.label?.point.copy(path[0]).add(path[path.length - 1]).multiplyScalar(0.5);
     }
     const loadPose = this.bodies().pose(this.scene.load, time);
-    for (const { point, at } of this.lug) point.set(...inWorld(loadPose, at));
+    for (const { point, at } of this.lugs) point.set(...inWorld(loadPose, at));
     if (this.followLoad) this.viewer.follow(this.loadCentre(time));
     this.viewer.draw();
   }
 
-  loadCentre(time: number): three.Vector3 {
-    const box = new three.Box3();
+  private loadCorners(time: number): three.Vector3[] {
     const load = this.scene.bodies.find((body) => body.name === this.scene.load);
     const pose = this.bodies().pose(this.scene.load, time);
-    for (const one of load?.boxes ?? []) for (const corner of boxCorners(one)) box.expandByPoint(new three.Vector3(...inWorld(pose, corner)));
-    return box.isEmpty() ? new three.Vector3(...pose.p) : box.getCenter(new three.Vector3());
+    return (load?.boxes ?? []).flatMap((box) => boxCorners(box).map((corner) => new three.Vector3(...inWorld(pose, corner))));
+  }
+
+  private loadCentre(time: number): three.Vector3 {
+    const corners = this.loadCorners(time);
+    return corners.length === 0 ? new three.Vector3(...this.bodies().pose(this.scene.load, time).p)
+      : new three.Box3().setFromPoints(corners).getCenter(new three.Vector3());
   }
 
   look(name: "oblique" | "side" | "front" | "top" | "load", time: number): void {
-    const size = this.bounds.getSize(new three.Vector3());
-    const centre = this.bounds.getCenter(new three.Vector3());
-    const pad = 1.06;
-    if (name === "load") this.viewer.look([-0.9, -1, 0.55], this.loadCentre(time), size.z * 0.5, size.z * 0.5);
-    else if (name === "side") this.viewer.look([1, 0, 0], centre, size.z * pad, size.y * pad);
-    else if (name === "front") this.viewer.look([0, -1, 0], centre, size.z * pad, size.x * pad);
-    else if (name === "top") this.viewer.look([0, 0, 1], centre, size.y * pad, size.x * pad);
-    else this.viewer.look([0.75, -1, 0.42], centre, size.z * 0.95 + (size.x + size.y) * 0.24, (size.x + size.y) * 0.78);
+    const eyes: Record<typeof name, [number, number, number]> = {
+      oblique: [0.75, -1, 0.42], side: [1, 0, 0], front: [0, -1, 0], top: [0, 0, 1], load: [0.75, -1, 0.5] };
+    const slings = this.ropes.filter((rope) => rope.sling).flatMap((rope) => rope.path(time).map((point) => new three.Vector3(...point)));
+    this.viewer.look(eyes[name], name === "load" ? [...this.loadCorners(time), ...slings] : this.corners, name === "load" ? 0.25 : 0.08);
+    // From afar the lugs' names would only hide the ropes'.
+    for (const { element } of this.lugs) element.style.display = name === "load" ? "" : "none";
     this.viewer.draw();
   }
 }

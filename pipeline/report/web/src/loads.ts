@@ -86,7 +86,7 @@ function capacityTable(caption: string, head: string, loads: LoadMaxima[] | unde
   const columns: Column[] = [{ head, align: "left" }, { head: "Static, kN" }, { head: "t" }, { head: "at, s" },
     { head: "Dynamic, kN" }, { head: "t" }, { head: "at, s" }, { head: "Dynamic / static" },
     ...(capacity ? [{ head: "Capacity, t" }, { head: "Share of capacity" }] : []),
-    ...(swing ? [{ head: "Largest swing, °" }] : [])];
+    ...(swing ? [{ head: "Largest swing,\u00a0°" }] : [])];
   const rows = loads.map((load) => {
     const still = load.max_static_tension_N ?? load.max_static_load_N;
     const moving = load.max_dynamic_tension_N ?? load.max_dynamic_load_N;

@@ -11,7 +11,7 @@ import { loadsSection } from "./loads";
 import { stressSection } from "./stress";
 import { structureSection } from "./structure";
 
-export interface Section { id: string; title: string; content: Child }
+export interface Section { id: string; title: string; short?: string; content: Child }
 
 function clockOf(data: PageData): Clock {
   const histories = states.map((state) => data.histories[state]).filter((one) => one !== null);
@@ -37,12 +37,18 @@ function show(): void {
   const links: Child[] = [h("a", { href: "#verdict" }, data.case.name || "Verdict")];
   let number = 0;
   for (const make of makers) {
-    const section = make();
+    let section: Section | null;
+    try {
+      section = make();
+    } catch (error) {  // one section that fails must not take the others along
+      console.error(error);
+      section = { id: `failed-${number + 1}`, title: "A section is missing", content: h("p", {}, `It could not be drawn: ${String(error)}`) };
+    }
     if (!section) continue;
     number += 1;
     append(report, [h("section", { id: section.id }, h("h2", {}, h("span", { class: "number" }, String(number)), section.title),
       section.content)]);
-    links.push(h("a", { href: `#${section.id}` }, section.title));
+    links.push(h("a", { href: `#${section.id}` }, section.short ?? section.title));
   }
   append(document.getElementById("contents")!, links);
   document.body.classList.add("ready");

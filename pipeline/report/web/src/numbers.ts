@@ -38,7 +38,7 @@ export function scientific(value: unknown, decimals = 1): string {
 }
 
 export const kilonewtons = (newtons: unknown): string =>
-  known(newtons) ? significant(newtons / 1e3, 4) : missing;
+  known(newtons) ? significant(newtons / 1e3, Math.abs(newtons) < 1e5 ? 3 : 4 - Number(Math.abs(newtons) < 1e6)) : missing;
 export const tonnesForce = (newtons: unknown): string =>
   known(newtons) ? fixed(newtons / 1e3 / standardGravity, Math.abs(newtons) < 1e8 ? 1 : 0) : missing;
 export const tonnes = (kilograms: unknown): string =>
@@ -66,5 +66,5 @@ export function inReportUnit(value: unknown, unit: string): { text: string; unit
     N: [1e-3, "kN"], Pa: [1e-6, "MPa"], m: [1e3, "mm"], rad: [180 / Math.PI, "°"], kg: [1e-3, "t"], "N m": [1e-3, "kN m"],
   };
   const [factor, name] = factors[unit] ?? [1, unit === "1" ? "" : unit];
-  return { text: known(value) ? significant(value * factor, name === "kN" ? 4 : 3) : missing, unit: name };
+  return { text: !known(value) ? missing : name === "kN" ? kilonewtons(value) : significant(value * factor, 3), unit: name };
 }

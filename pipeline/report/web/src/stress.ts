@@ -43,7 +43,7 @@ function legendBar(): { element: HTMLElement; show: (top: number, bands: boolean
 }
 
 function niceDeformation(surface: BlockSurface, largest: number): number {
-  return largest > 0 ? 0.05 * surface.size / largest : 1;
+  return largest > 0 ? Number((0.03 * surface.size / largest).toPrecision(1)) : 1;
 }
 
 export function stressSection(data: PageData): Section | null {
@@ -116,11 +116,11 @@ function stressPictures(data: PageData, surface: BlockSurface, ways: Way[]): HTM
     rescale();
   };
 
-  const centre = new three.Vector3(...surface.centre);
-  const size = surface.size;
+  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new three.Vector3(
+    ...[0, 1, 2].map((k) => (i >> k & 1 ? surface.high[k] : surface.low[k])) as [number, number, number]));
   const eyes: Record<string, [number, number, number]> = {
     oblique: [-0.7, -1, 0.75], below: [-0.7, -1, -0.6], side: [0, -1, 0], end: [-1, 0, 0], top: [0, 0, 1] };
-  const look = (name: string): void => { viewer.look(eyes[name], centre, size * 0.62, size * 0.95); viewer.draw(); };
+  const look = (name: string): void => { viewer.look(eyes[name], corners, 0.14); viewer.draw(); };
 
   choose(way);
   look("oblique");

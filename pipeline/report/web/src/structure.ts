@@ -93,7 +93,7 @@ export function structureSection(data: PageData): Section | null {
   const structure = data.summary.structure;
   if (!structure) return null;
   return {
-    id: "structure", title: "Block", content: [
+    id: "structure", title: "Block stress and deformation", short: "Block", content: [
       h("p", { class: "lead" }, "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
         + "headline is the largest of these. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
       waysTable(data, structure), lugsTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],

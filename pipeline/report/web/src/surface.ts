@@ -20,9 +20,6 @@ export class BlockSurface {
     }
   }
 
-  get centre(): [number, number, number] {
-    return [0, 1, 2].map((k) => (this.low[k] + this.high[k]) / 2) as [number, number, number];
-  }
   get size(): number { return Math.hypot(...[0, 1, 2].map((k) => this.high[k] - this.low[k])); }
 
   triangles(hidden: Set<number> = new Set()): Uint32Array {

@@ -52,14 +52,15 @@ function keyFigures(data: PageData): Child[] {
   const way = structure?.simultaneous ?? structure?.per_rope_maxima;
   if (structure && way) {
     const published = data.summary.comparison;
-    const beside = (value: unknown): string => (known(value) ? `published ${change(value, 2)}` : "");
+    const beside = (ours: unknown, theirs: unknown): string => (known(theirs)
+      ? `${structure.simultaneous && known(ours) ? `per-rope maxima ${change(ours)}, ` : ""}published ${change(theirs, 2)}` : "");
     const both = (one: string, two: string, unit: string): string => `${one} to ${two} ${unit}`;
     figures.push(figure("Block stress increase", change(way.stress_increase_percent), "",
       [both(megapascals(way.static?.checked_von_mises_Pa), megapascals(way.dynamic?.checked_von_mises_Pa), "MPa"),
-        h("br"), beside(published?.stress_increase_percent)]));
+        h("br"), beside(structure.per_rope_maxima?.stress_increase_percent, published?.stress_increase_percent)]));
     figures.push(figure("Block deformation increase", change(way.deformation_increase_percent), "",
       [both(millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), "mm"),
-        h("br"), beside(published?.deformation_increase_percent)]));
+        h("br"), beside(structure.per_rope_maxima?.deformation_increase_percent, published?.deformation_increase_percent)]));
   }
   return figures;
 }

@@ -29,8 +29,8 @@ export class Viewer {
   readonly controls: OrbitControls;
   readonly panes: Pane[];
   readonly overlay = h("div", { class: "overlay" });
-  private height = 10;  // of the view at zoom 1, m
-  private wide = 10;    // what must fit across
+  private height = 10;  // of what must fit into the view at zoom 1, m
+  private wide = 10;
   private waiting = false;
 
   constructor(paneCount: number, pixelHeight: number, label: string) {
@@ -60,11 +60,24 @@ export class Viewer {
     return label;
   }
 
-  /** Looks from `direction` (from the target towards the eye) at a box-shaped region around `target`. */
-  look(direction: [number, number, number], target: three.Vector3, height: number, wide: number): void {
-    this.height = height;
-    this.wide = wide;
-    const distance = 2 * Math.max(height, wide);
+  /** Looks from `direction` (from what is seen towards the eye) so that all the points just fit into the view. */
+  look(direction: [number, number, number], points: three.Vector3[], margin = 0.08): void {
+    const forward = new three.Vector3(...direction).normalize();
+    const right = new three.Vector3(0, 0, 1).cross(forward);
+    if (right.length() < 1e-6) right.set(1, 0, 0);
+    const up = forward.clone().cross(right.normalize());
+    const axes = [right, up, forward];
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    for (const point of points) axes.forEach((axis, k) => {
+      low[k] = Math.min(low[k], point.dot(axis));
+      high[k] = Math.max(high[k], point.dot(axis));
+    });
+    const target = new three.Vector3();
+    axes.forEach((axis, k) => target.addScaledVector(axis, (low[k] + high[k]) / 2));
+    this.wide = (high[0] - low[0]) * (1 + margin);
+    this.height = (high[1] - low[1]) * (1 + margin);
+    const distance = 2 * Math.max(this.height, this.wide, high[2] - low[2], 1);
     this.camera.near = -distance;
     this.camera.far = 4 * distance;
     const eye = new three.Vector3(...direction).normalize().multiplyScalar(distance);

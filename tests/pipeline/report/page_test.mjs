@@ -1,0 +1,47 @@
+// Opens the sample reports in a headless Chromium, without a network, and checks what the page has become.
+//   node page_test.mjs WRITE_SAMPLE_REPORTS
+// Exit code 77 (skipped) where there is no Chromium.
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const browser = ["chromium", "chromium-browser", "google-chrome"]
+  .find((name) => spawnSync(name, ["--version"], { stdio: "ignore" }).status === 0);
+if (!browser) {
+  console.log("skipped: no Chromium on the PATH");
+  process.exit(77);
+}
+
+const sections = {
+  whole: ["lift", "histories", "loads", "stress", "structure", "checks", "accuracy", "method"],
+  loads: ["loads", "stress", "structure", "checks", "method"],
+  motion: ["lift", "histories", "loads", "checks", "accuracy", "method"],
+};
+const expected = [">988<", "Decisive: ", "A sample &amp; nothing else"];
+
+const folder = mkdtempSync(join(tmpdir(), "blocklift-page-"));
+const failures = [];
+try {
+  execFileSync(process.argv[2], [folder]);
+  for (const [name, ids] of Object.entries(sections)) {
+    const run = spawnSync(browser, [
+      "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1300,3000",
+      "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", `--user-data-dir=${join(folder, "profile")}`,
+      "--virtual-time-budget=5000", "--dump-dom", `file://${join(folder, name, "report.html")}`,
+    ], { encoding: "utf8", timeout: 120000, maxBuffer: 1 << 28 });
+    const dom = run.stdout ?? "";
+    const complain = (text) => failures.push(`${name}: ${text}`);
+    if (!/<body[^>]*class="ready"/.test(dom)) complain("the page did not finish drawing itself");
+    const found = [...dom.matchAll(/<section id="([^"]*)"/g)].map((match) => match[1]);
+    if (found.join() !== ids.join()) complain(`sections are ${found.join(", ")}; ${ids.join(", ")} are due`);
+    for (const text of expected) if (!dom.includes(text)) complain(`"${text}" is not on the page`);
+    for (const line of (run.stderr ?? "").split("\n"))
+      if (/CONSOLE/.test(line) && !/GPU stall|GL Driver Message/.test(line)) complain(line);
+  }
+} finally {
+  rmSync(folder, { recursive: true, force: true });
+}
+for (const failure of failures) console.log(failure);
+if (failures.length === 0) console.log("the sample reports draw themselves without a complaint");
+process.exit(failures.length === 0 ? 0 : 1);
