@@ -72,6 +72,7 @@ std::optional<JointKind> joint_kind(std::string_view name) {
 const std::vector<std::string_view>& joint_kind_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> result;
+    result.reserve(properties.size());
     for (const KindProperties& kind : properties) result.push_back(kind.name);
     return result;
   }();

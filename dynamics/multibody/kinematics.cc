@@ -11,14 +11,13 @@ struct RelativeMotion {
   const double* q;       // the joint's own entries
   const double* v;       // the joint's own entries
   const Pose& X_WC;      // of the carrier
-  const Vector3& w_WC;   // of the carrier
   Vector3* direction;    // the joint's own columns
   Matrix3& R_WB;         // out
   Vector3& p_CB_W;       // out
   Vector3 w_relative;    // out: angular velocity of B in C
   Vector3 u_relative;    // out: velocity of Bo in C
-  Vector3 bias_angular;  // out: dS/dt v beyond w_WC x w_relative
-  Vector3 bias_linear;   // out: dS/dt v beyond w_WC x u_relative
+  Vector3 bias_angular;  // out: angular part of dS/dt v beyond w_WC x w_relative
+  Vector3 bias_linear;   // out: linear part of dS/dt v beyond w_WC x u_relative
 
   void revolute() {
     turn(q[0]);
@@ -118,7 +117,6 @@ void move_link(const Link& link, const double* q, const double* v, Kinematics& k
                         q + link.q_offset,
                         v + link.v_offset,
                         kinematics.X_WB[c],
-                        w_C,
                         kinematics.direction_W.data() + link.v_offset,
                         kinematics.X_WB[b].R,
                         kinematics.p_CB_W[b],

@@ -26,9 +26,9 @@ struct BodyDefinition {
   Matrix3 I_BBcm_B = Matrix3::Zero();   ///< about the centre of mass, in B, kg m2
   /// Viscous damping for each v of the joint (N s/m or N m s): tau = -d v. Empty: none.
   std::vector<double> damping;
-  /// Which v of the joint follow a prescribed motion. Empty: none. Each v of its own for joints
-  /// whose v is dq/dt; all or none for spherical and free, whose q has no entry of its own for each
-  /// v.
+  /// Which v of the joint follow a prescribed motion. Empty: none. Where v is dq/dt, each has its own
+  /// profile; spherical and free are driven as a whole, along a fixed direction n of v by one profile
+  /// s(t): q = q0 (+) s n (integrate_joint), v = n ds/dt, vdot = n d2s/dt2, which is exact.
   std::vector<bool> driven;
 };
 
@@ -36,11 +36,11 @@ struct BodyDefinition {
 struct Body {
   std::string name;
   BodyIndex parent = -1;  ///< -1 for the world
-  BodyIndex carrier =
-      -1;       ///< the nearest body below that moves or is the world; fixed joints skipped
-  Joint joint;  ///< axes of unit length
-  Pose X_PJ;    ///< joint frame in the parent
-  Pose X_CJ;    ///< joint frame in the carrier
+  /// The parent, or if that is on a fixed joint, the first body towards the world that is not.
+  BodyIndex carrier = -1;
+  Joint joint;                  ///< axes of unit length
+  Pose X_PJ;                    ///< joint frame in the parent
+  Pose X_CJ;                    ///< joint frame in the carrier
   RigidBodyInertia inertia;     ///< of this body alone
   int q_offset = 0;             ///< first coordinate within q
   int v_offset = 0;             ///< first velocity within v
@@ -59,8 +59,8 @@ struct Link {
   int q_offset;
   int v_offset;
   int nv;
-  // Rotation of joints turning about one axis: R_CB = rotation_constant + sin rotation_sine + cos
-  // rotation_cosine. Others use rotation_constant = R_CJ.
+  // Joints that turn about an axis: R_CB = rotation_constant + sin(q) rotation_sine
+  // + cos(q) rotation_cosine (Rodrigues' formula). Others: rotation_constant = R_CJ.
   Matrix3 rotation_constant;
   Matrix3 rotation_sine;
   Matrix3 rotation_cosine;

@@ -31,7 +31,7 @@ TEST(FreeSystem, ConservesMomentumAndEnergy) {
                  random.values(mechanism.nv(), 0.5));
   const ForceVector momentum = calc_momentum(mechanism, run.kinematics());
   const double energy = calc_kinetic_energy(mechanism, run.kinematics());
-  run.advance(1.0, 2000);
+  run.advance(0.5, 1000);
   const ForceVector later = calc_momentum(mechanism, run.kinematics());
   // The step's error is of the order (h |rates|)^4 = (5e-4 * 10)^4 = 6e-10 of each.
   EXPECT_LT((later.force - momentum.force).norm(), 1e-9 * momentum.force.norm());
@@ -71,12 +71,12 @@ TEST(ConservativeSystem, KeepsItsEnergy) {
   };
   const double start = energy();
   const double scale = calc_kinetic_energy(mechanism, run.kinematics()) + std::abs(start);
-  run.advance(1.0, 10000);
+  run.advance(0.3, 1500);
   EXPECT_NEAR(energy(), start, 1e-8 * scale);
 }
 
 // A long spin about the axis of largest inertia returns to where it should be, and stays a rotation.
-TEST(FreeBody, SpinsForAThousandRevolutions) {
+TEST(FreeBody, SpinsForAHundredRevolutions) {
   MechanismBuilder builder;
   builder.set_gravity(Vector3::Zero());
   BodyDefinition body;
@@ -89,10 +89,10 @@ TEST(FreeBody, SpinsForAThousandRevolutions) {
   Eigen::VectorXd v = Eigen::VectorXd::Zero(6);
   v[2] = 2 * M_PI;
   RungeKutta run(mechanism, mechanism.zero_configuration(), v);
-  run.advance(1000.0, 200000);
+  run.advance(100.0, 10000);
   const Matrix3 R = run.kinematics().X_WB[1].R;
   EXPECT_LT((R.transpose() * R - Matrix3::Identity()).norm(), 1e-14);
-  // Phase error of the classical method: (h w)^5 / 120 a step, and the quaternion turns at w / 2.
+  // Phase error of the classical method: (h w/2)^5 / 120 a step, the quaternion turning at w / 2.
   EXPECT_LT((R - Matrix3::Identity()).norm(), 1e-5);
 }
 
