@@ -44,21 +44,21 @@ class Table {
     description_->description = std::move(description);
   }
 
-  template <class U, class M>
-  Table& required(std::string name, M T::*member, Format<U> format, std::string meaning) {
+  template <class U, class M, class C>
+  Table& required(std::string name, M C::*member, Format<U> format, std::string meaning) {
     return add({std::move(name), format.description, true, {}, std::move(meaning)}, member, format);
   }
 
   /// A key that may be left out: the member keeps what T's own constructor gives it (std::nullopt).
-  template <class U, class M>
-  Table& optional(std::string name, M T::*member, Format<U> format, std::string meaning) {
+  template <class U, class M, class C>
+  Table& optional(std::string name, M C::*member, Format<U> format, std::string meaning) {
     return add({std::move(name), format.description, false, {}, std::move(meaning)}, member,
                format);
   }
 
   /// A key that may be left out and then has the value of `default_text`, written as in a file.
-  template <class U, class M>
-  Table& by_default(std::string name, M T::*member, Format<U> format, std::string default_text,
+  template <class U, class M, class C>
+  Table& by_default(std::string name, M C::*member, Format<U> format, std::string default_text,
                     std::string meaning) {
     return add(
         {std::move(name), format.description, false, std::move(default_text), std::move(meaning)},
@@ -96,8 +96,8 @@ class Table {
     std::function<bool(const YAML::Node&, const Mark&, Reading&, T&)> read;
   };
 
-  template <class U, class M>
-  Table& add(KeyDescription description, M T::*member, Format<U> format) {
+  template <class U, class M, class C>
+  Table& add(KeyDescription description, M C::*member, Format<U> format) {
     description_->keys.push_back(description);
     keys_.push_back(
         {std::move(description),

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pipeline/input/block_model.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr double same_place = 1e-6;  // m
+
+const char* axis_name(std::size_t axis) {
+  static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
+  return names.at(axis);
+}
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  for (const T& item : items) names.push_back(item.name.value);
+  return names;
+}
+
+template <class T>
+const T* find_by_name(const std::vector<T>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const T& item) { return item.name.value == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+/// Complains about a name that is not in the list; passes over one that could not be read.
+template <class T>
+const T* look_up(const Located<std::string>& name, const std::vector<T>& items,
+                 const std::string& user, const char* noun, Reading& reading) {
+  if (name.value.empty()) return nullptr;
+  const T* found = find_by_name(items, name.value);
+  if (!found) {
+    reading.error(
+        name.mark,
+        fmt::format("{} names {} \"{}\", which the block does not have", user, noun, name.value),
+        {names_hint(fmt::format("its {}s are", noun), names_of(items), name.value)});
+  }
+  return found;
+}
+
+bool has_position(const PlateModel& plate, double at) {
+  return std::any_of(plate.at.begin(), plate.at.end(),
+                     [at](double position) { return std::abs(position - at) < same_place; });
+}
+
+std::string positions_text(const PlateModel& plate) {
+  std::vector<std::string> positions;
+  for (const double at : plate.at) positions.push_back(fmt::format("{:.6g} m", at));
+  return list_of_names(positions);
+}
+
+void check_plates(const BlockModel& block, Reading& reading) {
+  for (const PlateModel& plate : block.plates) {
+    if (!plate.material.value.empty()) {
+      look_up(plate.material, block.materials, "plate " + plate.name.value, "material", reading);
+    } else if (block.materials.size() > 1) {
+      reading.error(
+          plate.name.mark,
+          fmt::format("plate {} names no material, and the block has several", plate.name.value),
+          {"its materials are " + list_of_names(names_of(block.materials))});
+    }
+    if (plate.at.size() > 1) {
+      std::vector<double> sorted = plate.at;
+      std::sort(sorted.begin(), sorted.end());
+      for (std::size_t i = 1; i < sorted.size(); ++i) {
+        if (sorted[i] - sorted[i - 1] >= plate.thickness) continue;
+        reading.error(plate.name.mark,
+                      fmt::format("plate {} lies upon itself: positions {:.6g} m and {:.6g} m are "
+                                  "nearer than its thickness of {:.6g} m",
+                                  plate.name.value, sorted[i - 1], sorted[i], plate.thickness));
+        break;
+      }
+    }
+  }
+}
+
+void check_openings(const BlockModel& block, Reading& reading) {
+  for (const OpeningModel& opening : block.openings) {
+    const std::string user = "opening " + opening.name.value;
+    const PlateModel* plate = look_up(opening.plate, block.plates, user, "plate", reading);
+    if (!plate) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis != plate->normal && !opening.extent[axis]) {
+        reading.error(
+            opening.name.mark, fmt::format("{} lacks the key \"{}\"", user, axis_name(axis)),
+            {fmt::format("plate {} is normal to {}", plate->name.value, axis_name(plate->normal))});
+      }
+    }
+    for (const double at : opening.at) {
+      if (has_position(*plate, at)) continue;
+      reading.error(opening.name.mark,
+                    fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, at,
+                                plate->name.value),
+                    {"its positions are " + positions_text(*plate)});
+    }
+  }
+}
+
+void check_pads(const BlockModel& block, Reading& reading) {
+  for (const PadModel& pad : block.pads) {
+    const std::string user = "pad " + pad.name.value;
+    if (!pad.material.value.empty()) {
+      look_up(pad.material, block.materials, user, "material", reading);
+    }
+    const PlateModel* plate = look_up(pad.plate, block.plates, user, "plate", reading);
+    if (!plate) continue;
+    if (pad.normal != plate->normal) {
+      reading.error(pad.name.mark, fmt::format("{} is normal to {}, but its plate {} to {}", user,
+                                               axis_name(pad.normal), plate->name.value,
+                                               axis_name(plate->normal)));
+      continue;
+    }
+    if (!plate->at.empty() && !has_position(*plate, pad.at)) {
+      reading.error(pad.name.mark,
+                    fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, pad.at,
+                                plate->name.value),
+                    {"its positions are " + positions_text(*plate)});
+    }
+    if (pad.thickness <= plate->thickness) {
+      reading.error(pad.name.mark,
+                    fmt::format("{} is {:.6g} m thick, its plate {} already {:.6g} m", user,
+                                pad.thickness, plate->name.value, plate->thickness),
+                    {"a pad's thickness is the total, the plate included"});
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis == pad.normal || !pad.extent[axis] || !plate->extent[axis]) continue;
+      const auto& inner = pad.extent[axis]->value;
+      const auto& outer = plate->extent[axis]->value;
+      if (inner[0] < outer[0] - same_place || inner[1] > outer[1] + same_place) {
+        reading.error(pad.extent[axis]->mark,
+                      fmt::format("{} reaches along {} from {:.6g} m to {:.6g} m, beyond its plate "
+                                  "{}, which ends at {:.6g} m and {:.6g} m",
+                                  user, axis_name(axis), inner[0], inner[1], plate->name.value,
+                                  outer[0], outer[1]));
+      }
+    }
+  }
+}
+
+void check_lugs(const BlockModel& block, Reading& reading) {
+  for (const LugModel& lug : block.lugs) {
+    const std::string user = "lug " + lug.name.value;
+    if (!lug.material.value.empty()) {
+      look_up(lug.material, block.materials, user, "material", reading);
+    }
+    look_up(lug.pad, block.pads, user, "pad", reading);
+    if (!lug.pin.value.allFinite()) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = lug.pin.value[static_cast<Eigen::Index>(axis)];
+      std::array<double, 2> range = {lug.at - lug.thickness / 2, lug.at + lug.thickness / 2};
+      if (axis != lug.normal) {
+        if (!lug.extent[axis]) continue;
+        range = lug.extent[axis]->value;
+      }
+      if (place < range[0] - same_place || place > range[1] + same_place) {
+        reading.error(lug.pin.mark,
+                      fmt::format("the pin of {} is at {} = {:.6g} m, outside the lug plate, which "
+                                  "reaches from {:.6g} m to {:.6g} m",
+                                  user, axis_name(axis), place, range[0], range[1]));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
+  if (block.mass.has_value() != block.centre_of_mass.has_value()) {
+    reading.error(block.mass ? block.mass->mark : block.centre_of_mass->mark,
+                  block.mass ? "the block has a mass but no centre_of_mass"
+                             : "the block has a centre_of_mass but no mass",
+                  {"give both, or neither: then they are those of the plates"});
+  }
+  if (block.plates.empty()) reading.error(mark, "the block has no plates");
+  check_plates(block, reading);
+  check_openings(block, reading);
+  check_pads(block, reading);
+  check_lugs(block, reading);
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,199 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pipeline/input/block_model.h"
+#include "pipeline/input/crane_model.h"
+#include "pipeline/input/model_library.h"
+
+namespace blocklift::pipeline {
+
+/// A crane of the lift: where it stands and where its drives and winches are at the start.
+struct CraneInCase {
+  Located<std::string> name;
+  Located<std::string> model_name;
+  std::shared_ptr<const CraneModel> model;  ///< after the look-up; null if it failed
+  Vector3 position = Vector3::Zero();       ///< of the crane's base in the world, m
+  Vector3 attitude = Vector3::Zero();       ///< roll, pitch, yaw of the base, rad
+  /// Drives: coordinate. Hoists: unstretched rope length. Ordered as in the file.
+  std::vector<Named<Located<Quantity>>> start;
+
+  const Located<Quantity>* find_start(const std::string& drive_or_hoist) const;
+};
+
+/// The block that is lifted.
+struct LoadInCase {
+  Located<std::string> model_name;
+  std::shared_ptr<const BlockModel> model;  ///< after the look-up; null if it failed
+  Vector3 position = Vector3::Zero();       ///< of the block's frame at the start, a first guess, m
+  Vector3 attitude = Vector3::Zero();       ///< roll, pitch, yaw, rad; likewise
+};
+
+/// Where a rope begins, turns or ends: a hook (`C1.upper_1`), a lug (`L1`), or any point of a body.
+struct RopePoint {
+  Located<std::string> name;                 ///< of the hook or lug; empty where `body` is given
+  std::optional<Located<std::string>> body;  ///< "world", "load", "C1.gantry", "C1.upper_1"
+  Vector3 point = Vector3::Zero();           ///< in the body's frame, m
+};
+
+/// What a rope point is after its names have been looked up.
+struct ResolvedPoint {
+  enum class Kind { world, load, crane_body, hook } kind = Kind::world;
+  std::size_t crane = 0;            ///< index of the crane, for crane_body and hook
+  std::string part;                 ///< name of the body or hoist within the crane
+  std::string lug;                  ///< name of the lug, if the point is one
+  Vector3 point = Vector3::Zero();  ///< in the body's frame, m
+
+  /// Name of the body in the lift: "world", "load", "C1.gantry", "C1.upper_1".
+  std::string body_name(const std::vector<CraneInCase>& cranes) const;
+};
+
+/// A rope, sling or line of the lift.
+struct RopeInCase {
+  Located<std::string> name;
+  Located<RopePoint> from;
+  std::vector<Located<RopePoint>> through;
+  Located<RopePoint> to;
+  std::vector<ResolvedPoint> path;  ///< from, through, to; empty if a name could not be found
+  RopeChoice rope_choice;
+  RopeModel rope;                                                  ///< after the look-up
+  Located<double> length;                                          ///< unstretched, at the start, m
+  double end_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
+  std::optional<DriveLimits> winch;  ///< of its own, at the `from` end
+
+  /// The lug at its end, empty if it ends elsewhere.
+  std::string lug() const { return path.empty() ? std::string() : path.back().lug; }
+};
+
+/// Constant wind.
+struct WindInCase {
+  double speed = 0;    ///< m/s
+  double towards = 0;  ///< direction of travel from +x towards +y, rad
+  double air_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m^3
+};
+
+/// Moves of one or several drives or winches, alike.
+struct MoveInCase {
+  std::vector<Located<std::string>> drives;
+  std::optional<Located<Quantity>> by;
+  std::optional<Located<Quantity>> to;
+  std::optional<Located<Quantity>> speed;
+  std::optional<Located<Quantity>> acceleration;
+  std::optional<Located<Quantity>> jerk;
+  std::optional<Located<double>> duration;  ///< s
+  double delay = 0;                         ///< after the stage's start, s
+  std::optional<Located<std::string>> follows;
+  /// Own travel over the leader's travel, both since the start of the leader's move.
+  std::optional<Located<std::vector<std::array<Quantity, 2>>>> table;
+  Mark place;
+};
+
+/// A stage of the operation: its moves begin together, each after its own delay.
+struct StageInCase {
+  Located<std::string> name;
+  double pause = 0;  ///< before the stage, s
+  std::vector<MoveInCase> moves;
+};
+
+/// A pad on which the load stands at the start, and from which it lifts off.
+struct SupportInCase {
+  Located<std::string> name;
+  Vector3 point = Vector3::Zero();  ///< of the load, in the block's frame, m
+  double ground = 0;                ///< height of the ground, m
+  double stiffness = std::numeric_limits<double>::quiet_NaN();  ///< N/m
+  double damping = 0;                                           ///< N s/m
+  double friction_coefficient = 0;
+  double tangential_stiffness = 0;  ///< N/m
+};
+
+struct DynamicsSettings {
+  double relative_tolerance = 0;
+  double sample_interval = 0;  ///< s
+  double static_interval = 0;  ///< s
+};
+
+struct StructureSettings {
+  int element_degree = 0;
+  double largest_element = 0;  ///< m
+};
+
+struct CheckSettings {
+  double rope_safety_factor = 0;
+  bool crane_capacity = false;
+  double yield_factor = 0;
+  double smallest_tension = 0;          ///< N
+  std::optional<double> largest_swing;  ///< rad
+};
+
+/// A published or measured pair of largest loads, N.
+struct PublishedLoads {
+  std::optional<double> static_load;
+  std::optional<double> dynamic_load;
+};
+
+/// Published figures that are shown beside the computed ones.
+struct Comparison {
+  std::string source;
+  std::vector<Named<PublishedLoads>> ropes;
+  std::optional<double> stress_increase;       ///< as a ratio
+  std::optional<double> deformation_increase;  ///< as a ratio
+};
+
+/// Lug forces given outright in place of a simulated lift.
+struct LoadTable {
+  /// Direction of the pull in the block's frame, unit: one for all lugs, or one for each.
+  std::variant<Vector3, std::vector<Named<Vector3>>> direction;
+  std::vector<Named<double>> static_loads;   ///< by lug, N
+  std::vector<Named<double>> dynamic_loads;  ///< by lug, N
+  Mark place;
+
+  /// The unit direction of the pull at a lug.
+  Vector3 direction_at(const std::string& lug) const;
+};
+
+/// A lift case: what is lifted, by what, how, and what is asked. SI units.
+struct LiftCase {
+  std::string name;
+  std::string title;
+  double gravity = std::numeric_limits<double>::quiet_NaN();  ///< m/s^2
+  LoadInCase load;
+  std::vector<CraneInCase> cranes;
+  std::vector<RopeInCase> ropes;
+  std::vector<SupportInCase> supports;
+  std::optional<WindInCase> wind;
+  std::vector<StageInCase> operation;
+  double settle = 0;  ///< after the last move, s
+  DynamicsSettings dynamics;
+  StructureSettings structure;
+  CheckSettings checks;
+  std::optional<Comparison> compare;
+  std::optional<LoadTable> load_table;
+  Mark place;
+  std::string yaml;            ///< the case file as it stands
+  std::filesystem::path file;  ///< where it is
+
+  const CraneInCase* find_crane(const std::string& name) const;
+  const RopeInCase* find_rope(const std::string& name) const;
+};
+
+/// The format of a case file, without the look-up of models.
+Format<LiftCase> lift_case_format();
+
+/// Reads a case file, the models that it names, and checks all of it together.
+///
+/// @param path the file, or a folder with a `case.yaml` in it.
+/// @returns the case only if nothing is wrong with it; else the complaints are in `diagnostics`.
+std::optional<LiftCase> read_lift_case(const std::filesystem::path& path, ModelLibrary& library,
+                                       Diagnostics& diagnostics);
+
+/// The same, with the models of the installation. @throws InputError with all complaints.
+LiftCase read_lift_case(const std::filesystem::path& path);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,271 @@
+#include "pipeline/input/lift_case.h"
+#include "pipeline/input/table.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+const std::vector<Dimension> travels = {Dimension::length, Dimension::angle};
+const auto zero_position = "[0 m, 0 m, 0 m]";
+const auto zero_attitude = "[0 deg, 0 deg, 0 deg]";
+
+Format<CraneInCase> crane_format() {
+  Table<CraneInCase> table("crane", "A crane of the lift.");
+  table
+      .required("model", &CraneInCase::model_name, located(reference()),
+                "name of the crane's model file")
+      .by_default("position", &CraneInCase::position, position_format(), zero_position,
+                  "of the crane's base in the world")
+      .by_default("orientation", &CraneInCase::attitude, attitude_format(), zero_attitude,
+                  "of the crane's base: roll, pitch, yaw")
+      .required("start", &CraneInCase::start, names_to(located(quantity_of(travels))),
+                "where each drive stands, and how much rope (unstretched) each hoist has out, "
+                "when the operation begins");
+  return table.format();
+}
+
+Format<LoadInCase> load_format() {
+  Table<LoadInCase> table("load",
+                          "The block that is lifted: one model for its motion and its "
+                          "stress.");
+  table
+      .required("model", &LoadInCase::model_name, located(reference()),
+                "name of the block's model file")
+      .by_default("position", &LoadInCase::position, position_format(), zero_position,
+                  "of the block's frame in the world at the start; a first guess, the run begins "
+                  "from equilibrium")
+      .by_default("orientation", &LoadInCase::attitude, attitude_format(), zero_attitude,
+                  "of the block at the start: roll, pitch, yaw; a first guess");
+  return table.format();
+}
+
+Format<Located<RopePoint>> rope_point_format() {
+  Table<RopePoint> table("point", "A point of a body of the lift.");
+  table
+      .required("body", &RopePoint::body, reference(),
+                "\"world\", \"load\", or crane and body (C1.gantry)")
+      .by_default("point", &RopePoint::point, position_format(), zero_position,
+                  "in the body's frame");
+  const auto by_name = converted<Located<std::string>, RopePoint>(located(reference()),
+                                                                  [](Located<std::string> name) {
+                                                                    RopePoint point;
+                                                                    point.name = std::move(name);
+                                                                    return point;
+                                                                  });
+  return located(by_shape<RopePoint>(by_name, std::nullopt, table.format()));
+}
+
+Format<RopeInCase> rope_format() {
+  Table<RopeInCase> table("rope",
+                          "A rope, sling or line of the lift. Its ends and the sheaves "
+                          "between them are hooks (crane and hoist: C1.upper_1), lugs of "
+                          "the load (L1), or points of bodies.");
+  table.required("from", &RopeInCase::from, rope_point_format(), "upper end")
+      .optional("through", &RopeInCase::through, list_of(rope_point_format()),
+                "frictionless sheaves on its way")
+      .required("to", &RopeInCase::to, rope_point_format(), "lower end")
+      .required("model", &RopeInCase::rope_choice, rope_choice_format(),
+                "name of the rope's model file, or the rope's keys")
+      .required("length", &RopeInCase::length, quantity(Dimension::length, Range::positive()),
+                "unstretched, at the start")
+      .optional("end_stiffness", &RopeInCase::end_stiffness,
+                quantity(Dimension::stiffness, Range::positive()),
+                "of what the rope is fastened to, in series with it; rigid if left out")
+      .optional("winch", &RopeInCase::winch, winch_format(),
+                "of its own: then the rope is moved by its name, like a hoist");
+  return table.format();
+}
+
+Format<SupportInCase> support_format() {
+  Table<SupportInCase> table("support", "A pad under the load, from which it lifts off.");
+  table
+      .required("point", &SupportInCase::point, position_format(),
+                "of the load that stands on the pad, in the block's frame")
+      .by_default("ground", &SupportInCase::ground, quantity(Dimension::length), "0 m",
+                  "height of the pad's upper face")
+      .required("stiffness", &SupportInCase::stiffness,
+                quantity(Dimension::stiffness, Range::positive()), "against sinking in")
+      .by_default("damping", &SupportInCase::damping,
+                  quantity(Dimension::damping, Range::not_negative()), "0 kN s/m",
+                  "against sinking in")
+      .by_default("friction_coefficient", &SupportInCase::friction_coefficient,
+                  number(Range::between(0, 2)), "0.3", "level force over the load on the pad")
+      .by_default("tangential_stiffness", &SupportInCase::tangential_stiffness,
+                  quantity(Dimension::stiffness, Range::not_negative()), "1 MN/m",
+                  "against sliding, up to the friction");
+  return table.format();
+}
+
+Format<WindInCase> wind_format() {
+  Table<WindInCase> table("wind",
+                          "Wind that is the same everywhere and at all times; it acts on "
+                          "the wind areas of bodies.");
+  table
+      .required("speed", &WindInCase::speed, quantity(Dimension::speed, Range::not_negative()),
+                "of the air")
+      .required("towards", &WindInCase::towards, quantity(Dimension::angle),
+                "where it blows to, from +x towards +y")
+      .by_default("air_density", &WindInCase::air_density,
+                  quantity(Dimension::density, Range::positive()), "1.25 kg/m^3", "of the air");
+  return table.format();
+}
+
+Format<MoveInCase> move_format() {
+  const auto limit = [](Dimension linear, Dimension angular) {
+    return quantity_of({linear, angular}, Range::positive());
+  };
+  Table<MoveInCase> table("move",
+                          "What one or several drives or winches do, alike. It goes `by` a "
+                          "distance or `to` a place, from rest to rest, or `follows` "
+                          "another one.");
+  table
+      .required("drives", &MoveInCase::drives, list_of(located(reference()), 1),
+                "crane and drive or hoist (C1.travel, C1.upper_1), or a rope with its own winch")
+      .optional("by", &MoveInCase::by, quantity_of(travels),
+                "distance or angle; of a winch the change of rope length, negative to hoist")
+      .optional("to", &MoveInCase::to, quantity_of(travels),
+                "in place of by: the coordinate or rope length at the end")
+      .optional("speed", &MoveInCase::speed, limit(Dimension::speed, Dimension::angular_speed),
+                "below the drive's own limit, which holds if left out")
+      .optional("acceleration", &MoveInCase::acceleration,
+                limit(Dimension::acceleration, Dimension::angular_acceleration),
+                "below the drive's own limit, which holds if left out")
+      .optional("jerk", &MoveInCase::jerk, limit(Dimension::jerk, Dimension::angular_jerk),
+                "below the drive's own limit, which holds if left out")
+      .optional("duration", &MoveInCase::duration, quantity(Dimension::time, Range::positive()),
+                "stretches the move to last that long; as short as the limits allow if left out")
+      .by_default("delay", &MoveInCase::delay, quantity(Dimension::time, Range::not_negative()),
+                  "0 s", "after the start of the stage")
+      .optional("follows", &MoveInCase::follows, reference(),
+                "the drive or winch whose travel in this stage leads this one")
+      .optional("table", &MoveInCase::table,
+                list_of(array_of<Quantity, 2>(quantity_of(travels)), 2),
+                "own travel over the leader's travel, a smooth curve through these points: "
+                "[[leader, own], ...]")
+      .place(&MoveInCase::place);
+  return table.format();
+}
+
+Format<StageInCase> stage_format() {
+  Table<StageInCase> table("stage", "A part of the operation; it ends with the last of its moves.");
+  table.required("stage", &StageInCase::name, text(), "its name, for people")
+      .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
+                  "0 s", "before the stage begins")
+      .optional("moves", &StageInCase::moves, list_of(move_format()), "what moves");
+  return table.format();
+}
+
+Format<DynamicsSettings> dynamics_format() {
+  Table<DynamicsSettings> table("dynamics settings", "How the motion is computed.");
+  table
+      .by_default("relative_tolerance", &DynamicsSettings::relative_tolerance,
+                  number(Range::between(1e-12, 1e-2)), "1e-6", "of the time integration")
+      .by_default("sample_interval", &DynamicsSettings::sample_interval,
+                  quantity(Dimension::time, Range::between(1e-4, 60)), "0.05 s",
+                  "between two recorded samples of the motion")
+      .by_default("static_interval", &DynamicsSettings::static_interval,
+                  quantity(Dimension::time, Range::between(1e-3, 600)), "1 s",
+                  "between two static equilibria");
+  return table.format();
+}
+
+Format<StructureSettings> structure_format() {
+  Table<StructureSettings> table("structure settings", "How the stress is computed.");
+  table
+      .by_default("element_degree", &StructureSettings::element_degree,
+                  integer(Range::between(1, 5)), "3", "polynomial degree of the hexahedra")
+      .by_default("largest_element", &StructureSettings::largest_element,
+                  quantity(Dimension::length, Range::between(0.01, 100)), "2 m",
+                  "longest edge of an element");
+  return table.format();
+}
+
+Format<CheckSettings> checks_format() {
+  Table<CheckSettings> table("check settings", "What the lift must meet.");
+  table
+      .by_default("rope_safety_factor", &CheckSettings::rope_safety_factor,
+                  number(Range::at_least(1)), "5", "breaking load over the largest rope load")
+      .by_default("crane_capacity", &CheckSettings::crane_capacity, boolean(), "true",
+                  "hook and crane loads against the cranes' capacities")
+      .by_default("yield_factor", &CheckSettings::yield_factor, number(Range::at_least(1)), "1.5",
+                  "yield stress over the largest checked stress")
+      .by_default("smallest_tension", &CheckSettings::smallest_tension,
+                  quantity(Dimension::load, Range::not_negative()), "0 kN",
+                  "below which a rope counts as slack")
+      .optional("swing", &CheckSettings::largest_swing,
+                quantity(Dimension::angle, Range::positive()),
+                "largest angle of a hoist's tackle against the vertical; not checked if left out");
+  return table.format();
+}
+
+Format<Comparison> comparison_format() {
+  Table<PublishedLoads> loads("loads", "Largest loads of a rope as published or measured.");
+  loads
+      .optional("static", &PublishedLoads::static_load,
+                quantity(Dimension::load, Range::positive()), "at rest")
+      .optional("dynamic", &PublishedLoads::dynamic_load,
+                quantity(Dimension::load, Range::positive()), "in motion");
+  Table<Comparison> table("comparison", "Published or measured figures, shown beside ours.");
+  table.required("source", &Comparison::source, text(), "where they come from")
+      .optional("ropes", &Comparison::ropes, names_to(loads.format()), "largest loads by rope")
+      .optional("stress_increase", &Comparison::stress_increase, quantity(Dimension::ratio),
+                "of the largest stress by the motion, as \"22.75 %\"")
+      .optional("deformation_increase", &Comparison::deformation_increase,
+                quantity(Dimension::ratio), "of the largest deformation by the motion");
+  return table.format();
+}
+
+Format<LoadTable> load_table_format() {
+  using Direction = std::variant<Vector3, std::vector<Named<Vector3>>>;
+  const auto load = quantity(Dimension::load, Range::positive());
+  const auto one =
+      converted<Vector3, Direction>(direction_format(), [](Vector3 v) { return Direction(v); });
+  const auto each = converted<std::vector<Named<Vector3>>, Direction>(
+      names_to(direction_format()),
+      [](std::vector<Named<Vector3>> v) { return Direction(std::move(v)); });
+  Table<LoadTable> table("load table",
+                         "Forces at the lugs, in place of cranes, ropes and operation.");
+  table
+      .required("direction", &LoadTable::direction, by_shape<Direction>(std::nullopt, one, each),
+                "of the pull, in the block's frame: one for all lugs, or a table with one for each")
+      .required("static", &LoadTable::static_loads, names_to(load), "largest load at rest, by lug")
+      .required("dynamic", &LoadTable::dynamic_loads, names_to(load),
+                "largest load in motion, by lug")
+      .place(&LoadTable::place);
+  return table.format();
+}
+
+}  // namespace
+
+Format<LiftCase> lift_case_format() {
+  Table<LiftCase> table("lift case",
+                        "What is lifted, by what, how, and what is asked. A case has "
+                        "either cranes, ropes and an operation, or a load table.");
+  table.required("case", &LiftCase::name, name(), "its name")
+      .optional("title", &LiftCase::title, text(), "for people")
+      .by_default("gravity", &LiftCase::gravity,
+                  quantity(Dimension::acceleration, Range::between(0, 100)), "9.80665 m/s^2",
+                  "acceleration of gravity")
+      .required("load", &LiftCase::load, load_format(), "the block that is lifted")
+      .optional("cranes", &LiftCase::cranes, named_tables(crane_format()), "by name")
+      .optional("ropes", &LiftCase::ropes, named_tables(rope_format()), "by name")
+      .optional("supports", &LiftCase::supports, named_tables(support_format()),
+                "pads on which the load stands at the start")
+      .optional("wind", &LiftCase::wind, wind_format(), "none if left out")
+      .optional("operation", &LiftCase::operation, list_of(stage_format()),
+                "stages, one after another")
+      .by_default("settle", &LiftCase::settle, quantity(Dimension::time, Range::not_negative()),
+                  "10 s", "time that is still simulated after the last move")
+      .by_default("dynamics", &LiftCase::dynamics, dynamics_format(), "{}",
+                  "how the motion is computed")
+      .by_default("structure", &LiftCase::structure, structure_format(), "{}",
+                  "how the stress is computed")
+      .by_default("checks", &LiftCase::checks, checks_format(), "{}", "what the lift must meet")
+      .optional("compare", &LiftCase::compare, comparison_format(),
+                "published or measured figures, shown beside ours")
+      .optional("load_table", &LiftCase::load_table, load_table_format(),
+                "in place of cranes, ropes and operation")
+      .place(&LiftCase::place);
+  return table.format();
+}
+
+}  // namespace blocklift::pipeline
