@@ -6,6 +6,7 @@ namespace blocklift::pipeline {
 namespace {
 
 std::string with_article(const std::string& noun) {
+  if (noun.ends_with('s')) return noun;  // settings, loads
   const bool vowel = std::string("aeiou").find(noun.empty() ? 'x' : noun[0]) != std::string::npos;
   return (vowel ? "an " : "a ") + noun;
 }

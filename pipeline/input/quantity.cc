@@ -315,6 +315,7 @@ std::string format_quantity(double si_value, Dimension dimension) {
   if (dimension == Dimension::angle) {
     return fmt::format("{:.6g} deg", si_value * 180.0 / 3.14159265358979323846);
   }
+  if (dimension == Dimension::speed) return fmt::format("{:.6g} m/min", si_value * 60);
   return fmt::format("{:.6g} {}", si_value, text_of(dimension).si_unit);
 }
 

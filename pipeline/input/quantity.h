@@ -79,7 +79,7 @@ double parse_quantity(std::string_view text, Dimension dimension);
 /// Reads a plain finite number; the whole text must be the number. @throws QuantityError.
 double parse_number(std::string_view text);
 
-/// A value in SI units as a reader of messages likes it: "12 m", "0.05 m/s"; six digits at most.
+/// A value in SI units as a reader of messages likes it: "12 m", "3 m/min", "45 deg"; six digits at most.
 std::string format_quantity(double si_value, Dimension dimension);
 
 /// "a length", "a length or an angle", "a length, an angle or a force".

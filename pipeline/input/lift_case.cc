@@ -1,0 +1,114 @@
+#include "pipeline/input/lift_case.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "pipeline/input/document.h"
+#include "pipeline/input/lift_case_check.h"
+#include "pipeline/input/reading.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class T>
+const T* find_by_name(const std::vector<T>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const T& item) { return item.name.value == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+/// The case file of a path: itself, or `case.yaml` in the folder that it is. Empty and a complaint
+/// if the folder has none.
+fs::path case_file(const fs::path& path, Diagnostics& diagnostics) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return path;
+  const fs::path file = path / "case.yaml";
+  if (fs::exists(file, error)) return file;
+  diagnostics.error({std::make_shared<const std::string>(shown_path(path)), 0, 0},
+                    "this folder has no case.yaml",
+                    {"a lift case is a file, or a folder with the file case.yaml in it"});
+  return {};
+}
+
+void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagnostics) {
+  const fs::path folder = lift_case.file.parent_path();
+  for (CraneInCase& crane : lift_case.cranes) {
+    if (crane.model_name.value.empty()) continue;
+    crane.model = library.load_crane(crane.model_name, folder, diagnostics);
+  }
+  if (!lift_case.load.model_name.value.empty()) {
+    lift_case.load.model = library.load_block(lift_case.load.model_name, folder, diagnostics);
+  }
+  for (RopeInCase& rope : lift_case.ropes) {
+    rope.rope = library.resolve(rope.rope_choice, folder, diagnostics);
+  }
+}
+
+}  // namespace
+
+const Located<Quantity>* CraneInCase::find_start(const std::string& drive_or_hoist) const {
+  const auto* found = find_by_name(start, drive_or_hoist);
+  return found ? &found->value : nullptr;
+}
+
+std::string ResolvedPoint::body_name(const std::vector<CraneInCase>& cranes) const {
+  switch (kind) {
+    case Kind::world:
+      return "world";
+    case Kind::load:
+      return "load";
+    case Kind::crane_body:
+    case Kind::hook:
+      return cranes.at(crane).name.value + "." + part;
+  }
+  return {};
+}
+
+Vector3 LoadTable::direction_at(const std::string& lug) const {
+  if (const Vector3* one = std::get_if<Vector3>(&direction)) return *one;
+  const auto* each = find_by_name(std::get<std::vector<Named<Vector3>>>(direction), lug);
+  if (!each) throw std::out_of_range("the load table has no direction for lug " + lug);
+  return each->value;
+}
+
+const CraneInCase* LiftCase::find_crane(const std::string& crane) const {
+  return find_by_name(cranes, crane);
+}
+
+const RopeInCase* LiftCase::find_rope(const std::string& rope) const {
+  return find_by_name(ropes, rope);
+}
+
+std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& library,
+                                       Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  const fs::path file = case_file(path, diagnostics);
+  if (file.empty()) return std::nullopt;
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+
+  LiftCase lift_case;
+  lift_case.file = file;
+  lift_case.yaml = document->text;
+  Reading reading(*document, diagnostics);
+  lift_case_format().read(document->root, reading, lift_case);
+  load_models(lift_case, library, diagnostics);
+  if (document->root.IsMap()) {
+    resolve_rope_points(lift_case, diagnostics);
+    check_lift_case(lift_case, diagnostics);
+  }
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return lift_case;
+}
+
+LiftCase read_lift_case(const fs::path& path) {
+  Diagnostics diagnostics;
+  ModelLibrary library = ModelLibrary::of_installation();
+  std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
+  if (!lift_case) throw InputError(diagnostics);
+  return std::move(*lift_case);
+}
+
+}  // namespace blocklift::pipeline

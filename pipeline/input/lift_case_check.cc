@@ -1,0 +1,332 @@
+#include "pipeline/input/lift_case_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "pipeline/input/operation_schedule.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  for (const T& item : items) names.push_back(item.name.value);
+  return names;
+}
+
+/// "hull-860t" of "blocks/hull-860t".
+std::string short_name(const std::string& model_name) {
+  return std::filesystem::path(model_name).stem().string();
+}
+
+/// The names that a crane part may have, for a hint.
+std::vector<std::string> parts_of(const CraneInCase& crane, bool with_bodies) {
+  std::vector<std::string> parts;
+  for (const HoistModel& hoist : crane.model->hoists) {
+    parts.push_back(crane.name.value + "." + hoist.name.value);
+  }
+  if (with_bodies) {
+    for (const BodyModel& body : crane.model->bodies) {
+      parts.push_back(crane.name.value + "." + body.name.value);
+    }
+  }
+  return parts;
+}
+
+/// Looks up one point of a rope. `does` says in messages what the rope does there: "ends at".
+class PointResolver {
+ public:
+  PointResolver(const LiftCase& lift_case, Diagnostics& diagnostics)
+      : case_(lift_case), diagnostics_(diagnostics) {}
+
+  std::optional<ResolvedPoint> resolve(const RopeInCase& rope, const Located<RopePoint>& point,
+                                       const std::string& does) {
+    const RopePoint& p = point.value;
+    subject_ = fmt::format("rope {} {}", rope.name.value, does);
+    if (p.body) return resolve_body(*p.body, p.point);
+    if (p.name.value.empty()) return std::nullopt;
+    if (p.name.value.find('.') != std::string::npos) {
+      return resolve_part(p.name, false, Vector3::Zero());
+    }
+    return resolve_lug(p.name);
+  }
+
+ private:
+  std::optional<ResolvedPoint> resolve_body(const Located<std::string>& body,
+                                            const Vector3& point) {
+    if (body.value.empty()) return std::nullopt;
+    ResolvedPoint resolved;
+    resolved.point = point;
+    if (body.value == "world") return resolved;
+    if (body.value == "load") {
+      resolved.kind = ResolvedPoint::Kind::load;
+      return resolved;
+    }
+    if (body.value.find('.') == std::string::npos) {
+      fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
+           "a body is \"world\", \"load\", or crane and body, for example C1.gantry");
+      return std::nullopt;
+    }
+    return resolve_part(body, true, point);
+  }
+
+  std::optional<ResolvedPoint> resolve_part(const Located<std::string>& name, bool bodies_too,
+                                            const Vector3& point) {
+    const std::size_t dot = name.value.find('.');
+    const std::string crane_name = name.value.substr(0, dot);
+    const std::string part = name.value.substr(dot + 1);
+    const CraneInCase* crane = case_.find_crane(crane_name);
+    if (!crane) {
+      fail(name,
+           fmt::format("{} \"{}\", but the case has no crane \"{}\"", subject_, name.value,
+                       crane_name),
+           names_hint("its cranes are", names_of(case_.cranes), crane_name));
+      return std::nullopt;
+    }
+    if (!crane->model) return std::nullopt;
+    ResolvedPoint resolved;
+    resolved.crane = static_cast<std::size_t>(crane - case_.cranes.data());
+    resolved.part = part;
+    resolved.point = point;
+    if (crane->model->find_hoist(part)) {
+      resolved.kind = ResolvedPoint::Kind::hook;
+      return resolved;
+    }
+    if (bodies_too && crane->model->find_body(part)) {
+      resolved.kind = ResolvedPoint::Kind::crane_body;
+      return resolved;
+    }
+    if (crane->model->find_body(part)) {
+      fail(name, fmt::format("{} body \"{}\" without saying where", subject_, name.value),
+           fmt::format("give the point: {{body: {}, point: [0 m, 0 m, 0 m]}}", name.value));
+      return std::nullopt;
+    }
+    fail(name,
+         fmt::format("{} \"{}\", but crane {} has no {} \"{}\"", subject_, name.value, crane_name,
+                     bodies_too ? "body or hoist" : "hoist", part),
+         names_hint(bodies_too ? "its bodies and hoists are" : "its hoists are",
+                    parts_of(*crane, bodies_too), name.value));
+    return std::nullopt;
+  }
+
+  std::optional<ResolvedPoint> resolve_lug(const Located<std::string>& name) {
+    if (!case_.load.model) return std::nullopt;
+    const LugModel* lug = case_.load.model->find_lug(name.value);
+    if (!lug) {
+      fail(name,
+           fmt::format("{} lug \"{}\", which block {} does not have", subject_, name.value,
+                       short_name(case_.load.model_name.value)),
+           names_hint("its lugs are", case_.load.model->lug_names(), name.value));
+      return std::nullopt;
+    }
+    ResolvedPoint resolved;
+    resolved.kind = ResolvedPoint::Kind::load;
+    resolved.lug = name.value;
+    resolved.point = lug->pin.value;
+    return resolved;
+  }
+
+  void fail(const Located<std::string>& name, std::string message, std::string hint) {
+    diagnostics_.error(name.mark, std::move(message), {std::move(hint)});
+  }
+
+  const LiftCase& case_;
+  Diagnostics& diagnostics_;
+  std::string subject_;
+};
+
+bool same_point(const ResolvedPoint& a, const ResolvedPoint& b) {
+  return a.kind == b.kind && a.crane == b.crane && a.part == b.part && a.point == b.point;
+}
+
+void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  bool all_known = true;
+  bool load_hangs = false;
+  for (const RopeInCase& rope : lift_case.ropes) {
+    all_known &= !rope.path.empty();
+    for (std::size_t i = 0; i < rope.path.size(); ++i) {
+      load_hangs |= rope.path[i].kind == ResolvedPoint::Kind::load;
+      if (i > 0 && same_point(rope.path[i - 1], rope.path[i])) {
+        diagnostics.error(rope.name.mark,
+                          fmt::format("rope {} runs from a point to itself", rope.name.value));
+      }
+    }
+    if (rope.winch && rope.winch->range[0].value >= rope.winch->range[1].value) {
+      diagnostics.error(
+          rope.name.mark,
+          fmt::format("the range of the winch of rope {} does not ascend", rope.name.value));
+    }
+  }
+  if (all_known && !lift_case.ropes.empty() && !load_hangs) {
+    diagnostics.error(lift_case.load.model_name.mark, "no rope holds the load",
+                      {"a rope that ends at one of its lugs does"});
+  }
+}
+
+/// Start values of one crane: each drive and hoist has one, of its kind and within its range.
+void check_start(const CraneInCase& crane, Diagnostics& diagnostics) {
+  std::vector<std::string> known;
+  const auto check_one = [&](const std::string& part, const char* noun, const char* example,
+                             const DriveLimits& limits) {
+    known.push_back(part);
+    const Located<Quantity>* start = crane.find_start(part);
+    if (!start) {
+      diagnostics.error(
+          crane.name.mark,
+          fmt::format("crane {} gives no start for its {} {}", crane.name.value, noun, part),
+          {fmt::format("add {}: {} to its start", part, example)});
+      return;
+    }
+    const Quantity& low = limits.range[0];
+    const Quantity& high = limits.range[1];
+    if (!std::isfinite(start->value.value) || !std::isfinite(low.value) ||
+        !std::isfinite(high.value)) {
+      return;
+    }
+    if (start->value.dimension != low.dimension) {
+      diagnostics.error(
+          start->mark,
+          fmt::format("the start of {} {}.{} is {}; {} is due", noun, crane.name.value, part,
+                      text_of(start->value.dimension).noun, text_of(low.dimension).noun));
+    } else if (start->value.value < low.value || start->value.value > high.value) {
+      diagnostics.error(
+          start->mark,
+          fmt::format("{} {}.{} starts at {}, outside its range", noun, crane.name.value, part,
+                      format_quantity(start->value.value, low.dimension)),
+          {fmt::format("its range is {} to {}", format_quantity(low.value, low.dimension),
+                       format_quantity(high.value, high.dimension))});
+    }
+  };
+  for (const DriveModel& drive : crane.model->drives) {
+    check_one(drive.name.value, "drive", "0 m", drive);
+  }
+  for (const HoistModel& hoist : crane.model->hoists) {
+    check_one(hoist.name.value, "hoist", "30 m", hoist.winch);
+  }
+  for (const auto& start : crane.start) {
+    if (std::find(known.begin(), known.end(), start.name.value) != known.end()) continue;
+    diagnostics.error(
+        start.name.mark,
+        fmt::format("crane {} has no drive or hoist \"{}\"", crane.name.value, start.name.value),
+        {names_hint("its drives and hoists are", known, start.name.value)});
+  }
+}
+
+void check_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (crane.name.value == "world" || crane.name.value == "load") {
+      diagnostics.error(crane.name.mark,
+                        fmt::format("a crane cannot be named \"{}\"", crane.name.value));
+    }
+  }
+}
+
+void check_comparison(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (!lift_case.compare) return;
+  std::vector<std::string> known = names_of(lift_case.ropes);
+  const bool by_lug = lift_case.load_table.has_value();
+  if (by_lug) known = names_of(lift_case.load_table->static_loads);
+  for (const auto& loads : lift_case.compare->ropes) {
+    if (std::find(known.begin(), known.end(), loads.name.value) != known.end()) continue;
+    diagnostics.error(loads.name.mark,
+                      fmt::format("compare names {} \"{}\", which the case does not have",
+                                  by_lug ? "lug" : "rope", loads.name.value),
+                      {names_hint(by_lug ? "the lugs of its load table are" : "its ropes are",
+                                  known, loads.name.value)});
+  }
+}
+
+/// Every lug that the table names exists; static, dynamic and direction name the same ones.
+void check_load_table(const LiftCase& lift_case, const LoadTable& table, Diagnostics& diagnostics) {
+  const auto check_exists = [&](const Located<std::string>& lug) {
+    if (!lift_case.load.model || lift_case.load.model->find_lug(lug.value)) return;
+    diagnostics.error(lug.mark,
+                      fmt::format("the load table names lug \"{}\", which block {} does not have",
+                                  lug.value, short_name(lift_case.load.model_name.value)),
+                      {names_hint("its lugs are", lift_case.load.model->lug_names(), lug.value)});
+  };
+  const auto check_listed = [&](const Located<std::string>& lug, const auto& list,
+                                const char* list_name) {
+    for (const auto& entry : list) {
+      if (entry.name.value == lug.value) return;
+    }
+    diagnostics.error(lug.mark, fmt::format("lug {} is missing under {} of the load table",
+                                            lug.value, list_name));
+  };
+  if (table.static_loads.empty()) diagnostics.error(table.place, "the load table names no lug");
+  for (const auto& load : table.static_loads) {
+    check_exists(load.name);
+    check_listed(load.name, table.dynamic_loads, "dynamic");
+    if (const auto* each = std::get_if<std::vector<Named<Vector3>>>(&table.direction)) {
+      check_listed(load.name, *each, "direction");
+    }
+  }
+  for (const auto& load : table.dynamic_loads) {
+    check_exists(load.name);
+    check_listed(load.name, table.static_loads, "static");
+  }
+}
+
+/// A case has cranes, ropes and an operation, or a load table; complains about what is missing or
+/// too much.
+void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (lift_case.load_table) {
+    const auto refuse = [&](bool given, const char* key) {
+      if (!given) return;
+      diagnostics.error(lift_case.load_table->place,
+                        fmt::format("the case has a load table and {}", key),
+                        {"a load table stands in place of cranes, ropes, supports, wind and "
+                         "operation"});
+    };
+    refuse(!lift_case.cranes.empty(), "cranes");
+    refuse(!lift_case.ropes.empty(), "ropes");
+    refuse(!lift_case.supports.empty(), "supports");
+    refuse(lift_case.wind.has_value(), "wind");
+    refuse(!lift_case.operation.empty(), "an operation");
+    return;
+  }
+  const auto require = [&](bool missing, const char* key) {
+    if (!missing) return;
+    diagnostics.error(lift_case.place, fmt::format("the lift case lacks the key \"{}\"", key),
+                      {"a case has cranes, ropes and operation, or a load_table"});
+  };
+  require(lift_case.cranes.empty() && lift_case.ropes.empty(), "cranes");
+  require(lift_case.ropes.empty(), "ropes");
+  require(lift_case.operation.empty(), "operation");
+}
+
+}  // namespace
+
+void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics) {
+  PointResolver resolver(lift_case, diagnostics);
+  for (RopeInCase& rope : lift_case.ropes) {
+    std::vector<std::optional<ResolvedPoint>> points;
+    points.push_back(resolver.resolve(rope, rope.from, "begins at"));
+    for (const auto& sheave : rope.through) {
+      points.push_back(resolver.resolve(rope, sheave, "runs over"));
+    }
+    points.push_back(resolver.resolve(rope, rope.to, "ends at"));
+    if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.has_value(); })) {
+      continue;
+    }
+    for (auto& point : points) rope.path.push_back(std::move(*point));
+  }
+}
+
+void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  check_kind_of_case(lift_case, diagnostics);
+  check_names(lift_case, diagnostics);
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (crane.model) check_start(crane, diagnostics);
+  }
+  check_ropes(lift_case, diagnostics);
+  check_comparison(lift_case, diagnostics);
+  if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
+  schedule_operation(lift_case, diagnostics);
+}
+
+}  // namespace blocklift::pipeline
