@@ -20,6 +20,7 @@ interface Rope { name: string; sling: boolean; segments: three.Mesh[]; label?: {
 class LiftView {
   readonly viewer = new Viewer(1, 520, "Drawing of the lift; drag or arrow keys turn it, plus and minus zoom");
   followLoad = false;
+  private closeUp = false;
   private groups = new Map<string, three.Group>();
   private ropes: Rope[] = [];
   private corners: three.Vector3[] = [];  // of everything drawn, at instants along the lift
@@ -103,7 +104,7 @@ class LiftView {
     }
     const loadPose = this.bodies().pose(this.scene.load, time);
     for (const { point, at } of this.lugs) point.set(...inWorld(loadPose, at));
-    if (this.followLoad) this.viewer.follow(this.loadCentre(time));
+    if (this.followLoad || this.closeUp) this.viewer.follow(this.loadCentre(time));
     this.viewer.draw();
   }
 
@@ -124,6 +125,7 @@ class LiftView {
       oblique: [0.75, -1, 0.42], side: [1, 0, 0], front: [0, -1, 0], top: [0, 0, 1], load: [0.75, -1, 0.5] };
     const slings = this.ropes.filter((rope) => rope.sling).flatMap((rope) => rope.path(time).map((point) => new three.Vector3(...point)));
     this.viewer.look(eyes[name], name === "load" ? [...this.loadCorners(time), ...slings] : this.corners, name === "load" ? 0.25 : 0.08);
+    this.closeUp = name === "load";
     // From afar the lugs' names would only hide the ropes'.
     for (const { element } of this.lugs) element.style.display = name === "load" ? "" : "none";
     this.viewer.draw();

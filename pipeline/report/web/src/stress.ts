@@ -36,7 +36,7 @@ function legendBar(): { element: HTMLElement; show: (top: number, bands: boolean
     });
     bar.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
     ticks.replaceChildren(...[0, 0.2, 0.4, 0.6, 0.8, 1].map((share) =>
-      h("span", { style: `left:${share * 100}%` }, significant(top * share / 1e6, 3))));
+      h("span", { style: `left:${share * 100}%` }, fixed(top * share / 1e6, top < 1e7 ? 2 : top < 1e8 ? 1 : 0))));
     note.textContent = cut ? "Values beyond the scale keep its last colour." : "";
   };
   return { element: h("div", { class: "scale" }, h("span", { class: "title" }, "von Mises stress, MPa"), bar, ticks, note), show };
@@ -101,6 +101,7 @@ function stressPictures(data: PageData, surface: BlockSurface, ways: Way[]): HTM
   let unit = 1;
   const setDeformation = (value: number): void => {
     scale.deformation.value = unit * value;
+    for (const pane of panes) pane.placeMarks();
     factor.textContent = value === 0 ? "not deformed" : `deformation × ${significant(unit * value, 2)}`;
     viewer.draw();
   };
@@ -135,14 +136,14 @@ function stressPictures(data: PageData, surface: BlockSurface, ways: Way[]): HTM
       checkbox("bands", false, (on) => { scale.setBanded(on); rescale(); }),
       checkbox("plate edges", true, (on) => { for (const pane of panes) pane.edges.visible = on; viewer.draw(); })),
     h("div", { class: "controls" },
-      h("span", { class: "slider" }, deform, factor), cutControls(surface, scale, viewer), groupControls(surface, panes, viewer)),
+      h("span", { class: "slider" }, deform, factor), cutControls(surface, scale, panes, viewer), groupControls(surface, panes, viewer)),
     h("figure", { class: "pair" }, h("div", { class: "captions" }, captions), viewer.element, value),
     legend.element,
   ];
 }
 
 /** A plane that cuts the block open. */
-function cutControls(surface: BlockSurface, scale: StressScale, viewer: Viewer): HTMLElement {
+function cutControls(surface: BlockSurface, scale: StressScale, panes: StressPane[], viewer: Viewer): HTMLElement {
   let axis = -1;
   const place = slider("Where the block is cut open", 0, 1, 0.005, 0.5, () => cut());
   const text = h("output", {});
@@ -151,6 +152,7 @@ function cutControls(surface: BlockSurface, scale: StressScale, viewer: Viewer):
     place.disabled = axis < 0;
     const at = axis < 0 ? 0 : surface.low[axis] + Number(place.value) * (surface.high[axis] - surface.low[axis]);
     scale.cut(axis, at);
+    for (const pane of panes) pane.placeMarks();
     text.textContent = axis < 0 ? "" : `${"xyz"[axis]} = ${fixed(at, 2)} m`;
     viewer.draw();
   };

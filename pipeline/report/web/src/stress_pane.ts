@@ -4,7 +4,7 @@ import * as three from "three";
 import { Field, State, StructureState, unpack } from "./data";
 import { megapascals, millimetres } from "./numbers";
 import { BlockSurface } from "./surface";
-import { Viewer } from "./viewer";
+import { Pane, Viewer } from "./viewer";
 
 // Stress is interpolated as a number and coloured in each pixel: the isolines are true, whatever the scale.
 const vertexShader = `
@@ -68,16 +68,19 @@ export class StressScale {
   }
 }
 
+/** A label at a point of the block, and how far that point moves. */
+interface Mark { label: Pane["labels"][number]; place: three.Vector3; displacement: three.Vector3 }
+
 export class StressPane {
   readonly edges: three.LineSegments;
   largestStress = 0;
   largestDisplacement = 0;
   private readonly mesh: three.Mesh;
   private readonly probeRange = { value: 0 };
-  private readonly stressMark;
-  private readonly deformationMark;
+  private readonly stressMark: Mark;
+  private readonly deformationMark: Mark;
 
-  constructor(private surface: BlockSurface, viewer: Viewer, index: number, scale: StressScale, readonly state: State) {
+  constructor(private surface: BlockSurface, viewer: Viewer, index: number, private scale: StressScale, readonly state: State) {
     const position = new three.BufferAttribute(surface.points, 3);
     const count = surface.points.length / 3;
     const displacement = new three.BufferAttribute(new Float32Array(3 * count), 3);
@@ -96,8 +99,10 @@ export class StressPane {
     // The shader moves the points: the boxes that three.js would cull by do not hold.
     this.mesh.frustumCulled = this.edges.frustumCulled = false;
     viewer.panes[index].scene.add(this.mesh, this.edges);
-    this.stressMark = viewer.addLabel(index, "", "maximum");
-    this.deformationMark = viewer.addLabel(index, "", "maximum deformation");
+    const mark = (className: string): Mark =>
+      ({ label: viewer.addLabel(index, "", className), place: new three.Vector3(), displacement: new three.Vector3() });
+    this.stressMark = mark("maximum");
+    this.deformationMark = mark("maximum deformation");
   }
 
   setField(field: Field | undefined, figures: StructureState | undefined): void {
@@ -122,12 +127,37 @@ export class StressPane {
     }
     this.largestStress = values[peak];
     this.largestDisplacement = distance(farthest);
-    const at = (point: number[] | undefined, otherwise: number): [number, number, number] => (point?.length === 3 ? point
-      : [...this.surface.points.subarray(3 * otherwise, 3 * otherwise + 3)]) as [number, number, number];
-    this.stressMark.point.set(...at(field?.checked_stress_point ?? figures?.checked_point_m ?? field?.peak_stress_point, peak));
-    this.deformationMark.point.set(...at(field?.max_displacement_point ?? figures?.max_displacement_point_m, farthest));
-    this.stressMark.element.textContent = `${megapascals(figures?.checked_von_mises_Pa ?? this.largestStress)} MPa`;
-    this.deformationMark.element.textContent = `${millimetres(figures?.max_displacement_m ?? this.largestDisplacement)} mm`;
+    this.setMark(this.stressMark, field?.checked_stress_point ?? figures?.checked_point_m ?? field?.peak_stress_point, peak,
+      `${megapascals(figures?.checked_von_mises_Pa ?? this.largestStress)} MPa`);
+    this.setMark(this.deformationMark, field?.max_displacement_point ?? figures?.max_displacement_point_m, farthest,
+      `${millimetres(figures?.max_displacement_m ?? this.largestDisplacement)} mm`);
+    this.placeMarks();
+  }
+
+  /** Puts a mark at a point if one is given, else at a point of the mesh; it moves as the mesh does there. */
+  private setMark(mark: Mark, given: number[] | undefined, otherwise: number, text: string): void {
+    const { points } = this.surface;
+    let nearest = otherwise;
+    if (given?.length === 3) {
+      let best = Infinity;
+      for (let i = 0; i < points.length / 3; ++i) {
+        const distance = (points[3 * i] - given[0]) ** 2 + (points[3 * i + 1] - given[1]) ** 2 + (points[3 * i + 2] - given[2]) ** 2;
+        if (distance < best) { best = distance; nearest = i; }
+      }
+    }
+    mark.place.fromArray(given?.length === 3 ? given : points, given?.length === 3 ? 0 : 3 * nearest);
+    mark.displacement.fromArray(this.mesh.geometry.getAttribute("displacement").array, 3 * nearest);
+    mark.label.element.textContent = text;
+  }
+
+  /** To be called when the deformation's factor or the cut has changed. */
+  placeMarks(): void {
+    const { plane, deformation } = this.scale;
+    for (const { label, place, displacement } of [this.stressMark, this.deformationMark]) {
+      label.point.copy(place).addScaledVector(displacement, deformation.value);
+      const cutAway = place.x * plane.value.x + place.y * plane.value.y + place.z * plane.value.z > plane.value.w + 1e-6;
+      label.element.style.display = cutAway ? "none" : "";
+    }
   }
 
   /** Draws values instead of colours while the stress under the pointer is read. */
