@@ -25,11 +25,11 @@ struct BodyDefinition {
   Vector3 p_BoBcm_B = Vector3::Zero();  ///< centre of mass, m
   Matrix3 I_BBcm_B = Matrix3::Zero();   ///< about the centre of mass, in B, kg m2
   /// Viscous damping for each v of the joint (N s/m or N m s): tau = -d v. Empty: none.
-  std::vector<double> damping;
+  std::vector<double> damping = {};
   /// Which v of the joint follow a prescribed motion. Empty: none. Where v is dq/dt, each has its own
   /// profile; spherical and free are driven as a whole, along a fixed direction n of v by one profile
   /// s(t): q = q0 (+) s n (integrate_joint), v = n ds/dt, vdot = n d2s/dt2, which is exact.
-  std::vector<bool> driven;
+  std::vector<bool> driven = {};
 };
 
 /// One body of a mechanism, immutable.
