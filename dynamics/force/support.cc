@@ -50,14 +50,15 @@ void SupportPad::set_force(const Kinematics& kinematics, SupportLoad& load) cons
 
 SupportLoad SupportPad::calc_load(const Kinematics& kinematics) const {
   SupportLoad load = calc_depth(kinematics);
-  load.normal_force =
-      load.depth > 0.0 ? std::max(0.0, load.elastic_force + load.damping_force) : 0.0;
+  load.carries = load.indicator() > 0.0;
+  load.normal_force = load.carries ? load.elastic_force + load.damping_force : 0.0;
   set_force(kinematics, load);
   return load;
 }
 
 SupportLoad SupportPad::calc_load(const Kinematics& kinematics, bool carries) const {
   SupportLoad load = calc_depth(kinematics);
+  load.carries = carries;
   load.normal_force = carries ? load.elastic_force + load.damping_force : 0.0;
   set_force(kinematics, load);
   return load;
@@ -70,12 +71,14 @@ void SupportPad::add_force(const Kinematics& kinematics, const SupportLoad& load
 }
 
 EnergyAccount SupportPad::calc_energy(const Kinematics& kinematics, const SupportLoad& load) const {
-  const double elastic = std::max(0.0, load.elastic_force);
+  const double elastic = load.carries ? load.elastic_force : std::max(0.0, load.elastic_force);
   const Vector3 rate =
       point_velocity(kinematics, definition_.point.body, definition_.point.p_BoQ_B);
   const double friction_power = load.force_W.x() * rate.x() + load.force_W.y() * rate.y();
-  return {.stored_energy = 0.5 * elastic * std::max(0.0, load.depth),
-          .dissipated_power = (load.normal_force - elastic) * load.depth_rate - friction_power};
+  const double damped = load.carries ? load.damping_force * load.depth_rate
+                                     : -elastic * std::min(0.0, load.depth_rate);
+  return {.stored_energy = 0.5 * elastic * elastic / definition_.stiffness,
+          .dissipated_power = damped - friction_power};
 }
 
 }  // namespace blocklift::dynamics

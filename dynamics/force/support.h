@@ -11,6 +11,7 @@ struct SupportLoad {
   double elastic_force = not_a_number;  ///< k depth, N; negative above the ground
   double damping_force = not_a_number;  ///< c d(depth)/dt, N
   double normal_force = not_a_number;   ///< upwards on the body, N
+  bool carries = false;                 ///< does the ground push?
   Vector3 force_W = Vector3::Constant(not_a_number);  ///< with friction, on the body, N
 
   /// Positive where the ground carries, negative where it does not, continuous between: N.

@@ -28,9 +28,9 @@ class WindArea {
   struct Definition {
     std::string name;
     BodyPoint centre_of_pressure;
-    double area = not_a_number;         ///< A, m2
-    double coefficient = not_a_number;  ///< C
-    std::optional<Vector3> normal_B;    ///< in the body's frame; none: no direction
+    double area = not_a_number;            ///< A, m2
+    double coefficient = not_a_number;     ///< C
+    std::optional<Vector3> normal_B = {};  ///< in the body's frame; none: no direction
   };
 
   /// @throws ModelError if area, coefficient or density is negative or not finite, or the normal

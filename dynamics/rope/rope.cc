@@ -109,13 +109,14 @@ RopeLoad Rope::calc_elastic_and_damping(const RopePath& path, const RopeFeed& fe
 
 RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed) const {
   RopeLoad load = calc_elastic_and_damping(path, feed);
-  load.tension =
-      load.elastic_force > 0.0 ? std::max(0.0, load.elastic_force + load.damping_force) : 0.0;
+  load.taut = load.slack_indicator() > 0.0;
+  load.tension = load.taut ? load.elastic_force + load.damping_force : 0.0;
   return load;
 }
 
 RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed, bool taut) const {
   RopeLoad load = calc_elastic_and_damping(path, feed);
+  load.taut = taut;
   load.tension = taut ? load.elastic_force + load.damping_force : 0.0;
   return load;
 }
@@ -135,10 +136,14 @@ void Rope::add_forces(const RopePath& path, double tension,
 }
 
 EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
-  const double elastic = std::max(0.0, load.elastic_force);
-  const double elongation = std::max(0.0, load.elongation());
-  return {.stored_energy = 0.5 * elastic * elongation,
-          .dissipated_power = (load.tension - elastic) * (load.length_rate - load.unstretched_rate),
+  // Without kinks while the rope stays taut, or slack, by declaration: what lies beyond the change
+  // is interpolated over.
+  const double elastic = load.taut ? load.elastic_force : std::max(0.0, load.elastic_force);
+  const double elongation_rate = load.length_rate - load.unstretched_rate;
+  const double dissipated =
+      load.taut ? load.damping_force * elongation_rate : -elastic * std::min(0.0, elongation_rate);
+  return {.stored_energy = 0.5 * elastic * elastic / load.stiffness,
+          .dissipated_power = dissipated,
           .supplied_power = -load.unstretched_rate *
                             (load.tension + 0.5 * elastic * elastic / definition_.axial_stiffness)};
 }

@@ -42,6 +42,7 @@ struct RopeLoad {
   double elastic_force = not_a_number;       ///< k (L - L0), N; negative when slack
   double damping_force = not_a_number;       ///< c (Ldot - L0dot), N
   double tension = not_a_number;             ///< T, N
+  bool taut = false;                         ///< does the rope pull?
 
   double elongation() const { return length - unstretched_length; }
   /// Positive where the rope pulls, negative where it is slack, continuous between: N.
@@ -56,8 +57,8 @@ struct RopeLoad {
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
 /// rope hangs from (N/m). The sheaves are points: the wrap around them is not part of the path.
 ///
-/// Energy: stored 1/2 k (L - L0)^2; dissipated (T - k (L - L0)) (Ldot - L0dot); supplied by the
-/// winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the rope
+/// Energy: stored 1/2 k (L - L0)^2 while stretched; dissipated (T - k (L - L0)) (Ldot - L0dot), which
+/// includes what a rope that contracts faster than it can pull keeps to itself; supplied by the winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the rope
 /// that runs onto the drum. Then the power on the bodies, -T Ldot, is exactly
 /// supplied - dissipated - d(stored)/dt, and it equals the power of the point forces.
 /// Source: first variation of the path length; SIMO theory manual for stiffness in series.

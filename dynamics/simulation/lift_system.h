@@ -18,12 +18,12 @@ using ForceElements =
 /// All that a lift consists of, before it is checked.
 struct LiftDefinition {
   Mechanism mechanism;
-  std::vector<Rope> ropes;
-  std::vector<SupportPad> supports;
-  ForceElements elements;
+  std::vector<Rope> ropes = {};
+  std::vector<SupportPad> supports = {};
+  ForceElements elements = {};
   Operation operation;
-  Eigen::VectorXd q_start;  ///< nq; driven coordinates are exact, the others may be a guess
-  Eigen::VectorXd v_start;  ///< nv; empty: at rest
+  Eigen::VectorXd q_start;       ///< nq; driven coordinates are exact, the others may be a guess
+  Eigen::VectorXd v_start = {};  ///< nv; empty: at rest
 };
 
 /// Mechanism, force elements, ropes and operation: an immutable model of a lift, and the layout of

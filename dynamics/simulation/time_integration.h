@@ -15,7 +15,7 @@ struct IntegrationSettings {
   bool works = true;              ///< accumulate the works of drives, winches, wind and dissipation
   long largest_step_count = 50'000'000;
   /// Called now and then with the fraction done and the time (s); may be empty.
-  std::function<void(double, double)> progress;
+  std::function<void(double, double)> progress = {};
 };
 
 /// What the integration cost.

@@ -1,0 +1,178 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/force/spring.h"
+#include "dynamics/force/support.h"
+#include "dynamics/force/wind.h"
+#include "tests/dynamics/multibody/random_mechanism.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// A free body above the world, and what elements do to it.
+struct OneBody {
+  OneBody() : mechanism(make()), kinematics(mechanism), loads(mechanism) {
+    q = mechanism.zero_configuration();
+    v = Eigen::VectorXd::Zero(6);
+    update();
+  }
+  static Mechanism make() {
+    MechanismBuilder builder;
+    builder.add_body({.name = "body",
+                      .joint = {.kind = JointKind::free},
+                      .mass = 1.0,
+                      .I_BBcm_B = Matrix3::Identity()});
+    return builder.build();
+  }
+  void update() { compute_kinematics(mechanism, q, v, kinematics); }
+  MotionState state() const { return {0.0, q, v, kinematics}; }
+
+  Mechanism mechanism;
+  Kinematics kinematics;
+  Loads loads;
+  Eigen::VectorXd q, v;
+};
+
+// The account must balance for every element at any motion.
+template <ForceElement Element>
+void expect_balanced(OneBody& body, const Element& element) {
+  body.loads.set_zero();
+  element.add_forces(body.state(), body.loads);
+  double power = body.loads.tau.dot(body.v);
+  for (std::size_t i = 0; i < body.loads.F_Bo_W.size(); ++i) {
+    power += dot(body.loads.F_Bo_W[i], body.kinematics.V_WB[i]);
+  }
+  const EnergyAccount account = element.calc_energy(body.state());
+  constexpr double h = 1e-5;
+  const Eigen::VectorXd q = body.q;
+  std::array<double, 2> stored{};
+  for (int side = 0; side < 2; ++side) {
+    body.mechanism.integrate(q, body.v, side == 0 ? -h : h, body.q);
+    body.update();
+    stored[static_cast<std::size_t>(side)] = element.calc_energy(body.state()).stored_energy;
+  }
+  body.q = q;
+  body.update();
+  const double balance =
+      account.supplied_power - account.dissipated_power - (stored[1] - stored[0]) / (2 * h);
+  EXPECT_NEAR(power, balance, 1e-6 * (1.0 + std::abs(power)));
+}
+
+TEST(PointSpring, PullsAndPushesAndBalances) {
+  OneBody body;
+  const PointSpring spring({.name = "s",
+                            .from = {world_index, Vector3::Zero()},
+                            .to = {1, {0, 0, 1}},
+                            .stiffness = 100.0,
+                            .damping = 3.0,
+                            .free_length = 2.0});
+  body.q.head<3>() << 0, 0, 4;  // the end is at z = 5, 3 m too long
+  body.update();
+  EXPECT_NEAR(spring.calc_tension(body.state()), 300.0, 1e-12);
+  body.q.head<3>() << 0, 0, 0.5;
+  body.update();
+  EXPECT_NEAR(spring.calc_tension(body.state()), -50.0, 1e-12);
+  testing::Random random(3);
+  for (int i = 0; i < 10; ++i) {
+    body.q = testing::random_configuration(random, body.mechanism);
+    body.v = random.values(6, 1);
+    body.update();
+    expect_balanced(body, spring);
+  }
+}
+
+TEST(PointSpring, RefusesWhatCannotBe) {
+  EXPECT_THAT(
+      [] {
+        PointSpring({.name = "s7",
+                     .from = {0, Vector3::Zero()},
+                     .to = {1, Vector3::Zero()},
+                     .stiffness = -1.0,
+                     .free_length = 1.0});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("\"s7\" has the stiffness")));
+}
+
+TEST(JointSpring, TurnsBackAndBalances) {
+  MechanismBuilder builder;
+  builder.add_body({.name = "arm",
+                    .joint = {.kind = JointKind::revolute},
+                    .mass = 1.0,
+                    .p_BoBcm_B = Vector3::UnitX(),
+                    .I_BBcm_B = Matrix3::Identity()});
+  const Mechanism mechanism = builder.build();
+  const JointSpring spring(
+      mechanism,
+      {.name = "s", .body = 1, .stiffness = 10.0, .damping = 2.0, .free_coordinate = 0.5});
+  Kinematics kinematics(mechanism);
+  const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, 0.7);
+  const Eigen::VectorXd v = Eigen::VectorXd::Constant(1, 3.0);
+  Loads loads(mechanism);
+  spring.add_forces({0.0, q, v, kinematics}, loads);
+  EXPECT_NEAR(loads.tau[0], -2.0 - 6.0, 1e-14);
+  const EnergyAccount account = spring.calc_energy({0.0, q, v, kinematics});
+  EXPECT_NEAR(account.stored_energy, 0.2, 1e-14);
+  EXPECT_NEAR(account.dissipated_power, 18.0, 1e-14);
+}
+
+// 1/2 rho C A u^2 by hand: 0.5 * 1.25 * 1.6 * 10 * 64 = 640 N straight on; at 60 degrees to the
+// normal a quarter of it, along the normal.
+TEST(WindArea, FlatAreaFollowsItsNormal) {
+  OneBody body;
+  const Wind wind = Wind::level(8.0, std::numbers::pi / 3);
+  const WindArea area(wind, {.name = "w",
+                             .centre_of_pressure = {1, Vector3::Zero()},
+                             .area = 10.0,
+                             .coefficient = 1.6,
+                             .normal_B = Vector3(-2, 0, 0)});
+  EXPECT_LT((area.calc_force(body.state()) - Vector3(160, 0, 0)).norm(), 1e-10);
+  testing::Random random(4);
+  body.q = testing::random_configuration(random, body.mechanism);
+  body.v = random.values(6, 1);
+  body.update();
+  expect_balanced(body, area);
+}
+
+TEST(WindArea, WithoutDirectionFollowsTheRelativeWind) {
+  OneBody body;
+  const WindArea area(Wind::level(8.0, 0.0), {.name = "w",
+                                              .centre_of_pressure = {1, Vector3::Zero()},
+                                              .area = 10.0,
+                                              .coefficient = 1.6,
+                                              .normal_B = {}});
+  EXPECT_LT((area.calc_force(body.state()) - Vector3(640, 0, 0)).norm(), 1e-10);
+  body.v.tail<3>() << 8, 0, 0;  // runs with the wind
+  body.update();
+  EXPECT_LT(area.calc_force(body.state()).norm(), 1e-10);
+  expect_balanced(body, area);
+}
+
+TEST(SupportPad, CarriesRubsAndLetsGo) {
+  OneBody body;
+  const SupportPad pad({.name = "p",
+                        .point = {1, {0, 0, -1}},
+                        .p_WG = Vector3::Zero(),
+                        .stiffness = 1000.0,
+                        .damping = 50.0,
+                        .friction_coefficient = 0.3,
+                        .tangential_stiffness = 1000.0});
+  body.q.head<3>() << 0, 0, 0.9;  // 0.1 m deep
+  body.update();
+  EXPECT_NEAR(pad.calc_load(body.kinematics).normal_force, 100.0, 1e-10);
+  body.q.head<3>() << 0.02, 0, 0.9;  // elastic friction
+  body.update();
+  EXPECT_NEAR(pad.calc_load(body.kinematics).force_W.x(), -20.0, 1e-10);
+  body.q.head<3>() << 0.2, 0, 0.9;  // slides: mu N
+  body.update();
+  EXPECT_NEAR(pad.calc_load(body.kinematics).force_W.x(), -30.0, 1e-10);
+  body.q.head<3>() << 0.2, 0, 1.1;  // in the air
+  body.update();
+  EXPECT_EQ(pad.calc_load(body.kinematics).force_W.norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics

@@ -1,0 +1,229 @@
+#include "dynamics/simulation/equilibrium.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/errors.h"
+#include "tests/dynamics/simulation/sample_lifts.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double g = samples::g;
+
+/// A beam (free body) of 10 t on vertical ropes of given places and unstretched lengths, all of
+/// k = 1 MN/m, held at the height 10 m.
+struct BeamOnRopes {
+  std::vector<double> x;
+  std::vector<double> length;
+  std::vector<SupportPad> supports = {};
+  double hoisted = 0.0;  ///< m, by all winches from 0 s on
+  double start_height = 0.0;
+
+  LiftSystem build() const {
+    MechanismBuilder builder;
+    builder.set_gravity({0, 0, -g});
+    builder.add_body({.name = "beam",
+                      .joint = {.kind = JointKind::free},
+                      .mass = 10e3,
+                      .I_BBcm_B = Vector3(1e3, 20e3, 20e3).asDiagonal()});
+    Mechanism mechanism = builder.build();
+    std::vector<Rope> ropes;
+    OperationBuilder operation;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const std::string name = "H" + std::to_string(i + 1);
+      ropes.emplace_back(mechanism,
+                         RopeDefinition{.name = name,
+                                        .points = {{world_index, {x[i], 0, 10}}, {1, {x[i], 0, 0}}},
+                                        .axial_stiffness = 1e6 * length[i],
+                                        .damping_time = 0.02,
+                                        .unstretched_length = length[i]});
+      operation.add_winch(name, static_cast<int>(i), length[i]);
+      if (hoisted != 0.0) operation.add_move(name, {0.0, -hoisted, {0.1, 0.1, 0.2}});
+    }
+    const Operation built = operation.build(20.0);
+    Eigen::VectorXd q = mechanism.zero_configuration();
+    q[2] = start_height;
+    return LiftSystem({.mechanism = std::move(mechanism),
+                       .ropes = std::move(ropes),
+                       .supports = supports,
+                       .elements = {},
+                       .operation = built,
+                       .q_start = q,
+                       .v_start = {}});
+  }
+};
+
+Eigen::VectorXd tensions(const LiftWorkspace& w) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(w.rope_loads.size()));
+  for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
+    result[static_cast<Eigen::Index>(i)] = w.rope_loads[i].tension;
+  }
+  return result;
+}
+
+TEST(Equilibrium, TwoRopesShareByTheLever) {
+  const LiftSystem lift = BeamOnRopes{{-1, 3}, {10, 10}, {}, 0.0, 0.0}.build();
+  EquilibriumSolver solver(lift);
+  Eigen::VectorXd q = lift.q_start();
+  solver.solve(0.0, q);
+  const Eigen::VectorXd T = tensions(solver.workspace());
+  // The beam hangs a little oblique, so each lever arm shrinks alike: shares stay 3/4 and 1/4.
+  EXPECT_NEAR(T.sum(), 10e3 * g, 5e-5 * 10e3 * g);
+  EXPECT_NEAR(T[0] / T[1], 3.0, 2e-3);
+  EXPECT_NEAR(T[0] / 1e6, solver.workspace().rope_loads[0].elongation(), 1e-9);
+}
+
+TEST(Equilibrium, RopeTooLongHangsSlack) {
+  const LiftSystem lift = BeamOnRopes{{-2, 0, 2}, {10, 10.5, 10}, {}, 0.0, 0.0}.build();
+  EquilibriumSolver solver(lift);
+  Eigen::VectorXd q = lift.q_start();
+  solver.solve(0.0, q);
+  const Eigen::VectorXd T = tensions(solver.workspace());
+  EXPECT_NEAR(T[0], 5e3 * g, 1e-6 * 5e3 * g);
+  EXPECT_EQ(T[1], 0.0);
+  EXPECT_NEAR(T[2], 5e3 * g, 1e-6 * 5e3 * g);
+}
+
+// All ropes slack and the beam tilted at the start: it falls into them.
+TEST(Equilibrium, FindsItsWayFromARoughGuess) {
+  const LiftSystem lift = BeamOnRopes{{-2, 2}, {10, 10}, {}, 0.0, 3.0}.build();
+  EquilibriumSolver solver(lift);
+  Eigen::VectorXd q = lift.q_start();
+  q.tail<4>() = quaternion_exponential({0.1, 0.3, 0.2});
+  q[0] = 0.5;
+  solver.solve(0.0, q);
+  const Eigen::VectorXd T = tensions(solver.workspace());
+  EXPECT_NEAR(T.sum(), 10e3 * g, 1e-3 * 10e3 * g);
+  EXPECT_LT(q[2], 0.0);
+}
+
+// A V of two ropes: T = m g / (2 cos a), with the angle that the stretched ropes have.
+TEST(Equilibrium, RopesInAVee) {
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -g});
+  builder.add_body({.name = "load", .joint = {.kind = JointKind::translational}, .mass = 10e3});
+  Mechanism mechanism = builder.build();
+  std::vector<Rope> ropes;
+  for (const double x : {-3.0, 3.0}) {
+    ropes.emplace_back(mechanism, RopeDefinition{.name = x < 0 ? "left" : "right",
+                                                 .points = {{0, {x, 0, 0}}, {1, Vector3::Zero()}},
+                                                 .axial_stiffness = 1e6,
+                                                 .unstretched_length = 5.0});
+  }
+  const LiftSystem lift({.mechanism = mechanism,
+                         .ropes = ropes,
+                         .supports = {},
+                         .elements = {},
+                         .operation = OperationBuilder().build(1.0),
+                         .q_start = Vector3(1, 2, -3),
+                         .v_start = {}});
+  EquilibriumSolver solver(lift);
+  Eigen::VectorXd q = lift.q_start();
+  solver.solve(0.0, q);
+  const double length = std::hypot(3.0, q[2]);
+  const double tension = 10e3 * g / 2.0 * length / -q[2];
+  EXPECT_NEAR(q[0], 0.0, 1e-8);
+  EXPECT_NEAR(q[1], 0.0, 1e-8);
+  EXPECT_NEAR(solver.workspace().rope_loads[0].tension, tension, 1e-8 * tension);
+  EXPECT_NEAR(tension, 1e6 / 5.0 * (length - 5.0), 1e-8 * tension);
+}
+
+std::vector<SupportPad> cradle() {
+  std::vector<SupportPad> pads;
+  for (const double x : {-2.0, 2.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      pads.emplace_back(SupportPad::Definition{.name = "pad " + std::to_string(pads.size() + 1),
+                                               .point = {1, {x, y, -1}},
+                                               .p_WG = {x, y, -1},
+                                               .stiffness = 50e6,
+                                               .damping = 1e6,
+                                               .friction_coefficient = 0.4,
+                                               .tangential_stiffness = 20e6,
+                                               .tangential_damping = 1e5});
+    }
+  }
+  return pads;
+}
+
+// From the cradle into the ropes, statically and dynamically: ground and ropes carry the weight
+// together, at the end the ropes alone.
+TEST(Equilibrium, BeamIsLiftedOffItsCradle) {
+  const LiftSystem lift = BeamOnRopes{{-2, 2}, {10.05, 10.05}, cradle(), 0.5, 0.0}.build();
+  const History sweep = static_sweep(lift, sample_times(20.0, 0.5), lift.q_start());
+  const auto ground = [](const History& history, Eigen::Index i) {
+    double sum = 0.0;
+    for (const SupportHistory& pad : history.supports) sum += pad.normal_force[i];
+    return sum;
+  };
+  for (Eigen::Index i = 0; i < sweep.sample_count(); ++i) {
+    const double carried = ground(sweep, i) + sweep.ropes[0].tension[i] + sweep.ropes[1].tension[i];
+    EXPECT_NEAR(carried, 10e3 * g, 1e-6 * 10e3 * g) << "at " << sweep.time[i] << " s";
+  }
+  const Eigen::Index last = sweep.sample_count() - 1;
+  EXPECT_EQ(sweep.ropes[0].tension[0], 0.0);
+  EXPECT_EQ(ground(sweep, last), 0.0);
+
+  const IntegrationResult run =
+      integrate(lift, (Eigen::VectorXd(7) << sweep.bodies[0].pose.row(0).transpose()).finished(),
+                lift.v_start(), {.relative_tolerance = 1e-7});
+  EXPECT_GE(run.statistics.contact_changes, 6);  // two ropes take up, four pads let go
+  const History& history = run.history;
+  EXPECT_NEAR(history.bodies[0].pose(history.sample_count() - 1, 2), sweep.bodies[0].pose(last, 2),
+              1e-4);
+  const EnergyHistory& e = history.energy;
+  const Eigen::ArrayXd energy = e.kinetic + e.gravity + e.elastic;
+  const Eigen::ArrayXd work = e.drive_work + e.winch_work - e.dissipated;
+  EXPECT_LT((energy - energy[0] - work).abs().maxCoeff(), 1e-4 * 10e3 * g);
+}
+
+TEST(Equilibrium, SweepOfTheTwoGoliathsCarriesTheWeight) {
+  const LiftSystem lift = samples::two_goliaths();
+  const History sweep =
+      static_sweep(lift, sample_times(lift.operation().duration(), 10.0), lift.q_start());
+  const WindArea& side = std::get<std::vector<WindArea>>(lift.elements()).back();
+  const Wind wind = Wind::level(8.0, 0.5);
+  const double half_density_area =
+      0.5 * wind.air_density * side.definition().coefficient * side.definition().area;
+  const BodyHistory& block = sweep.body("block");
+  for (Eigen::Index i = 0; i < sweep.sample_count(); ++i) {
+    const Vector3 n = block.X_WB(i).R * *side.definition().normal_B;
+    const double u = wind.velocity_W.dot(n);
+    Vector3 force = Vector3(0, 0, -860e3 * g) + half_density_area * std::abs(u) * u * n;
+    for (const RopeHistory& rope : sweep.ropes) {
+      if (rope.name.starts_with("sling")) force += rope.last_force.row(i).transpose();
+    }
+    EXPECT_LT(force.norm(), 1e-8 * 860e3 * g) << "at " << sweep.time[i] << " s";
+  }
+}
+
+TEST(Equilibrium, NoneSaysWhenWhoAndWhatToTry) {
+  const LiftSystem lift = BeamOnRopes{{}, {}, {}, 0.0, 0.0}.build();
+  EquilibriumSolver solver(lift);
+  Eigen::VectorXd q = lift.q_start();
+  EXPECT_THAT(
+      [&] { solver.solve(4.0, q); },
+      ThrowsMessage<SimulationError>(AllOf(HasSubstr("no static equilibrium"), HasSubstr("t = 4 s"),
+                                           HasSubstr("beam"), HasSubstr("try a start position"))));
+}
+
+TEST(History, LargestTensionsComeWithTheOthers) {
+  const LiftSystem lift = BeamOnRopes{{-1, 3}, {10, 10}, {}, 0.3, 0.0}.build();
+  const History sweep = static_sweep(lift, sample_times(20.0, 1.0), lift.q_start());
+  const std::vector<LinkedMaximum> maxima = find_largest_tensions(sweep);
+  ASSERT_EQ(maxima.size(), 2u);
+  const LinkedMaximum& first = maxima[0];
+  EXPECT_EQ(first.tension, sweep.ropes[0].tension.maxCoeff());
+  EXPECT_EQ(first.tensions[0], first.tension);
+  EXPECT_EQ(first.tensions[1], sweep.ropes[1].tension[first.sample]);
+  EXPECT_THAT([&] { sweep.rope("H9"); }, ThrowsMessage<ModelError>(HasSubstr("H1, H2")));
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics

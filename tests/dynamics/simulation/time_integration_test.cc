@@ -1,0 +1,198 @@
+#include "dynamics/simulation/time_integration.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/errors.h"
+#include "tests/dynamics/simulation/sample_lifts.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double g = samples::g;
+
+Eigen::VectorXd at_height(double z) { return Vector3(0, 0, z); }
+
+double largest_imbalance(const EnergyHistory& e) {
+  const Eigen::ArrayXd energy = e.kinetic + e.gravity + e.elastic;
+  const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.wind_work - e.dissipated;
+  return (energy - energy[0] - work).abs().maxCoeff();
+}
+
+// A load on a rope oscillates about its rest with the period 2 pi sqrt(m L / EA).
+TEST(TimeIntegration, HangingLoadOscillatesWithItsPeriod) {
+  const samples::SingleRopeLift model;
+  const LiftSystem lift = model.build();
+  const double omega = std::sqrt(model.axial_stiffness / (model.length * model.mass));
+  const double rest = -model.length - model.mass * g / model.stiffness();
+  constexpr double amplitude = 0.01;
+  const IntegrationResult run =
+      integrate(lift, at_height(rest - amplitude), lift.v_start(), {.relative_tolerance = 1e-10});
+  for (Eigen::Index i = 0; i < run.history.sample_count(); ++i) {
+    const double t = run.history.time[i];
+    // The phase error grows with time; the tolerance is 1e-5 of the amplitude over 4.5 periods.
+    EXPECT_NEAR(run.history.bodies[0].pose(i, 2), rest - amplitude * std::cos(omega * t), 1e-7);
+  }
+  EXPECT_EQ(run.statistics.contact_changes, 0);
+}
+
+// T = m g (1 - cos(omega t)): the peak is twice the weight, and the rope just stays taut.
+TEST(TimeIntegration, LoadLetGoAtUnstretchedLengthPeaksAtTwiceItsWeight) {
+  const samples::SingleRopeLift model;
+  const LiftSystem lift = model.build();
+  const double omega = std::sqrt(model.stiffness() / model.mass);
+  const double weight = model.mass * g;
+  const IntegrationResult run = integrate(lift, lift.q_start(), lift.v_start(),
+                                          {.relative_tolerance = 1e-10, .sample_interval = 0.002});
+  const Eigen::ArrayXd expected = weight * (1.0 - (omega * run.history.time.array()).cos());
+  EXPECT_LT((run.history.ropes[0].tension.array() - expected).abs().maxCoeff(), 1e-5 * weight);
+  EXPECT_NEAR(find_largest_tensions(run.history)[0].tension, 2.0 * weight, 2e-4 * weight);
+}
+
+// A hoist at the speed v that grips at once: T / (m g) = 1 + v sqrt(k / (m g^2)) at its peak.
+TEST(TimeIntegration, HoistThatGripsAtOnce) {
+  constexpr double speed = 0.05;
+  samples::SingleRopeLift model;
+  model.payout = -0.05;
+  model.payout_start = 0.5;
+  model.limits = samples::abrupt(speed);
+  const LiftSystem lift = model.build();
+  const double rest = -model.length - model.mass * g / model.stiffness();
+  const IntegrationResult run = integrate(lift, at_height(rest), lift.v_start(),
+                                          {.relative_tolerance = 1e-9, .sample_interval = 0.001});
+  const double factor = 1.0 + speed * std::sqrt(model.stiffness() / (model.mass * g * g));
+  // The first peak comes after T/4 = 0.11 s, when the rope is 6 mm of 20 m shorter: k is 3e-4
+  // stiffer at most.
+  const double peak = run.history.ropes[0].tension.segment(500, 250).maxCoeff();
+  EXPECT_NEAR(peak / (model.mass * g), factor, 3e-4);
+  EXPECT_NEAR(run.history.ropes[0].tension[400] / (model.mass * g), 1.0, 1e-7);
+  EXPECT_LT(largest_imbalance(run.history.energy), 1e-6 * model.mass * g);
+}
+
+// Thrown upwards the load flies free, falls into its rope and is thrown up again: times of the
+// changes in closed form, tan(phi / 2) = -u omega / g for the end of the taut arc phi.
+TEST(TimeIntegration, RopeGoesSlackAndTautAtItsInstants) {
+  const samples::SingleRopeLift model;
+  const LiftSystem lift = model.build();
+  constexpr double u = 1.0;
+  const IntegrationResult run =
+      integrate(lift, lift.q_start(), Vector3(0, 0, u), {.relative_tolerance = 1e-10});
+  const double omega = std::sqrt(model.stiffness() / model.mass);
+  const double flight = 2.0 * u / g;
+  const double arc = 2.0 * (std::numbers::pi - std::atan(u * omega / g)) / omega;
+  ASSERT_GE(run.events.size(), 4u);
+  const double times[] = {flight, flight + arc, 2 * flight + arc, 2 * (flight + arc)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(run.events[i].time, times[i], 1e-8);
+    EXPECT_EQ(run.events[i].acts, i % 2 == 0);
+  }
+  EXPECT_GE(run.history.ropes[0].tension.minCoeff(), 0.0);
+  EXPECT_LT(largest_imbalance(run.history.energy), 1e-6 * model.mass * g);
+}
+
+// Swinging while it is hoisted, against the polar equations
+//   r'' = r theta'^2 + g cos theta - T/m,   theta'' = -(2 r' theta' + g sin theta) / r
+// integrated here by classical Runge-Kutta.
+TEST(TimeIntegration, SwingingLoadHoistedAgainstMinimalCoordinates) {
+  samples::SingleRopeLift model;
+  model.damping_time = 5e-3;
+  model.payout = -8.0;
+  model.duration = 10.0;
+  const LiftSystem lift = model.build();
+  const MotionProfile& feed = lift.operation().winches()[0].length;
+  using State = Eigen::Vector4d;  // r, theta, rates
+  const auto rate = [&](double t, const State& s) -> State {
+    const ProfileValue L0 = feed.evaluate(t);
+    const double k = model.axial_stiffness / L0.position;
+    const double tension = k * (s[0] - L0.position) + model.damping_time * k * (s[2] - L0.velocity);
+    return {s[2], s[3], s[0] * s[3] * s[3] + g * std::cos(s[1]) - tension / model.mass,
+            -(2 * s[2] * s[3] + g * std::sin(s[1])) / s[0]};
+  };
+  const double r0 = model.length + model.mass * g / model.stiffness();
+  constexpr double theta0 = 0.3;
+  State s(r0, theta0, 0, 0);
+  constexpr int steps = 40000;
+  constexpr double h = 10.0 / steps;
+  for (int i = 0; i < steps; ++i) {
+    const double t = i * h;
+    const State k1 = rate(t, s), k2 = rate(t + h / 2, s + h / 2 * k1),
+                k3 = rate(t + h / 2, s + h / 2 * k2), k4 = rate(t + h, s + h * k3);
+    s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  const Vector3 start(r0 * std::sin(theta0), 0, -r0 * std::cos(theta0));
+  const IntegrationResult run =
+      integrate(lift, start, lift.v_start(), {.relative_tolerance = 1e-10});
+  const Vector3 expected(s[0] * std::sin(s[1]), 0, -s[0] * std::cos(s[1]));
+  EXPECT_LT((run.q_end - expected).norm(), 1e-6);
+  EXPECT_LT(largest_imbalance(run.history.energy), 1e-6 * model.mass * g);
+}
+
+// The error follows the tolerance, and so does the balance of energy (here with slack slings).
+TEST(TimeIntegration, ErrorFollowsTheTolerance) {
+  samples::SingleRopeLift model;
+  model.duration = 5.0;
+  const LiftSystem lift = model.build();
+  const Vector3 start(3, 0, -19.9);
+  const auto end = [&](double tolerance) {
+    return integrate(lift, start, Vector3(0, 1, 0), {.relative_tolerance = tolerance}).q_end;
+  };
+  const Eigen::VectorXd reference = end(1e-12);
+  const double coarse = (end(1e-6) - reference).norm();
+  const double fine = (end(1e-8) - reference).norm();
+  const double finest = (end(1e-10) - reference).norm();
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_LT(fine, 0.1 * coarse);
+  EXPECT_LT(finest, 0.1 * fine);
+}
+
+TEST(TimeIntegration, QuaternionsStayUnitAndSamplesAreConsistent) {
+  const LiftSystem lift = samples::block_on_six_ropes();
+  const IntegrationResult run = integrate(lift, lift.q_start(), lift.v_start(),
+                                          {.relative_tolerance = 1e-6, .sample_interval = 0.5});
+  const History& history = run.history;
+  const BodyHistory& block = history.body("block");
+  for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
+    EXPECT_NEAR(block.pose.row(i).tail<4>().norm(), 1.0, 1e-14);
+    // Newton's law from the recorded forces and acceleration.
+    Vector3 force(0, 0, -860e3 * g);
+    for (const RopeHistory& rope : history.ropes) force += rope.last_force.row(i).transpose();
+    EXPECT_LT((force - 860e3 * block.A_WB(i).linear).norm(), 1e-9 * 860e3 * g);
+  }
+  EXPECT_EQ(history.time[history.sample_count() - 1], 120.0);
+}
+
+TEST(TimeIntegration, ReportsProgressToTheEnd) {
+  const LiftSystem lift = samples::SingleRopeLift().build();
+  double fraction = 0.0;
+  integrate(lift, lift.q_start(), lift.v_start(), {.progress = [&](double done, double) {
+              EXPECT_GE(done, fraction);
+              fraction = done;
+            }});
+  EXPECT_NEAR(fraction, 1.0, 1e-9);
+}
+
+TEST(TimeIntegration, FailureSaysWhenWhoAndWhatToTry) {
+  const LiftSystem lift = samples::SingleRopeLift().build();
+  EXPECT_THAT(
+      [&] { integrate(lift, lift.q_start(), lift.v_start(), {.largest_step_count = 5}); },
+      ThrowsMessage<SimulationError>(AllOf(HasSubstr("failed at t = "), HasSubstr("slack ropes"),
+                                           HasSubstr("load"), HasSubstr("try gentler"))));
+}
+
+TEST(TimeIntegration, RefusesSettingsWithoutSense) {
+  const LiftSystem lift = samples::SingleRopeLift().build();
+  EXPECT_THROW(integrate(lift, lift.q_start(), lift.v_start(), {.relative_tolerance = 0.0}),
+               ModelError);
+  EXPECT_THROW(integrate(lift, lift.q_start(), lift.v_start(), {.sample_interval = -1.0}),
+               ModelError);
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics
