@@ -87,6 +87,45 @@ std::vector<int> dissection_order(const std::vector<NodeEntity>& entities,
   return order;
 }
 
+// Renumbers an elimination order so that each subtree of the elimination tree is contiguous
+// (postorder): the fill stays the same, and the factorisation finds its dense blocks without
+// permuting the matrix again. Source: Liu (1990), The role of elimination trees.
+std::vector<int> postordered(const std::vector<int>& order, const std::vector<NodeEntity>& entities,
+                             const std::vector<std::vector<int>>& cell_entities) {
+  const int count = static_cast<int>(order.size());
+  std::vector<int> place(order.size()), parent(order.size(), -1), ancestor(order.size(), -1);
+  for (int i = 0; i < count; ++i) place[at(order[at(i)])] = i;
+  for (int i = 0; i < count; ++i)
+    for (const int cell : entities[at(order[at(i)])].cells)
+      for (const int other : cell_entities[at(cell)])
+        for (int j = place[at(other)]; j >= 0 && j < i;) {
+          const int next = ancestor[at(j)];
+          ancestor[at(j)] = i;
+          if (next < 0) parent[at(j)] = i;
+          if (next == i) break;
+          j = next;
+        }
+  std::vector<std::vector<int>> children(order.size());
+  std::vector<int> open, result;
+  for (int i = 0; i < count; ++i)
+    if (parent[at(i)] >= 0) children[at(parent[at(i)])].push_back(i);
+  for (int root = 0; root < count; ++root) {
+    if (parent[at(root)] >= 0) continue;
+    open.push_back(root);
+    while (!open.empty()) {
+      const int i = open.back();
+      if (children[at(i)].empty()) {
+        result.push_back(order[at(i)]);
+        open.pop_back();
+      } else {
+        open.push_back(children[at(i)].back());
+        children[at(i)].pop_back();
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 Eigen::Matrix3d jacobian(const HexMesh& mesh, int cell, const Vector3& xi) {
@@ -174,7 +213,8 @@ Discretisation::Discretisation(const HexMesh& mesh, int degree)
     for (const int cell : found[e].cells) found_in_cell[at(cell)].push_back(static_cast<int>(e));
 
   // New numbers, entity after entity in elimination order.
-  const std::vector<int> order = dissection_order(found, found_in_cell);
+  const std::vector<int> order =
+      postordered(dissection_order(found, found_in_cell), found, found_in_cell);
   std::vector<int> place(found.size());
   int next = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {

@@ -17,7 +17,7 @@ struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLowe
   Factor() {
     cholmod().nmethods = 1;
     cholmod().method[0].ordering = CHOLMOD_NATURAL;
-    cholmod().postorder = 1;
+    cholmod().postorder = 0;  // the unknowns come in postorder already
     cholmod().print = 0;
   }
   double bytes() const {
@@ -33,8 +33,9 @@ double available_memory() {
   return std::numeric_limits<double>::infinity();
 }
 
-ConstrainedSystem::ConstrainedSystem(SparseLower stiffness, std::vector<FixedUnknown> fixed)
-    : stiffness_(std::move(stiffness)), fixed_(std::move(fixed)), factor_(new Factor) {
+ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed)
+    : fixed_(std::move(fixed)), factor_(new Factor) {
+  stiffness_.swap(stiffness);  // Eigen's sparse matrices do not move, they copy
   separate_fixed();
   factor_->analyzePattern(stiffness_);
   if (factor_->info() != Eigen::Success)
@@ -77,7 +78,7 @@ void ConstrainedSystem::factorise() {
     throw ModelError(
         "the stiffness matrix is not positive definite: the supports leave a part free to move, "
         "or the memory did not suffice");
-  stiffness_ = SparseLower();
+  SparseLower().swap(stiffness_);
 }
 
 Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads) const {

@@ -23,7 +23,7 @@ class ConstrainedSystem {
  public:
   /// Takes the stiffness over and analyses it; nothing is factorised yet.
   /// @throws ModelError if the factor would not fit into the memory that is free.
-  ConstrainedSystem(SparseLower stiffness, std::vector<FixedUnknown> fixed);
+  ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed);
   ~ConstrainedSystem();
 
   /// Memory that the factor will take, bytes.

@@ -46,18 +46,18 @@ BlockDescription hull_block() {
   add("tween_deck", Axis::z, {4}, length, width, {}, 0.014);
   add("deck", Axis::z, {8}, length, width, {}, 0.018);
   add("sides", Axis::y, {0, 20}, length, {}, depth, 0.018);
-  add("web_frames", Axis::x, every(0, 32, 4), {}, width, depth, 0.014);
+  add("web_frames", Axis::x, every(0, 32, 16.0 / 3), {}, width, depth, 0.014);
   add("girders", Axis::y, {5, 10, 15}, length, {}, depth, 0.014);
-  const std::vector<double> stiffener_lines = {2, 3.5, 6.5, 8.5, 11.5, 13.5, 16.5, 18};
+  const std::vector<double> stiffener_lines = {2, 7.5, 12.5, 18};
   add("bottom_stiffeners", Axis::y, stiffener_lines, length, {}, {0, 0.4}, 0.014);
   add("deck_stiffeners", Axis::y, stiffener_lines, length, {}, {7.65, 8}, 0.012);
   for (int i = 0; i < 3; ++i) {
-    add_hull_lug(block, "L" + std::to_string(2 * i + 1), 4.0 + 12 * i, 0, 2);
-    add_hull_lug(block, "L" + std::to_string(2 * i + 2), 4.0 + 12 * i, 18, 20);
+    add_hull_lug(block, "L" + std::to_string(2 * i + 1), 16.0 / 3 * (1 + 2 * i), 0, 2);
+    add_hull_lug(block, "L" + std::to_string(2 * i + 2), 16.0 / 3 * (1 + 2 * i), 18, 20);
   }
   block.total_mass = 860e3;
   block.centre_of_mass_B = Vector3(15.6, 9.9, 3.9);
-  block.largest_element = 2.5;
+  block.largest_element = 2.7;
   return block;
 }
 
