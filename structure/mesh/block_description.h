@@ -83,7 +83,9 @@ struct BlockDescription {
   /// Mass and centre of mass in the lift, outfitting included; absent: those of the plates alone.
   std::optional<double> total_mass;         ///< kg
   std::optional<Vector3> centre_of_mass_B;  ///< m
-  double largest_element = 2;               ///< longest edge of an element, m
+  /// Longest edge of an element, m; up to 1.3 times that where a thin slice joins its neighbour.
+  /// Two elements or more across each unsupported panel show its bending.
+  double largest_element = 2;
 };
 
 }  // namespace blocklift::structure

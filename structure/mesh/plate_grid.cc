@@ -19,6 +19,7 @@ namespace blocklift::structure {
 namespace {
 
 constexpr double snap = 0.5e-3;  // m: cuts nearer than this are one
+constexpr double slice_excess = 0.3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -234,6 +235,11 @@ void PlateGrid::merge_plane(int axis, int plane, double largest_element,
     while (last < count(axis) && merged[at(axis)][cell(last, a, b)]) ++last;
     return planes[at(last)].coordinate - planes[at(first)].coordinate;
   };
+  // A thin slice may make its neighbour a little longer than asked for, rather than stay.
+  const double thin = std::min(planes[at(plane)].coordinate - planes[at(plane - 1)].coordinate,
+                               planes[at(plane + 1)].coordinate - planes[at(plane)].coordinate);
+  const double longest =
+      (thin < slice_excess * largest_element ? 1 + slice_excess : 1 + 1e-9) * largest_element;
   std::vector<char> seen(at(nu) * at(nv), 0);
   std::vector<std::pair<int, int>> piece;
   for (int b0 = 0; b0 < nv; ++b0)
@@ -250,7 +256,7 @@ void PlateGrid::merge_plane(int axis, int plane, double largest_element,
         const auto [a, b] = piece[n];
         same = same &&
                cell_signature_[cell(plane - 1, a, b)] == cell_signature_[cell(plane, a, b)] &&
-               joined_length(a, b) <= largest_element * (1 + 1e-9);
+               joined_length(a, b) <= longest;
         for (int db = -1; db <= 1; ++db)
           for (int da = -1; da <= 1; ++da) {
             const int na = a + da, nb = b + db;

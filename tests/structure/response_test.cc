@@ -1,0 +1,232 @@
+// Unit responses, stress recovery and output on a free block.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "structure/error.h"
+#include "structure/output/surface.h"
+#include "structure/output/vtu.h"
+#include "structure/response/cell_stress.h"
+#include "structure/response/stress.h"
+#include "structure/response/unit_responses.h"
+#include "tests/structure/box_mesh.h"
+#include "tests/structure/hull_block.h"
+
+namespace blocklift::structure {
+namespace {
+
+// The small block on its four lugs, once for all tests of it.
+class SmallBlock : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    model_ = new ElasticModel(make_elastic_model(testing::small_block(), 3));
+    responses_ = new UnitResponses(*model_);
+  }
+  static void TearDownTestSuite() {
+    delete responses_;
+    delete model_;
+  }
+
+  // Lug forces of a lift with sway; the field balances them.
+  static LoadCase lift(double angular_velocity = 0) {
+    LoadCase load_case{"lift", {}, {}};
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(model_->unknowns());
+    for (int lug = 0; lug < 4; ++lug) {
+      const Vector3 force(500.0 * lug, -800, 19000 + 1000.0 * lug);
+      load_case.lug_forces_B.push_back(force);
+      pull += model_->lug_loads().middleCols<3>(3 * lug) * force;
+    }
+    const double w = angular_velocity;
+    InertiaField spin = InertiaField::moving(Vector3::Zero(), Vector3::Zero(), Vector3::Zero(),
+                                             Vector3(w, -0.5 * w, 2 * w));
+    pull += model_->inertia_loads() * spin.coefficients();
+    load_case.field =
+        balancing_field(model_->mass_properties(), resultant(model_->space().nodes, pull));
+    load_case.field.angular_velocity_products = spin.angular_velocity_products;
+    return load_case;
+  }
+
+  static ElasticModel* model_;
+  static UnitResponses* responses_;
+};
+ElasticModel* SmallBlock::model_ = nullptr;
+UnitResponses* SmallBlock::responses_ = nullptr;
+
+TEST_F(SmallBlock, SuperpositionEqualsADirectSolve) {
+  for (const double spin : {0.0, 0.7}) {
+    const LoadCase load_case = lift(spin);
+    const Eigen::VectorXd direct =
+        responses_->without_rigid_motion(responses_->solve_directly(load_case));
+    const Eigen::VectorXd superposed =
+        responses_->without_rigid_motion(responses_->displacement(load_case));
+    EXPECT_LT((superposed - direct).norm(), 1e-10 * direct.norm());
+  }
+}
+
+TEST_F(SmallBlock, UnbalancedLoadsAreSuperposedToo) {
+  LoadCase load_case = lift();
+  load_case.field.acceleration_less_gravity += Vector3(0.5, -0.2, 1);
+  load_case.field.angular_acceleration += Vector3(0.1, 0.2, -0.1);
+  const Eigen::VectorXd direct = responses_->solve_directly(load_case);
+  EXPECT_LT((responses_->displacement(load_case) - direct).norm(), 1e-8 * direct.norm());
+  EXPECT_GT(responses_->balance(load_case).force_residual, 1e-2);
+  EXPECT_GT(responses_->balance(load_case).reaction_over_weight, 1e-3);
+}
+
+TEST_F(SmallBlock, BalancedLoadsLeaveNoReaction) {
+  const LoadBalance balance = responses_->balance(lift(0.7));
+  EXPECT_LT(balance.force_residual, 1e-12);
+  EXPECT_LT(balance.moment_residual, 1e-12);
+  EXPECT_LT(balance.reaction_over_weight, 1e-7);
+}
+
+TEST_F(SmallBlock, ElasticDisplacementHasNoRigidPart) {
+  const Eigen::Matrix3Xd u = responses_->elastic_displacement(lift());
+  const Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXd>(u.data(), u.size());
+  const Eigen::VectorXd again = responses_->without_rigid_motion(flat);
+  EXPECT_LT((again - flat).norm(), 1e-12 * flat.norm());
+  // A rigid motion added beforehand is taken out again.
+  Eigen::VectorXd moved = flat;
+  for (Eigen::Index n = 0; n < u.cols(); ++n)
+    moved.segment<3>(3 * n) +=
+        Vector3(1, 2, 3) + Vector3(0.1, -0.2, 0.3).cross(model_->space().nodes.col(n));
+  EXPECT_LT((responses_->without_rigid_motion(moved) - flat).norm(), 1e-12 * moved.norm());
+}
+
+TEST_F(SmallBlock, StressesScaleWithTheLoads) {
+  const StressRecovery recovery(*responses_);
+  LoadCase once = lift(), twice = once;
+  for (Vector3& force : twice.lug_forces_B) force *= 2;
+  twice.field.acceleration_less_gravity *= 2;
+  twice.field.angular_acceleration *= 2;
+  const LoadCaseResult a = recovery.evaluate(once), b = recovery.evaluate(twice);
+  EXPECT_NEAR(b.checked_von_mises.value, 2 * a.checked_von_mises.value,
+              1e-6 * b.checked_von_mises.value);
+  EXPECT_NEAR(b.peak_von_mises.value, 2 * a.peak_von_mises.value, 1e-6 * b.peak_von_mises.value);
+  EXPECT_NEAR(b.displacement.value, 2 * a.displacement.value, 1e-6 * b.displacement.value);
+  EXPECT_GT(a.peak_von_mises.value, a.checked_von_mises.value);
+  // The whole is the largest of its groups, and no neighbourhood exceeds it.
+  double largest = 0;
+  for (const GroupStress& group : a.groups)
+    largest = std::max(largest, group.checked_von_mises.value);
+  EXPECT_EQ(largest, a.checked_von_mises.value);
+  ASSERT_EQ(a.lugs.size(), 4U);
+  for (const LugNeighbourhood& lug : a.lugs) {
+    EXPECT_LE(lug.checked_von_mises.value, a.checked_von_mises.value);
+    EXPECT_GT(lug.checked_von_mises.value, 0);
+    EXPECT_FALSE(lug.checked_von_mises.part.empty());
+  }
+}
+
+TEST_F(SmallBlock, WrongNumberOfLugForcesIsRefused) {
+  LoadCase load_case = lift();
+  load_case.lug_forces_B.pop_back();
+  EXPECT_THROW(responses_->coefficients(load_case), ModelError);
+}
+
+TEST_F(SmallBlock, SurfaceIsClosedAndCarriesTheDisplacementOfItsNodes) {
+  const Surface surface(*model_);
+  const SurfaceField field = surface.evaluate(*responses_, lift());
+  ASSERT_EQ(field.von_mises.size(), surface.points().size());
+  ASSERT_EQ(surface.quad_groups().size(), surface.quads().size());
+  double enclosed = 0;
+  for (const auto& quad : surface.quads()) {
+    const auto x = [&](std::size_t i) {
+      return surface.points()[static_cast<std::size_t>(quad[i])];
+    };
+    enclosed += x(0).dot(x(1).cross(x(2))) / 6 + x(0).dot(x(2).cross(x(3))) / 6;
+  }
+  EXPECT_NEAR(enclosed, volume(model_->mesh()), 1e-9);
+  double largest = 0;
+  for (const Vector3& u : field.displacement) largest = std::max(largest, u.norm());
+  const double expected = StressRecovery(*responses_).evaluate(lift()).displacement.value;
+  EXPECT_NEAR(largest, expected, 0.05 * expected);
+  EXPECT_LE(static_cast<int>(Surface(*model_, 2500).points().size()), 2500);
+}
+
+TEST_F(SmallBlock, VtuFileHoldsAllPoints) {
+  const auto path = std::filesystem::temp_directory_path() / "blocklift_response_test.vtu";
+  write_vtu(path.string(), *responses_, lift());
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::filesystem::remove(path);
+  for (const char* needed :
+       {"Name=\"displacement\"", "Name=\"von_mises\"", "Name=\"group_names\"", "</VTKFile>"})
+    EXPECT_NE(text.find(needed), std::string::npos) << needed;
+  EXPECT_THROW(write_vtu("/nowhere/at/all.vtu", *responses_, lift()), ModelError);
+}
+
+// Free bar of length L pulled at one end: the stress falls linearly from F/A to 0 (d'Alembert: a
+// section at x carries what accelerates the part behind it, N = F x / L), and nothing reacts.
+// The pull is spread over the last tenth of the bar; there N = F x/L - F (x - 0.9 L) / (0.1 L).
+TEST(FreeBar, StressFallsLinearlyAndNothingReacts) {
+  Material material = testing::steel();
+  material.poisson_ratio = 0;
+  BlockMesh mesh = testing::box_mesh({10, 1, 1}, Vector3(10, 0.4, 0.3), material);
+  mesh.groups.push_back({"lug", 0});
+  mesh.cell_group.back() = 1;
+  mesh.lugs = {{"lug", Vector3(9.5, 0.2, 0.15), 1, 0, 1}};
+  const ElasticModel model(mesh, 3);
+  const UnitResponses responses(model);
+  const double force = 1e5, area = 0.4 * 0.3;
+  LoadCase load_case{"pull", {Vector3(force, 0, 0)}, {}};
+  load_case.field.acceleration_less_gravity.x() = force / model.mass_properties().mass;
+  const LoadBalance balance = responses.balance(load_case);
+  EXPECT_LT(balance.force_residual, 1e-12);
+  EXPECT_LT(balance.reaction_over_weight, 1e-9);
+  const Eigen::VectorXd u = responses.displacement(load_case);
+  const CellStress stress(model.mesh(), model.space(), model.space().element.nodes());
+  for (int cell = 0; cell < 10; ++cell) {
+    const auto values = stress(cell, u);
+    for (Eigen::Index q = 0; q < values.cols(); ++q) {
+      const double x = position(model.mesh(), cell, stress.points().col(q)).x();
+      const double carried = force * (x / 10 - (cell == 9 ? x - 9 : 0));
+      EXPECT_NEAR(values(0, q), carried / area, 1e-6 * force / area);
+      EXPECT_LT(values.col(q).tail<5>().norm(), 1e-6 * force / area);
+    }
+  }
+}
+
+// Free thin bar in axial and bending vibration: Euler-Bernoulli, first free-free bending mode
+// f = 22.373 / (2 pi L^2) sqrt(E I / (rho A)) (Blevins, table 8-1). Slender enough (L/h = 50) for
+// shear and rotary inertia to take less than 1 %; the method is inverse iteration.
+TEST(FreeBar, FirstElasticPeriodIsThatOfAFreeFreeBeam) {
+  Material material = testing::steel();
+  material.poisson_ratio = 0;
+  const BlockMesh mesh = testing::box_mesh({10, 1, 1}, Vector3(10, 0.4, 0.2), material);
+  const ElasticModel model(mesh, 3);
+  const UnitResponses responses(model);
+  const double frequency =
+      22.3733 / (2 * M_PI * 100) * std::sqrt(206e9 * 0.2 * 0.2 / 12 / material.density);
+  EXPECT_NEAR(responses.first_elastic_period() * frequency, 1, 0.01);
+}
+
+// A plate strip of two layers in tension and bending: the membrane stress is the tension alone.
+TEST(MembraneStress, BendingDropsOut) {
+  Material material = testing::steel();
+  const BlockMesh mesh = testing::box_mesh({4, 2, 2}, Vector3(2, 1, 0.02), material);
+  const ElasticModel model(mesh, 3);
+  Eigen::MatrixXd u(model.unknowns(), 2);
+  for (int n = 0; n < model.space().node_count(); ++n) {
+    const Vector3 x = model.space().nodes.col(n);
+    const double z = x.z() - 0.01, curvature = 1e-2;
+    u.col(0).segment<3>(3 * n) << 1e-4 * x.x(), -0.3e-4 * x.y(), -0.3e-4 * x.z();
+    // Pure bending with anticlastic curvature: sigma_xx = E curvature z.
+    u.col(1).segment<3>(3 * n) << curvature * z * x.x(), -0.3 * curvature * z * x.y(),
+        -0.5 * curvature * (x.x() * x.x() + 0.3 * (z * z - x.y() * x.y()));
+  }
+  const MembraneStress membrane(model, u);
+  for (const double stress : Eigen::VectorXd(membrane.von_mises(Eigen::Vector2d(1, 0))))
+    EXPECT_NEAR(stress, 206e9 * 1e-4, 1e-3);
+  for (const double stress : Eigen::VectorXd(membrane.von_mises(Eigen::Vector2d(1, 1))))
+    EXPECT_NEAR(stress, 206e9 * 1e-4, 1e-3);
+  EXPECT_LT(membrane.von_mises(Eigen::Vector2d(0, 1)).maxCoeff(), 1e-3);
+}
+
+}  // namespace
+}  // namespace blocklift::structure
