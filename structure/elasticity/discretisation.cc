@@ -128,30 +128,6 @@ std::vector<int> postordered(const std::vector<int>& order, const std::vector<No
 
 }  // namespace
 
-Eigen::Matrix3d jacobian(const HexMesh& mesh, int cell, const Vector3& xi) {
-  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
-  for (int v = 0; v < 8; ++v) {
-    const Vector3& x = mesh.vertices[at(mesh.cells[at(cell)][at(v)])];
-    for (int a = 0; a < 3; ++a) {
-      double slope = (v >> a) & 1 ? 1 : -1;
-      for (int b = 0; b < 3; ++b)
-        if (b != a) slope *= (v >> b) & 1 ? xi[b] : 1 - xi[b];
-      result.col(a) += slope * x;
-    }
-  }
-  return result;
-}
-
-Vector3 position(const HexMesh& mesh, int cell, const Vector3& xi) {
-  Vector3 place = Vector3::Zero();
-  for (int v = 0; v < 8; ++v) {
-    double weight = 1;
-    for (int b = 0; b < 3; ++b) weight *= (v >> b) & 1 ? xi[b] : 1 - xi[b];
-    place += weight * mesh.vertices[at(mesh.cells[at(cell)][at(v)])];
-  }
-  return place;
-}
-
 namespace {
 
 // Cells whose vertices span a parallelepiped with the same edges share a shape.
@@ -162,7 +138,7 @@ void find_shapes(const HexMesh& mesh, Discretisation& space) {
     const auto vertex = [&](std::size_t v) { return mesh.vertices[at(mesh.cells[at(cell)][v])]; };
     const Eigen::Matrix3d edges = jacobian(mesh, cell, Vector3::Zero());
     const double size = edges.cwiseAbs().maxCoeff();
-    bool affine = true;
+    bool affine = mesh.curved_cells.empty();
     for (std::size_t v = 0; v < 8 && affine; ++v) {
       const Vector3 corner(v & 1 ? 1 : 0, v & 2 ? 1 : 0, v & 4 ? 1 : 0);
       affine =

@@ -44,10 +44,4 @@ struct Discretisation {
   }
 };
 
-/// Jacobian dx/dxi of a trilinear cell at a unit point, m.
-Eigen::Matrix3d jacobian(const HexMesh& mesh, int cell, const Vector3& xi);
-
-/// Place of a unit point in a trilinear cell, m.
-Vector3 position(const HexMesh& mesh, int cell, const Vector3& xi);
-
 }  // namespace blocklift::structure

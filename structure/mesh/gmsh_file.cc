@@ -1,6 +1,7 @@
 #include "structure/mesh/gmsh_file.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -18,7 +19,8 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-constexpr int linear_hexahedron = 5;  // Gmsh's element type
+constexpr int linear_hexahedron = 5;  // Gmsh's element types
+constexpr int quadratic_hexahedron = 12;
 constexpr std::array<std::size_t, 8> gmsh_order = {0, 1, 3, 2, 4, 5, 7, 6};
 
 // Gmsh keeps one global session; this opens it for a scope, quietly.
@@ -95,61 +97,117 @@ void write_gmsh(const BlockMesh& mesh, const std::string& path) {
 
 namespace {
 
-HexMesh take_from_session(const std::string& path,
-                          const std::map<std::string, Material>& materials) {
-  HexMesh mesh;
-  std::unordered_map<std::size_t, int> vertex_of_tag;
-  std::map<int, int> group_of_number;
-  gmsh::vectorpair volumes;
-  gmsh::model::getEntities(volumes, 3);
-  for (const auto& [dimension, volume] : volumes) {
-    std::vector<int> types;
-    gmsh::model::mesh::getElementTypes(types, dimension, volume);
-    for (const int type : types)
-      if (type != linear_hexahedron)
-        throw ModelError("\"" + path +
-                         "\" holds volume elements other than hexahedra with eight nodes");
-    std::vector<std::size_t> elements, corners;
-    gmsh::model::mesh::getElementsByType(linear_hexahedron, elements, corners, volume);
-    if (elements.empty()) continue;
+// Collects hexahedra volume after volume.
+class Reader {
+ public:
+  Reader(const std::string& path, const std::map<std::string, Material>& materials)
+      : path_(path), materials_(materials) {}
+
+  HexMesh read() {
+    std::vector<std::size_t> tags;
+    std::vector<double> places, parameters;
+    gmsh::model::mesh::getNodes(tags, places, parameters);
+    for (std::size_t n = 0; n < tags.size(); ++n)
+      place_of_tag_[tags[n]] = Vector3(places[3 * n], places[3 * n + 1], places[3 * n + 2]);
+    gmsh::vectorpair volumes;
+    gmsh::model::getEntities(volumes, 3);
+    for (const auto& entity : volumes) read_volume(entity.second);
+    if (mesh_.cells.empty()) throw ModelError("\"" + path_ + "\" holds no hexahedra");
+    if (!mesh_.curved_cells.empty() && mesh_.curved_cells.size() != mesh_.cells.size())
+      throw ModelError("\"" + path_ + "\" mixes hexahedra with 8 and with 27 nodes");
+    return mesh_;
+  }
+
+ private:
+  // Place in a lexicographic 2 x 2 x 2 or 3 x 3 x 3 grid of each node of an element type.
+  static std::vector<std::size_t> lexicographic(int type) {
+    std::string name;
+    int dimension = 0, order = 0, nodes = 0, corner_nodes = 0;
+    std::vector<double> places;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, places,
+                                            corner_nodes);
+    std::vector<std::size_t> grid(at(nodes));
+    for (std::size_t n = 0; n < grid.size(); ++n) {
+      std::size_t index = 0;
+      for (std::size_t a = 3; a-- > 0;)
+        index = index * (at(order) + 1) +
+                static_cast<std::size_t>(std::lround((places[3 * n + a] + 1) / 2 * order));
+      grid[n] = index;
+    }
+    return grid;
+  }
+
+  int group_of(int volume) {
     std::vector<int> numbers;
-    gmsh::model::getPhysicalGroupsForEntity(dimension, volume, numbers);
+    gmsh::model::getPhysicalGroupsForEntity(3, volume, numbers);
     if (numbers.empty())
-      throw ModelError("\"" + path + "\": volume " + std::to_string(volume) +
+      throw ModelError("\"" + path_ + "\": volume " + std::to_string(volume) +
                        " is in no physical group");
     const auto [known, is_new] =
-        group_of_number.try_emplace(numbers.front(), static_cast<int>(mesh.groups.size()));
-    if (is_new) {
-      std::string name;
-      gmsh::model::getPhysicalName(dimension, numbers.front(), name);
-      if (name.empty()) name = std::to_string(numbers.front());
-      auto material = materials.find(name);
-      if (material == materials.end()) material = materials.find("");
-      if (material == materials.end())
-        throw ModelError("\"" + path + "\": group \"" + name + "\" has no material");
-      mesh.groups.push_back({name, static_cast<int>(mesh.materials.size())});
-      mesh.materials.push_back(material->second);
-    }
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      std::array<int, 8> cell{};
-      for (std::size_t v = 0; v < 8; ++v) {
-        const std::size_t tag = corners[8 * e + v];
-        const auto [entry, first] =
-            vertex_of_tag.try_emplace(tag, static_cast<int>(mesh.vertices.size()));
-        if (first) {
-          std::vector<double> coordinates, parameters;
-          gmsh::model::mesh::getNode(tag, coordinates, parameters);
-          mesh.vertices.emplace_back(coordinates[0], coordinates[1], coordinates[2]);
-        }
-        cell[gmsh_order[v]] = entry->second;
-      }
-      mesh.cells.push_back(cell);
-      mesh.cell_group.push_back(known->second);
+        group_of_number_.try_emplace(numbers.front(), static_cast<int>(mesh_.groups.size()));
+    if (!is_new) return known->second;
+    std::string name;
+    gmsh::model::getPhysicalName(3, numbers.front(), name);
+    if (name.empty()) name = std::to_string(numbers.front());
+    auto material = materials_.find(name);
+    if (material == materials_.end()) material = materials_.find("");
+    if (material == materials_.end())
+      throw ModelError("\"" + path_ + "\": group \"" + name + "\" has no material");
+    mesh_.groups.push_back({name, static_cast<int>(mesh_.materials.size())});
+    mesh_.materials.push_back(material->second);
+    return known->second;
+  }
+
+  int vertex_of(std::size_t tag) {
+    const auto [entry, is_new] =
+        vertex_of_tag_.try_emplace(tag, static_cast<int>(mesh_.vertices.size()));
+    if (is_new) mesh_.vertices.push_back(place_of_tag_.at(tag));
+    return entry->second;
+  }
+
+  void read_volume(int volume) {
+    std::vector<int> types;
+    gmsh::model::mesh::getElementTypes(types, 3, volume);
+    for (const int type : types) {
+      if (type != linear_hexahedron && type != quadratic_hexahedron)
+        throw ModelError("\"" + path_ +
+                         "\" holds volume elements other than hexahedra with 8 or 27 nodes");
+      std::vector<std::size_t> elements, nodes;
+      gmsh::model::mesh::getElementsByType(type, elements, nodes, volume);
+      if (!elements.empty()) add_cells(type, nodes, group_of(volume));
     }
   }
-  if (mesh.cells.empty()) throw ModelError("\"" + path + "\" holds no hexahedra");
-  return mesh;
-}
+
+  void add_cells(int type, const std::vector<std::size_t>& nodes, int group) {
+    const std::vector<std::size_t> grid = lexicographic(type);
+    const bool curved = type == quadratic_hexahedron;
+    for (std::size_t first = 0; first < nodes.size(); first += grid.size()) {
+      std::array<int, 8> cell{};
+      std::array<Vector3, 27> points;
+      for (std::size_t n = 0; n < grid.size(); ++n) {
+        const std::size_t g = grid[n];
+        if (!curved) {
+          cell[g] = vertex_of(nodes[first + n]);
+          continue;
+        }
+        points[g] = place_of_tag_.at(nodes[first + n]);
+        const std::size_t i = g % 3, j = g / 3 % 3, k = g / 9;
+        if (i != 1 && j != 1 && k != 1)
+          cell[i / 2 + 2 * (j / 2) + 4 * (k / 2)] = vertex_of(nodes[first + n]);
+      }
+      mesh_.cells.push_back(cell);
+      mesh_.cell_group.push_back(group);
+      if (curved) mesh_.curved_cells.push_back(points);
+    }
+  }
+
+  const std::string& path_;
+  const std::map<std::string, Material>& materials_;
+  HexMesh mesh_;
+  std::unordered_map<std::size_t, Vector3> place_of_tag_;
+  std::unordered_map<std::size_t, int> vertex_of_tag_;
+  std::map<int, int> group_of_number_;
+};
 
 }  // namespace
 
@@ -157,7 +215,7 @@ HexMesh read_gmsh(const std::string& path, const std::map<std::string, Material>
   const GmshSession session;
   try {
     gmsh::merge(path);
-    return take_from_session(path, materials);
+    return Reader(path, materials).read();
   } catch (const ModelError&) {
     throw;
   } catch (const std::string& error) {

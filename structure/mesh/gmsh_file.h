@@ -13,10 +13,11 @@ namespace blocklift::structure {
 /// @throws ModelError if Gmsh cannot write the file.
 void write_gmsh(const BlockMesh& mesh, const std::string& path);
 
-/// Reads the linear hexahedra of a file that Gmsh opens; each needs a physical group, whose name
+/// Reads the hexahedra (with 8 or with 27 nodes) of a file that Gmsh opens; each needs a physical group, whose name
 /// (or number, if it has none) must be a key of `materials`, or `materials` has the key "".
 /// Gmsh's own session is opened and closed again here.
-/// @throws ModelError if the file cannot be read, holds other volume elements or no hexahedra, or
+/// @throws ModelError if the file cannot be read, holds other volume elements, both kinds
+///   or no hexahedra, or
 ///   a group has no material.
 HexMesh read_gmsh(const std::string& path, const std::map<std::string, Material>& materials);
 

@@ -94,26 +94,74 @@ std::vector<int> connected_parts(const HexMesh& mesh) {
   return part;
 }
 
+namespace {
+
+// The three quadratic Lagrange polynomials through 0, 1/2, 1, and their slopes.
+struct Parabolas {
+  explicit Parabolas(double t)
+      : value{(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)},
+        slope{4 * t - 3, 4 - 8 * t, 4 * t - 1} {}
+  std::array<double, 3> value;
+  std::array<double, 3> slope;
+};
+
+}  // namespace
+
+Vector3 position(const HexMesh& mesh, int cell, const Vector3& xi) {
+  Vector3 place = Vector3::Zero();
+  if (!mesh.curved_cells.empty()) {
+    const Parabolas x(xi.x()), y(xi.y()), z(xi.z());
+    for (std::size_t p = 0; p < 27; ++p)
+      place += x.value[p % 3] * y.value[p / 3 % 3] * z.value[p / 9] *
+               mesh.curved_cells[static_cast<std::size_t>(cell)][p];
+    return place;
+  }
+  const auto& corners = mesh.cells[static_cast<std::size_t>(cell)];
+  for (unsigned v = 0; v < 8; ++v) {
+    double weight = 1;
+    for (unsigned b = 0; b < 3; ++b) weight *= (v >> b) & 1U ? xi[b] : 1 - xi[b];
+    place += weight * mesh.vertices[static_cast<std::size_t>(corners[v])];
+  }
+  return place;
+}
+
+Eigen::Matrix3d jacobian(const HexMesh& mesh, int cell, const Vector3& xi) {
+  Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+  if (!mesh.curved_cells.empty()) {
+    const Parabolas x(xi.x()), y(xi.y()), z(xi.z());
+    for (std::size_t p = 0; p < 27; ++p) {
+      const std::size_t i = p % 3, j = p / 3 % 3, k = p / 9;
+      result += mesh.curved_cells[static_cast<std::size_t>(cell)][p] *
+                Eigen::RowVector3d(x.slope[i] * y.value[j] * z.value[k],
+                                   x.value[i] * y.slope[j] * z.value[k],
+                                   x.value[i] * y.value[j] * z.slope[k]);
+    }
+    return result;
+  }
+  const auto& corners = mesh.cells[static_cast<std::size_t>(cell)];
+  for (unsigned v = 0; v < 8; ++v) {
+    const Vector3& x = mesh.vertices[static_cast<std::size_t>(corners[v])];
+    for (unsigned a = 0; a < 3; ++a) {
+      double slope = (v >> a) & 1U ? 1 : -1;
+      for (unsigned b = 0; b < 3; ++b)
+        if (b != a) slope *= (v >> b) & 1U ? xi[b] : 1 - xi[b];
+      result.col(a) += slope * x;
+    }
+  }
+  return result;
+}
+
 double volume(const HexMesh& mesh) {
-  // 2 x 2 x 2 Gauss points: the Jacobian's determinant is at most quadratic in each coordinate.
-  const double gauss[2] = {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0)};
+  const double offset = std::sqrt(0.15);
+  const double place[3] = {0.5 - offset, 0.5, 0.5 + offset};
+  const double weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double total = 0;
-  for (const auto& cell : mesh.cells)
-    for (int point = 0; point < 8; ++point) {
-      const double xi[3] = {gauss[point & 1], gauss[(point >> 1) & 1], gauss[point >> 2]};
-      Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();
-      for (int v = 0; v < 8; ++v) {
-        const bool upper[3] = {(v & 1) != 0, (v & 2) != 0, (v & 4) != 0};
-        const Vector3& x =
-            mesh.vertices[static_cast<std::size_t>(cell[static_cast<std::size_t>(v)])];
-        for (int a = 0; a < 3; ++a) {
-          double slope = upper[a] ? 1 : -1;
-          for (int b = 0; b < 3; ++b)
-            if (b != a) slope *= upper[b] ? xi[b] : 1 - xi[b];
-          jacobian.col(a) += slope * x;
-        }
-      }
-      total += jacobian.determinant() / 8;
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    for (std::size_t p = 0; p < 27; ++p) {
+      const std::size_t i = p % 3, j = p / 3 % 3, k = p / 9;
+      total += weight[i] * weight[j] * weight[k] *
+               jacobian(mesh, static_cast<int>(cell), Vector3(place[i], place[j], place[k]))
+                   .determinant();
     }
   return total;
 }

@@ -28,6 +28,9 @@ struct HexMesh {
   std::vector<int> cell_group;            ///< place in groups, a cell
   std::vector<CellGroup> groups;
   std::vector<Material> materials;
+  /// Points of quadratic cells at the 3 x 3 x 3 places (0, 1/2, 1)^3, x fastest, a cell each; empty
+  /// if the cells are trilinear between their vertices.
+  std::vector<std::array<Vector3, 27>> curved_cells;
 
   const Material& material_of_cell(int cell) const {
     const auto group = static_cast<std::size_t>(cell_group[static_cast<std::size_t>(cell)]);
@@ -66,7 +69,13 @@ std::vector<std::array<int, 2>> boundary_faces(const HexMesh& mesh);
 /// Number of the connected part (through shared faces) that each cell belongs to, from 0.
 std::vector<int> connected_parts(const HexMesh& mesh);
 
-/// Sum of the cells' volumes (trilinear cells, exact), m^3.
+/// Place of a unit point xi (in [0, 1]^3) of a cell, m.
+Vector3 position(const HexMesh& mesh, int cell, const Vector3& xi);
+
+/// Jacobian dx/dxi of a cell at a unit point, m.
+Eigen::Matrix3d jacobian(const HexMesh& mesh, int cell, const Vector3& xi);
+
+/// Sum of the cells' volumes by 3 x 3 x 3 Gauss points (exact for trilinear cells), m^3.
 double volume(const HexMesh& mesh);
 
 }  // namespace blocklift::structure
