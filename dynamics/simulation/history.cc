@@ -20,7 +20,10 @@ const Record& find_by_name(const std::vector<Record>& records, std::string_view 
 
 std::string drive_name(const LiftSystem& system, int velocity_index) {
   for (const JointDrive& drive : system.operation().joint_drives()) {
-    if (drive.velocity_index == velocity_index) return drive.name;
+    const int count = std::max(1, static_cast<int>(drive.direction.size()));
+    const int k = velocity_index - drive.velocity_index;
+    if (k < 0 || k >= count) continue;
+    return count == 1 ? drive.name : drive.name + " " + std::to_string(k + 1);
   }
   return system.mechanism().velocity_name(velocity_index);
 }

@@ -93,6 +93,15 @@ void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& 
   }
   for (const JointDrive& drive : system.operation().joint_drives()) {
     const ProfileValue value = drive.position.evaluate(t);
+    if (drive.direction.size() > 0) {
+      const Eigen::Index n = drive.direction.size();
+      integrate_joint(system.mechanism().body(drive.body).joint.kind, drive.start.data(),
+                      drive.direction.data(), value.position, &w.q[drive.coordinate_index]);
+      if (!moving) continue;
+      w.v.segment(drive.velocity_index, n) = value.velocity * drive.direction;
+      w.vdot.segment(drive.velocity_index, n) = value.acceleration * drive.direction;
+      continue;
+    }
     w.q[drive.coordinate_index] = value.position;
     if (!moving) continue;
     w.v[drive.velocity_index] = value.velocity;

@@ -54,8 +54,9 @@ void OperationBuilder::add_joint_drive(const Mechanism& mechanism, std::string n
                      std::to_string(degree_of_freedom) + "; declare it as driven in the mechanism");
   }
   if (!velocities_are_rates(b.joint.kind)) {
-    throw ModelError("drive \"" + name + "\": a " + std::string(joint_kind_name(b.joint.kind)) +
-                     " joint cannot follow a single profile; use joints of one degree of freedom");
+    throw ModelError(
+        "drive \"" + name + "\": a " + std::string(joint_kind_name(b.joint.kind)) +
+        " joint has no coordinate of its own for each velocity; drive it along a direction");
   }
   const int velocity_index = b.v_offset + degree_of_freedom;
   for (const JointDrive& other : operation_.joint_drives_) {
@@ -64,9 +65,34 @@ void OperationBuilder::add_joint_drive(const Mechanism& mechanism, std::string n
     }
   }
   add_track(name, false, operation_.joint_drives_.size(), start);
-  operation_.joint_drives_.push_back({std::move(name), body, velocity_index,
-                                      b.q_offset + degree_of_freedom,
-                                      MotionProfile::constant(start)});
+  operation_.joint_drives_.push_back({.name = std::move(name),
+                                      .body = body,
+                                      .velocity_index = velocity_index,
+                                      .coordinate_index = b.q_offset + degree_of_freedom});
+}
+
+void OperationBuilder::add_direction_drive(const Mechanism& mechanism, std::string name,
+                                           BodyIndex body, const Eigen::VectorXd& q0,
+                                           const Eigen::VectorXd& direction) {
+  const Body& b = mechanism.body(body);
+  if (velocities_are_rates(b.joint.kind) || b.driven.empty() || !b.driven.front()) {
+    throw ModelError("drive \"" + name + "\": the joint of \"" + b.name + "\" is " +
+                     std::string(joint_kind_name(b.joint.kind)) +
+                     "; a spherical or free joint that is declared as driven is due");
+  }
+  if (q0.size() != b.nq() || direction.size() != b.nv() || !q0.allFinite() ||
+      !direction.allFinite()) {
+    throw ModelError("drive \"" + name + "\": the " + std::string(joint_kind_name(b.joint.kind)) +
+                     " joint of \"" + b.name + "\" takes " + std::to_string(b.nq()) +
+                     " coordinates and a direction of " + std::to_string(b.nv()) + " numbers");
+  }
+  add_track(name, false, operation_.joint_drives_.size(), 0.0);
+  operation_.joint_drives_.push_back({.name = std::move(name),
+                                      .body = body,
+                                      .velocity_index = b.v_offset,
+                                      .coordinate_index = b.q_offset,
+                                      .direction = direction,
+                                      .start = q0});
 }
 
 void OperationBuilder::add_winch(std::string name, int rope, double start) {

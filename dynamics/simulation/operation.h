@@ -16,13 +16,18 @@ struct Stage {
   double end = not_a_number;
 };
 
-/// A joint coordinate that follows a motion.
+/// A joint that follows a motion.
+///
+/// Where v is dq/dt, one coordinate: q = position(t). Spherical and free joints as a whole, along a
+/// fixed direction n of v: q = q0 (+) s n, v = n ds/dt, s = position(t) (see integrate_joint).
 struct JointDrive {
   std::string name;
-  BodyIndex body = -1;                                    ///< the body that the joint carries
-  int velocity_index = -1;                                ///< within v
-  int coordinate_index = -1;                              ///< within q
-  MotionProfile position = MotionProfile::constant(0.0);  ///< the coordinate itself, m or rad
+  BodyIndex body = -1;        ///< the body that the joint carries
+  int velocity_index = -1;    ///< within v; of the first for a joint driven as a whole
+  int coordinate_index = -1;  ///< within q; of the first for a joint driven as a whole
+  MotionProfile position = MotionProfile::constant(0.0);  ///< the coordinate, or s: m or rad
+  Eigen::VectorXd direction = {};  ///< n, one for each v of the joint; empty for one coordinate
+  Eigen::VectorXd start = {};      ///< q0; empty for one coordinate
 };
 
 /// A rope whose unstretched length follows a motion.
@@ -62,9 +67,16 @@ class OperationBuilder {
   /// Drive of one velocity of the joint that carries `body`; its coordinate starts at `start` (m or
   /// rad) and stays there until it is moved.
   /// @throws ModelError if the name is taken, or that velocity is not declared as driven, or its
-  /// joint has a quaternion (spherical, free), which no single profile describes.
+  /// joint has a quaternion (spherical, free): see add_direction_drive.
   void add_joint_drive(const Mechanism& mechanism, std::string name, BodyIndex body, double start,
                        int degree_of_freedom = 0);
+
+  /// Drive of a whole spherical or free joint along the direction n of its v (a turn about a fixed
+  /// axis, a screw): q = q0 (+) s n, s starting at 0.
+  /// @throws ModelError if the name is taken, the joint is of another kind or not driven, or the sizes
+  /// of q0 and n are not those of the joint.
+  void add_direction_drive(const Mechanism& mechanism, std::string name, BodyIndex body,
+                           const Eigen::VectorXd& q0, const Eigen::VectorXd& direction);
 
   /// Winch of a rope (its index in the lift), which starts with `start` m of unstretched rope out.
   /// @throws ModelError if the name is taken, or the rope has a winch already.

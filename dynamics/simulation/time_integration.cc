@@ -99,10 +99,12 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   w_.q = q;
   w_.v = v;
   system.mechanism().normalise(w_.q);
-  y_ = sundials::make_vector(system.state_size(), context_);
-  sample_ = sundials::make_vector(system.state_size(), context_);
-  rates_ = sundials::make_vector(system.state_size(), context_);
-  shifted_ = sundials::make_vector(system.state_size(), context_);
+  // CVODES wants at least one unknown: where everything is driven, one that stays zero.
+  const Eigen::Index size = std::max(1, system.state_size());
+  for (sundials::Vector* vector : {&y_, &sample_, &rates_, &shifted_}) {
+    *vector = sundials::make_vector(size, context_);
+    sundials::view(vector->get()).setZero();
+  }
   work_ = sundials::make_vector(4, context_);
   sampled_work_ = sundials::make_vector(4, context_);
   indicators_.setZero(system.contact_count());
@@ -225,9 +227,9 @@ int Integrator::error_weights(N_Vector y, N_Vector weights, void* data) {
   auto weight = sundials::view(weights);
   const double tolerance = self.settings_.relative_tolerance;
   for (Eigen::Index i = 0; i < state.size(); ++i) {
-    const double size = self.is_velocity_or_quaternion_[static_cast<std::size_t>(i)] != 0
-                            ? std::max(1.0, std::abs(state[i]))
-                            : 1.0;
+    const bool relative = i < self.system_.state_size() &&
+                          self.is_velocity_or_quaternion_[static_cast<std::size_t>(i)] != 0;
+    const double size = relative ? std::max(1.0, std::abs(state[i])) : 1.0;
     weight[i] = 1.0 / (tolerance * size);
   }
   return 0;
@@ -245,7 +247,7 @@ void Integrator::set_up_cvode() {
   check(CVodeInit(cvode_, right_hand_side, 0.0, y_.get()), "CVodeInit");
   check(CVodeSetUserData(cvode_, this), "CVodeSetUserData");
   check(CVodeWFtolerances(cvode_, error_weights), "CVodeWFtolerances");
-  const Eigen::Index n = system_.state_size();
+  const Eigen::Index n = sundials::view(y_.get()).size();
   matrix_ = sundials::Matrix(SUNDenseMatrix(n, n, context_.get()));
   linear_solver_ = sundials::LinearSolver(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");

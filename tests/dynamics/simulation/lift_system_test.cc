@@ -124,6 +124,35 @@ TEST(LiftSystem, DriveForceHoldsTheSpringAtItsJoint) {
   EXPECT_NEAR(sweep.drives[0].force[0], 35.0, 1e-12);
 }
 
+// A free body led along a screw: where it is in closed form, and the drives' work is its energy.
+TEST(LiftSystem, WholeJointFollowsADirection) {
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -10});
+  builder.add_body({.name = "body",
+                    .joint = {.kind = JointKind::free},
+                    .mass = 2.0,
+                    .p_BoBcm_B = {0.1, 0.2, 0.3},
+                    .I_BBcm_B = Vector3(1, 2, 2.5).asDiagonal(),
+                    .driven = std::vector<bool>(6, true)});
+  const Mechanism mechanism = builder.build();
+  OperationBuilder operation;
+  const Eigen::VectorXd q0 = mechanism.zero_configuration();
+  Eigen::VectorXd screw(6);
+  screw << 0, 0, 1, 0, 0, 0.5;
+  operation.add_direction_drive(mechanism, "turner", 1, q0, screw);
+  operation.add_move("turner", {1.0, 2.0, {1, 1, 1}});
+  const Operation built = operation.build(10.0);
+  const LiftSystem lift({.mechanism = mechanism, .operation = built, .q_start = q0});
+  const IntegrationResult run = integrate(lift, q0, lift.v_start(), {.relative_tolerance = 1e-9});
+  const BodyHistory& body = run.history.body("body");
+  const Eigen::Index last = run.history.sample_count() - 1;
+  EXPECT_LT((body.X_WB(last).R - rotation_about(Vector3::UnitZ(), 2.0)).norm(), 1e-12);
+  EXPECT_LT((body.X_WB(last).p - Vector3(0, 0, 1)).norm(), 1e-12);
+  EXPECT_EQ(run.history.drives[5].name, "turner 6");
+  EXPECT_NEAR(run.history.drives[5].force[last], 20.0, 1e-10);
+  EXPECT_NEAR(run.history.energy.drive_work[last], 20.0, 1e-6);
+}
+
 TEST(LiftSystem, RefusesWhatDoesNotFit) {
   const LiftSystem lift = samples::SingleRopeLift().build();
   EXPECT_THAT([&] { lift.rope_index("sling"); },
