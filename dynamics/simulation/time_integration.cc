@@ -259,7 +259,12 @@ void Integrator::set_up_cvode() {
   }
   if (settings_.works) {
     check(CVodeQuadInit(cvode_, works, work_.get()), "CVodeQuadInit");
-    check(CVodeSetQuadErrCon(cvode_, SUNFALSE), "CVodeSetQuadErrCon");
+    // Where nothing is free the works alone say how long a step may be.
+    const bool alone = system_.state_size() == 0;
+    check(CVodeSetQuadErrCon(cvode_, alone ? SUNTRUE : SUNFALSE), "CVodeSetQuadErrCon");
+    check(CVodeQuadSStolerances(cvode_, settings_.relative_tolerance, settings_.relative_tolerance),
+          "CVodeQuadSStolerances");
+    if (alone) check(CVodeSetMaxStep(cvode_, settings_.sample_interval), "CVodeSetMaxStep");
   }
 }
 
