@@ -1,0 +1,319 @@
+#include "pipeline/input/build_lift.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/multibody/kinematics.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::BodyDefinition;
+using dynamics::BodyIndex;
+using dynamics::BodyPoint;
+using dynamics::Pose;
+
+/// Gathers the parts of a lift; the steps of `build` follow one another.
+class LiftBuilder {
+ public:
+  LiftBuilder(const LiftCase& lift_case, const LoadMass& load) : case_(lift_case), load_(load) {}
+
+  BuiltLift build() {
+    dynamics::MechanismBuilder builder;
+    builder.set_gravity(Vector3(0, 0, -case_.gravity));
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) add_crane(builder, i);
+    add_load(builder);
+    const dynamics::Mechanism mechanism = builder.build();
+    q_start_ = mechanism.zero_configuration();
+    set_start(mechanism);
+    add_ropes();
+    add_wind_areas();
+    std::vector<dynamics::Rope> ropes;
+    for (const dynamics::RopeDefinition& rope : rope_definitions_) {
+      ropes.emplace_back(mechanism, rope);
+    }
+    Schedule schedule = make_schedule();
+    dynamics::Operation operation = make_operation(mechanism, schedule);
+    dynamics::LiftSystem system({mechanism, std::move(ropes), make_supports(), std::move(elements_),
+                                 std::move(operation), q_start_,
+                                 Eigen::VectorXd::Zero(mechanism.nv())});
+    return {std::move(system),  body_of_.at("load"), std::move(bodies_),
+            std::move(hoists_), std::move(ropes_),   std::move(schedule)};
+  }
+
+ private:
+  struct DrivenJoint {
+    std::string drive;
+    BodyIndex body;
+    int degree_of_freedom;  // from 0
+    double start;
+  };
+  struct HookStart {
+    BodyIndex hook;
+    BodyPoint sheave;
+    double length;
+  };
+
+  void add_crane(dynamics::MechanismBuilder& builder, std::size_t index) {
+    const CraneInCase& crane = case_.cranes[index];
+    const std::string prefix = crane.name.value + ".";
+    const Pose X_WC{rotation_of(crane.attitude), crane.position};
+    // Bodies become children of ones that are there already: as many rounds as the tree is deep.
+    std::vector<const JointModel*> waiting;
+    for (const JointModel& joint : crane.model->joints) waiting.push_back(&joint);
+    while (!waiting.empty()) {
+      const auto next = std::find_if(waiting.begin(), waiting.end(), [&](const JointModel* joint) {
+        return joint->parent.value == "world" || body_of_.contains(prefix + joint->parent.value);
+      });
+      if (next == waiting.end()) {
+        throw dynamics::ModelError("crane " + crane.name.value + ": its joints form a ring");
+      }
+      add_crane_body(builder, crane, **next, X_WC);
+      waiting.erase(next);
+    }
+    for (const HoistModel& hoist : crane.model->hoists) add_hoist(builder, index, hoist);
+  }
+
+  void add_crane_body(dynamics::MechanismBuilder& builder, const CraneInCase& crane,
+                      const JointModel& joint, const Pose& X_WC) {
+    const std::string prefix = crane.name.value + ".";
+    const BodyModel& model = *crane.model->find_body(joint.child.value);
+    BodyDefinition body;
+    body.name = prefix + model.name.value;
+    body.joint.kind = joint.kind;
+    body.joint.axis = joint.axis;
+    if (joint.second_axis) body.joint.second_axis = *joint.second_axis;
+    body.X_PJ = {rotation_of(joint.attitude), joint.position};
+    if (joint.parent.value == "world") {
+      body.X_PJ = X_WC * body.X_PJ;
+    } else {
+      body.parent = prefix + joint.parent.value;
+    }
+    body.mass = model.mass;
+    body.p_BoBcm_B = model.centre_of_mass;
+    body.I_BBcm_B = model.inertia_matrix();
+    for (const Located<Quantity>& damping : joint.damping) {
+      body.damping.push_back(damping.value.value);
+    }
+    std::vector<DrivenJoint> driven;
+    for (const DriveModel& drive : crane.model->drives) {
+      if (drive.joint.value != joint.name.value) continue;
+      body.driven.resize(joint_turns(joint.kind).size(), false);
+      const int degree = drive.degree_of_freedom.value - 1;
+      body.driven[static_cast<std::size_t>(degree)] = true;
+      driven.push_back(
+          {prefix + drive.name.value, -1, degree, crane.find_start(drive.name.value)->value.value});
+    }
+    const BodyIndex index = register_body(builder, body, "crane", model.shapes);
+    for (DrivenJoint& joint_drive : driven) {
+      joint_drive.body = index;
+      driven_joints_.push_back(joint_drive);
+    }
+  }
+
+  void add_hoist(dynamics::MechanismBuilder& builder, std::size_t crane_index,
+                 const HoistModel& hoist) {
+    const CraneInCase& crane = case_.cranes[crane_index];
+    BodyDefinition hook;
+    hook.name = crane.name.value + "." + hoist.name.value;
+    hook.joint.kind = dynamics::JointKind::translational;
+    hook.mass = hoist.hook_block.mass;
+    const BodyIndex index = register_body(builder, hook, "hook block",
+                                          {BoxShape{hoist.hook_block.size, {0, 0, 0}, {0, 0, 0}}});
+
+    const BodyPoint sheave{body_of_.at(crane.name.value + "." + hoist.body.value), hoist.sheave};
+    const double length = crane.find_start(hoist.name.value)->value.value;
+    hook_starts_.push_back({index, sheave, length});
+    dynamics::RopeDefinition rope;
+    rope.name = hook.name;
+    rope.points = {sheave, {index, Vector3::Zero()}};
+    set_rope(rope, hoist.rope, hoist.crane_stiffness, length);
+    winches_.push_back({rope.name, static_cast<int>(rope_definitions_.size()), length});
+    hoists_.push_back({rope.name, crane_index, static_cast<int>(rope_definitions_.size()), index,
+                       hoist.capacity, hoist.rope.breaking_load});
+    rope_definitions_.push_back(std::move(rope));
+  }
+
+  void add_load(dynamics::MechanismBuilder& builder) {
+    BodyDefinition load;
+    load.name = "load";
+    load.joint.kind = dynamics::JointKind::free;
+    load.mass = load_.mass;
+    load.p_BoBcm_B = load_.p_BoBcm_B;
+    load.I_BBcm_B = load_.I_BBcm_B;
+    register_body(builder, load, "load", {});
+  }
+
+  BodyIndex register_body(dynamics::MechanismBuilder& builder, const BodyDefinition& body,
+                          std::string kind, std::vector<BoxShape> boxes) {
+    const BodyIndex index = builder.add_body(body);
+    body_of_[body.name] = index;
+    bodies_.push_back({body.name, std::move(kind), index, std::move(boxes)});
+    return index;
+  }
+
+  static void set_rope(dynamics::RopeDefinition& rope, const RopeModel& model,
+                       double stiffness_in_series, double length) {
+    rope.axial_stiffness = model.axial_stiffness;
+    rope.damping_time = model.damping_time;
+    rope.crane_stiffness = stiffness_in_series;
+    rope.unstretched_length = length;
+  }
+
+  /// Coordinates at the start: drives as the case says, load and hook blocks as guessed.
+  void set_start(const dynamics::Mechanism& mechanism) {
+    for (const DrivenJoint& drive : driven_joints_) {
+      q_start_[mechanism.body(drive.body).q_offset + drive.degree_of_freedom] = drive.start;
+    }
+    const Pose X_WB = load_pose();
+    const int load = mechanism.body(body_of_.at("load")).q_offset;
+    q_start_.segment<3>(load) = X_WB.p;
+    q_start_.segment<4>(load + 3) = dynamics::quaternion_from_rotation(X_WB.R);
+
+    dynamics::Kinematics kinematics(mechanism);
+    dynamics::compute_kinematics(mechanism, q_start_, Eigen::VectorXd::Zero(mechanism.nv()),
+                                 kinematics);
+    for (const HookStart& hook : hook_starts_) {
+      const Pose& X_WT = kinematics.X_WB[static_cast<std::size_t>(hook.sheave.body)];
+      q_start_.segment<3>(mechanism.body(hook.hook).q_offset) =
+          X_WT.apply(hook.sheave.p_BoQ_B) - Vector3(0, 0, hook.length);
+    }
+  }
+
+  Pose load_pose() const { return {rotation_of(case_.load.attitude), case_.load.position}; }
+
+  void add_ropes() {
+    for (const RopeInCase& rope : case_.ropes) {
+      dynamics::RopeDefinition definition;
+      definition.name = rope.name.value;
+      for (const ResolvedPoint& point : rope.path) {
+        const std::string body = point.body_name(case_.cranes);
+        definition.points.push_back(
+            {body == "world" ? dynamics::world_index : body_of_.at(body), point.point});
+      }
+      set_rope(definition, rope.rope, rope.end_stiffness, rope.length.value);
+      const int index = static_cast<int>(rope_definitions_.size());
+      if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
+      const ResolvedPoint& first = rope.path.front();
+      ropes_.push_back(
+          {rope.name.value, index, rope.lug(),
+           first.kind == ResolvedPoint::Kind::hook ? first.body_name(case_.cranes) : "",
+           rope.rope.breaking_load});
+      rope_definitions_.push_back(std::move(definition));
+    }
+  }
+
+  void add_wind_areas() {
+    if (!case_.wind) return;
+    const dynamics::Wind wind =
+        dynamics::Wind::level(case_.wind->speed, case_.wind->towards, case_.wind->air_density);
+    auto& areas = std::get<std::vector<dynamics::WindArea>>(elements_);
+    const auto add = [&](const std::string& body, const WindAreaModel& area) {
+      dynamics::WindArea::Definition definition;
+      definition.name = fmt::format("wind on {} {}", body, areas.size() + 1);
+      definition.centre_of_pressure = {body_of_.at(body), area.centre};
+      definition.area = area.area;
+      definition.coefficient = area.coefficient;
+      definition.normal_B = area.normal;
+      areas.emplace_back(wind, std::move(definition));
+    };
+    for (const CraneInCase& crane : case_.cranes) {
+      const std::string prefix = crane.name.value + ".";
+      for (const BodyModel& body : crane.model->bodies) {
+        for (const WindAreaModel& area : body.wind_areas) add(prefix + body.name.value, area);
+      }
+      for (const HoistModel& hoist : crane.model->hoists) {
+        if (hoist.hook_block.wind_area == 0) continue;
+        add(prefix + hoist.name.value,
+            {hoist.hook_block.wind_area, hoist.hook_block.wind_coefficient, std::nullopt,
+             Vector3::Zero()});
+      }
+    }
+    for (const WindAreaModel& area : case_.load.model->wind_areas) add("load", area);
+  }
+
+  std::vector<dynamics::SupportPad> make_supports() const {
+    std::vector<dynamics::SupportPad> pads;
+    for (const SupportInCase& support : case_.supports) {
+      dynamics::SupportPad::Definition pad;
+      pad.name = support.name.value;
+      pad.point = {body_of_.at("load"), support.point};
+      pad.p_WG = load_pose().apply(support.point);
+      pad.p_WG.z() = support.ground;
+      pad.stiffness = support.stiffness;
+      pad.damping = support.damping;
+      pad.friction_coefficient = support.friction_coefficient;
+      pad.tangential_stiffness = support.tangential_stiffness;
+      pads.emplace_back(std::move(pad));
+    }
+    return pads;
+  }
+
+  Schedule make_schedule() const {
+    Diagnostics diagnostics;
+    Schedule schedule = schedule_operation(case_, diagnostics);
+    if (diagnostics.has_errors()) throw InputError(diagnostics);
+    return schedule;
+  }
+
+  dynamics::Operation make_operation(const dynamics::Mechanism& mechanism,
+                                     const Schedule& schedule) const {
+    dynamics::OperationBuilder builder;
+    for (const ScheduledStage& stage : schedule.stages) {
+      builder.add_stage(stage.name, stage.start, stage.end);
+    }
+    for (const DrivenJoint& drive : driven_joints_) {
+      builder.add_joint_drive(mechanism, drive.drive, drive.body, drive.start,
+                              drive.degree_of_freedom);
+    }
+    for (const WinchStart& winch : winches_) {
+      builder.add_winch(winch.name, winch.rope, winch.length);
+    }
+    for (const ScheduledMove& move : schedule.moves) {
+      builder.add_move(schedule.movers[move.mover].name, move.move);
+    }
+    for (const ScheduledFollower& follower : schedule.followers) {
+      const ScheduledStage& stage = schedule.stages[follower.stage];
+      builder.add_follower(schedule.movers[follower.mover].name,
+                           schedule.movers[follower.leader].name, stage.start, stage.end,
+                           follower.own_travel_over_leaders);
+    }
+    return builder.build(schedule.duration);
+  }
+
+  struct WinchStart {
+    std::string name;
+    int rope;
+    double length;
+  };
+
+  const LiftCase& case_;
+  const LoadMass& load_;
+  std::map<std::string, BodyIndex> body_of_;
+  std::vector<LiftBody> bodies_;
+  std::vector<LiftHoist> hoists_;
+  std::vector<LiftRope> ropes_;
+  std::vector<DrivenJoint> driven_joints_;
+  std::vector<HookStart> hook_starts_;
+  std::vector<WinchStart> winches_;
+  std::vector<dynamics::RopeDefinition> rope_definitions_;
+  dynamics::ForceElements elements_;
+  Eigen::VectorXd q_start_;
+};
+
+}  // namespace
+
+BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load) {
+  if (lift_case.load_table) {
+    throw std::invalid_argument("case " + lift_case.name +
+                                " is a load table: it has no cranes whose motion could be built");
+  }
+  return LiftBuilder(lift_case, load).build();
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "dynamics/simulation/lift_system.h"
+#include "pipeline/input/lift_case.h"
+#include "pipeline/input/operation_schedule.h"
+#include "structure/mesh/block_description.h"
+
+namespace blocklift::pipeline {
+
+/// Mass, centre of mass and inertia of the load in its own frame B. They come from the block's mesh,
+/// so that dynamics and structure have one source.
+struct LoadMass {
+  double mass = dynamics::not_a_number;                ///< kg
+  Vector3 p_BoBcm_B = Vector3::Zero();                 ///< centre of mass, m
+  Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< about the centre of mass, kg m^2
+};
+
+/// A hoist of the lift within the dynamics.
+struct LiftHoist {
+  std::string name;               ///< "C1.upper_1": of the hoist, its tackle, and its hook block
+  std::size_t crane = 0;          ///< index in the case
+  int rope = -1;                  ///< its tackle's index in the system
+  dynamics::BodyIndex hook = -1;  ///< its hook block
+  double capacity = dynamics::not_a_number;       ///< largest load at the hook, N
+  double breaking_load = dynamics::not_a_number;  ///< of the tackle, all falls, N
+};
+
+/// A rope of the case within the dynamics.
+struct LiftRope {
+  std::string name;
+  int rope = -1;                                  ///< index in the system
+  std::string lug;                                ///< that it ends at; empty if none
+  std::string hoist;                              ///< whose hook it begins at; empty if none
+  double breaking_load = dynamics::not_a_number;  ///< N
+};
+
+/// A body of the lift for the drawing: which boxes stand for it.
+struct LiftBody {
+  std::string name;  ///< "C1.gantry", "C1.upper_1", "load"
+  std::string kind;  ///< "crane", "hook block", "load"
+  dynamics::BodyIndex body = -1;
+  std::vector<BoxShape> boxes;
+};
+
+/// The dynamics of a lift case and where its parts are in it.
+struct BuiltLift {
+  dynamics::LiftSystem system;
+  dynamics::BodyIndex load = -1;
+  std::vector<LiftBody> bodies;
+  std::vector<LiftHoist> hoists;  ///< in the order of cranes and their hoists
+  std::vector<LiftRope> ropes;    ///< in the order of the case
+  Schedule schedule;
+};
+
+/// Builds the dynamics of a sound lift case.
+///
+/// Bodies are named "C1.gantry", hook blocks as their hoists ("C1.upper_1"), the block "load". A hook
+/// block is a body on a translational joint to the world, its tackle a rope from the sheave to its
+/// centre. The load is free; its start and that of the hook blocks (plumb below their sheaves, by
+/// the unstretched length) are guesses from which the equilibrium is found.
+///
+/// @throws std::invalid_argument if the case is a load table, which has no dynamics.
+/// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
+///   complaints does.
+BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load);
+
+/// The block as the structure's mesh generator takes it.
+/// @param name of the block, for messages.
+/// @param largest_element longest edge of an element, m.
+structure::BlockDescription describe_block(const BlockModel& model, const std::string& name,
+                                           double largest_element);
+
+}  // namespace blocklift::pipeline
