@@ -93,7 +93,7 @@ void check_openings(const BlockModel& block, Reading& reading) {
       }
     }
     for (const double at : opening.at) {
-      if (has_position(*plate, at)) continue;
+      if (plate->at.empty() || has_position(*plate, at)) continue;
       reading.error(opening.name.mark,
                     fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, at,
                                 plate->name.value),

@@ -62,7 +62,8 @@ std::vector<double> positions_of(const Stations& s) {
   const double spaces =
       s.count ? *s.count - 1 : std::round((s.to - s.from) / s.spacing.value_or(0));
   std::vector<double> positions;
-  if (!std::isfinite(spaces) || spaces < 1 || spaces > 10000) return positions;
+  const bool divides = s.count || std::abs((s.to - s.from) / s.spacing.value_or(0) - spaces) < 1e-6;
+  if (!divides || !std::isfinite(spaces) || spaces < 1 || spaces > 10000) return positions;
   for (int i = 0; i <= static_cast<int>(spaces); ++i) {
     positions.push_back(s.from + (s.to - s.from) * i / spaces);
   }

@@ -243,11 +243,12 @@ void check_comparison(const LiftCase& lift_case, Diagnostics& diagnostics) {
 /// Every lug that the table names exists; static, dynamic and direction name the same ones.
 void check_load_table(const LiftCase& lift_case, const LoadTable& table, Diagnostics& diagnostics) {
   const auto check_exists = [&](const Located<std::string>& lug) {
-    if (!lift_case.load.model || lift_case.load.model->find_lug(lug.value)) return;
+    if (!lift_case.load.model || lift_case.load.model->find_lug(lug.value)) return true;
     diagnostics.error(lug.mark,
                       fmt::format("the load table names lug \"{}\", which block {} does not have",
                                   lug.value, short_name(lift_case.load.model_name.value)),
                       {names_hint("its lugs are", lift_case.load.model->lug_names(), lug.value)});
+    return false;
   };
   const auto check_listed = [&](const Located<std::string>& lug, const auto& list,
                                 const char* list_name) {
@@ -259,15 +260,14 @@ void check_load_table(const LiftCase& lift_case, const LoadTable& table, Diagnos
   };
   if (table.static_loads.empty()) diagnostics.error(table.place, "the load table names no lug");
   for (const auto& load : table.static_loads) {
-    check_exists(load.name);
+    if (!check_exists(load.name)) continue;
     check_listed(load.name, table.dynamic_loads, "dynamic");
     if (const auto* each = std::get_if<std::vector<Named<Vector3>>>(&table.direction)) {
       check_listed(load.name, *each, "direction");
     }
   }
   for (const auto& load : table.dynamic_loads) {
-    check_exists(load.name);
-    check_listed(load.name, table.static_loads, "static");
+    if (check_exists(load.name)) check_listed(load.name, table.static_loads, "static");
   }
 }
 
@@ -321,7 +321,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_kind_of_case(lift_case, diagnostics);
   check_names(lift_case, diagnostics);
   for (const CraneInCase& crane : lift_case.cranes) {
-    if (crane.model) check_start(crane, diagnostics);
+    if (crane.model && !lift_case.load_table) check_start(crane, diagnostics);
   }
   check_ropes(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);

@@ -51,11 +51,13 @@ std::shared_ptr<T> read_model(const fs::path& file, const std::string& kind,
 /// `cranes`.
 void add_models(const fs::path& folder, const std::string& kind, std::vector<std::string>& names) {
   constexpr int deepest = 4;
-  constexpr std::size_t most = 1000;
+  constexpr int most_visited = 10000;
+  int visited = 0;
   std::error_code error;
   fs::recursive_directory_iterator files(folder, fs::directory_options::skip_permission_denied,
                                          error);
   for (; !error && files != fs::recursive_directory_iterator(); files.increment(error)) {
+    if (++visited > most_visited) return;
     if (files.depth() >= deepest) files.disable_recursion_pending();
     const fs::path relative = files->path().lexically_relative(folder);
     if (relative.extension() != ".yaml") continue;
@@ -64,7 +66,6 @@ void add_models(const fs::path& folder, const std::string& kind, std::vector<std
     } else if (*relative.begin() == kind + "s") {
       names.push_back((relative.parent_path() / relative.stem()).string());
     }
-    if (names.size() >= most) return;
   }
 }
 
@@ -126,12 +127,7 @@ std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
                                                      const fs::path& beside) const {
   std::vector<std::string> names;
   for (const fs::path& folder : model_folders_) add_models(folder, kind, names);
-  std::error_code error;
-  for (fs::directory_iterator files(beside.empty() ? fs::path(".") : beside, error);
-       !error && files != fs::directory_iterator(); files.increment(error)) {
-    const fs::path model = files->path() / (kind + ".yaml");
-    if (is_file(model)) names.push_back(files->path().filename().string());
-  }
+  add_models(beside.empty() ? fs::path(".") : beside, kind, names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;

@@ -24,7 +24,8 @@ Dimension acceleration_of(Dimension travel) {
 }
 
 void add_mover(std::vector<Mover>& movers, std::string name, bool is_winch,
-               const DriveLimits& limits, double start) {
+               const DriveLimits& limits, const Quantity& start_value) {
+  const double start = start_value.value;
   Mover mover;
   mover.name = std::move(name);
   mover.is_winch = is_winch;
@@ -36,7 +37,11 @@ void add_mover(std::vector<Mover>& movers, std::string name, bool is_winch,
   mover.start = start;
   const bool complete = std::isfinite(mover.limits.speed + mover.limits.acceleration +
                                       mover.limits.jerk + mover.lowest + mover.highest + start);
-  if (complete) movers.push_back(std::move(mover));
+  const bool of_one_kind = start_value.dimension == mover.travel &&
+                           limits.range[1].dimension == mover.travel &&
+                           limits.speed.value.dimension == speed_of(mover.travel) &&
+                           limits.acceleration.value.dimension == acceleration_of(mover.travel);
+  if (complete && of_one_kind) movers.push_back(std::move(mover));
 }
 
 /// Gathers a schedule stage by stage, following each drive's coordinate.
@@ -62,6 +67,7 @@ class Scheduler {
   double add_stage(const StageInCase& stage, double start) {
     stage_ = &stage;
     stage_index_ = schedule_.stages.size();
+    errors_before_stage_ = diagnostics_.error_count();
     schedule_.stages.push_back({stage.name.value, start, start});
     std::vector<const MoveInCase*> moves;
     for (const MoveInCase& move : stage.moves) moves.push_back(&move);
@@ -210,6 +216,7 @@ class Scheduler {
   void check_range(std::size_t index, double before, double coordinate, const Mark& mark) {
     const Mover& mover = schedule_.movers[index];
     const double slack = round_off * std::max(std::abs(mover.lowest), std::abs(mover.highest));
+    if (mover.start < mover.lowest || mover.start > mover.highest) return;  // has been said
     const bool outside = coordinate < mover.lowest - slack || coordinate > mover.highest + slack;
     if (!outside || !left_range_.insert(index).second) return;
     const auto in_words = [&](double value) { return format_quantity(value, mover.travel); };
@@ -285,6 +292,8 @@ class Scheduler {
       }
     }
     if (leading.empty()) {
+      // The leader's move may be what was complained about.
+      if (diagnostics_.error_count() > errors_before_stage_) return;
       fail(move.follows->mark,
            fmt::format("{} follows {}, which does not move in stage \"{}\"", name.value,
                        leader_name, stage_->name.value),
@@ -386,6 +395,7 @@ class Scheduler {
   std::set<std::size_t> left_range_;
   const StageInCase* stage_ = nullptr;
   std::size_t stage_index_ = 0;
+  std::size_t errors_before_stage_ = 0;
 };
 
 }  // namespace
@@ -396,7 +406,7 @@ std::vector<Mover> movers_of(const LiftCase& lift_case) {
     if (!crane.model) continue;
     const auto start_of = [&](const std::string& part) {
       const Located<Quantity>* start = crane.find_start(part);
-      return start ? start->value.value : std::nan("");
+      return start ? start->value : Quantity{};
     };
     for (const DriveModel& drive : crane.model->drives) {
       add_mover(movers, crane.name.value + "." + drive.name.value, false, drive,
@@ -409,7 +419,7 @@ std::vector<Mover> movers_of(const LiftCase& lift_case) {
   }
   for (const RopeInCase& rope : lift_case.ropes) {
     if (rope.winch) {
-      add_mover(movers, rope.name.value, true, *rope.winch, rope.length.value);
+      add_mover(movers, rope.name.value, true, *rope.winch, {rope.length.value, Dimension::length});
     }
   }
   return movers;
