@@ -126,10 +126,11 @@ void check_pad(const BlockDescription& block, const Pad& pad, const Sheet& sheet
                      "\", which the block does not have; its plates are " + names_of(block.plates));
   bool found = false;
   for (const Sheet& plate : plates) {
-    const bool named =
-        pad.plate.empty() || block.plates[static_cast<std::size_t>(plate.group)].name == pad.plate;
-    if (plate.rank != SheetRank::plate || !named || !coplanar(plate, sheet) ||
+    // The rank first: only a plate's group is a place in block.plates.
+    if (plate.rank != SheetRank::plate || !coplanar(plate, sheet) ||
         !overlap_in_plane(plate, sheet))
+      continue;
+    if (!pad.plate.empty() && block.plates[static_cast<std::size_t>(plate.group)].name != pad.plate)
       continue;
     found = true;
     if (pad.thickness < plate.thickness - 1e-9)
