@@ -3,7 +3,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/.ci/prepare.sh"
 
 install_packages
-build release blocklift_executable
+build release blocklift
 
 say "Assessing cases/goliath-turnover"
 status=0

@@ -50,6 +50,7 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
     b.pose.resize(n, 7);
     b.velocity.resize(n, 6);
     b.acceleration.resize(n, 6);
+    b.load.resize(n, 6);
   }
   for (const Rope& rope : system.ropes()) {
     RopeHistory& r = ropes.emplace_back();
@@ -99,6 +100,8 @@ void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const
     b.velocity.row(sample) << V.angular.transpose(), V.linear.transpose();
     const MotionVector& A = A_WB_[i + 1];
     b.acceleration.row(sample) << A.angular.transpose(), A.linear.transpose();
+    const ForceVector& F = w.loads.F_Bo_W[i + 1];
+    b.load.row(sample) << F.moment.transpose(), F.force.transpose();
   }
 }
 

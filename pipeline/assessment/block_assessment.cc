@@ -1,21 +1,16 @@
 #include "pipeline/assessment/block_assessment.h"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "pipeline/assessment/stopwatch.h"
+
 namespace blocklift::pipeline {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double percent_above(double value, double reference) {
   return reference > 0 ? 100 * (value / reference - 1) : 0;
@@ -100,7 +95,7 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
                              const BlockAttachment& attachment,
                              const dynamics::History& static_history,
                              const dynamics::History& dynamic_history) {
-  const Clock::time_point start = Clock::now();
+  Stopwatch watch;
   const structure::MassProperties& mass = responses.model().mass_properties();
   const StateEvaluator evaluator(recovery);
   const auto static_maxima = dynamics::find_largest_tensions(static_history);
@@ -128,7 +123,7 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
   }
   assessment.simultaneous = largest_of(assessment.simultaneous_by_rope);
   assessment.first_elastic_period = responses.first_elastic_period();
-  assessment.evaluation_s = seconds_since(start);
+  assessment.evaluation_s = watch.lap();
   return assessment;
 }
 
@@ -136,7 +131,7 @@ BlockAssessment assess_load_table(const structure::UnitResponses& responses,
                                   const structure::StressRecovery& recovery,
                                   const std::vector<structure::Vector3>& static_forces_B,
                                   const std::vector<structure::Vector3>& dynamic_forces_B) {
-  const Clock::time_point start = Clock::now();
+  Stopwatch watch;
   const structure::ElasticModel& model = responses.model();
   const StateEvaluator evaluator(recovery);
   const auto evaluate = [&](const std::vector<structure::Vector3>& forces_B, const char* name) {
@@ -148,7 +143,7 @@ BlockAssessment assess_load_table(const structure::UnitResponses& responses,
                                        evaluate(dynamic_forces_B, "dynamic loads of the table"));
   assessment.simultaneous = assessment.per_rope_maxima;
   assessment.first_elastic_period = responses.first_elastic_period();
-  assessment.evaluation_s = seconds_since(start);
+  assessment.evaluation_s = watch.lap();
   return assessment;
 }
 

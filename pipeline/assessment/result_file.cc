@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -106,14 +105,18 @@ void write_comparison(ResultsWriter& file, std::string_view way, const LoadCompa
 
 }  // namespace
 
-void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
-                const std::string& yaml) {
+std::string creation_time() {
   const auto now =
       std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(now));
+}
+
+void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
+                const std::string& yaml) {
   file.make_group(layout::case_group);
   file.write_attribute(layout::case_group, "name", name);
   file.write_attribute(layout::case_group, "title", title);
-  file.write_attribute(layout::case_group, "created", fmt::format("{:%FT%TZ}", fmt::gmtime(now)));
+  file.write_attribute(layout::case_group, "created", creation_time());
   file.write_attribute(layout::case_group, "program_version", program_version);
   file.write_text(layout::case_yaml, yaml, "the case file");
 }

@@ -30,6 +30,9 @@ struct Scene {
   std::vector<structure::LugRegion> lugs;
 };
 
+/// The time of day in UTC as results carry it (ISO 8601).
+std::string creation_time();
+
 void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
                 const std::string& yaml);
 void write_operation(ResultsWriter& file, const dynamics::Operation& operation);

@@ -1,13 +1,16 @@
-#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "pipeline/command_line/assess_command.h"
+#include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/validate_command.h"
+#include "pipeline/input/diagnostics.h"
 #include "pipeline/input/schema.h"
 #include "pipeline/version.h"
 
@@ -15,17 +18,32 @@ namespace {
 
 using namespace blocklift::pipeline;
 
-// Exit codes: 0 done and sound, 1 the run failed or the lift does not pass, 2 the input is wrong.
-constexpr int run_failed = 1;
-constexpr int wrong_input = 2;
+void add_assess(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "assess", "Run a lift case: dynamics, loads on the block, stress, checks, report");
+  auto path = std::make_shared<std::string>();
+  auto output = std::make_shared<std::optional<std::string>>();
+  command->add_option("CASE", *path, "case file, or folder with a case.yaml")->required();
+  command->add_option("-o,--output", *output,
+                      "folder of the results (results/<name of the case> if not given)");
+  command->callback([path, output, &code] { code = assess_case(*path, *output); });
+}
 
-void add_validate(CLI::App& app, int& exit_code) {
+void add_report(CLI::App& app, int& code) {
+  CLI::App* command =
+      app.add_subcommand("report", "Make report.html again from the results in a folder");
+  auto folder = std::make_shared<std::string>();
+  command->add_option("RESULT", *folder, "folder with results.h5 and summary.json")->required();
+  command->callback([folder, &code] { code = report_results(*folder); });
+}
+
+void add_validate(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "validate", "Read a lift case or model file with all that it names, and say what is wrong");
   auto files = std::make_shared<std::vector<std::string>>();
   command->add_option("CASE", *files, "case file, folder with a case.yaml, or model file")
       ->required();
-  command->callback([files, &exit_code] { exit_code = validate_files(*files); });
+  command->callback([files, &code] { code = validate_files(*files); });
 }
 
 void add_schema(CLI::App& app) {
@@ -47,16 +65,21 @@ int main(int argc, char** argv) {
   app.name("blocklift");
   app.set_version_flag("--version", std::string("blocklift ") + std::string(program_version));
   app.require_subcommand(1);
-  int exit_code = EXIT_SUCCESS;
-  add_validate(app, exit_code);
+  int code = exit_code::done;
+  add_assess(app, code);
+  add_validate(app, code);
+  add_report(app, code);
   add_schema(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? EXIT_SUCCESS : wrong_input;
+    return app.exit(error) == 0 ? exit_code::done : exit_code::wrong_input;
+  } catch (const InputError& error) {
+    std::cerr << error.what() << std::flush;
+    return exit_code::wrong_input;
   } catch (const std::exception& error) {
     std::cerr << "blocklift: error: " << error.what() << '\n';
-    return run_failed;
+    return exit_code::run_failed;
   }
-  return exit_code;
+  return code;
 }

@@ -1,0 +1,164 @@
+#include "pipeline/assessment/assessment.h"
+
+#include <fstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/assessment/lift_checks.h"
+#include "pipeline/assessment/result_file.h"
+#include "pipeline/assessment/stopwatch.h"
+#include "pipeline/assessment/summary.h"
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/report/report.h"
+#include "structure/mesh/block_generator.h"
+#include "structure/output/vtu.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+LoadMass load_mass(const structure::MassProperties& mass) {
+  return {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B};
+}
+
+/// Forces of a load table in the order of the mesh's lugs, N, in the block frame.
+std::vector<structure::Vector3> table_forces(const LoadTable& table,
+                                             const std::vector<Named<double>>& loads,
+                                             const std::vector<structure::LugRegion>& lugs) {
+  std::vector<structure::Vector3> forces(lugs.size(), structure::Vector3::Zero());
+  for (const Named<double>& load : loads) {
+    for (std::size_t i = 0; i < lugs.size(); ++i) {
+      if (lugs[i].name == load.name.value)
+        forces[i] = load.value * table.direction_at(lugs[i].name);
+    }
+  }
+  return forces;
+}
+
+Scene make_scene(const Assessment& assessment) {
+  const BuiltLift& model = assessment.lift->model;
+  Scene scene;
+  for (const LiftBody& body : model.bodies) {
+    DrawnBody drawn{body.name, body.kind, {}};
+    for (const BoxShape& box : body.boxes) drawn.boxes.push_back({box.size, box.centre});
+    scene.bodies.push_back(drawn);
+  }
+  for (const LiftHoist& hoist : model.hoists) scene.hoists.push_back(hoist.rope);
+  scene.load_body = model.system.mechanism().body(model.load).name;
+  scene.lugs = assessment.block.model->mesh().lugs;
+  return scene;
+}
+
+void write_result_file(const Assessment& assessment, const fs::path& path) {
+  ResultsWriter file(path);
+  write_case(file, assessment.lift_case.name, assessment.lift_case.title,
+             assessment.lift_case.yaml);
+  if (assessment.lift) {
+    const dynamics::LiftSystem& system = assessment.lift->model.system;
+    const Scene scene = make_scene(assessment);
+    write_operation(file, system.operation());
+    write_history(file, layout::static_history, system, assessment.lift->static_history, scene);
+    write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
+    write_scene(file, system, scene);
+  }
+  write_block(file, structure::Surface(*assessment.block.model), *assessment.block.responses,
+              assessment.block.assessment);
+  file.finish();
+}
+
+/// A folder beside the results in which they are prepared; gone with everything in it unless moved.
+class Preparation {
+ public:
+  explicit Preparation(const fs::path& folder)
+      : folder_(folder), aside_(folder / ".in-preparation") {
+    fs::create_directories(folder_);
+    fs::remove_all(aside_);
+    fs::create_directory(aside_);
+  }
+  ~Preparation() {
+    std::error_code ignored;
+    fs::remove_all(aside_, ignored);
+  }
+  Preparation(const Preparation&) = delete;
+  Preparation& operator=(const Preparation&) = delete;
+
+  const fs::path& folder() const { return aside_; }
+  void move_into_place() const {
+    for (const fs::directory_entry& entry : fs::directory_iterator(aside_))
+      fs::rename(entry.path(), folder_ / entry.path().filename());
+  }
+
+ private:
+  fs::path folder_;
+  fs::path aside_;
+};
+
+}  // namespace
+
+Assessment assess(LiftCase lift_case, const Progress& progress) {
+  Stopwatch total;
+  Assessment assessment{std::move(lift_case), {}, {}, {}, 0};
+  const LiftCase& the_case = assessment.lift_case;
+
+  Stopwatch watch;
+  BlockRun& block = assessment.block;
+  const structure::BlockDescription description = describe_block(
+      *the_case.load.model, the_case.load.model_name.value, the_case.structure.largest_element);
+  block.model = std::make_unique<structure::ElasticModel>(
+      structure::generate_block_mesh(description), the_case.structure.element_degree,
+      description.total_mass, description.centre_of_mass_B);
+  block.mesh_s = watch.lap();
+  const auto& lugs = block.model->mesh().lugs;
+
+  if (!the_case.load_table) {
+    BuiltLift model = build_lift(the_case, load_mass(block.model->mass_properties()));
+    assessment.lift = run_lift(the_case, std::move(model), progress);
+    assessment.checks = check_lift(the_case, *assessment.lift);
+  }
+
+  progress("block: stiffness, factorisation, unit responses", 0, "");
+  block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  progress("block: stresses", 0.5, "");
+  const structure::StressRecovery recovery(*block.responses);
+  if (assessment.lift) {
+    const BlockAttachment attachment =
+        attach_block(assessment.lift->model.system, assessment.lift->model.load, lugs);
+    block.assessment =
+        assess_block(*block.responses, recovery, attachment, assessment.lift->static_history,
+                     assessment.lift->dynamic_history());
+  } else {
+    const LoadTable& table = *the_case.load_table;
+    block.assessment =
+        assess_load_table(*block.responses, recovery, table_forces(table, table.static_loads, lugs),
+                          table_forces(table, table.dynamic_loads, lugs));
+  }
+  for (Check& check : check_block(the_case, block.assessment)) assessment.checks.push_back(check);
+  assessment.total_s = total.lap();
+  return assessment;
+}
+
+fs::path write_results(const Assessment& assessment, const fs::path& folder) {
+  const Preparation preparation(folder);
+  Stopwatch watch;
+  write_result_file(assessment, preparation.folder() / layout::results_file);
+  const LoadComparison& headline = assessment.block.assessment.simultaneous;
+  const structure::UnitResponses& responses = *assessment.block.responses;
+  structure::write_vtu(preparation.folder() / "block-static.vtu", responses,
+                       headline.static_state.load);
+  structure::write_vtu(preparation.folder() / "block-dynamic.vtu", responses,
+                       headline.dynamic_state.load);
+
+  nlohmann::ordered_json summary = make_summary(assessment);
+  const fs::path summary_path = preparation.folder() / layout::summary_file;
+  write_file(summary_path, summary.dump(2));
+  write_report(preparation.folder());
+  summary["timing"]["report_s"] = watch.lap();
+  write_file(summary_path, summary.dump(2));
+  preparation.move_into_place();
+  return folder / layout::report_file;
+}
+
+}  // namespace blocklift::pipeline

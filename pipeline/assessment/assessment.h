@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/assessment/block_assessment.h"
+#include "pipeline/assessment/checks.h"
+#include "pipeline/assessment/lift_run.h"
+
+namespace blocklift::pipeline {
+
+/// The structural stage with what its pictures are made of.
+struct BlockRun {
+  std::unique_ptr<structure::ElasticModel> model;
+  std::unique_ptr<structure::UnitResponses> responses;
+  BlockAssessment assessment;
+  double mesh_s = 0;  ///< wall-clock time of meshing and mass properties
+};
+
+/// All that one run found out about a case.
+struct Assessment {
+  LiftCase lift_case;
+  std::optional<LiftRun> lift;  ///< none for a load table
+  BlockRun block;
+  std::vector<Check> checks;
+  double total_s = 0;  ///< wall-clock time up to the writing of results
+
+  bool pass() const { return all_pass(checks); }
+};
+
+/// Runs all stages of a case: mesh and mass of the block, static sweep, time integration, load
+/// mapping, unit responses, stresses, checks.
+/// @throws dynamics::SimulationError, structure::ModelError, std::runtime_error as the stages do.
+Assessment assess(LiftCase lift_case, const Progress& progress);
+
+/// Writes results.h5, summary.json, the .vtu files and report.html into a folder (made if missing).
+/// They are prepared aside and moved into place together at the end: whatever goes wrong before,
+/// results that lie there stay as they are.
+/// @returns the path of report.html.
+std::filesystem::path write_results(const Assessment& assessment,
+                                    const std::filesystem::path& folder);
+
+}  // namespace blocklift::pipeline

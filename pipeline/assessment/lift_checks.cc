@@ -1,0 +1,155 @@
+#include "pipeline/assessment/lift_checks.h"
+
+#include <map>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "pipeline/assessment/result_file.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// A largest or smallest value with its time.
+struct Peak {
+  double value = 0;
+  double time = 0;
+};
+
+enum class Kind { largest, smallest };
+
+/// Peak of a series of the static and of the dynamic history, whichever is further out.
+template <class Series>
+Peak peak_of(const LiftRun& lift, Kind kind, const Series& series) {
+  Peak peak{kind == Kind::largest ? -std::numeric_limits<double>::infinity()
+                                  : std::numeric_limits<double>::infinity(),
+            0};
+  for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()}) {
+    const Eigen::VectorXd values = series(*history);
+    Eigen::Index at = 0;
+    const double value = kind == Kind::largest ? values.maxCoeff(&at) : values.minCoeff(&at);
+    if (kind == Kind::largest ? value > peak.value : value < peak.value)
+      peak = {value, history->time(at)};
+  }
+  return peak;
+}
+
+auto tension_of(int rope) {
+  return [rope](const dynamics::History& history) {
+    return history.ropes[static_cast<std::size_t>(rope)].tension;
+  };
+}
+
+Check at_time(Check check, double time, std::string note = {}) {
+  check.time = time;
+  check.note = std::move(note);
+  return check;
+}
+
+Check check_breaking_load(const LiftRun& lift, const std::string& what, int rope,
+                          double breaking_load, double factor) {
+  const Peak peak = peak_of(lift, Kind::largest, tension_of(rope));
+  return at_time(
+      check_at_most(fmt::format("{}: tension against breaking load / {:g}", what, factor),
+                    peak.value, breaking_load / factor, "N"),
+      peak.time);
+}
+
+void add_capacities(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
+  for (const LiftHoist& hoist : lift.model.hoists) {
+    const Peak peak = peak_of(lift, Kind::largest, tension_of(hoist.rope));
+    checks.push_back(at_time(check_at_most("hoist " + hoist.name + ": load against capacity",
+                                           peak.value, hoist.capacity, "N"),
+                             peak.time, "hook block included"));
+  }
+  for (std::size_t crane = 0; crane < lift_case.cranes.size(); ++crane) {
+    const CraneInCase& in_case = lift_case.cranes[crane];
+    if (!in_case.model->capacity) continue;
+    const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
+      return crane_load(lift.model, history, crane);
+    });
+    checks.push_back(at_time(
+        check_at_most("crane " + in_case.name.value + ": load of all hoists against capacity",
+                      peak.value, *in_case.model->capacity, "N"),
+        peak.time, "hook blocks included"));
+  }
+}
+
+void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
+  Peak smallest{std::numeric_limits<double>::infinity(), 0};
+  std::string rope;
+  for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
+    const Peak peak = peak_of(lift, Kind::smallest, tension_of(static_cast<int>(i)));
+    if (peak.value >= smallest.value) continue;
+    smallest = peak;
+    rope = lift.static_history.ropes[i].name;
+  }
+  checks.push_back(at_time(check_at_least("slack: smallest tension of any rope, " + rope,
+                                          smallest.value, lift_case.checks.smallest_tension, "N"),
+                           smallest.time, "the demand must stay above the limit"));
+}
+
+void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
+  Peak largest{-1, 0};
+  std::string name;
+  for (const LiftHoist& hoist : lift.model.hoists) {
+    const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
+      return swing_angles(history.ropes[static_cast<std::size_t>(hoist.rope)]);
+    });
+    if (peak.value <= largest.value) continue;
+    largest = peak;
+    name = hoist.name;
+  }
+  checks.push_back(
+      at_time(check_at_most("swing: largest angle of a hoist against the plumb, " + name,
+                            largest.value, limit, "rad"),
+              largest.time));
+}
+
+}  // namespace
+
+std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
+  const double factor = lift_case.checks.rope_safety_factor;
+  std::vector<Check> checks;
+  for (const LiftRope& rope : lift.model.ropes) {
+    checks.push_back(
+        check_breaking_load(lift, "rope " + rope.name, rope.rope, rope.breaking_load, factor));
+  }
+  for (const LiftHoist& hoist : lift.model.hoists) {
+    checks.push_back(
+        check_breaking_load(lift, "tackle " + hoist.name, hoist.rope, hoist.breaking_load, factor));
+  }
+  if (lift_case.checks.crane_capacity) add_capacities(lift_case, lift, checks);
+  add_slack(lift_case, lift, checks);
+  if (lift_case.checks.largest_swing) add_swing(lift, *lift_case.checks.largest_swing, checks);
+  return checks;
+}
+
+std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block) {
+  std::map<std::string, Check> worst;  // by material
+  const auto consider = [&](const BlockState& state) {
+    for (const structure::GroupStress& group : state.result.groups) {
+      Check check = check_at_most(
+          fmt::format("stress in {}: checked von Mises against yield / {:g}", group.material,
+                      lift_case.checks.yield_factor),
+          group.checked_von_mises.value, group.yield_stress / lift_case.checks.yield_factor, "Pa");
+      check.time = state.time;
+      check.note = group.checked_von_mises.part;
+      const auto found = worst.find(group.material);
+      if (found == worst.end() || check.utilisation > found->second.utilisation)
+        worst[group.material] = check;
+    }
+  };
+  std::vector<LoadComparison> comparisons = block.simultaneous_by_rope;
+  if (comparisons.empty()) comparisons.push_back(block.simultaneous);
+  for (const LoadComparison& comparison : comparisons) {
+    consider(comparison.static_state);
+    consider(comparison.dynamic_state);
+  }
+  std::vector<Check> checks;
+  for (auto& [material, check] : worst) checks.push_back(check);
+  return checks;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/assessment/block_assessment.h"
+#include "pipeline/assessment/checks.h"
+#include "pipeline/assessment/lift_run.h"
+
+namespace blocklift::pipeline {
+
+/// Ropes and tackle against breaking load, hooks and cranes against capacity, slack and swing; each
+/// by the larger of the static and the dynamic history.
+std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift);
+
+/// Checked von Mises stress against yield with the case's factor, a line a material: the plate with
+/// the highest utilisation among all simultaneous load cases.
+std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block);
+
+}  // namespace blocklift::pipeline

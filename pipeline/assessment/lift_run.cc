@@ -1,0 +1,49 @@
+#include "pipeline/assessment/lift_run.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dynamics/simulation/equilibrium.h"
+#include "pipeline/assessment/stopwatch.h"
+
+namespace blocklift::pipeline {
+
+LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress) {
+  const auto report = [&](const char* stage) {
+    return [&progress, stage](double fraction, double time) {
+      progress(stage, fraction, fmt::format("t = {:.0f} s", time));
+    };
+  };
+  const dynamics::LiftSystem& system = model.system;
+  Stopwatch watch;
+  const Eigen::VectorXd times =
+      dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
+  // Both histories begin at the same equilibrium.
+  Eigen::VectorXd q = system.q_start();
+  dynamics::EquilibriumSolver(system).solve(0, q);
+  dynamics::History static_history =
+      dynamics::static_sweep(system, times, q, {}, report("static sweep"));
+  const double static_s = watch.lap();
+
+  dynamics::IntegrationSettings settings;
+  settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
+  settings.sample_interval = lift_case.dynamics.sample_interval;
+  settings.progress = report("time integration");
+  dynamics::IntegrationResult dynamic_result =
+      dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+  const double dynamic_s = watch.lap();
+  return {std::move(model), std::move(static_history), std::move(dynamic_result), static_s,
+          dynamic_s};
+}
+
+Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,
+                           std::size_t crane) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(history.sample_count());
+  for (const LiftHoist& hoist : model.hoists) {
+    if (hoist.crane == crane) load += history.ropes[static_cast<std::size_t>(hoist.rope)].tension;
+  }
+  return load;
+}
+
+}  // namespace blocklift::pipeline

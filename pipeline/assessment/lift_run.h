@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dynamics/simulation/time_integration.h"
+#include "pipeline/input/build_lift.h"
+
+namespace blocklift::pipeline {
+
+/// Called with the stage of the run, the fraction of it that is done, and a word about where it is.
+using Progress = std::function<void(const std::string&, double, const std::string&)>;
+
+/// The dynamics of a lift: the operation at rest and in motion.
+struct LiftRun {
+  BuiltLift model;
+  dynamics::History static_history;
+  dynamics::IntegrationResult dynamic_result;
+  double static_s = 0;   ///< wall-clock time of the static sweep
+  double dynamic_s = 0;  ///< wall-clock time of the time integration
+
+  const dynamics::History& dynamic_history() const { return dynamic_result.history; }
+  double simulated_s() const { return model.system.operation().duration(); }
+};
+
+/// Sweeps the operation at rest, then integrates it in time from the first equilibrium.
+/// @throws dynamics::SimulationError when an equilibrium or the integration fails.
+LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
+
+/// Sum of the tackle tensions of a crane's hoists at each sample, N.
+Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,
+                           std::size_t crane);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,114 @@
+#include "pipeline/command_line/assess_command.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "pipeline/assessment/assessment.h"
+#include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/progress_bar.h"
+#include "pipeline/report/report.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// Shows each stage of a run in a bar of its own.
+class ProgressLine {
+ public:
+  void show(const std::string& stage, double fraction, const std::string& detail) {
+    if (stage != stage_) {
+      bar_.reset();
+      bar_ = std::make_unique<ProgressBar>(stage);
+      stage_ = stage;
+    }
+    bar_->show(fraction, detail);
+  }
+  void finish() { bar_.reset(); }
+
+ private:
+  std::string stage_;
+  std::unique_ptr<ProgressBar> bar_;
+};
+
+constexpr double newton_per_tonne = 9806.65;
+
+void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
+  const auto at_rest = dynamics::find_largest_tensions(lift.static_history);
+  const auto in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
+  const double unit = 1e3 * lift_case.gravity;
+  const auto published = [&](const std::string& rope) -> const PublishedLoads* {
+    if (!lift_case.compare) return nullptr;
+    for (const auto& row : lift_case.compare->ropes) {
+      if (row.name.value == rope) return &row.value;
+    }
+    return nullptr;
+  };
+  fmt::print("\n{:<8}{:>10}{:>10}{:>10}   {}\n", "rope", "static t", "dynamic t", "ratio",
+             lift_case.compare ? "published static, dynamic t" : "");
+  for (const LiftRope& line : lift.model.ropes) {
+    const auto rope = static_cast<std::size_t>(line.rope);
+    const std::string& name = line.name;
+    fmt::print("{:<8}{:>10.1f}{:>10.1f}{:>10.3f}", name, at_rest[rope].tension / unit,
+               in_motion[rope].tension / unit, in_motion[rope].tension / at_rest[rope].tension);
+    if (const PublishedLoads* figures = published(name);
+        figures && figures->static_load && figures->dynamic_load) {
+      fmt::print("   {:.0f} ({:+.1f} %), {:.0f} ({:+.1f} %)",
+                 *figures->static_load / newton_per_tonne,
+                 100 * (at_rest[rope].tension / *figures->static_load - 1),
+                 *figures->dynamic_load / newton_per_tonne,
+                 100 * (in_motion[rope].tension / *figures->dynamic_load - 1));
+    }
+    fmt::print("\n");
+  }
+}
+
+void print_block(const BlockAssessment& block) {
+  const auto print_way = [](const char* name, const LoadComparison& way) {
+    fmt::print("{:<28}{:>8.1f}{:>8.1f} MPa ({:+.1f} %){:>8.1f}{:>8.1f} mm ({:+.1f} %)\n", name,
+               way.static_state.result.checked_von_mises.value / 1e6,
+               way.dynamic_state.result.checked_von_mises.value / 1e6,
+               way.stress_increase_percent(), 1e3 * way.static_displacement,
+               1e3 * way.dynamic_displacement, way.deformation_increase_percent());
+  };
+  fmt::print("\nblock, static and dynamic    checked von Mises            displacement\n");
+  print_way("simultaneous", block.simultaneous);
+  print_way("every rope at its maximum", block.per_rope_maxima);
+}
+
+void print_checks(const Assessment& assessment) {
+  fmt::print("\n");
+  for (const std::string& reason : verdict_reasons(assessment.checks)) fmt::print("{}\n", reason);
+  fmt::print("verdict: {}\n", assessment.pass() ? "pass" : "FAIL");
+}
+
+}  // namespace
+
+int assess_case(const std::string& path, const std::optional<std::string>& output) {
+  LiftCase lift_case = read_lift_case(path);
+  const std::filesystem::path folder =
+      output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
+  ProgressLine line;
+  const Assessment assessment = assess(
+      std::move(lift_case), [&](const std::string& stage, double fraction,
+                                const std::string& detail) { line.show(stage, fraction, detail); });
+  line.show("writing results", 0, "");
+  const std::filesystem::path report = write_results(assessment, folder);
+  line.finish();
+
+  fmt::print("{}\n", assessment.lift_case.title);
+  if (assessment.lift) print_loads(*assessment.lift, assessment.lift_case);
+  print_block(assessment.block.assessment);
+  print_checks(assessment);
+  fmt::print("report: {}\n", report.string());
+  return assessment.pass() ? exit_code::done : exit_code::lift_fails;
+}
+
+int report_results(const std::string& folder) {
+  fmt::print("report: {}\n", write_report(folder).string());
+  return exit_code::done;
+}
+
+}  // namespace blocklift::pipeline
