@@ -50,6 +50,7 @@ BlockDescription hull_block() {
   add("girders", Axis::y, {5, 10, 15}, length, {}, depth, 0.014);
   const std::vector<double> stiffener_lines = {2, 7.5, 12.5, 18};
   add("bottom_stiffeners", Axis::y, stiffener_lines, length, {}, {0, 0.4}, 0.014);
+  add("tween_deck_stiffeners", Axis::y, stiffener_lines, length, {}, {3.65, 4}, 0.012);
   add("deck_stiffeners", Axis::y, stiffener_lines, length, {}, {7.65, 8}, 0.012);
   for (int i = 0; i < 3; ++i) {
     add_hull_lug(block, "L" + std::to_string(2 * i + 1), 16.0 / 3 * (1 + 2 * i), 0, 2);
