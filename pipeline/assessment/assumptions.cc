@@ -1,5 +1,7 @@
 #include "pipeline/assessment/assumptions.h"
 
+#include <numbers>
+
 #include <fmt/format.h>
 
 namespace blocklift::pipeline {
@@ -7,24 +9,25 @@ namespace blocklift::pipeline {
 namespace {
 
 void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
-  list.insert(
-      list.end(),
-      {"Cranes, hook blocks and the block are rigid bodies; a crane's elasticity acts in series "
-       "with "
-       "each of its tackles. Hook blocks do not turn.",
-       "Ropes are weightless springs with damping along their paths; they pull and never push. All "
-       "falls of a tackle are taken together.",
-       "Drives and winches follow their motion profiles exactly, whatever force that takes.",
-       fmt::format(
-           "Static: equilibrium at the same winch lengths and crane positions, every {:g} s, "
-           "with the mean wind. Dynamic: time integration with relative tolerance {:g}; "
-           "largest loads are those of samples every {:g} s.",
-           lift_case.dynamics.static_interval, lift_case.dynamics.relative_tolerance,
-           lift_case.dynamics.sample_interval)});
+  list.emplace_back(
+      "Cranes, hook blocks and the block are rigid bodies; a crane's elasticity acts in series "
+      "with "
+      "each of its tackles. Hook blocks do not turn.");
+  list.emplace_back(
+      "Ropes are weightless springs with damping along their paths; they pull and never push. All "
+      "falls of a tackle are taken together.");
+  list.emplace_back(
+      "Drives and winches follow their motion profiles exactly, whatever force that takes.");
+  list.push_back(fmt::format(
+      "Static: equilibrium at the same winch lengths and crane positions, every {:g} s, with the "
+      "mean wind. Dynamic: time integration with relative tolerance {:g}; largest loads are those "
+      "of samples every {:g} s.",
+      lift_case.dynamics.static_interval, lift_case.dynamics.relative_tolerance,
+      lift_case.dynamics.sample_interval));
   if (lift_case.wind) {
     list.push_back(fmt::format(
         "Constant wind of {:g} m/s towards {:.0f} degrees from +x to +y, without gusts.",
-        lift_case.wind->speed, lift_case.wind->towards * 57.29577951308232));
+        lift_case.wind->speed, lift_case.wind->towards * 180 / std::numbers::pi));
   } else {
     list.push_back("No wind.");
   }
@@ -32,24 +35,27 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
 
 void add_block_assumptions(const Assessment& assessment, std::vector<std::string>& list) {
   const structure::MassProperties& mass = assessment.block.model->mass_properties();
-  list.insert(
-      list.end(),
-      {"The block is linear elastic; its loads are the forces at the lugs, gravity and the inertia "
-       "of its motion, which are in balance. Its elastic motion does not act back on the ropes.",
-       fmt::format("Inertia relief: the first elastic period of the free block is about {:.2f} s; "
-                   "loads that rise within a few of these periods shake the block itself, which is "
-                   "not part of the figures.",
-                   assessment.block.assessment.first_elastic_period),
-       fmt::format("Of {:.1f} t, {:.1f} t are steel of the model; the remaining {:.1f} t of "
-                   "outfitting are spread over the plates with a density linear in place (factor "
-                   "{:.2f} to {:.2f} of the steel's), so that mass and centre of mass are met.",
-                   mass.mass / 1e3, mass.steel_mass / 1e3, mass.outfitting_mass / 1e3,
-                   mass.smallest_density_factor, mass.largest_density_factor),
-       "Checked stress: von Mises of the membrane stress (averaged through the plate) over patches "
-       "of 50 x 50 mm. The raw peak beside it depends on the mesh and grows with refinement at "
-       "re-entrant corners.",
-       "Each rope's force is spread over its lug plate; contact of the pin, welds and buckling are "
-       "not part of the model."});
+  list.emplace_back(
+      "The block is linear elastic; its loads are the forces at the lugs, gravity and the inertia "
+      "of its motion, which are in balance. Its elastic motion does not act back on the ropes.");
+  list.push_back(fmt::format(
+      "Inertia relief: the first elastic period of the free block is about {:.2f} s; loads that "
+      "rise within a few of these periods shake the block itself, which is not part of the "
+      "figures.",
+      assessment.block.assessment.first_elastic_period));
+  list.push_back(fmt::format(
+      "Of {:.1f} t, {:.1f} t are steel of the model; the remaining {:.1f} t of outfitting are "
+      "spread over the plates with a density linear in place (factor {:.2f} to {:.2f} of the "
+      "steel's), so that mass and centre of mass are met.",
+      mass.mass / 1e3, mass.steel_mass / 1e3, mass.outfitting_mass / 1e3,
+      mass.smallest_density_factor, mass.largest_density_factor));
+  list.emplace_back(
+      "Checked stress: von Mises of the membrane stress (averaged through the plate) over patches "
+      "of 50 x 50 mm. The raw peak beside it depends on the mesh and grows with refinement at "
+      "re-entrant corners.");
+  list.emplace_back(
+      "Each rope's force is spread over its lug plate; contact of the pin, welds and buckling are "
+      "not part of the model.");
 }
 
 }  // namespace

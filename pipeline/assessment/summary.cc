@@ -17,7 +17,6 @@ namespace blocklift::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using dynamics::History;
 using dynamics::LinkedMaximum;
 
 /// Null in place of what JSON cannot write.

@@ -74,6 +74,10 @@ void print_block(const BlockAssessment& block) {
                1e3 * way.dynamic_displacement, way.deformation_increase_percent());
   };
   fmt::print("\nblock, static and dynamic    checked von Mises            displacement\n");
+  if (block.simultaneous_by_rope.empty()) {
+    print_way("loads of the table", block.simultaneous);
+    return;
+  }
   print_way("simultaneous", block.simultaneous);
   print_way("every rope at its maximum", block.per_rope_maxima);
 }

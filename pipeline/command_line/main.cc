@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -58,9 +59,7 @@ void add_schema(CLI::App& app) {
       [manual, kind] { std::cout << (*manual ? markdown_manual(*kind) : json_schema(*kind)); });
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"From a lift case to the stress report of a heavy lift"};
   app.name("blocklift");
   app.set_version_flag("--version", std::string("blocklift ") + std::string(program_version));
@@ -74,12 +73,20 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_code::done : exit_code::wrong_input;
-  } catch (const InputError& error) {
-    std::cerr << error.what() << std::flush;
-    return exit_code::wrong_input;
-  } catch (const std::exception& error) {
-    std::cerr << "blocklift: error: " << error.what() << '\n';
-    return exit_code::run_failed;
   }
   return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    std::fputs(error.what(), stderr);
+    return exit_code::wrong_input;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "blocklift: error: %s\n", error.what());
+    return exit_code::run_failed;
+  }
 }

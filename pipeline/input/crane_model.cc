@@ -69,7 +69,7 @@ Format<JointModel> joint_format() {
   const auto damping = located(
       quantity_of({Dimension::damping, Dimension::rotational_damping}, Range::not_negative()));
   const auto one = converted<Located<Quantity>, std::vector<Located<Quantity>>>(
-      damping, [](Located<Quantity> value) { return std::vector{value}; });
+      damping, [](Located<Quantity> value) { return std::vector{std::move(value)}; });
   Table<JointModel> table("joint",
                           "How a body may move against its parent. At zero coordinates the "
                           "child's frame coincides with the joint frame.");
