@@ -24,7 +24,7 @@ const T* find_by_name(const std::vector<T>& items, const std::string& name) {
 fs::path case_file(const fs::path& path, Diagnostics& diagnostics) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return path;
-  const fs::path file = path / "case.yaml";
+  fs::path file = path / "case.yaml";
   if (fs::exists(file, error)) return file;
   diagnostics.error({std::make_shared<const std::string>(shown_path(path)), 0, 0},
                     "this folder has no case.yaml",

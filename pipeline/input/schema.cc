@@ -135,7 +135,7 @@ void collect_tables(const ValueDescription& value, std::vector<Table>& tables) {
 }
 
 /// A table cell must not hold the column separator.
-std::string cell(std::string text) {
+std::string cell(const std::string& text) {
   std::string escaped;
   for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
   return escaped;

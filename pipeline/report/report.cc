@@ -93,7 +93,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
     throw ResultsError((folder / layout::summary_file).string() + ": " + error.what());
   }
   const std::string name = data["case"]["name"].get<std::string>();
-  const std::filesystem::path path = folder / layout::report_file;
+  std::filesystem::path path = folder / layout::report_file;
   write_file(path, fill_page(report_page(), escape_html(name), script_safe(data)));
   return path;
 }
