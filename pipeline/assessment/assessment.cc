@@ -1,7 +1,7 @@
 #include "pipeline/assessment/assessment.h"
 
-#include <fstream>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -69,11 +69,17 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
   file.finish();
 }
 
-/// A folder beside the results in which they are prepared; gone with everything in it unless moved.
+/// A folder within that of the results in which they are prepared; gone with everything in it unless
+/// moved, and so are the folders that were made for it.
 class Preparation {
  public:
   explicit Preparation(const fs::path& folder)
       : folder_(folder), aside_(folder / ".in-preparation") {
+    for (fs::path above = fs::absolute(folder_).lexically_normal(); !fs::exists(above);
+         above = above.parent_path()) {
+      // "a/b/" has an empty name after its last slash
+      if (above.has_filename()) made_.push_back(above);
+    }
     fs::create_directories(folder_);
     fs::remove_all(aside_);
     fs::create_directory(aside_);
@@ -81,6 +87,8 @@ class Preparation {
   ~Preparation() {
     std::error_code ignored;
     fs::remove_all(aside_, ignored);
+    // Only folders that are empty can be removed so.
+    for (const fs::path& made : made_) fs::remove(made, ignored);
   }
   Preparation(const Preparation&) = delete;
   Preparation& operator=(const Preparation&) = delete;
@@ -94,6 +102,7 @@ class Preparation {
  private:
   fs::path folder_;
   fs::path aside_;
+  std::vector<fs::path> made_;  ///< the innermost first
 };
 
 }  // namespace

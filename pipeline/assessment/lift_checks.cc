@@ -1,5 +1,7 @@
 #include "pipeline/assessment/lift_checks.h"
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -19,7 +21,8 @@ struct Peak {
 
 enum class Kind { largest, smallest };
 
-/// Peak of a series of the static and of the dynamic history, whichever is further out.
+/// Peak of a series of the static and of the dynamic history, whichever is further out. Where a
+/// sample is not a number, neither is the peak: it fails its check.
 template <class Series>
 Peak peak_of(const LiftRun& lift, Kind kind, const Series& series) {
   Peak peak{kind == Kind::largest ? -std::numeric_limits<double>::infinity()
@@ -28,7 +31,9 @@ Peak peak_of(const LiftRun& lift, Kind kind, const Series& series) {
   for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()}) {
     const Eigen::VectorXd values = series(*history);
     Eigen::Index at = 0;
-    const double value = kind == Kind::largest ? values.maxCoeff(&at) : values.minCoeff(&at);
+    const double value = kind == Kind::largest ? values.maxCoeff<Eigen::PropagateNaN>(&at)
+                                               : values.minCoeff<Eigen::PropagateNaN>(&at);
+    if (std::isnan(value)) return {value, history->time(at)};
     if (kind == Kind::largest ? value > peak.value : value < peak.value)
       peak = {value, history->time(at)};
   }
@@ -84,6 +89,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
     if (peak.value >= smallest.value) continue;
     smallest = peak;
     rope = lift.static_history.ropes[i].name;
+    if (std::isnan(peak.value)) break;
   }
   checks.push_back(at_time(check_at_least("slack: smallest tension of any rope, " + rope,
                                           smallest.value, lift_case.checks.smallest_tension, "N"),
@@ -100,6 +106,7 @@ void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
     if (peak.value <= largest.value) continue;
     largest = peak;
     name = hoist.name;
+    if (std::isnan(peak.value)) break;
   }
   checks.push_back(
       at_time(check_at_most("swing: largest angle of a hoist against the plumb, " + name,

@@ -238,8 +238,8 @@ Json energy_json(const LiftRun& lift) {
   const dynamics::EnergyHistory& energy = lift.dynamic_history().energy;
   const Eigen::VectorXd stored = energy.kinetic + energy.gravity + energy.elastic;
   // What the winches and drives have turned over is the measure for what may get lost.
-  const double largest = (stored.array() - stored(0)).abs().maxCoeff();
-  const double imbalance = energy_imbalance(energy).cwiseAbs().maxCoeff();
+  const double largest = (stored.array() - stored(0)).abs().maxCoeff<Eigen::PropagateNaN>();
+  const double imbalance = energy_imbalance(energy).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   return {{"largest_energy_J", largest},
           {"largest_imbalance_J", imbalance},
           {"relative_imbalance", number(imbalance / largest)}};
