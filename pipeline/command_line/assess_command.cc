@@ -9,6 +9,7 @@
 #include "pipeline/assessment/assessment.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/progress_bar.h"
+#include "pipeline/formats/results_store.h"
 #include "pipeline/report/report.h"
 
 namespace blocklift::pipeline {
@@ -94,6 +95,14 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   LiftCase lift_case = read_lift_case(path);
   const std::filesystem::path folder =
       output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
+  if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {
+    fmt::print(
+        stderr,
+        "blocklift: error: the results cannot go into \"{}\": it is a file; --output takes a "
+        "folder\n",
+        folder.string());
+    return exit_code::wrong_input;
+  }
   ProgressLine line;
   const Assessment assessment = assess(
       std::move(lift_case), [&](const std::string& stage, double fraction,
@@ -111,7 +120,12 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
 }
 
 int report_results(const std::string& folder) {
-  fmt::print("report: {}\n", write_report(folder).string());
+  try {
+    fmt::print("report: {}\n", write_report(folder).string());
+  } catch (const ResultsError& error) {
+    fmt::print(stderr, "blocklift: error: {}\n", error.what());
+    return exit_code::wrong_input;
+  }
   return exit_code::done;
 }
 

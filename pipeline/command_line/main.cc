@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -59,6 +60,17 @@ void add_schema(CLI::App& app) {
       [manual, kind] { std::cout << (*manual ? markdown_manual(*kind) : json_schema(*kind)); });
 }
 
+/// Says so if the first word is meant as a command and is none.
+bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return false;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return false;
+  std::cerr << "blocklift: error: there is no command \"" << argv[1] << "\"\n    "
+            << names_hint("the commands are", names, argv[1]) << '\n';
+  return true;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"From a lift case to the stress report of a heavy lift"};
   app.name("blocklift");
@@ -69,6 +81,7 @@ int run(int argc, char** argv) {
   add_validate(app, code);
   add_report(app, code);
   add_schema(app);
+  if (is_unknown_command(app, argc, argv)) return exit_code::wrong_input;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
