@@ -1,53 +1,25 @@
 // `blocklift validate` and `blocklift schema` as a user meets them: run as a process.
 
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/input/sample_lift.h"
+#include "tests/pipeline/run_program.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using test::Outcome;
 using test::SampleLift;
 using test::TemporaryFolder;
 using test::with;
 
-struct Outcome {
-  int exit_code = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string text_of_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 /// Runs the program in the working directory.
 Outcome run(const std::string& arguments) {
-  const fs::path error_file =
-      fs::temp_directory_path() / (fs::current_path().filename().string() + ".err");
-  const std::string command = std::string("'") + BLOCKLIFT_EXECUTABLE + "' " + arguments + " 2>'" +
-                              error_file.string() + "'";
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) throw std::runtime_error("the program cannot be run");
-  std::array<char, 4096> buffer;
-  for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    outcome.out.append(buffer.data(), n);
-  }
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  outcome.err = text_of_file(error_file);
-  fs::remove(error_file);
-  return outcome;
+  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
 }
 
 std::size_t files_in(const fs::path& folder) {
