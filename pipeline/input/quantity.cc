@@ -281,14 +281,14 @@ Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& all
   if (!meaning) {
     throw QuantityError(fmt::format("\"{}\" has the unknown unit \"{}\"{}", all, unit, due));
   }
-  const double si_value = value * meaning->scale;
-  if (!std::isfinite(si_value)) {
+  const double in_si = value * meaning->scale;
+  if (!std::isfinite(in_si)) {
     throw QuantityError(fmt::format("\"{}\" is too large a number{}", all, due));
   }
   for (const Dimension dimension : allowed) {
-    if (entry_of(dimension).exponents == meaning->exponents) return {si_value, dimension};
+    if (entry_of(dimension).exponents == meaning->exponents) return {in_si, dimension};
     if (dimension == Dimension::load && meaning->exponents == entry_of(Dimension::mass).exponents) {
-      return {si_value * standard_gravity, dimension};
+      return {in_si * standard_gravity, dimension};
     }
   }
   const std::string noun = noun_of(meaning->exponents);
@@ -310,13 +310,13 @@ double parse_number(std::string_view text) {
   return value;
 }
 
-std::string format_quantity(double si_value, Dimension dimension) {
-  if (dimension == Dimension::ratio) return fmt::format("{:.6g}", si_value);
+std::string format_quantity(double in_si, Dimension dimension) {
+  if (dimension == Dimension::ratio) return fmt::format("{:.6g}", in_si);
   if (dimension == Dimension::angle) {
-    return fmt::format("{:.6g} deg", si_value * 180.0 / 3.14159265358979323846);
+    return fmt::format("{:.6g} deg", in_si * 180.0 / 3.14159265358979323846);
   }
-  if (dimension == Dimension::speed) return fmt::format("{:.6g} m/min", si_value * 60);
-  return fmt::format("{:.6g} {}", si_value, text_of(dimension).si_unit);
+  if (dimension == Dimension::speed) return fmt::format("{:.6g} m/min", in_si * 60);
+  return fmt::format("{:.6g} {}", in_si, text_of(dimension).si_unit);
 }
 
 }  // namespace blocklift::pipeline

@@ -80,7 +80,7 @@ double parse_quantity(std::string_view text, Dimension dimension);
 double parse_number(std::string_view text);
 
 /// A value in SI units as a reader of messages likes it: "12 m", "3 m/min", "45 deg"; six digits at most.
-std::string format_quantity(double si_value, Dimension dimension);
+std::string format_quantity(double in_si, Dimension dimension);
 
 /// "a length", "a length or an angle", "a length, an angle or a force".
 std::string nouns_of(const std::vector<Dimension>& dimensions);

@@ -19,7 +19,8 @@ const SmallLift& small_lift() {
         describe_block(*lift_case.load.model, lift_case.load.model_name.value,
                        lift_case.structure.largest_element);
     auto model = std::make_unique<structure::ElasticModel>(
-        structure::make_elastic_model(description, lift_case.structure.element_degree));
+        structure::generate_block_mesh(description), lift_case.structure.element_degree,
+        description.total_mass, description.centre_of_mass_B);
     const structure::MassProperties& mass = model->mass_properties();
     BuiltLift built =
         build_lift(lift_case, {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B});
