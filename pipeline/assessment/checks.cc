@@ -40,7 +40,7 @@ Check check_at_most(std::string name, double demand, double limit, std::string u
 
 Check check_at_least(std::string name, double demand, double limit, std::string unit) {
   Check check = make_check(std::move(name), demand, limit, std::move(unit));
-  check.pass = limit > 0 ? demand >= limit : demand > 0;
+  check.pass = demand >= limit && demand > 0;
   check.utilisation = demand > 0 ? ratio(limit, demand) : beyond_any_limit;
   return check;
 }
