@@ -20,6 +20,7 @@ namespace {
 
 constexpr double snap = 0.5e-3;  // m: cuts nearer than this are one
 constexpr double slice_excess = 0.3;
+constexpr double most_boxes = 5e7;  // of the grid before merging: 0.2 GB
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -28,11 +29,31 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 PlateGrid::PlateGrid(const BlockDescription& description, std::vector<Sheet> sheets)
     : sheets_(std::move(sheets)) {
   for (int axis = 0; axis < 3; ++axis) find_stations(axis);
-  for (int axis = 0; axis < 3; ++axis) {
-    collect_planes(axis, description);
-    subdivide(axis, description.largest_element);
-  }
+  for (int axis = 0; axis < 3; ++axis) collect_planes(axis, description);
+  check_size(description.largest_element);
+  for (int axis = 0; axis < 3; ++axis) subdivide(axis, description.largest_element);
   fill(description);
+}
+
+// Before anything is made: a grid that no machine holds is refused, not begun.
+void PlateGrid::check_size(double largest_element) const {
+  if (!(largest_element > 0))
+    throw ModelError(
+        fmt::format("the largest element is {:g} m; it must be positive", largest_element));
+  double boxes = 1;
+  for (const std::vector<Plane>& planes : planes_) {
+    double parts = 0;
+    for (std::size_t i = 1; i < planes.size(); ++i)
+      parts += std::max(
+          1.0, std::ceil((planes[i].coordinate - planes[i - 1].coordinate) / largest_element));
+    boxes *= std::max(1.0, parts);
+  }
+  if (boxes > most_boxes)
+    throw ModelError(
+        fmt::format("elements of at most {:g} m make a grid of {:.2g} boxes, and {:.2g} are "
+                    "allowed; use larger "
+                    "elements",
+                    largest_element, boxes, most_boxes));
 }
 
 void PlateGrid::find_stations(int axis) {
@@ -112,9 +133,6 @@ void PlateGrid::collect_planes(int axis, const BlockDescription& description) {
 }
 
 void PlateGrid::subdivide(int axis, double largest_element) {
-  if (!(largest_element > 0))
-    throw ModelError(
-        fmt::format("the largest element is {:g} m; it must be positive", largest_element));
   std::vector<Plane> divided;
   for (const Plane& plane : planes_[at(axis)]) {
     if (!divided.empty()) {

@@ -21,7 +21,8 @@ struct GridBox {
 /// planes, whose vertices are set to the thickness that is there (`coordinate`).
 class PlateGrid {
  public:
-  /// @throws ModelError if two stations are nearer to one another than their thickness.
+  /// @throws ModelError if two stations are nearer to one another than their thickness, or the
+  ///   largest element is so small that the grid would not fit into any memory.
   PlateGrid(const BlockDescription& description, std::vector<Sheet> sheets);
 
   const std::vector<Sheet>& sheets() const { return sheets_; }
@@ -57,6 +58,7 @@ class PlateGrid {
   }
   void find_stations(int axis);
   void collect_planes(int axis, const BlockDescription& description);
+  void check_size(double largest_element) const;
   void subdivide(int axis, double largest_element);
   void fill(const BlockDescription& description);
   int plane_at(int axis, double coordinate) const;

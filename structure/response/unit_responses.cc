@@ -140,14 +140,16 @@ LoadBalance UnitResponses::balance(const LoadCase& load_case) const {
   LoadBalance result;
   result.resultant = resultant(model_.space().nodes, load_vector(load_case));
   result.resultant.moment -= mass.centre_of_mass_B.cross(result.resultant.force);
+  // A block that stands still on the ground has neither lug forces nor a field: its weight, which is
+  // what cancels there, is the least that residuals are compared with.
+  const double field = load_case.field.acceleration_less_gravity.norm();
+  const double weight = mass.mass * std::max(field, standard_gravity);
   double load = 0;
   for (const Vector3& force : load_case.lug_forces_B) load += force.norm();
-  const double field = load_case.field.acceleration_less_gravity.norm();
-  if (load == 0) load = mass.mass * (field > 0 ? field : standard_gravity);
+  load = std::max(load, weight);
   const double gyration = std::sqrt(mass.inertia_BBcm_B.trace() / (2 * mass.mass));
   result.force_residual = result.resultant.force.norm() / load;
   result.moment_residual = result.resultant.moment.norm() / (load * gyration);
-  const double weight = mass.mass * (field > 0 ? field : standard_gravity);
   result.reaction_over_weight =
       (reactions_ * coefficients(load_case)).cwiseAbs().maxCoeff() / weight;
   return result;

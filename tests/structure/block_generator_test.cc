@@ -210,6 +210,12 @@ TEST(BlockGeneratorErrors, ThicknessLargerThanSpacing) {
   EXPECT_THAT(refusal(block), HasSubstr("lie 8 mm apart"));
 }
 
+TEST(BlockGeneratorErrors, ElementsThatNoMemoryHoldsAreRefusedAtOnce) {
+  BlockDescription block = cross_of_plates();
+  block.largest_element = 1e-9;
+  EXPECT_THAT(refusal(block), HasSubstr("use larger elements"));
+}
+
 TEST(BlockGeneratorErrors, ThicknessMustBePositive) {
   BlockDescription block = cross_of_plates();
   block.plates[1].thickness = -0.01;
