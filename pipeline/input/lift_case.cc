@@ -23,6 +23,11 @@ const T* find_by_name(const std::vector<T>& items, const std::string& name) {
 /// if the folder has none.
 fs::path case_file(const fs::path& path, Diagnostics& diagnostics) {
   std::error_code error;
+  if (path.empty()) {
+    diagnostics.error({}, "the name of the case is empty",
+                      {"a lift case is a file, or a folder with the file case.yaml in it"});
+    return {};
+  }
   if (!fs::is_directory(path, error)) return path;
   fs::path file = path / "case.yaml";
   if (fs::exists(file, error)) return file;

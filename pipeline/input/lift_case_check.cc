@@ -143,11 +143,25 @@ bool same_point(const ResolvedPoint& a, const ResolvedPoint& b) {
   return a.kind == b.kind && a.crane == b.crane && a.part == b.part && a.point == b.point;
 }
 
+/// Complains about sheaves on the load: only the forces of rope ends reach its stress.
+void check_sheaves(const RopeInCase& rope, Diagnostics& diagnostics) {
+  for (std::size_t i = 1; i + 1 < rope.path.size(); ++i) {
+    if (rope.path[i].kind != ResolvedPoint::Kind::load) continue;
+    diagnostics.error(
+        rope.through[i - 1].mark,
+        fmt::format("rope {} runs over a sheave on the load, whose force on the block would be "
+                    "missing from its stress",
+                    rope.name.value),
+        {"ropes begin or end at lugs; sheaves stand on cranes, hooks or the world"});
+  }
+}
+
 void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
   bool all_known = true;
   bool load_hangs = false;
   for (const RopeInCase& rope : lift_case.ropes) {
     all_known &= !rope.path.empty();
+    check_sheaves(rope, diagnostics);
     for (std::size_t i = 0; i < rope.path.size(); ++i) {
       load_hangs |= rope.path[i].kind == ResolvedPoint::Kind::load;
       if (i > 0 && same_point(rope.path[i - 1], rope.path[i])) {
@@ -299,6 +313,29 @@ void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   require(lift_case.operation.empty(), "operation");
 }
 
+/// The operation takes time, and no more samples of it are asked for than a machine holds.
+void check_duration(const LiftCase& lift_case, const Schedule& schedule, Diagnostics& diagnostics) {
+  constexpr double most_samples = 5e5;  // some 10 kB each
+  if (lift_case.operation.empty() || diagnostics.has_errors()) return;
+  if (!(schedule.duration > 0)) {
+    diagnostics.error(lift_case.operation.front().name.mark, "the operation takes no time",
+                      {"give it a move, a pause or a settle time"});
+    return;
+  }
+  const auto check = [&](const char* key, double interval) {
+    if (schedule.duration <= most_samples * interval) return;
+    diagnostics.error(
+        lift_case.operation.front().name.mark,
+        fmt::format("the operation lasts {:.6g} s, with a sample every {:g} s ({})",
+                    schedule.duration, interval, key),
+        {fmt::format("at most {:.0f} samples are recorded; shorten the pauses or lengthen the "
+                     "interval",
+                     most_samples)});
+  };
+  check("sample_interval", lift_case.dynamics.sample_interval);
+  check("static_interval", lift_case.dynamics.static_interval);
+}
+
 }  // namespace
 
 void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics) {
@@ -326,7 +363,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_ropes(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
-  schedule_operation(lift_case, diagnostics);
+  check_duration(lift_case, schedule_operation(lift_case, diagnostics), diagnostics);
 }
 
 }  // namespace blocklift::pipeline

@@ -158,12 +158,13 @@ Format<DynamicsSettings> dynamics_format() {
   Table<DynamicsSettings> table("dynamics settings", "How the motion is computed.");
   table
       .by_default("relative_tolerance", &DynamicsSettings::relative_tolerance,
-                  number(Range::between(1e-12, 1e-2)), "1e-6", "of the time integration")
+                  number(Range::between(1e-12, 1e-3)), "1e-6", "of the time integration")
       .by_default("sample_interval", &DynamicsSettings::sample_interval,
-                  quantity(Dimension::time, Range::between(1e-4, 60)), "0.05 s",
-                  "between two recorded samples of the motion")
+                  quantity(Dimension::time, Range::between(1e-4, 0.2)), "0.05 s",
+                  "between two recorded samples of the motion, among which the largest loads are "
+                  "sought: a small part of the load's bounce on its ropes")
       .by_default("static_interval", &DynamicsSettings::static_interval,
-                  quantity(Dimension::time, Range::between(1e-3, 600)), "1 s",
+                  quantity(Dimension::time, Range::between(1e-3, 30)), "1 s",
                   "between two static equilibria");
   return table.format();
 }
@@ -172,7 +173,7 @@ Format<StructureSettings> structure_format() {
   Table<StructureSettings> table("structure settings", "How the stress is computed.");
   table
       .by_default("element_degree", &StructureSettings::element_degree,
-                  integer(Range::between(1, 5)), "3", "polynomial degree of the hexahedra")
+                  integer(Range::between(1, 4)), "3", "polynomial degree of the hexahedra")
       .by_default("largest_element", &StructureSettings::largest_element,
                   quantity(Dimension::length, Range::between(0.01, 100)), "2 m",
                   "longest edge of an element");

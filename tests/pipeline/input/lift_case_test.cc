@@ -359,5 +359,39 @@ TEST(LiftCaseErrors, SurvivesAnyLostLine) {
   }
 }
 
+TEST(LiftCaseTest, SheavesOnTheLoadAreRefused) {
+  EXPECT_EQ(complaints_about_case("R1: {from: C1.left, to: L1",
+                                  "R1: {from: C1.left, through: [L1], to: L2"),
+            "case.yaml:9:33: error: rope R1 runs over a sheave on the load, whose force on the "
+            "block would be missing from its stress\n"
+            "    ropes begin or end at lugs; sheaves stand on cranes, hooks or the world\n"
+            "1 error\n");
+}
+
+TEST(LiftCaseTest, OperationMustLastAndNotForEver) {
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "settle: 10 s", "settle: 0 s");
+  const std::size_t moves = lift.lift_case.find("    pause: 5 s");
+  lift.lift_case.erase(moves, lift.lift_case.find("settle:") - moves);
+  EXPECT_EQ(complaints_about(lift),
+            "case.yaml:12:12: error: the operation takes no time\n"
+            "    give it a move, a pause or a settle time\n"
+            "1 error\n");
+  EXPECT_EQ(complaints_about_case("pause: 5 s", "pause: 1e6 s"),
+            "case.yaml:12:12: error: the operation lasts 1.00008e+06 s, with a sample every 0.05 s "
+            "(sample_interval)\n"
+            "    at most 500000 samples are recorded; shorten the pauses or lengthen the interval\n"
+            "case.yaml:12:12: error: the operation lasts 1.00008e+06 s, with a sample every 1 s "
+            "(static_interval)\n"
+            "    at most 500000 samples are recorded; shorten the pauses or lengthen the interval\n"
+            "2 errors\n");
+}
+
+TEST(LiftCaseTest, SamplesAreCloserThanTheBounceOfALoad) {
+  EXPECT_EQ(complaints_about_case("settle: 10 s", "settle: 10 s\ndynamics: {sample_interval: 1 s}"),
+            "case.yaml:20:29: error: sample_interval \"1 s\" must be from 0.0001 s to 0.2 s\n"
+            "1 error\n");
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline
