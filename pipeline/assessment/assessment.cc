@@ -1,17 +1,23 @@
 #include "pipeline/assessment/assessment.h"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/assessment/block_preparation.h"
 #include "pipeline/assessment/lift_checks.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/assessment/stopwatch.h"
 #include "pipeline/assessment/summary.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/report.h"
-#include "structure/mesh/block_generator.h"
 #include "structure/output/vtu.h"
 
 namespace blocklift::pipeline {
@@ -114,11 +120,10 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
 
   Stopwatch watch;
   BlockRun& block = assessment.block;
-  const structure::BlockDescription description = describe_block(
-      *the_case.load.model, the_case.load.model_name.value, the_case.structure.largest_element);
-  block.model = std::make_unique<structure::ElasticModel>(
-      structure::generate_block_mesh(description), the_case.structure.element_degree,
-      description.total_mass, description.centre_of_mass_B);
+  Diagnostics diagnostics;
+  block.model = make_block_model(*the_case.load.model, the_case.load.model_name.value,
+                                 the_case.structure, diagnostics);
+  if (!block.model) throw InputError(diagnostics);
   block.mesh_s = watch.lap();
   const auto& lugs = block.model->mesh().lugs;
 
@@ -149,7 +154,31 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
   return assessment;
 }
 
-fs::path write_results(const Assessment& assessment, const fs::path& folder) {
+void require_writable(const fs::path& folder) {
+  const auto refuse = [&](std::string message) {
+    Diagnostics diagnostics;
+    diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
+                      "results cannot be written here: " + std::move(message),
+                      {"name another folder with --output"});
+    throw InputError(diagnostics);
+  };
+  if (folder.empty()) refuse("the name of the folder is empty");
+  std::error_code error;
+  fs::path existing = fs::absolute(folder, error).lexically_normal();
+  while (fs::status(existing, error).type() != fs::file_type::directory) {
+    if (fs::exists(existing, error)) refuse(existing.string() + " is no folder");
+    const fs::path parent = existing.parent_path();
+    if (parent == existing) refuse("it lies nowhere");
+    existing = parent;
+  }
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+    refuse(existing.string() + ": " + std::generic_category().message(errno));
+  }
+}
+
+namespace {
+
+fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   const Preparation preparation(folder);
   Stopwatch watch;
   write_result_file(assessment, preparation.folder() / layout::results_file);
@@ -168,6 +197,17 @@ fs::path write_results(const Assessment& assessment, const fs::path& folder) {
   write_file(summary_path, summary.dump(2));
   preparation.move_into_place();
   return folder / layout::report_file;
+}
+
+}  // namespace
+
+fs::path write_results(const Assessment& assessment, const fs::path& folder) {
+  try {
+    return prepare_results(assessment, folder);
+  } catch (const fs::filesystem_error& error) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot write results here: {}", folder.string(), error.code().message()));
+  }
 }
 
 }  // namespace blocklift::pipeline

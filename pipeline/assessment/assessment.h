@@ -36,6 +36,10 @@ struct Assessment {
 /// @throws dynamics::SimulationError, structure::ModelError, std::runtime_error as the stages do.
 Assessment assess(LiftCase lift_case, const Progress& progress);
 
+/// Asks before a run whether its results can be written; makes nothing.
+/// @throws InputError if the folder is a file or lies in one, or the user may not write there.
+void require_writable(const std::filesystem::path& folder);
+
 /// Writes results.h5, summary.json, the .vtu files and report.html into a folder (made if missing).
 /// They are prepared aside and moved into place together at the end: whatever goes wrong before,
 /// results that lie there stay as they are.

@@ -24,6 +24,11 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
       "of samples every {:g} s.",
       lift_case.dynamics.static_interval, lift_case.dynamics.relative_tolerance,
       lift_case.dynamics.sample_interval));
+  list.emplace_back(
+      lift_case.supports.empty()
+          ? "Forces on the block other than at its lugs (wind) are spread over its mass."
+          : "Forces on the block other than at its lugs (wind, pads under it) are spread over its "
+            "mass: while it stands on pads, the stress is that of the ropes' pull alone.");
   if (lift_case.wind) {
     list.push_back(fmt::format(
         "Constant wind of {:g} m/s towards {:.0f} degrees from +x to +y, without gusts.",

@@ -8,6 +8,7 @@
 
 #include "pipeline/assessment/assessment.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/report.h"
@@ -36,6 +37,11 @@ class ProgressLine {
 
 constexpr double newton_per_tonne = 9806.65;
 
+/// "-" for a rope that is slack at rest.
+std::string ratio_text(double dynamic, double at_rest) {
+  return at_rest > 0 ? fmt::format("{:.3f}", dynamic / at_rest) : "-";
+}
+
 void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   const auto at_rest = dynamics::find_largest_tensions(lift.static_history);
   const auto in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
@@ -52,8 +58,9 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   for (const LiftRope& line : lift.model.ropes) {
     const auto rope = static_cast<std::size_t>(line.rope);
     const std::string& name = line.name;
-    fmt::print("{:<8}{:>10.1f}{:>10.1f}{:>10.3f}", name, at_rest[rope].tension / unit,
-               in_motion[rope].tension / unit, in_motion[rope].tension / at_rest[rope].tension);
+    fmt::print("{:<8}{:>10.1f}{:>10.1f}{:>10}", name, at_rest[rope].tension / unit,
+               in_motion[rope].tension / unit,
+               ratio_text(in_motion[rope].tension, at_rest[rope].tension));
     if (const PublishedLoads* figures = published(name);
         figures && figures->static_load && figures->dynamic_load) {
       fmt::print("   {:.0f} ({:+.1f} %), {:.0f} ({:+.1f} %)",
@@ -103,12 +110,16 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
         folder.string());
     return exit_code::wrong_input;
   }
+  require_writable(folder);
   ProgressLine line;
   const Assessment assessment = assess(
       std::move(lift_case), [&](const std::string& stage, double fraction,
                                 const std::string& detail) { line.show(stage, fraction, detail); });
   line.show("writing results", 0, "");
-  const std::filesystem::path report = write_results(assessment, folder);
+  const std::filesystem::path report = [&] {
+    const HeldSignals until_all_is_in_place;
+    return write_results(assessment, folder);
+  }();
   line.finish();
 
   fmt::print("{}\n", assessment.lift_case.title);

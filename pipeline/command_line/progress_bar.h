@@ -5,9 +5,9 @@
 
 namespace blocklift::pipeline {
 
-/// One line on a terminal that shows how far a stage of the run has come. It appears once the stage
-/// has lasted two seconds and is wiped when the stage ends; where standard error is no terminal it
-/// never shows.
+/// One line on a terminal that shows how far a stage of the run has come. It appears once the
+/// program has run for a second and is wiped when the stage ends; it is cut to the terminal's width,
+/// and where standard error is no terminal it never shows.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string stage);
@@ -21,8 +21,7 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   std::string stage_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_shown_ = start_;
+  Clock::time_point last_shown_;
   bool on_terminal_ = false;
   bool shown_ = false;
 };

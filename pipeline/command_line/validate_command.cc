@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "pipeline/assessment/block_preparation.h"
 #include "pipeline/input/document.h"
 #include "pipeline/input/lift_case.h"
 #include "pipeline/input/operation_schedule.h"
@@ -62,7 +63,8 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   }
   if (kind == "block") {
     const auto block = library.read_block(path, diagnostics);
-    if (!block) return std::nullopt;
+    if (!block || diagnostics.error_count() > errors_before) return std::nullopt;
+    check_block_model(*block, path.string(), diagnostics);
     return if_sound(fmt::format("block with {} and {}",
                                 count(block->plates.size(), "kind") + " of plates",
                                 count(block->lugs.size(), "lug")));
@@ -73,7 +75,8 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   }
   const std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
   if (!lift_case) return std::nullopt;
-  return fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case));
+  check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
+  return if_sound(fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case)));
 }
 
 }  // namespace

@@ -128,5 +128,39 @@ TEST(SchemaCommand, PrintsSchemaAndManual) {
   EXPECT_EQ(run("schema --kind boat").exit_code, 2);
 }
 
+TEST(ValidateCommand, SaysWhatTheMeshGeneratorWillRefuse) {
+  const TemporaryFolder folder;
+  SampleLift lift;
+  lift.block = with(lift.block, "z: [1 m, 1.4 m], thickness: 40 mm, pin: [0 m, 0 m, 1.2 m]",
+                    "z: [1.1 m, 1.4 m], thickness: 40 mm, pin: [0 m, 0 m, 1.2 m]");
+  lift.write(folder);
+  const std::string complaint =
+      "plate.yaml:1:1: error: not joined to the rest of the block: L1 at x = 0 m; extend them "
+      "until they reach another plate\n1 error\n";
+  for (const char* file : {"validate case.yaml", "validate plate.yaml", "assess case.yaml"}) {
+    const Outcome outcome = run(file);
+    EXPECT_EQ(outcome.exit_code, 2) << file;
+    EXPECT_EQ(outcome.err, complaint) << file;
+    EXPECT_FALSE(fs::exists("results"));
+  }
+}
+
+TEST(ValidateCommand, RefusesAnEmptyName) {
+  const Outcome outcome = run("validate ''");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err.substr(0, 45), "input: error: the name of the case is empty\n ");
+}
+
+TEST(AssessCommand, SaysBeforeTheRunThatResultsCannotBeWritten) {
+  const TemporaryFolder folder;
+  SampleLift().write(folder);
+  folder.write("taken", "a file");
+  const Outcome outcome = run("assess case.yaml --output taken/results");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "taken/results: error: results cannot be written here: " +
+                             (folder.path() / "taken").string() +
+                             " is no folder\n    name another folder with --output\n1 error\n");
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline
