@@ -378,10 +378,10 @@ TEST(LiftCaseTest, OperationMustLastAndNotForEver) {
             "    give it a move, a pause or a settle time\n"
             "1 error\n");
   EXPECT_EQ(complaints_about_case("pause: 5 s", "pause: 1e6 s"),
-            "case.yaml:12:12: error: the operation lasts 1.00008e+06 s, with a sample every 0.05 s "
+            "case.yaml:12:12: error: the operation lasts 1.00007e+06 s, with a sample every 0.05 s "
             "(sample_interval)\n"
             "    at most 500000 samples are recorded; shorten the pauses or lengthen the interval\n"
-            "case.yaml:12:12: error: the operation lasts 1.00008e+06 s, with a sample every 1 s "
+            "case.yaml:12:12: error: the operation lasts 1.00007e+06 s, with a sample every 1 s "
             "(static_interval)\n"
             "    at most 500000 samples are recorded; shorten the pauses or lengthen the interval\n"
             "2 errors\n");
@@ -389,7 +389,7 @@ TEST(LiftCaseTest, OperationMustLastAndNotForEver) {
 
 TEST(LiftCaseTest, SamplesAreCloserThanTheBounceOfALoad) {
   EXPECT_EQ(complaints_about_case("settle: 10 s", "settle: 10 s\ndynamics: {sample_interval: 1 s}"),
-            "case.yaml:20:29: error: sample_interval \"1 s\" must be from 0.0001 s to 0.2 s\n"
+            "case.yaml:21:29: error: sample_interval \"1 s\" must be from 0.0001 s to 0.2 s\n"
             "1 error\n");
 }
 
