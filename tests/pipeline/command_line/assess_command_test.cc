@@ -125,7 +125,7 @@ TEST_F(AssessCommand, ARunThatFailsLeavesEarlierResultsAlone) {
   change("block.yaml", "centre_of_mass: [2.05 m, 1.48 m, 0.75 m]",
          "centre_of_mass: [2.05 m, 1.48 m, 1.9 m]");
   const Outcome outcome = run("assess lift -o out");
-  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("density would be negative"));
   EXPECT_EQ(written(), before);
 }
