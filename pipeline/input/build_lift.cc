@@ -1,6 +1,7 @@
 #include "pipeline/input/build_lift.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +18,27 @@ using dynamics::BodyDefinition;
 using dynamics::BodyIndex;
 using dynamics::BodyPoint;
 using dynamics::Pose;
+
+/// The box around all plates of a block, as the drawing shows the block.
+BoxShape drawn_box(const BlockModel& block) {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 high = -low;
+  for (const PlateModel& plate : block.plates) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      const auto widen = [&](double value) {
+        low[i] = std::min(low[i], value);
+        high[i] = std::max(high[i], value);
+      };
+      if (axis == plate.normal) {
+        for (const double at : plate.at) widen(at);
+      } else if (plate.extent[axis]) {
+        for (const double end : plate.extent[axis]->value) widen(end);
+      }
+    }
+  }
+  return {high - low, 0.5 * (low + high), Vector3::Zero()};
+}
 
 /// Gathers the parts of a lift; the steps of `build` follow one another.
 class LiftBuilder {
@@ -146,7 +168,7 @@ class LiftBuilder {
     load.mass = load_.mass;
     load.p_BoBcm_B = load_.p_BoBcm_B;
     load.I_BBcm_B = load_.I_BBcm_B;
-    register_body(builder, load, "load", {});
+    register_body(builder, load, "load", {drawn_box(*case_.load.model)});
   }
 
   BodyIndex register_body(dynamics::MechanismBuilder& builder, const BodyDefinition& body,

@@ -56,6 +56,11 @@ TEST(BuildLiftTest, NamesAndPlacesTheParts) {
   EXPECT_EQ(lift.ropes[0].hoist, "C1.left");
   EXPECT_EQ(lift.system.operation().stages().size(), 2U);
   EXPECT_EQ(lift.system.operation().winches().size(), 2U);
+  // The load is drawn as the box around its plates: 4 x 2 x 1 m.
+  const std::vector<BoxShape>& drawn = lift.bodies.back().boxes;
+  ASSERT_EQ(drawn.size(), 1U);
+  EXPECT_EQ(drawn[0].size, Vector3(4, 2, 1));
+  EXPECT_EQ(drawn[0].centre, Vector3(2, 0, 0.5));
 }
 
 // Each sling carries half of the load but for a tilt: the crane gives way under the left tackle only,

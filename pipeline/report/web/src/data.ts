@@ -162,6 +162,6 @@ export function known(value: unknown): value is number {
 export function stageAt(stages: Stage[], time: number): string {
   const stage = stages.find((one) => time >= one.start && time <= one.end);
   if (stage) return stage.name;
-  const next = stages.find((one) => time < one.start);
-  return stages.length === 0 ? "" : next ? `before ${next.name}` : `after ${stages[stages.length - 1].name}`;
+  const last = stages.filter((one) => one.end < time).pop();
+  return stages.length === 0 ? "" : last ? `after ${last.name}` : `before ${stages[0].name}`;
 }

@@ -105,7 +105,7 @@ export function loadsSection(data: PageData, clock: Clock): Section | null {
   return {
     id: "loads", title: "Loads", content: [
       h("p", { class: "lead" }, moved
-        ? "Static: equilibrium of the same operation at the same winch lengths and crane positions, without waves. Dynamic: the integration in time. Each maximum is over the whole operation."
+        ? "Static: equilibrium of the same operation at the same winch lengths and crane positions, at rest. Dynamic: the integration in time. Each maximum is over the whole operation."
         : "The rope loads were given in the case file; no motion was computed."),
       ropeTable(data, clock), comparisonTable(data),
       linkedTable(data, clock, "static"), linkedTable(data, clock, "dynamic"),
