@@ -352,9 +352,11 @@ export function energyPlot(data: PageData, history: History): HTMLElement {
     if (packed.length === 0) return;
     const host = h("div", { class: "plot" });
     const series = packed.map((one) => new Series(one));
+    // Potential energy has no zero of its own: from the start on, it stands on the scale of the work done.
+    for (const { values } of series.filter((_, i) => packed[i].name === "gravity")) values.set(values.map((value, _, all) => value - all[0]));
     const colour = (i: number): string => (packed.length === 1 ? "#4b5864" : palette[i % palette.length]);
     plots.push(h("div", { class: "tile" }, h("h4", {}, title), host, packed.length > 1 && h("span", { class: "legend" },
-      packed.map((one, i) => h("span", { title: one.description }, h("i", { style: `background:${colour(i)}` }), one.name.replace(/_/g, " "))))));
+      packed.map((one, i) => h("span", { title: one.description }, h("i", { style: `background:${colour(i)}` }), one.name === "gravity" ? "gravity, from the start" : one.name.replace(/_/g, " "))))));
     requestAnimationFrame(() => makePlot({
       host, height: 200, group, clock, unit, small: false, plugins: [stageBands(data.stages, false)],
       series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, spanGaps: true, points: { show: false } })),
