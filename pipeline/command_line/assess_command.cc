@@ -45,7 +45,6 @@ std::string ratio_text(double dynamic, double at_rest) {
 void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   const auto at_rest = dynamics::find_largest_tensions(lift.static_history);
   const auto in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
-  const double unit = 1e3 * lift_case.gravity;
   const auto published = [&](const std::string& rope) -> const PublishedLoads* {
     if (!lift_case.compare) return nullptr;
     for (const auto& row : lift_case.compare->ropes) {
@@ -58,8 +57,8 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   for (const LiftRope& line : lift.model.ropes) {
     const auto rope = static_cast<std::size_t>(line.rope);
     const std::string& name = line.name;
-    fmt::print("{:<8}{:>10.1f}{:>10.1f}{:>10}", name, at_rest[rope].tension / unit,
-               in_motion[rope].tension / unit,
+    fmt::print("{:<8}{:>10.1f}{:>10.1f}{:>10}", name, at_rest[rope].tension / newton_per_tonne,
+               in_motion[rope].tension / newton_per_tonne,
                ratio_text(in_motion[rope].tension, at_rest[rope].tension));
     if (const PublishedLoads* figures = published(name);
         figures && figures->static_load && figures->dynamic_load) {
