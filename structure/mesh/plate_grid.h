@@ -54,7 +54,9 @@ class PlateGrid {
 
   int signature(int i, int j, int k) const { return cell_signature_[index(i, j, k)]; }
   std::size_t index(int i, int j, int k) const {
-    return static_cast<std::size_t>((k * count(1) + j) * count(0) + i);
+    const auto row = static_cast<std::size_t>(k) * static_cast<std::size_t>(count(1)) +
+                     static_cast<std::size_t>(j);
+    return row * static_cast<std::size_t>(count(0)) + static_cast<std::size_t>(i);
   }
   void find_stations(int axis);
   void collect_planes(int axis, const BlockDescription& description);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <thread>
@@ -20,6 +21,8 @@
 namespace blocklift::structure {
 
 struct UnitResponses::System {
+  System(SparseLower stiffness, std::vector<FixedUnknown> support)
+      : equations(std::move(stiffness), std::move(support)) {}
   ConstrainedSystem equations;
 };
 
@@ -50,8 +53,8 @@ UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(mo
   Stopwatch watch;
   SparseLower stiffness = assemble_stiffness(model.mesh(), model.space(), threads);
   timing_.assembly_s = watch.lap();
-  system_.reset(new System{ConstrainedSystem(std::move(stiffness),
-                                             statically_determinate_support(model.space().nodes))});
+  system_ = std::make_unique<System>(std::move(stiffness),
+                                     statically_determinate_support(model.space().nodes));
   timing_.factor_bytes = system_->equations.factor_bytes();
   timing_.analysis_s = watch.lap();
   system_->equations.factorise();
