@@ -80,6 +80,56 @@ void check_plates(const BlockModel& block, Reading& reading) {
   }
 }
 
+using Extents = std::array<std::optional<Located<std::array<double, 2>>>, 3>;
+
+/// Do two rectangles with this normal share an area? One whose extent was not readable does not.
+bool share_an_area(const Extents& first, const Extents& second, std::size_t normal) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis == normal) continue;
+    if (!first[axis] || !second[axis]) return false;
+    const auto& a = first[axis]->value;
+    const auto& b = second[axis]->value;
+    if (std::min(a[1], b[1]) - std::max(a[0], b[0]) < same_place) return false;
+  }
+  return true;
+}
+
+/// Two plates in one place would be one plate of unknown thickness: the mesh has room for one.
+void check_overlaps(const BlockModel& block, Reading& reading) {
+  for (std::size_t j = 1; j < block.plates.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const PlateModel& earlier = block.plates[i];
+      const PlateModel& later = block.plates[j];
+      if (earlier.normal != later.normal ||
+          !share_an_area(earlier.extent, later.extent, later.normal))
+        continue;
+      const auto shared = std::find_if(later.at.begin(), later.at.end(),
+                                       [&](double at) { return has_position(earlier, at); });
+      if (shared == later.at.end()) continue;
+      reading.error(later.name.mark,
+                    fmt::format("plate {} lies upon plate {} at {} = {:.6g} m", later.name.value,
+                                earlier.name.value, axis_name(later.normal), *shared),
+                    {"where a plate is thicker, divide it, or use a pad"});
+    }
+  }
+}
+
+void check_opening_spares_pads(const BlockModel& block, const OpeningModel& opening,
+                               const PlateModel& plate, Reading& reading) {
+  for (const PadModel& pad : block.pads) {
+    const bool opened = opening.at.empty() ||
+                        std::any_of(opening.at.begin(), opening.at.end(),
+                                    [&](double at) { return std::abs(at - pad.at) < same_place; });
+    if (pad.plate.value != plate.name.value || !opened ||
+        !share_an_area(opening.extent, pad.extent, plate.normal))
+      continue;
+    reading.error(
+        opening.name.mark,
+        fmt::format("opening {} cuts pad {} in plate {} at {} = {:.6g} m", opening.name.value,
+                    pad.name.value, plate.name.value, axis_name(plate.normal), pad.at));
+  }
+}
+
 void check_openings(const BlockModel& block, Reading& reading) {
   for (const OpeningModel& opening : block.openings) {
     const std::string user = "opening " + opening.name.value;
@@ -99,6 +149,7 @@ void check_openings(const BlockModel& block, Reading& reading) {
                                 plate->name.value),
                     {"its positions are " + positions_text(*plate)});
     }
+    check_opening_spares_pads(block, opening, *plate, reading);
   }
 }
 
@@ -179,6 +230,7 @@ void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
   }
   if (block.plates.empty()) reading.error(mark, "the block has no plates");
   check_plates(block, reading);
+  check_overlaps(block, reading);
   check_openings(block, reading);
   check_pads(block, reading);
   check_lugs(block, reading);

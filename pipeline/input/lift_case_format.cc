@@ -244,8 +244,8 @@ Format<LiftCase> lift_case_format() {
   table.required("case", &LiftCase::name, name(), "its name")
       .optional("title", &LiftCase::title, text(), "for people")
       .by_default("gravity", &LiftCase::gravity,
-                  quantity(Dimension::acceleration, Range::between(0, 100)), "9.80665 m/s^2",
-                  "acceleration of gravity")
+                  quantity(Dimension::acceleration, Range::between(1, 100)), "9.80665 m/s^2",
+                  "acceleration of gravity; nothing hangs without")
       .required("load", &LiftCase::load, load_format(), "the block that is lifted")
       .optional("cranes", &LiftCase::cranes, named_tables(crane_format()), "by name")
       .optional("ropes", &LiftCase::ropes, named_tables(rope_format()), "by name")

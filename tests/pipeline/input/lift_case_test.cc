@@ -288,6 +288,27 @@ TEST(LiftCaseErrors, BlockWhosePartsDoNotFit) {
       "5 errors\n");
 }
 
+TEST(LiftCaseErrors, BlockWithTwoPlatesInOnePlaceAndACutPad) {
+  SampleLift lift;
+  lift.block = with(lift.block, "openings:\n",
+                    "  doubler: {normal: x, at: [2 m, 4 m], y: [0 m, 2 m], z: [0 m, 1 m], "
+                    "thickness: 8 mm}\nopenings:\n");
+  lift.block = with(lift.block, "at: 2 m, y: [-0.3 m, 0.3 m], z: [0.3 m, 0.7 m]",
+                    "y: [-0.3 m, 0.3 m], z: [0.3 m, 0.7 m]");
+  EXPECT_EQ(complaints_about(lift),
+            "plate.yaml:9:3: error: plate doubler lies upon plate webs at x = 2 m\n"
+            "    where a plate is thicker, divide it, or use a pad\n"
+            "plate.yaml:11:3: error: opening hole cuts pad left_pad in plate webs at x = 0 m\n"
+            "plate.yaml:11:3: error: opening hole cuts pad right_pad in plate webs at x = 4 m\n"
+            "3 errors\n");
+}
+
+TEST(LiftCaseErrors, NothingHangsWithoutGravity) {
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "gravity: 9.81 m/s^2", "gravity: 0 m/s^2");
+  EXPECT_NE(complaints_about(lift).find("case.yaml:2:10: error: gravity"), std::string::npos);
+}
+
 TEST(LiftCaseErrors, LoadTableThatDoesNotFit) {
   SampleLift lift;
   lift.lift_case = with(test::sample_load_table_case, "dynamic: {L1: 6 t, L2: 6 t}",
