@@ -5,13 +5,13 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/box_mesh.h"
 #include "structure/elasticity/discretisation.h"
 #include "structure/elasticity/elastic_model.h"
 #include "structure/elasticity/load.h"
 #include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
 #include "structure/response/cell_stress.h"
-#include "tests/structure/box_mesh.h"
 #include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {

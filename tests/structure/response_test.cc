@@ -8,13 +8,13 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/box_mesh.h"
 #include "structure/error.h"
 #include "structure/output/surface.h"
 #include "structure/output/vtu.h"
 #include "structure/response/cell_stress.h"
 #include "structure/response/stress.h"
 #include "structure/response/unit_responses.h"
-#include "tests/structure/box_mesh.h"
 #include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {

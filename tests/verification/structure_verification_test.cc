@@ -11,12 +11,12 @@
 #include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/box_mesh.h"
 #include "structure/elasticity/discretisation.h"
 #include "structure/elasticity/load.h"
 #include "structure/mesh/gmsh_file.h"
 #include "structure/response/cell_stress.h"
 #include "structure/response/stress.h"
-#include "tests/structure/box_mesh.h"
 #include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {

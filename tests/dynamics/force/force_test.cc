@@ -5,7 +5,7 @@
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
 #include "dynamics/force/wind.h"
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 namespace blocklift::dynamics {
 namespace {

@@ -10,7 +10,7 @@
 #include "dynamics/multibody/inverse_dynamics.h"
 #include "dynamics/multibody/mass_matrix.h"
 #include "dynamics/multibody/motion_profile.h"
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define BLOCKLIFT_COUNTS_ALLOCATIONS

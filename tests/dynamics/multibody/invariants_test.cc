@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/multibody/energy.h"
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 #include "tests/dynamics/multibody/runge_kutta.h"
 
 namespace blocklift::dynamics {

@@ -8,7 +8,7 @@
 #include <rapidcheck.h>
 
 #include "dynamics/errors.h"
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 namespace blocklift::dynamics {
 namespace {

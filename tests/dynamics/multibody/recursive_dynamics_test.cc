@@ -6,7 +6,7 @@
 #include "dynamics/multibody/forward_dynamics.h"
 #include "dynamics/multibody/inverse_dynamics.h"
 #include "dynamics/multibody/mass_matrix.h"
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 namespace blocklift::dynamics {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 namespace blocklift::dynamics {
 namespace {

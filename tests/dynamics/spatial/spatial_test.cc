@@ -5,7 +5,7 @@
 #include <rapidcheck.h>
 
 #include "dynamics/spatial/spatial_inertia.h"
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 namespace blocklift::dynamics {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/dynamics/multibody/random_mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 namespace blocklift::dynamics::testing {
 

@@ -1,4 +1,4 @@
-#include "tests/structure/box_mesh.h"
+#include "pipeline/verification/models/box_mesh.h"
 
 #include <algorithm>
 #include <numeric>
