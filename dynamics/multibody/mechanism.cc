@@ -137,6 +137,13 @@ std::vector<Body>::const_iterator find_body(const std::vector<Body>& bodies,
                       [&](const Body& body) { return body.name == name; });
 }
 
+const Loop& loop_of_row(const std::vector<Loop>& loops, int row) {
+  for (const Loop& loop : loops) {
+    if (row >= loop.row_offset && row < loop.row_offset + loop.row_count) return loop;
+  }
+  throw ModelError(text("there is no row ", row, " among those of the loops"));
+}
+
 // ---- the mechanism's tables --------------------------------------------------------------------
 
 // Which velocities of a joint turn the body.
@@ -221,6 +228,26 @@ std::string Mechanism::velocity_name(int k) const {
                  angular_[static_cast<std::size_t>(k)] ? "turning" : "displacing");
   }
   return name + ")";
+}
+
+int Mechanism::loop_index(std::string_view name) const {
+  std::string names;
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    if (loops_[i].name == name) return static_cast<int>(i);
+    names += (names.empty() ? "" : ", ") + loops_[i].name;
+  }
+  throw ModelError("there is no loop \"" + std::string(name) +
+                   "\"; the loops are: " + (names.empty() ? "none" : names));
+}
+
+std::string Mechanism::loop_row_name(int row) const {
+  const Loop& loop = loop_of_row(loops_, row);
+  return "loop \"" + loop.name + "\", " + loop.row_name(row - loop.row_offset);
+}
+
+bool Mechanism::loop_row_is_angle(int row) const {
+  const Loop& loop = loop_of_row(loops_, row);
+  return loop.row_is_angle(row - loop.row_offset);
 }
 
 Eigen::VectorXd Mechanism::zero_configuration() const {
@@ -311,6 +338,19 @@ BodyIndex MechanismBuilder::add_body(const BodyDefinition& definition) {
   return static_cast<BodyIndex>(bodies_.size()) - 1;
 }
 
+int MechanismBuilder::add_loop(const LoopDefinition& definition) {
+  for (const Loop& loop : loops_) {
+    if (loop.name == definition.name) {
+      throw ModelError("loop \"" + definition.name +
+                       "\": there is a loop of this name already; names must differ");
+    }
+  }
+  Loop loop = make_loop(definition, bodies_);
+  loop.row_offset = loops_.empty() ? 0 : loops_.back().row_offset + loops_.back().row_count;
+  loops_.push_back(std::move(loop));
+  return static_cast<int>(loops_.size()) - 1;
+}
+
 void MechanismBuilder::check_carried_mass() const {
   std::vector<double> carried(bodies_.size());
   for (std::size_t i = bodies_.size() - 1; i > 0; --i) {
@@ -331,6 +371,8 @@ Mechanism MechanismBuilder::build() const {
   check_carried_mass();
   Mechanism m;
   m.bodies_ = bodies_;
+  m.loops_ = loops_;
+  m.loop_rows_ = loops_.empty() ? 0 : loops_.back().row_offset + loops_.back().row_count;
   m.gravity_ = gravity_;
   m.nq_ = bodies_.back().q_offset + bodies_.back().nq();
   m.nv_ = bodies_.back().v_offset + bodies_.back().nv();

@@ -4,16 +4,12 @@
 #include <string_view>
 #include <vector>
 
+#include "dynamics/multibody/body_index.h"
 #include "dynamics/multibody/joint.h"
+#include "dynamics/multibody/loop_definition.h"
 #include "dynamics/spatial/spatial_inertia.h"
 
 namespace blocklift::dynamics {
-
-/// Index of a body within its mechanism; 0 is the world. Parents have smaller indices than
-/// children.
-using BodyIndex = int;
-inline constexpr BodyIndex world_index = 0;
-inline constexpr std::string_view world_name = "world";
 
 /// What a modeller says about a body B and the joint that carries it.
 struct BodyDefinition {
@@ -75,7 +71,7 @@ struct Link {
   bool has_driven;             ///< does any of its velocities follow a prescribed motion?
 };
 
-/// Tree of bodies joined by joints: immutable, shared by all states and threads.
+/// Tree of bodies joined by joints, with loops over it: immutable, shared by all states and threads.
 ///
 /// Looking up by name is for set-up only. Indices order everything: body i of the mechanism is
 /// entry i of every per-body array, and body i's joint owns q[q_offset ..] and v[v_offset ..].
@@ -116,6 +112,20 @@ class Mechanism {
     return driven_q_;
   }  ///< prescribed entries of q
 
+  /// Loops in the order in which they were added; empty for a tree.
+  const std::vector<Loop>& loops() const { return loops_; }
+  /// Number of scalar equations of all loops.
+  int loop_row_count() const { return loop_rows_; }
+  /// @throws ModelError if no loop has that name; the message lists those that exist.
+  int loop_index(std::string_view name) const;
+  /// "loop "hinge_6", rotation about x": a row among those of all loops in words.
+  std::string loop_row_name(int row) const;
+  /// Is that row an angle (rad) rather than a length (m)?
+  bool loop_row_is_angle(int row) const;
+  /// The same mechanism with the lengths of rods and ropes and the offsets of gears that were left open
+  /// taken from the configuration q.
+  Mechanism with_loops_as_at(ConstVectorRef q) const;
+
   /// q at which every body coincides with its joint frame.
   Eigen::VectorXd zero_configuration() const;
   /// dq/dt from q and v (sizes nq, nv, nq).
@@ -140,6 +150,8 @@ class Mechanism {
   std::vector<char> angular_;
   std::vector<double> damping_;
   std::vector<int> free_v_, driven_v_, free_q_, driven_q_;
+  std::vector<Loop> loops_;
+  int loop_rows_ = 0;
   Vector3 gravity_ = Vector3::Constant(not_a_number);
   int nq_ = 0;
   int nv_ = 0;
@@ -158,6 +170,14 @@ class MechanismBuilder {
   /// universal axes not perpendicular, or damping or drives not one a velocity.
   BodyIndex add_body(const BodyDefinition& definition);
 
+  /// Adds a loop; its bodies must have been added before.
+  /// @returns its index among the loops.
+  /// @throws ModelError if the name is empty or taken, a body unknown, both bodies are the same or fixed
+  /// to each other, an axis without length, a frame not a rotation, universal axes not perpendicular, a
+  /// length not positive, a ratio zero or missing, a geared joint without such a coordinate or both of
+  /// them driven, a path too short, or if something is given that the kind does not use.
+  int add_loop(const LoopDefinition& definition);
+
   /// @throws ModelError if a moving joint carries no mass at all that would resist its motion.
   Mechanism build() const;
 
@@ -165,6 +185,7 @@ class MechanismBuilder {
   void check_carried_mass() const;
 
   std::vector<Body> bodies_{world()};
+  std::vector<Loop> loops_;
   Vector3 gravity_ = Vector3(0, 0, -9.80665);
 
   static Body world();
