@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "dynamics/multibody/derivatives.h"
 #include "dynamics/multibody/energy.h"
 #include "dynamics/multibody/forward_dynamics.h"
 #include "dynamics/multibody/inverse_dynamics.h"
@@ -51,6 +52,7 @@ TEST(Allocation, NoneInTheRecursiveAlgorithms) {
   ForwardDynamicsWorkspace forward(mechanism);
   InverseDynamicsWorkspace inverse(mechanism);
   MassMatrixWorkspace composite(mechanism);
+  ForwardDynamicsDerivatives derivatives(mechanism);
   const MotionProfile profile = MotionProfile::cam(MotionProfile::sequence(0, {{0, 1, {1, 1, 1}}}),
                                                    NaturalSpline({0, 0.5, 1}, {0, 2, 1}));
   double sum = 0;
@@ -65,6 +67,7 @@ TEST(Allocation, NoneInTheRecursiveAlgorithms) {
   compute_forward_dynamics(mechanism, kinematics, v, forces, forward, tau, vdot);
   compute_inverse_dynamics(mechanism, kinematics, v, vdot, forces, inverse, tau);
   compute_mass_matrix(mechanism, kinematics, composite, M);
+  compute_forward_dynamics_derivatives(mechanism, kinematics, v, vdot, forces, derivatives);
   mechanism.calc_rates(q, v, rates);
   mechanism.integrate(q, v, 0.1, moved);
   mechanism.difference(q, moved, difference);
