@@ -12,6 +12,7 @@
 #include "pipeline/command_line/assess_command.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/validate_command.h"
+#include "pipeline/command_line/verify_command.h"
 #include "pipeline/input/diagnostics.h"
 #include "pipeline/input/schema.h"
 #include "pipeline/version.h"
@@ -60,6 +61,17 @@ void add_schema(CLI::App& app) {
       [manual, kind] { std::cout << (*manual ? markdown_manual(*kind) : json_schema(*kind)); });
 }
 
+void add_verify(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "verify", "Run the verification suite: each figure beside its reference, error and source");
+  auto options = std::make_shared<VerifyOptions>();
+  command->add_option("--only", options->only,
+                      "run the cases that match: a part of stage/name, or a glob; may be repeated");
+  command->add_flag("--json", options->json, "print JSON: {\"results\": [...]}");
+  command->add_flag("--list", options->list, "print the cases and their sources, run none");
+  command->callback([options, &code] { code = verify(*options); });
+}
+
 /// Says so if the first word is meant as a command and is none.
 bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
@@ -81,6 +93,7 @@ int run(int argc, char** argv) {
   add_validate(app, code);
   add_report(app, code);
   add_schema(app);
+  add_verify(app, code);
   if (is_unknown_command(app, argc, argv)) return exit_code::wrong_input;
   try {
     app.parse(argc, argv);
