@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/multibody/kinematics.h"
+#include "dynamics/force/force_derivatives.h"
 
 namespace blocklift::dynamics {
 
@@ -50,12 +50,16 @@ struct EnergyAccount {
 /// The one interface of everything that pushes or pulls on bodies.
 ///
 /// An element is immutable after it has been built (names are resolved to indices then), adds its
-/// forces to `Loads` without allocating, and accounts for its energy. A new kind is one class that
-/// meets this concept and one entry in `ForceElements` (lift_system.h).
+/// forces to `Loads` without allocating, says how they change with the motion (add_derivatives: every
+/// force of add_forces that acts at a body point is also declared there by add_held_force or
+/// add_tension), and accounts for its energy. A new kind is one class that meets this concept and one
+/// entry in `ForceElements` (lift_system.h).
 template <class Element>
-concept ForceElement = requires(const Element& element, const MotionState& state, Loads& loads) {
+concept ForceElement = requires(const Element& element, const MotionState& state, Loads& loads,
+                                ForceDerivatives& derivatives) {
   { element.name() } -> std::convertible_to<const std::string&>;
   { element.add_forces(state, loads) } -> std::same_as<void>;
+  { element.add_derivatives(state, derivatives) } -> std::same_as<void>;
   { element.calc_energy(state) } -> std::same_as<EnergyAccount>;
 };
 
@@ -64,5 +68,10 @@ struct BodyPoint {
   BodyIndex body = world_index;
   Vector3 p_BoQ_B = Vector3::Constant(not_a_number);  ///< m, in the body's frame
 };
+
+/// The point seen from its body's origin, in W, m.
+inline Vector3 arm_W(const Kinematics& kinematics, const BodyPoint& point) {
+  return kinematics.X_WB[static_cast<std::size_t>(point.body)].R * point.p_BoQ_B;
+}
 
 }  // namespace blocklift::dynamics

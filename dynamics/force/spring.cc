@@ -59,6 +59,20 @@ void PointSpring::add_forces(const MotionState& state, Loads& loads) const {
                   loads.F_Bo_W);
 }
 
+void PointSpring::add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const {
+  const BodyPoint& from = definition_.from;
+  const BodyPoint& to = definition_.to;
+  const Line line = calc_line(state);
+  const double tension = definition_.stiffness * (line.length - definition_.free_length) +
+                         definition_.damping * line.length_rate;
+  const Vector3 relative_velocity = point_velocity(state.kinematics, to.body, to.p_BoQ_B) -
+                                    point_velocity(state.kinematics, from.body, from.p_BoQ_B);
+  derivatives.locate(0, from.body, arm_W(state.kinematics, from));
+  derivatives.locate(1, to.body, arm_W(state.kinematics, to));
+  derivatives.add_tension(0, 1, {line.direction_W, line.length, relative_velocity}, tension,
+                          definition_.stiffness, definition_.damping);
+}
+
 EnergyAccount PointSpring::calc_energy(const MotionState& state) const {
   const Line line = calc_line(state);
   const double elongation = line.length - definition_.free_length;
@@ -88,6 +102,10 @@ void JointSpring::add_forces(const MotionState& state, Loads& loads) const {
   loads.tau[v_offset_] -=
       definition_.stiffness * (state.q[q_offset_] - definition_.free_coordinate) +
       definition_.damping * state.v[v_offset_];
+}
+
+void JointSpring::add_derivatives(const MotionState&, ForceDerivatives& derivatives) const {
+  derivatives.add_joint(v_offset_, -definition_.stiffness, -definition_.damping);
 }
 
 EnergyAccount JointSpring::calc_energy(const MotionState& state) const {

@@ -30,6 +30,7 @@ class PointSpring {
   /// @throws ModelError if the points coincide (the direction of the force is undefined).
   double calc_tension(const MotionState& state) const;
   void add_forces(const MotionState& state, Loads& loads) const;
+  void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
   EnergyAccount calc_energy(const MotionState& state) const;
 
  private:
@@ -63,6 +64,7 @@ class JointSpring {
   const Definition& definition() const { return definition_; }
 
   void add_forces(const MotionState& state, Loads& loads) const;
+  void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
   EnergyAccount calc_energy(const MotionState& state) const;
 
  private:

@@ -70,6 +70,38 @@ void SupportPad::add_force(const Kinematics& kinematics, const SupportLoad& load
                   loads.F_Bo_W);
 }
 
+void SupportPad::add_derivatives(const Kinematics& kinematics, const SupportLoad& load,
+                                 ForceDerivatives& derivatives) const {
+  if (!load.carries) return;
+  const BodyPoint& point = definition_.point;
+  Matrix3 K = Matrix3::Zero();
+  Matrix3 C = Matrix3::Zero();
+  K(2, 2) = -definition_.stiffness;
+  C(2, 2) = -definition_.damping;
+  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - definition_.p_WG;
+  const Vector3 rate = point_velocity(kinematics, point.body, point.p_BoQ_B);
+  const Eigen::Vector2d f =
+      -(definition_.tangential_stiffness * s + definition_.tangential_damping * rate).head<2>();
+  const double most = definition_.friction_coefficient * std::max(0.0, load.normal_force);
+  const double length = f.norm();
+  // Sticking: df = -k_t ds - c_t dv. Sliding: f = mu N f/|f|, whose length follows N and whose
+  // direction follows the force that would stick.
+  Eigen::Matrix2d slope = Eigen::Matrix2d::Identity();
+  if (length > most) {
+    const Eigen::Vector2d along = f / length;
+    slope = most / length * (Eigen::Matrix2d::Identity() - along * along.transpose());
+    if (most > 0.0) {
+      K.topRightCorner<2, 1>() = definition_.friction_coefficient * K(2, 2) * along;
+      C.topRightCorner<2, 1>() = definition_.friction_coefficient * C(2, 2) * along;
+    }
+  }
+  K.topLeftCorner<2, 2>() = -definition_.tangential_stiffness * slope;
+  C.topLeftCorner<2, 2>() = -definition_.tangential_damping * slope;
+  derivatives.locate(0, point.body, arm_W(kinematics, point));
+  derivatives.add_block(0, 0, K, C);
+  derivatives.add_held_force(0, load.force_W);
+}
+
 EnergyAccount SupportPad::calc_energy(const Kinematics& kinematics, const SupportLoad& load) const {
   const double elastic = load.carries ? load.elastic_force : std::max(0.0, load.elastic_force);
   const Vector3 rate =

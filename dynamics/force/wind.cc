@@ -48,6 +48,29 @@ void WindArea::add_forces(const MotionState& state, Loads& loads) const {
   add_point_force(state.kinematics, centre.body, centre.p_BoQ_B, calc_force(state), loads.F_Bo_W);
 }
 
+void WindArea::add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const {
+  const BodyPoint& centre = definition_.centre_of_pressure;
+  const Vector3 u = velocity_W_ - point_velocity(state.kinematics, centre.body, centre.p_BoQ_B);
+  const Matrix3 none = Matrix3::Zero();
+  derivatives.locate(0, centre.body, arm_W(state.kinematics, centre));
+  derivatives.add_held_force(0, calc_force(state));
+  if (!definition_.normal_B) {
+    const double speed = u.norm();
+    if (speed == 0.0) return;
+    const Matrix3 by_u =
+        half_density_area_ * (speed * Matrix3::Identity() + u * u.transpose() / speed);
+    derivatives.add_block(0, 0, none, -by_u);
+    return;
+  }
+  // f = a |s| s n, s = u.n:  df = 2 a |s| n ds + a |s| s dtheta x n,  ds = -n.dv + (n x u).dtheta.
+  const Vector3 n =
+      state.kinematics.X_WB[static_cast<std::size_t>(centre.body)].R * *definition_.normal_B;
+  const double s = u.dot(n);
+  const double slope = 2.0 * half_density_area_ * std::abs(s);
+  derivatives.add_block(0, 0, none, -slope * n * n.transpose());
+  derivatives.add_turning(0, slope * n * n.cross(u).transpose() - 0.5 * slope * s * skew(n));
+}
+
 EnergyAccount WindArea::calc_energy(const MotionState& state) const {
   const BodyPoint& centre = definition_.centre_of_pressure;
   return {.supplied_power =

@@ -43,6 +43,8 @@ class WindArea {
   /// Force on the body at the centre of pressure, in W, N.
   Vector3 calc_force(const MotionState& state) const;
   void add_forces(const MotionState& state, Loads& loads) const;
+  /// By the velocity of the centre of pressure and, for a flat area, by the turn of its normal.
+  void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
   /// The supplied power is that of the force on the moving body: negative where the air brakes.
   EnergyAccount calc_energy(const MotionState& state) const;
 

@@ -252,26 +252,77 @@ void compute_forward_dynamics_derivatives(const Mechanism& mechanism, const Kine
 
 // ---- increments ---------------------------------------------------------------------------------
 
+namespace {
+
+// The turn, in B, that a change of a quaternion amounts to: theta = 2 vec(conj(Q) dQ) / |Q|^2.
+Eigen::Matrix<double, 3, 4> quaternion_turn(const Vector4& Q) {
+  Eigen::Matrix<double, 3, 4> turn;
+  turn << -Q.tail<3>(), Q[0] * Matrix3::Identity() - skew(Q.tail<3>());
+  return (2.0 / Q.squaredNorm()) * turn;
+}
+
+}  // namespace
+
+void joint_increments(JointKind kind, const double* q, Eigen::Ref<Eigen::MatrixXd> increments) {
+  increments.setZero();
+  const auto quaternion = quaternion_offset(kind);
+  if (!quaternion) {
+    increments.setIdentity();
+    return;
+  }
+  const Vector4 Q = Eigen::Map<const Vector4>(q + *quaternion);
+  increments.block<3, 4>(0, *quaternion) = quaternion_turn(Q);
+  if (kind == JointKind::free) {
+    increments.block<3, 3>(3, 0) = rotation_from_quaternion(Q).transpose();
+  }
+}
+
+void joint_rate_derivatives(JointKind kind, const double* q, const double* v,
+                            Eigen::Ref<Eigen::MatrixXd> by_q, Eigen::Ref<Eigen::MatrixXd> by_v) {
+  by_q.setZero();
+  by_v.setZero();
+  const auto quaternion = quaternion_offset(kind);
+  if (!quaternion) {
+    by_v.setIdentity();
+    return;
+  }
+  // dQ/dt = 1/2 Q (0, w), linear in both.
+  const int first = *quaternion;
+  const Vector4 Q = Eigen::Map<const Vector4>(q + first);
+  const Vector3 w = Eigen::Map<const Vector3>(v);
+  auto turn = by_q.block<4, 4>(first, first);
+  turn.row(0).tail<3>() = -0.5 * w.transpose();
+  turn.col(0).tail<3>() = 0.5 * w;
+  turn.bottomRightCorner<3, 3>() = -0.5 * skew(w);
+  auto spin = by_v.block<4, 3>(first, 0);
+  spin.row(0) = -0.5 * Q.tail<3>().transpose();
+  spin.bottomRows<3>() = 0.5 * (Q[0] * Matrix3::Identity() + skew(Q.tail<3>()));
+  if (kind != JointKind::free) return;
+  // dp/dt = R u:  d(R u) = -R [u]x theta.
+  const Matrix3 R = rotation_from_quaternion(Q);
+  by_q.block<3, 4>(0, first) = -R * skew(Eigen::Map<const Vector3>(v + 3)) * quaternion_turn(Q);
+  by_v.block<3, 3>(0, 3) = R;
+}
+
 void coordinate_increments(const Mechanism& mechanism, ConstVectorRef q,
                            Eigen::Ref<Eigen::MatrixXd> increments) {
   increments.setZero();
   for (const Link& link : mechanism.links()) {
-    const auto quaternion = quaternion_offset(link.kind);
-    if (!quaternion) {
-      for (int k = 0; k < link.nv; ++k) increments(link.v_offset + k, link.q_offset + k) = 1.0;
-      continue;
-    }
-    // theta = 2 vec(conj(Q) dQ) / |Q|^2.
-    const int first = link.q_offset + *quaternion;
-    const Vector4 Q = q.segment<4>(first);
-    const double s = 2.0 / Q.squaredNorm();
-    auto turn = increments.block<3, 4>(link.v_offset, first);
-    turn.col(0) = -s * Q.tail<3>();
-    turn.rightCols<3>() = s * (Q[0] * Matrix3::Identity() - skew(Q.tail<3>()));
-    if (link.kind == JointKind::free) {
-      increments.block<3, 3>(link.v_offset + 3, link.q_offset) =
-          rotation_from_quaternion(Q).transpose();
-    }
+    joint_increments(
+        link.kind, q.data() + link.q_offset,
+        increments.block(link.v_offset, link.q_offset, link.nv, coordinate_count(link.kind)));
+  }
+}
+
+void rate_derivatives(const Mechanism& mechanism, ConstVectorRef q, ConstVectorRef v,
+                      Eigen::Ref<Eigen::MatrixXd> by_q, Eigen::Ref<Eigen::MatrixXd> by_v) {
+  by_q.setZero();
+  by_v.setZero();
+  for (const Link& link : mechanism.links()) {
+    const int nq = coordinate_count(link.kind);
+    joint_rate_derivatives(link.kind, q.data() + link.q_offset, v.data() + link.v_offset,
+                           by_q.block(link.q_offset, link.q_offset, nq, nq),
+                           by_v.block(link.q_offset, link.v_offset, nq, link.nv));
   }
 }
 

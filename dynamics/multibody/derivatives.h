@@ -103,9 +103,18 @@ void compute_forward_dynamics_derivatives(const Mechanism& mechanism, const Kine
                                           ForwardDynamicsDerivatives& derivatives);
 
 /// The tangent increment e (nv) that a change dq of the coordinates (nq, quaternions of any length)
-/// amounts to:  q + dq = q (+) e  to first order, the length of quaternions left aside. nv x nq.
+/// amounts to:  q + dq = q (+) e  to first order, the length of quaternions left aside.
+/// Of one joint (its own entries of q; nv x nq of the joint) and of the mechanism (nv x nq).
+void joint_increments(JointKind kind, const double* q, Eigen::Ref<Eigen::MatrixXd> increments);
 void coordinate_increments(const Mechanism& mechanism, ConstVectorRef q,
                            Eigen::Ref<Eigen::MatrixXd> increments);
+
+/// Derivatives of the rates dq/dt of Mechanism::calc_rates: by_q (nq x nq, by the coordinates themselves,
+/// zero but at quaternions and at the displacement of free joints) and by_v (nq x nv).
+void joint_rate_derivatives(JointKind kind, const double* q, const double* v,
+                            Eigen::Ref<Eigen::MatrixXd> by_q, Eigen::Ref<Eigen::MatrixXd> by_v);
+void rate_derivatives(const Mechanism& mechanism, ConstVectorRef q, ConstVectorRef v,
+                      Eigen::Ref<Eigen::MatrixXd> by_q, Eigen::Ref<Eigen::MatrixXd> by_v);
 
 /// How a further increment of u (nv) moves the pose q (+) u:
 ///   q (+) (u + du) = (q (+) u) (+) D du  to first order.  nv x nv, D = 1 at u = 0: the right Jacobian of

@@ -102,8 +102,7 @@ RopeLoad Rope::calc_elastic_and_damping(const RopePath& path, const RopeFeed& fe
   load.unstretched_rate = feed.rate;
   load.stiffness = stiffness(feed.unstretched_length);
   load.elastic_force = load.stiffness * (path.length - feed.unstretched_length);
-  load.damping_force = (definition_.damping_time * load.stiffness + definition_.damping) *
-                       (path.length_rate - feed.rate);
+  load.damping_force = damping(load.stiffness) * (path.length_rate - feed.rate);
   return load;
 }
 
@@ -132,6 +131,68 @@ void Rope::add_forces(const RopePath& path, double tension,
     ForceVector& F = F_Bo_W[static_cast<std::size_t>(points[i].body)];
     F.moment += path.r_W[i].cross(f);
     F.force += f;
+  }
+}
+
+namespace {
+
+// One segment of a path, from its point i to the next.
+ForceDerivatives::Line segment(const Kinematics& kinematics, const std::vector<BodyPoint>& points,
+                               const RopePath& path, std::size_t i) {
+  const auto position = [&](std::size_t k) -> Vector3 {
+    return kinematics.X_WB[static_cast<std::size_t>(points[k].body)].p + path.r_W[k];
+  };
+  const auto velocity = [&](std::size_t k) {
+    return shift(kinematics.V_WB[static_cast<std::size_t>(points[k].body)], path.r_W[k]).linear;
+  };
+  const Vector3& u = path.direction_W[i];
+  return {u, u.dot(position(i + 1) - position(i)), velocity(i + 1) - velocity(i)};
+}
+
+// dL/dp and dLdot/dp of one point of a path.
+struct PathGradient {
+  Vector3 of_length = Vector3::Zero();
+  Vector3 of_rate = Vector3::Zero();
+
+  PathGradient(const Kinematics& kinematics, const std::vector<BodyPoint>& points,
+               const RopePath& path, std::size_t i) {
+    if (i > 0) add(segment(kinematics, points, path, i - 1), 1.0);
+    if (i + 1 < points.size()) add(segment(kinematics, points, path, i), -1.0);
+  }
+
+ private:
+  void add(const ForceDerivatives::Line& line, double sign) {
+    const Vector3& u = line.direction_W;
+    const Vector3& v = line.relative_velocity_W;
+    of_length += sign * u;
+    of_rate += sign / line.length * (v - u.dot(v) * u);
+  }
+};
+
+}  // namespace
+
+void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, const RopeLoad& load,
+                           ForceDerivatives& derivatives) const {
+  if (!load.taut) return;
+  const std::vector<BodyPoint>& points = definition_.points;
+  const double k = load.stiffness;
+  const double c = damping(k);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    derivatives.locate(i, points[i].body, path.r_W[i]);
+  }
+  const bool straight = points.size() == 2;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    derivatives.add_tension(i, i + 1, segment(kinematics, points, path, i), load.tension,
+                            straight ? k : 0.0, straight ? c : 0.0);
+  }
+  if (straight) return;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 pull = -PathGradient(kinematics, points, path, i).of_length;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const PathGradient g(kinematics, points, path, j);
+      derivatives.add_block(i, j, pull * (k * g.of_length + c * g.of_rate).transpose(),
+                            c * pull * g.of_length.transpose());
+    }
   }
 }
 

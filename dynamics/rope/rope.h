@@ -77,6 +77,11 @@ class Rope {
     return 1.0 / (unstretched_length / definition_.axial_stiffness + crane_compliance_);
   }
 
+  /// Kelvin-Voigt and further damping c at a stiffness (N/m), N s/m.
+  double damping(double stiffness) const {
+    return definition_.damping_time * stiffness + definition_.damping;
+  }
+
   /// Geometry and its rate.
   /// @throws ModelError if a point lies on its neighbour (the direction of the pull is undefined).
   void calc_path(const Kinematics& kinematics, RopePath& path) const;
@@ -91,6 +96,12 @@ class Rope {
 
   /// Adds the pull of a tension (N) to the bodies along the path.
   void add_forces(const RopePath& path, double tension, std::vector<ForceVector>& F_Bo_W) const;
+
+  /// Derivatives of the pull of a load that is taut, nothing otherwise: the tension's own,
+  ///   dT = k sum g_i.dp_i + c sum (h_i.dp_i + g_i.dv_i),  g_i = dL/dp_i,  h_i = dLdot/dp_i,
+  /// and the turning of each segment under it. The feed is held.
+  void add_derivatives(const Kinematics& kinematics, const RopePath& path, const RopeLoad& load,
+                       ForceDerivatives& derivatives) const;
 
   /// Energy account of a load, see above.
   EnergyAccount calc_energy(const RopeLoad& load) const;

@@ -10,14 +10,13 @@
 
 #include "dynamics/multibody/inverse_dynamics.h"
 #include "dynamics/multibody/mass_matrix.h"
+#include "dynamics/simulation/jacobian.h"
 #include "dynamics/simulation/sundials.h"
 
 namespace blocklift::dynamics {
 
 namespace {
 
-// Increment for the stiffness by differences: m and rad.
-constexpr double difference_step = 1e-6;
 // Stiffness added to every direction, relative to its weight over 1 m: holds neutral directions.
 constexpr double holding_stiffness = 1e-7;
 
@@ -59,7 +58,9 @@ struct EquilibriumSolver::Implementation {
   Eigen::MatrixXd mass;    ///< of the free velocities
   Contacts contacts;       ///< fixed set of acting ropes and pads
   bool contacts_known = false;
-  Eigen::VectorXd plus, minus, increment;
+  TangentMatrices tangent_matrices;
+  Eigen::VectorXd residual_here;
+  Eigen::MatrixXd moved, free_moved;  ///< increment_jacobian, of all and of the free velocities
   Eigen::MatrixXd stiffness;
 
   sundials::Context context;
@@ -81,12 +82,13 @@ EquilibriumSolver::Implementation::Implementation(const LiftSystem& lift, Equili
       tau(Eigen::VectorXd::Zero(mechanism.nv())),
       zero(Eigen::VectorXd::Zero(mechanism.nv())),
       contacts(static_cast<std::size_t>(lift.contact_count()), 1),
+      tangent_matrices(lift),
       context(sundials::make_context()) {
   const Eigen::Index n = system.nv_free();
   weight.setOnes(n);
-  plus.resize(n);
-  minus.resize(n);
-  increment.setZero(n);
+  residual_here.resize(n);
+  moved.resize(mechanism.nv(), mechanism.nv());
+  free_moved.resize(n, n);
   stiffness.resize(n, n);
   if (n == 0) return;
   unknowns = sundials::make_vector(n, context);
@@ -148,20 +150,22 @@ void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, 
   for (const int k : mechanism.free_velocities()) residual[i++] = w.loads.tau[k] - tau[k];
 }
 
-// Minus the derivative of the residual, by central differences.
+// Minus the derivative of the residual by u: the stiffness at q_reference (+) u, times what a further
+// increment of u moves there.
 void EquilibriumSolver::Implementation::calc_stiffness(const Eigen::VectorXd& u,
                                                        const Contacts* set,
                                                        Eigen::MatrixXd& result) {
-  Eigen::VectorXd& shifted = increment;
-  shifted = u;
-  for (Eigen::Index k = 0; k < u.size(); ++k) {
-    shifted[k] = u[k] + difference_step;
-    calc_residual(shifted, set, plus);
-    shifted[k] = u[k] - difference_step;
-    calc_residual(shifted, set, minus);
-    shifted[k] = u[k];
-    result.col(k) = (minus - plus) / (2.0 * difference_step);
+  calc_residual(u, set, residual_here);
+  calc_tangent_matrices(system, time, w, tangent_matrices);
+  increment_jacobian(mechanism, tangent, moved);
+  const std::vector<int>& free = mechanism.free_velocities();
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      free_moved(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          moved(free[i], free[j]);
+    }
   }
+  result.noalias() = tangent_matrices.stiffness * free_moved;
   result.diagonal() += holding_stiffness * weight;
 }
 

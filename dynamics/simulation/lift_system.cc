@@ -10,22 +10,6 @@
 
 namespace blocklift::dynamics {
 
-namespace {
-
-template <class Function>
-void for_each_element(const ForceElements& elements, Function&& function) {
-  std::apply(
-      [&](const auto&... kinds) {
-        const auto each = [&](const auto& kind) {
-          for (const auto& element : kind) function(element);
-        };
-        (each(kinds), ...);
-      },
-      elements);
-}
-
-}  // namespace
-
 LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
   const Mechanism& m = d_.mechanism;
   if (d_.v_start.size() == 0) d_.v_start = Eigen::VectorXd::Zero(m.nv());

@@ -15,6 +15,19 @@ namespace blocklift::dynamics {
 using ForceElements =
     std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>>;
 
+/// Calls `function` with each element of every kind.
+template <class Function>
+void for_each_element(const ForceElements& elements, Function&& function) {
+  std::apply(
+      [&](const auto&... kinds) {
+        const auto each = [&](const auto& kind) {
+          for (const auto& element : kind) function(element);
+        };
+        (each(kinds), ...);
+      },
+      elements);
+}
+
 /// All that a lift consists of, before it is checked.
 struct LiftDefinition {
   Mechanism mechanism;

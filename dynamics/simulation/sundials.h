@@ -46,6 +46,28 @@ inline Context make_context() {
   return Context(context);
 }
 
+/// Direct linear solver that has nothing to set up (its owner's CVLsLinSysFn factorises) and whose
+/// `content` is that owner.
+inline LinearSolver make_direct_solver(void* owner,
+                                       int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector,
+                                                    double),
+                                       const Context& context) {
+  LinearSolver solver(SUNLinSolNewEmpty(context.get()));
+  if (!solver) throw SimulationError("SUNDIALS: SUNLinSolNewEmpty gave no memory");
+  solver->content = owner;
+  solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+  solver->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
+  solver->ops->initialize = [](SUNLinearSolver) { return 0; };
+  solver->ops->setup = [](SUNLinearSolver, SUNMatrix) { return 0; };
+  solver->ops->solve = solve;
+  solver->ops->free = [](SUNLinearSolver s) {
+    s->content = nullptr;
+    SUNLinSolFreeEmpty(s);
+    return 0;
+  };
+  return solver;
+}
+
 inline Vector make_vector(Eigen::Index size, const Context& context) {
   return Vector(N_VNew_Serial(size, context.get()));
 }

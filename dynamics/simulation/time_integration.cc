@@ -11,6 +11,7 @@
 #include <cvodes/cvodes_proj.h>
 
 #include "dynamics/simulation/equilibrium.h"
+#include "dynamics/simulation/newton_matrix.h"
 #include "dynamics/simulation/sundials.h"
 
 namespace blocklift::dynamics {
@@ -48,8 +49,9 @@ class Integrator {
   [[noreturn]] void fail(const char* what);
 
   static int right_hand_side(double t, N_Vector y, N_Vector ydot, void* data);
-  static int jacobian(double t, N_Vector y, N_Vector ydot, SUNMatrix J, void* data, N_Vector,
-                      N_Vector, N_Vector);
+  static int newton_matrix(double t, N_Vector y, N_Vector ydot, SUNMatrix A, int keep_point,
+                           int* point_set, double gamma, void* data, N_Vector, N_Vector, N_Vector);
+  static int solve_newton(SUNLinearSolver solver, SUNMatrix A, N_Vector x, N_Vector b, double);
   static int indicators(double t, N_Vector y, double* g, void* data);
   static int works(double t, N_Vector y, N_Vector rates, void* data);
   static int project(double t, N_Vector y, N_Vector correction, double tolerance, N_Vector error,
@@ -63,6 +65,7 @@ class Integrator {
   const LiftSystem& system_;
   const IntegrationSettings& settings_;
   LiftWorkspace w_;
+  NewtonMatrix newton_;
   Contacts contacts_;
   Eigen::VectorXd sample_times_;
   Eigen::Index next_sample_ = 0;
@@ -73,7 +76,7 @@ class Integrator {
   double time_ = 0.0;
 
   sundials::Context context_;
-  sundials::Vector y_, rates_, shifted_, sample_, work_, sampled_work_;
+  sundials::Vector y_, rates_, sample_, work_, sampled_work_;
   sundials::Matrix matrix_;
   sundials::LinearSolver linear_solver_;
   void* cvode_ = nullptr;
@@ -89,6 +92,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
     : system_(system),
       settings_(settings),
       w_(system),
+      newton_(system),
       sample_times_(sample_times(system.operation().duration(), settings.sample_interval)),
       context_(sundials::make_context()),
       result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}} {
@@ -101,7 +105,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   system.mechanism().normalise(w_.q);
   // CVODES wants at least one unknown: where everything is driven, one that stays zero.
   const Eigen::Index size = std::max(1, system.state_size());
-  for (sundials::Vector* vector : {&y_, &sample_, &rates_, &shifted_}) {
+  for (sundials::Vector* vector : {&y_, &sample_, &rates_}) {
     *vector = sundials::make_vector(size, context_);
     sundials::view(vector->get()).setZero();
   }
@@ -155,28 +159,36 @@ int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data)
   });
 }
 
-// By forward differences: of CVODES' own, only that it does not allocate.
-int Integrator::jacobian(double t, N_Vector y, N_Vector ydot, SUNMatrix J, void* data, N_Vector,
-                         N_Vector, N_Vector) {
+// The matrix of Newton's method by the analytical Jacobian, in the structure of mechanics; CVODES' own
+// matrix A is a mere token.
+int Integrator::newton_matrix(double t, N_Vector y, N_Vector, SUNMatrix, int keep_point,
+                              int* point_set, double gamma, void* data, N_Vector, N_Vector,
+                              N_Vector) {
   auto& self = *static_cast<Integrator*>(data);
-  return self.guarded([&] {
-    constexpr double increment = 1e-7;  // m, rad, m/s, rad/s
-    auto matrix = sundials::view(J);
-    auto shifted = sundials::view(self.shifted_.get());
-    const auto base = sundials::view(ydot);
-    auto rates = sundials::view(self.rates_.get());
-    shifted = sundials::view(y);
-    for (Eigen::Index k = 0; k < shifted.size(); ++k) {
-      const double value = shifted[k];
-      shifted[k] += increment * std::max(1.0, std::abs(value));
-      const double step = shifted[k] - value;
-      calc_right_hand_side(self.system_, self.within_interval(t), shifted, &self.contacts_, self.w_,
-                           rates);
-      matrix.col(k) = (rates - base) / step;
-      shifted[k] = value;
+  int singular = 0;
+  const int flag = self.guarded([&] {
+    if (!keep_point) {
+      const double at = self.within_interval(t);
+      calc_right_hand_side(self.system_, at, sundials::view(y), &self.contacts_, self.w_,
+                           sundials::view(self.rates_.get()));
+      ++self.result_.statistics.right_hand_sides;
+      self.newton_.set_point(self.system_, at, self.w_);
     }
-    self.result_.statistics.right_hand_sides += shifted.size();
+    singular = self.newton_.factorise(self.system_, gamma) ? 0 : 1;
   });
+  *point_set = keep_point ? SUNFALSE : SUNTRUE;
+  return flag != 0 ? flag : singular;
+}
+
+int Integrator::solve_newton(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, double) {
+  auto& self = *static_cast<Integrator*>(solver->content);
+  // Where nothing is free the one unknown stays zero.
+  if (self.system_.state_size() == 0) {
+    sundials::view(x) = sundials::view(b);
+    return 0;
+  }
+  self.newton_.solve(self.system_, sundials::view(b), sundials::view(x));
+  return 0;
 }
 
 int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
@@ -247,11 +259,10 @@ void Integrator::set_up_cvode() {
   check(CVodeInit(cvode_, right_hand_side, 0.0, y_.get()), "CVodeInit");
   check(CVodeSetUserData(cvode_, this), "CVodeSetUserData");
   check(CVodeWFtolerances(cvode_, error_weights), "CVodeWFtolerances");
-  const Eigen::Index n = sundials::view(y_.get()).size();
-  matrix_ = sundials::Matrix(SUNDenseMatrix(n, n, context_.get()));
-  linear_solver_ = sundials::LinearSolver(SUNLinSol_Dense(y_.get(), matrix_.get(), context_.get()));
+  matrix_ = sundials::Matrix(SUNDenseMatrix(1, 1, context_.get()));
+  linear_solver_ = sundials::make_direct_solver(this, solve_newton, context_);
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
-  check(CVodeSetJacFn(cvode_, jacobian), "CVodeSetJacFn");
+  check(CVodeSetLinSysFn(cvode_, newton_matrix), "CVodeSetLinSysFn");
   if (!quaternions_.empty()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
   if (system_.contact_count() > 0) {
     check(CVodeRootInit(cvode_, system_.contact_count(), indicators), "CVodeRootInit");
@@ -286,18 +297,21 @@ bool Integrator::motion_jumps(double t) const {
 }
 
 void Integrator::count_before_restart() {
-  long steps = 0, evaluations = 0, jacobian_evaluations = 0, jacobians = 0, errors = 0,
+  long steps = 0, evaluations = 0, jacobians = 0, factorisations = 0, iterations = 0, errors = 0,
        nonlinear = 0;
   CVodeGetNumSteps(cvode_, &steps);
   CVodeGetNumRhsEvals(cvode_, &evaluations);
-  CVodeGetNumLinRhsEvals(cvode_, &jacobian_evaluations);
   CVodeGetNumJacEvals(cvode_, &jacobians);
+  CVodeGetNumLinSolvSetups(cvode_, &factorisations);
+  CVodeGetNumNonlinSolvIters(cvode_, &iterations);
   CVodeGetNumErrTestFails(cvode_, &errors);
   CVodeGetNumNonlinSolvConvFails(cvode_, &nonlinear);
   IntegrationStatistics& s = result_.statistics;
   s.steps += steps;
-  s.right_hand_sides += evaluations + jacobian_evaluations;
+  s.right_hand_sides += evaluations;
   s.jacobians += jacobians;
+  s.factorisations += factorisations;
+  s.newton_iterations += iterations;
   s.error_test_failures += errors;
   s.nonlinear_failures += nonlinear;
 }

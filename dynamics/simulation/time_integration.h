@@ -21,8 +21,11 @@ struct IntegrationSettings {
 /// What the integration cost.
 struct IntegrationStatistics {
   long steps = 0;
-  long right_hand_sides = 0;  ///< of the equations, those for finite differences included
-  long jacobians = 0;
+  long right_hand_sides = 0;             ///< of the equations, for the method's own steps
+  long difference_right_hand_sides = 0;  ///< besides, for Jacobians by finite differences
+  long jacobians = 0;       ///< analytical, each at the price of a few right-hand sides
+  long factorisations = 0;  ///< of the matrix of Newton's method
+  long newton_iterations = 0;
   long error_test_failures = 0;
   long nonlinear_failures = 0;
   long restarts = 0;         ///< at events and jumps of a motion

@@ -249,7 +249,10 @@ Json solver_json(const LiftRun& lift) {
   const dynamics::IntegrationStatistics& s = lift.dynamic_result.statistics;
   return {{"steps", s.steps},
           {"right_hand_sides", s.right_hand_sides},
+          {"right_hand_sides_for_differences", s.difference_right_hand_sides},
           {"jacobians", s.jacobians},
+          {"factorisations", s.factorisations},
+          {"newton_iterations", s.newton_iterations},
           {"error_test_failures", s.error_test_failures},
           {"nonlinear_failures", s.nonlinear_failures},
           {"restarts", s.restarts},

@@ -1,0 +1,129 @@
+#include "dynamics/simulation/jacobian.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blocklift::dynamics {
+
+namespace {
+
+std::size_t most_points(const LiftSystem& system) {
+  std::size_t most = 2;
+  for (const Rope& rope : system.ropes()) most = std::max(most, rope.points().size());
+  return most;
+}
+
+void calc_force_derivatives(const LiftSystem& system, double t, LiftWorkspace& w,
+                            TangentMatrices& tangent) {
+  compute_motion_columns(system.mechanism(), w.kinematics, w.v, tangent.inverse.columns);
+  tangent.forces.start(w.kinematics, tangent.inverse.columns);
+  for (std::size_t i = 0; i < system.ropes().size(); ++i) {
+    if (!w.rope_loads[i].taut) continue;
+    const Rope& rope = system.ropes()[i];
+    rope.calc_path(w.kinematics, w.path);
+    rope.add_derivatives(w.kinematics, w.path, w.rope_loads[i], tangent.forces);
+  }
+  for (std::size_t i = 0; i < system.supports().size(); ++i) {
+    system.supports()[i].add_derivatives(w.kinematics, w.support_loads[i], tangent.forces);
+  }
+  const MotionState state{t, w.q, w.v, w.kinematics};
+  for_each_element(system.elements(),
+                   [&](const auto& element) { element.add_derivatives(state, tangent.forces); });
+}
+
+}  // namespace
+
+TangentMatrices::TangentMatrices(const LiftSystem& system)
+    : mass(system.nv_free(), system.nv_free()),
+      damping(system.nv_free(), system.nv_free()),
+      stiffness(system.nv_free(), system.nv_free()),
+      inverse(system.mechanism()),
+      forces(system.mechanism(), most_points(system)) {}
+
+void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
+                           TangentMatrices& tangent) {
+  calc_force_derivatives(system, t, w, tangent);
+  InverseDynamicsDerivatives& inverse = tangent.inverse;
+  const ForceDerivatives& forces = tangent.forces;
+  compute_inverse_dynamics_derivatives(system.mechanism(), w.kinematics, w.v, w.vdot,
+                                       w.loads.F_Bo_W, forces.arm_moments(), inverse);
+  const std::vector<int>& free = system.mechanism().free_velocities();
+  Eigen::Index column = 0;
+  for (const int k : free) {
+    Eigen::Index row = 0;
+    for (const int l : free) {
+      tangent.mass(row, column) = inverse.mass(l, k);
+      tangent.stiffness(row, column) = inverse.dtau_dq(l, k) - forces.dtau_dq()(l, k);
+      tangent.damping(row, column) = inverse.dtau_dv(l, k) - forces.dtau_dv()(l, k);
+      ++row;
+    }
+    ++column;
+  }
+}
+
+JacobianWorkspace::JacobianWorkspace(const LiftSystem& system)
+    : tangent(system),
+      mass(system.nv_free()),
+      increments(system.mechanism().nv(), system.mechanism().nq()),
+      rates_by_q(system.mechanism().nq(), system.mechanism().nq()),
+      rates_by_v(system.mechanism().nq(), system.mechanism().nv()),
+      scaled(system.nv_free(), system.state_size()) {}
+
+void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const Contacts* contacts,
+                   LiftWorkspace& w, JacobianWorkspace& workspace,
+                   Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  const Mechanism& mechanism = system.mechanism();
+  const Eigen::Index nq = system.nq_free();
+  const Eigen::Index nv = system.nv_free();
+  // The right-hand side goes into the first column, which is overwritten below.
+  calc_right_hand_side(system, t, y, contacts, w, jacobian.col(0));
+  TangentMatrices& tangent = workspace.tangent;
+  calc_tangent_matrices(system, t, w, tangent);
+  coordinate_increments(mechanism, w.q, workspace.increments);
+  rate_derivatives(mechanism, w.q, w.v, workspace.rates_by_q, workspace.rates_by_v);
+  const std::vector<int>& free_q = mechanism.free_coordinates();
+  const std::vector<int>& free_v = mechanism.free_velocities();
+  // -M^-1 (K E, C), and the kinematics above them.
+  workspace.scaled.rightCols(nv) = -tangent.damping;
+  for (Eigen::Index j = 0; j < nq; ++j) {
+    const int q_column = free_q[static_cast<std::size_t>(j)];
+    auto column = workspace.scaled.col(j);
+    column.setZero();
+    for (Eigen::Index k = 0; k < nv; ++k) {
+      const double turn = workspace.increments(free_v[static_cast<std::size_t>(k)], q_column);
+      if (turn != 0.0) column -= turn * tangent.stiffness.col(k);
+    }
+    for (Eigen::Index i = 0; i < nq; ++i) {
+      jacobian(i, j) = workspace.rates_by_q(free_q[static_cast<std::size_t>(i)], q_column);
+    }
+  }
+  for (Eigen::Index j = 0; j < nv; ++j) {
+    for (Eigen::Index i = 0; i < nq; ++i) {
+      jacobian(i, nq + j) = workspace.rates_by_v(free_q[static_cast<std::size_t>(i)],
+                                                 free_v[static_cast<std::size_t>(j)]);
+    }
+  }
+  workspace.mass.compute(tangent.mass);
+  workspace.mass.solveInPlace(workspace.scaled);
+  jacobian.bottomRows(nv) = workspace.scaled;
+}
+
+Eigen::MatrixXd difference_jacobian(const LiftSystem& system, double t, ConstVectorRef y,
+                                    const Contacts* contacts, LiftWorkspace& w, double step) {
+  const Eigen::Index n = system.state_size();
+  Eigen::MatrixXd jacobian(n, n);
+  Eigen::VectorXd shifted = y;
+  Eigen::VectorXd plus(n), minus(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double h = step * std::max(1.0, std::abs(y[k]));
+    shifted[k] = y[k] + h;
+    calc_right_hand_side(system, t, shifted, contacts, w, plus);
+    shifted[k] = y[k] - h;
+    calc_right_hand_side(system, t, shifted, contacts, w, minus);
+    shifted[k] = y[k];
+    jacobian.col(k) = (plus - minus) / (2.0 * h);
+  }
+  return jacobian;
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,111 @@
+#include "dynamics/simulation/newton_matrix.h"
+
+#include <algorithm>
+
+namespace blocklift::dynamics {
+
+namespace {
+
+// Place of the first free entry that is not less than `index` among the free ones.
+Eigen::Index place(const std::vector<int>& free, int index) {
+  return std::lower_bound(free.begin(), free.end(), index) - free.begin();
+}
+
+}  // namespace
+
+NewtonMatrix::NewtonMatrix(const LiftSystem& system)
+    : tangent_(system),
+      matrix_(system.nv_free(), system.nv_free()),
+      factor_(system.nv_free()),
+      right_(system.nv_free()),
+      moved_(Eigen::VectorXd::Zero(system.nv_free())),
+      x_q_(system.nq_free()) {
+  const Mechanism& m = system.mechanism();
+  for (std::size_t i = 0; i < m.links().size(); ++i) {
+    const Link& link = m.links()[i];
+    const bool rates = velocities_are_rates(link.kind);
+    for (int k = 0; rates && k < link.nv; ++k) {
+      if (m.driven()[static_cast<std::size_t>(link.v_offset + k)]) continue;
+      plain_q_.push_back(place(m.free_coordinates(), link.q_offset + k));
+      plain_v_.push_back(place(m.free_velocities(), link.v_offset + k));
+    }
+    if (rates || m.driven()[static_cast<std::size_t>(link.v_offset)]) continue;
+    Joint& joint = joints_.emplace_back();
+    joint.link = static_cast<int>(i);
+    joint.q = place(m.free_coordinates(), link.q_offset);
+    joint.v = place(m.free_velocities(), link.v_offset);
+    joint.nq = coordinate_count(link.kind);
+    joint.nv = link.nv;
+  }
+}
+
+void NewtonMatrix::set_point(const LiftSystem& system, double t, LiftWorkspace& w) {
+  calc_tangent_matrices(system, t, w, tangent_);
+  for (Joint& joint : joints_) {
+    const Link& link = system.mechanism().links()[static_cast<std::size_t>(joint.link)];
+    joint_rate_derivatives(link.kind, w.q.data() + link.q_offset, w.v.data() + link.v_offset,
+                           joint.rates_by_q.topLeftCorner(joint.nq, joint.nq),
+                           joint.rates_by_v.topLeftCorner(joint.nq, joint.nv));
+    joint_increments(link.kind, w.q.data() + link.q_offset,
+                     joint.increments.topLeftCorner(joint.nv, joint.nq));
+  }
+}
+
+bool NewtonMatrix::factorise(const LiftSystem&, double gamma) {
+  gamma_ = gamma;
+  matrix_ = tangent_.mass + gamma * tangent_.damping + (gamma * gamma) * tangent_.stiffness;
+  for (Joint& joint : joints_) {
+    const int nq = joint.nq;
+    const int nv = joint.nv;
+    Eigen::Matrix<double, 7, 7> kinematics = Eigen::Matrix<double, 7, 7>::Identity();
+    kinematics.topLeftCorner(nq, nq) -= gamma * joint.rates_by_q.topLeftCorner(nq, nq);
+    joint.inverse = kinematics.inverse();
+    joint.Z.topLeftCorner(nv, nv) = joint.increments.topLeftCorner(nv, nq) *
+                                    joint.inverse.topLeftCorner(nq, nq) *
+                                    joint.rates_by_v.topLeftCorner(nq, nv);
+    const auto stiffness = tangent_.stiffness.middleCols(joint.v, nv);
+    for (int j = 0; j < nv; ++j) {
+      for (int i = 0; i < nv; ++i) {
+        const double beyond = joint.Z(i, j) - (i == j ? 1.0 : 0.0);
+        if (beyond != 0.0) {
+          matrix_.col(joint.v + j) += (gamma * gamma * beyond) * stiffness.col(i);
+        }
+      }
+    }
+  }
+  factor_.compute(matrix_);
+  // A pivot of zero shows as a factor that is not finite once it has been divided by.
+  const auto pivots = factor_.matrixLU().diagonal();
+  return matrix_.rows() == 0 || (pivots.allFinite() && pivots.cwiseAbs().minCoeff() > 0.0);
+}
+
+void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x) {
+  const Eigen::Index nq = system.nq_free();
+  const Eigen::Index nv = system.nv_free();
+  // Y b_q.
+  for (std::size_t i = 0; i < plain_q_.size(); ++i) moved_[plain_v_[i]] = b[plain_q_[i]];
+  for (const Joint& joint : joints_) {
+    x_q_.segment(joint.q, joint.nq).noalias() =
+        joint.inverse.topLeftCorner(joint.nq, joint.nq) * b.segment(joint.q, joint.nq);
+    moved_.segment(joint.v, joint.nv).noalias() =
+        joint.increments.topLeftCorner(joint.nv, joint.nq) * x_q_.segment(joint.q, joint.nq);
+  }
+  right_.noalias() = tangent_.mass * b.segment(nq, nv);
+  right_.noalias() -= gamma_ * (tangent_.stiffness * moved_);
+  moved_ = factor_.solve(right_);
+  // x_q = (1 - gamma A)^-1 (b_q + gamma N x_v).
+  for (std::size_t i = 0; i < plain_q_.size(); ++i) {
+    x[plain_q_[i]] = b[plain_q_[i]] + gamma_ * moved_[plain_v_[i]];
+  }
+  for (const Joint& joint : joints_) {
+    Eigen::Matrix<double, 7, 1> sum;
+    sum.head(joint.nq) = b.segment(joint.q, joint.nq) +
+                         gamma_ * (joint.rates_by_v.topLeftCorner(joint.nq, joint.nv) *
+                                   moved_.segment(joint.v, joint.nv));
+    x.segment(joint.q, joint.nq) =
+        joint.inverse.topLeftCorner(joint.nq, joint.nq) * sum.head(joint.nq);
+  }
+  x.segment(nq, nv) = moved_;
+}
+
+}  // namespace blocklift::dynamics
