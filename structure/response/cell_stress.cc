@@ -47,6 +47,25 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> CellStress::operator()(
   return stress;
 }
 
+Eigen::MatrixXd CellStress::of_all(int cell, const Eigen::MatrixXd& displacements) const {
+  const Eigen::Index cases = displacements.cols();
+  Eigen::MatrixXd local(space_.nodes_per_cell, 3 * cases);  // column 3 m + a: u_a of case m
+  for (int i = 0; i < space_.nodes_per_cell; ++i)
+    for (Eigen::Index m = 0; m < cases; ++m)
+      local.block<1, 3>(i, 3 * m) =
+          displacements.block<3, 1>(3 * space_.node(cell, i), m).transpose();
+  const Eigen::MatrixXd by_unit = gradients_ * local;  // (3 q + c, 3 m + a): du_a/dxi_c
+  const Material& material = mesh_.material_of_cell(cell);
+  Eigen::MatrixXd stress(6 * points_.cols(), cases);
+  for (Eigen::Index q = 0; q < points_.cols(); ++q) {
+    const Eigen::Matrix3d inverse = jacobian(mesh_, cell, points_.col(q)).inverse();
+    for (Eigen::Index m = 0; m < cases; ++m)
+      stress.block<6, 1>(6 * q, m) =
+          stress_of_gradient(material, by_unit.block<3, 3>(3 * q, 3 * m).transpose() * inverse);
+  }
+  return stress;
+}
+
 Eigen::VectorXd CellStress::von_mises(int cell, const Eigen::VectorXd& displacement) const {
   const auto stress = (*this)(cell, displacement);
   Eigen::VectorXd result(stress.cols());

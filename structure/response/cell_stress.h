@@ -25,6 +25,8 @@ class CellStress {
   /// Stresses (6 x m) of the displacement (3 a node), Pa.
   Eigen::Matrix<double, 6, Eigen::Dynamic> operator()(int cell,
                                                       const Eigen::VectorXd& displacement) const;
+  /// Stresses of several displacements (one a column): rows 6 point + component, Pa.
+  Eigen::MatrixXd of_all(int cell, const Eigen::MatrixXd& displacements) const;
   /// Von Mises at the m points, Pa.
   Eigen::VectorXd von_mises(int cell, const Eigen::VectorXd& displacement) const;
 

@@ -49,9 +49,7 @@ LoadCaseResult StressRecovery::evaluate(const LoadCase& load_case) const {
   const ElasticModel& model = responses_.model();
   const BlockMesh& mesh = model.mesh();
   const Discretisation& space = model.space();
-  const auto radius = [&](const LugRegion& lug) {
-    return options_.lug_radius > 0 ? options_.lug_radius : lug.pad_radius;
-  };
+  const auto radius = [&](const LugRegion& lug) { return lug_radius(lug); };
   const auto take = [&](Maxima& maxima, double value, const Vector3& place, int sheet, int group) {
     maxima.all.take(value, place, sheet);
     maxima.group[at(group)].take(value, place, sheet);

@@ -62,6 +62,10 @@ class StressRecovery {
 
   LoadCaseResult evaluate(const LoadCase& load_case) const;
   const MembraneStress& membrane() const { return membrane_; }
+  /// Radius about a lug's pin that counts as its neighbourhood, m.
+  double lug_radius(const LugRegion& lug) const {
+    return options_.lug_radius > 0 ? options_.lug_radius : lug.pad_radius;
+  }
 
  private:
   const UnitResponses& responses_;

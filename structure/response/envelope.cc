@@ -1,0 +1,105 @@
+#include "structure/response/envelope.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "structure/error.h"
+#include "structure/response/envelope_search.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+constexpr int batch_size = 64;  // points: their unit responses stay in the cache
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Deals batches of points out to threads; an exception of any ends all.
+void in_batches(int points, int threads, const std::function<void(int first, int count)>& work) {
+  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::atomic<int> next{0};
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto run = [&] {
+    try {
+      for (int first = next.fetch_add(batch_size); first < points;
+           first = next.fetch_add(batch_size))
+        work(first, std::min(batch_size, points - first));
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      failure = std::current_exception();
+      next = points;
+    }
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < threads; ++t) others.emplace_back(run);
+  run();
+  for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+// Responses of a batch to the history's coordinates, `rows` rows a point.
+Rows responses_of(const LoadHistory& history, const UnitResponsesAt& responses, int first,
+                  int count, int rows) {
+  const Eigen::MatrixXd units = responses(first, count);
+  if (units.rows() != rows * count || units.cols() != history.modes().rows())
+    throw ModelError("unit responses do not fit the history: " + std::to_string(units.rows()) +
+                     " x " + std::to_string(units.cols()) + " for " + std::to_string(count) +
+                     " points and " + std::to_string(history.modes().rows()) + " unit loads");
+  Rows result = units * history.modes();
+  if (!result.allFinite())
+    throw ModelError("a unit response is not a number, near point " + std::to_string(first));
+  return result;
+}
+
+PointExtremes sized(int points) {
+  return {Eigen::VectorXd::Zero(points), Eigen::VectorXi::Zero(points)};
+}
+
+void keep(PointExtremes& extremes, int point, const Found& found, double sign = 1) {
+  extremes.value[point] = sign * found.value;
+  extremes.instant[point] = found.instant;
+}
+
+}  // namespace
+
+StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
+                                    const UnitResponsesAt& stress, int threads) {
+  StressEnvelope envelope{sized(points), sized(points), sized(points)};
+  in_batches(points, threads, [&](int first, int count) {
+    const Rows rows = responses_of(history, stress, first, count, 6);
+    SearchWorkspace workspace(history);
+    for (int i = 0; i < count; ++i) {
+      const StressFound found =
+          search_stress(history, rows.data() + 6L * i * rows.cols(), workspace);
+      keep(envelope.von_mises, first + i, found.von_mises);
+      keep(envelope.largest_principal, first + i, found.largest_principal);
+      keep(envelope.smallest_principal, first + i, found.minus_smallest_principal, -1);
+    }
+  });
+  return envelope;
+}
+
+PointExtremes find_displacement_envelope(const LoadHistory& history, int points,
+                                         const UnitResponsesAt& displacement, int threads) {
+  PointExtremes extremes = sized(points);
+  in_batches(points, threads, [&](int first, int count) {
+    const Rows rows = responses_of(history, displacement, first, count, 3);
+    SearchWorkspace workspace(history);
+    for (int i = 0; i < count; ++i)
+      keep(extremes, first + i,
+           search_displacement(history, rows.data() + 3L * i * rows.cols(), workspace));
+  });
+  return extremes;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+#include "structure/response/load_history.h"
+
+namespace blocklift::structure {
+
+/// Extreme of one quantity at each point of a body over all instants, and when it occurs.
+struct PointExtremes {
+  Eigen::VectorXd value;
+  Eigen::VectorXi instant;  ///< the earliest of equals
+};
+
+/// Extremes of stress at points over a history.
+struct StressEnvelope {
+  PointExtremes von_mises;           ///< largest, Pa
+  PointExtremes largest_principal;   ///< largest of the largest principal stress, Pa
+  PointExtremes smallest_principal;  ///< smallest of the smallest principal stress, Pa
+};
+
+/// Unit responses at the points first .. first + count - 1, one column a unit load: for stress rows
+/// 6 point + c (xx, yy, zz, xy, yz, zx, Pa), for displacement rows 3 point + axis (m). Called from
+/// several threads at once.
+using UnitResponsesAt = std::function<Eigen::MatrixXd(int first, int count)>;
+
+/// The exact extremes of stress at `points` points over all instants of a history, by superposition.
+///
+/// Von Mises stress and largest principal stress are convex functions of the loads, and over a cluster
+/// of instants they are bounded by their values and slopes in its middle (the bounds stand in
+/// envelope_kernel.inc). Clusters whose bound does not reach what has been found already are passed
+/// over. The instants of the others are screened in single precision, with a margin larger than all of
+/// its rounding, and those that reach what has been found are computed in double precision, principal
+/// stresses by a symmetric eigenvalue solver. So the result is that of evaluating every instant in
+/// double precision, at a fraction of the work. Where loads never come back to nearly the same values
+/// (noise) all clusters are screened.
+///
+/// @param threads 0: as many as the machine has.
+/// @throws ModelError if a unit response is not a number.
+StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
+                                    const UnitResponsesAt& stress, int threads = 0);
+
+/// The largest magnitude of a displacement at points over all instants, m, likewise.
+PointExtremes find_displacement_envelope(const LoadHistory& history, int points,
+                                         const UnitResponsesAt& displacement, int threads = 0);
+
+}  // namespace blocklift::structure
