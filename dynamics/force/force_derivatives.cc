@@ -16,7 +16,9 @@ ForceDerivatives::ForceDerivatives(const Mechanism& mechanism, std::size_t most_
   }
 }
 
-void ForceDerivatives::start(const Kinematics& kinematics, const MotionColumns& columns) {
+void ForceDerivatives::start(const Kinematics& kinematics, const MotionColumns& columns,
+                             bool stretch_only) {
+  stretch_only_ = stretch_only;
   kinematics_ = &kinematics;
   columns_ = &columns;
   dtau_dq_.setZero();
@@ -51,6 +53,7 @@ void ForceDerivatives::locate(std::size_t slot, BodyIndex body, const Vector3& r
 }
 
 void ForceDerivatives::add_held_force(std::size_t slot, const Vector3& f_W) {
+  if (stretch_only_) return;
   const Point& point = points_[slot];
   arm_moments_[static_cast<std::size_t>(point.body)] += skew(f_W) * skew(point.r_W);
 }
@@ -84,7 +87,7 @@ void ForceDerivatives::add_tension(std::size_t from, std::size_t to, const Line&
   const Vector3& u = line.direction_W;
   const Matrix3 along = u * u.transpose();
   const Matrix3 across = (Matrix3::Identity() - along) / line.length;
-  const Matrix3 K = dT_dL * along + tension * across +
+  const Matrix3 K = dT_dL * along + (stretch_only_ ? 0.0 : tension) * across +
                     dT_dLdot * u * (across * line.relative_velocity_W).transpose();
   add_line(from, to, K, dT_dLdot * along);
   add_held_force(from, tension * u);
@@ -92,6 +95,7 @@ void ForceDerivatives::add_tension(std::size_t from, std::size_t to, const Line&
 }
 
 void ForceDerivatives::add_turning(std::size_t slot, const Matrix3& df_dtheta) {
+  if (stretch_only_) return;
   const Point& point = points_[slot];
   for (int j = 0; j < point.count; ++j) {
     const Vector3 by_q = df_dtheta * point.turn.col(j);

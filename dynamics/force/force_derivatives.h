@@ -21,7 +21,9 @@ class ForceDerivatives {
   ForceDerivatives(const Mechanism& mechanism, std::size_t most_points);
 
   /// Begins anew at the instant of `kinematics`, with its columns; both must stay until the end.
-  void start(const Kinematics& kinematics, const MotionColumns& columns);
+  /// @param stretch_only leaves out what forces that are held do by turning with their line or body: what
+  /// remains at rest is the stiffness of stretching alone.
+  void start(const Kinematics& kinematics, const MotionColumns& columns, bool stretch_only = false);
 
   /// Slot: the point fixed in the body at r_W from Bo (in W, m).
   void locate(std::size_t slot, BodyIndex body, const Vector3& r_W);
@@ -73,6 +75,7 @@ class ForceDerivatives {
   const Mechanism* mechanism_;
   const Kinematics* kinematics_ = nullptr;
   const MotionColumns* columns_ = nullptr;
+  bool stretch_only_ = false;
   std::vector<Point> points_;
   std::vector<Matrix3> arm_moments_;
   Eigen::MatrixXd dtau_dq_, dtau_dv_;

@@ -13,10 +13,10 @@ std::size_t most_points(const LiftSystem& system) {
   return most;
 }
 
-void calc_force_derivatives(const LiftSystem& system, double t, LiftWorkspace& w,
+void calc_force_derivatives(const LiftSystem& system, double t, bool stretch_only, LiftWorkspace& w,
                             TangentMatrices& tangent) {
   compute_motion_columns(system.mechanism(), w.kinematics, w.v, tangent.inverse.columns);
-  tangent.forces.start(w.kinematics, tangent.inverse.columns);
+  tangent.forces.start(w.kinematics, tangent.inverse.columns, stretch_only);
   for (std::size_t i = 0; i < system.ropes().size(); ++i) {
     if (!w.rope_loads[i].taut) continue;
     const Rope& rope = system.ropes()[i];
@@ -42,7 +42,7 @@ TangentMatrices::TangentMatrices(const LiftSystem& system)
 
 void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
                            TangentMatrices& tangent) {
-  calc_force_derivatives(system, t, w, tangent);
+  calc_force_derivatives(system, t, false, w, tangent);
   InverseDynamicsDerivatives& inverse = tangent.inverse;
   const ForceDerivatives& forces = tangent.forces;
   compute_inverse_dynamics_derivatives(system.mechanism(), w.kinematics, w.v, w.vdot,
@@ -58,6 +58,18 @@ void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
       ++row;
     }
     ++column;
+  }
+}
+
+void calc_elastic_stiffness(const LiftSystem& system, double t, LiftWorkspace& w,
+                            TangentMatrices& tangent, Eigen::Ref<Eigen::MatrixXd> stiffness) {
+  calc_force_derivatives(system, t, true, w, tangent);
+  const std::vector<int>& free = system.mechanism().free_velocities();
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      stiffness(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          -tangent.forces.dtau_dq()(free[i], free[j]);
+    }
   }
 }
 

@@ -26,6 +26,11 @@ struct TangentMatrices {
 void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
                            TangentMatrices& tangent);
 
+/// The part of `tangent.stiffness` that is the stretching of ropes, springs and pads, at rest; the rest is
+/// gravity and forces that turn. nv_free x nv_free. Overwrites tangent.forces.
+void calc_elastic_stiffness(const LiftSystem& system, double t, LiftWorkspace& w,
+                            TangentMatrices& tangent, Eigen::Ref<Eigen::MatrixXd> stiffness);
+
 /// Workspace of calc_jacobian.
 struct JacobianWorkspace {
   explicit JacobianWorkspace(const LiftSystem& system);

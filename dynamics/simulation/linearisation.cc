@@ -1,0 +1,278 @@
+#include "dynamics/simulation/linearisation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/errors.h"
+#include "dynamics/simulation/mode_shape.h"
+
+namespace blocklift::dynamics {
+
+namespace {
+
+// Of the largest |lambda|: below it a motion counts as neutral.
+constexpr double neutral_limit = 1e-6;
+// Of |lambda|: eigenvalues nearer than this count as equal.
+constexpr double equal_limit = 1e-7;
+// Damping ratios beyond it are no rounding.
+constexpr double growth_limit = 1e-6;
+
+// The equations in coordinates y with z = L^-T y, M = L L^T: mass one, and time in units of 1/scale.
+struct Normalised {
+  Eigen::MatrixXd to_z;  ///< L^-T
+  Eigen::MatrixXd damping, stiffness;
+  double scale = 1.0;  ///< about the largest frequency, rad/s
+
+  explicit Normalised(const Linearisation& l) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(l.mass);
+    if (factor.info() != Eigen::Success) {
+      throw SimulationError(
+          "the mass matrix of the free velocities is singular at the equilibrium: some motion "
+          "meets no inertia, so that it has no frequency");
+    }
+    const Eigen::Index n = l.mass.rows();
+    to_z = factor.matrixU().solve(Eigen::MatrixXd::Identity(n, n));
+    stiffness = to_z.transpose() * l.stiffness * to_z;
+    damping = to_z.transpose() * l.damping * to_z;
+    const double largest = std::max(std::sqrt(stiffness.norm()), damping.norm());
+    if (largest > 0.0) scale = largest;
+    stiffness /= scale * scale;
+    damping /= scale;
+  }
+};
+
+ModeKind kind_of(const std::complex<double>& lambda) {
+  const double growth = lambda.real() / std::abs(lambda);
+  if (growth > growth_limit) return ModeKind::unstable;
+  return std::abs(lambda.imag()) > 1e-9 * std::abs(lambda) ? ModeKind::oscillating
+                                                           : ModeKind::overdamped;
+}
+
+// Directions that nothing brings back: the null space of the stiffness.
+void add_neutral_modes(const Normalised& equations, const Eigen::MatrixXd& to_v,
+                       std::vector<Mode>& modes) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(equations.stiffness, Eigen::ComputeFullV);
+  const double limit = neutral_limit * neutral_limit;
+  for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i) {
+    if (svd.singularValues()[i] > limit) continue;
+    Mode& mode = modes.emplace_back();
+    mode.kind = ModeKind::neutral;
+    mode.shape = to_v * svd.matrixV().col(i);
+  }
+}
+
+// Shapes and eigenvalues of all that moves by itself; to_v carries y to all velocities.
+std::vector<Mode> solve_modes(const Normalised& equations, const Eigen::MatrixXd& to_v) {
+  std::vector<Mode> modes;
+  const Eigen::Index n = equations.stiffness.rows();
+  if (n == 0) return modes;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).setIdentity();
+  A.bottomLeftCorner(n, n) = -equations.stiffness;
+  A.bottomRightCorner(n, n) = -equations.damping;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
+  if (solver.info() != Eigen::Success) {
+    throw SimulationError(
+        "the natural frequencies could not be computed: the eigenvalue "
+        "iteration did not converge");
+  }
+  const Eigen::VectorXcd& values = solver.eigenvalues();
+  const double limit = neutral_limit * values.cwiseAbs().maxCoeff();
+  add_neutral_modes(equations, to_v, modes);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const std::complex<double> value = values[i];
+    if (std::abs(value) <= limit || value.imag() < -1e-9 * std::abs(value)) continue;
+    // A body on the top of a hill: of the pair +-sigma the growing one tells it all.
+    const bool mirrored = value.real() < 0.0 && std::abs(value.imag()) <= 1e-9 * std::abs(value) &&
+                          ((values.array() + value).abs() < growth_limit * std::abs(value)).any();
+    if (mirrored) continue;
+    Mode& mode = modes.emplace_back();
+    mode.eigenvalue = equations.scale * value;
+    mode.kind = kind_of(value);
+    mode.shape = to_v * solver.eigenvectors().col(i).head(n);
+  }
+  return modes;
+}
+
+int rank(const Mode& mode) {
+  switch (mode.kind) {
+    case ModeKind::unstable:
+      return 0;
+    case ModeKind::neutral:
+      return 1;
+    default:
+      return 2;
+  }
+}
+
+// A form that differs by direction of motion, so that its axes are those of W.
+Eigen::MatrixXd direction_form(const Mechanism& mechanism, const Kinematics& kinematics) {
+  constexpr std::array<double, 3> displacement_weights = {1.0, 2.0, 3.0};
+  constexpr std::array<double, 3> turn_weights = {4.0, 5.0, 6.0};
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(mechanism.nv(), mechanism.nv());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian(6, mechanism.nv());
+  for (BodyIndex i = 1; i < mechanism.body_count(); ++i) {
+    const auto b = static_cast<std::size_t>(i);
+    const RigidBodyInertia& inertia = mechanism.bodies()[b].inertia;
+    if (inertia.mass == 0.0) continue;
+    body_jacobian(mechanism, kinematics, i, jacobian);
+    const Eigen::Matrix3Xd turn = jacobian.topRows<3>();
+    const Eigen::Matrix3Xd centre =
+        jacobian.bottomRows<3>() - skew(kinematics.X_WB[b].R * inertia.p_BoBcm) * turn;
+    const double moment = inertia.I_BBcm.trace() / 3.0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const auto w = static_cast<std::size_t>(k);
+      form += inertia.mass * displacement_weights[w] * centre.row(k).transpose() * centre.row(k);
+      form += moment * turn_weights[w] * turn.row(k).transpose() * turn.row(k);
+    }
+  }
+  return form;
+}
+
+// Shapes of a group of equal eigenvalues, chosen along the axes of W.
+void align(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& form, std::vector<Mode>& modes,
+           std::size_t first, std::size_t last) {
+  const auto count = static_cast<Eigen::Index>(last - first);
+  if (count < 2) return;
+  Eigen::MatrixXcd shapes(mass.rows(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    shapes.col(i) = modes[first + static_cast<std::size_t>(i)].shape.normalized();
+  }
+  // An orthonormal basis by the mass first; shapes that coincide (a defective group) stay as they are.
+  const Eigen::MatrixXcd product = shapes.adjoint() * mass * shapes;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> norm(product);
+  if (norm.eigenvalues()[0] < 1e-9 * norm.eigenvalues()[count - 1]) return;
+  const Eigen::VectorXd inverse_root = norm.eigenvalues().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXcd orthonormal = shapes * norm.eigenvectors() * inverse_root.asDiagonal();
+  const Eigen::MatrixXcd directions = orthonormal.adjoint() * form * orthonormal;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> axes(directions);
+  shapes = orthonormal * axes.eigenvectors();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    modes[first + static_cast<std::size_t>(i)].shape = shapes.col(i);
+  }
+}
+
+void sort_and_align(const LiftSystem& system, const LiftWorkspace& w, const Eigen::MatrixXd& mass,
+                    std::vector<Mode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) {
+    if (rank(a) != rank(b)) return rank(a) < rank(b);
+    return std::abs(a.eigenvalue) < std::abs(b.eigenvalue);
+  });
+  const Eigen::MatrixXd form = direction_form(system.mechanism(), w.kinematics);
+  for (std::size_t first = 0; first < modes.size();) {
+    std::size_t last = first + 1;
+    while (last < modes.size() && rank(modes[last]) == rank(modes[first]) &&
+           std::abs(modes[last].eigenvalue - modes[first].eigenvalue) <=
+               equal_limit * std::abs(modes[first].eigenvalue)) {
+      ++last;
+    }
+    align(mass, form, modes, first, last);
+    first = last;
+  }
+}
+
+double elastic_share(const Eigen::MatrixXd& elastic, const Eigen::MatrixXd& stiffness,
+                     const Eigen::VectorXcd& free_shape) {
+  const double all = free_shape.dot(stiffness * free_shape).real();
+  const double stretched = free_shape.dot(elastic * free_shape).real();
+  return all > 0.0 ? std::clamp(stretched / all, 0.0, 1.0) : 0.0;
+}
+
+// Two modes of one name are told apart by their order.
+void number_equal_names(std::vector<Mode>& modes) {
+  std::vector<std::string> names;
+  for (Mode& mode : modes) {
+    const auto before = std::count(names.begin(), names.end(), mode.name);
+    names.push_back(mode.name);
+    if (before > 0) mode.name += ", no. " + std::to_string(before + 1);
+  }
+}
+
+}  // namespace
+
+std::string_view mode_kind_name(ModeKind kind) {
+  switch (kind) {
+    case ModeKind::oscillating:
+      return "oscillating";
+    case ModeKind::overdamped:
+      return "overdamped";
+    case ModeKind::neutral:
+      return "neutral";
+    case ModeKind::unstable:
+      return "unstable";
+  }
+  return {};
+}
+
+double Mode::period() const {
+  return kind == ModeKind::neutral ? std::numeric_limits<double>::infinity()
+                                   : 2.0 * M_PI / std::abs(eigenvalue);
+}
+
+double Mode::damping_ratio() const {
+  return kind == ModeKind::neutral ? 0.0 : -eigenvalue.real() / std::abs(eigenvalue);
+}
+
+Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w) {
+  const Mechanism& mechanism = system.mechanism();
+  const std::vector<int>& free = mechanism.free_velocities();
+  const Eigen::Index n = system.nv_free();
+  TangentMatrices tangent(system);
+  calc_tangent_matrices(system, t, w, tangent);
+  Linearisation result;
+  result.time = t;
+  result.basis = Eigen::MatrixXd::Identity(n, n);
+  result.mass = result.basis.transpose() * tangent.mass * result.basis;
+  result.damping = result.basis.transpose() * tangent.damping * result.basis;
+  result.stiffness = result.basis.transpose() * tangent.stiffness * result.basis;
+  const Eigen::MatrixXd whole_mass = tangent.inverse.mass;
+  Eigen::MatrixXd elastic(n, n);
+  calc_elastic_stiffness(system, t, w, tangent, elastic);
+
+  const Normalised equations(result);
+  Eigen::MatrixXd to_v = Eigen::MatrixXd::Zero(mechanism.nv(), equations.to_z.cols());
+  const Eigen::MatrixXd to_free = result.basis * equations.to_z;
+  for (Eigen::Index i = 0; i < n; ++i) to_v.row(free[static_cast<std::size_t>(i)]) = to_free.row(i);
+  result.modes = solve_modes(equations, to_v);
+  sort_and_align(system, w, whole_mass, result.modes);
+  Eigen::VectorXcd free_shape(n);
+  for (Mode& mode : result.modes) {
+    find_body_motions(mechanism, w.kinematics, mode);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      free_shape[i] = mode.shape[free[static_cast<std::size_t>(i)]];
+    }
+    mode.elastic_share = elastic_share(elastic, tangent.stiffness, free_shape);
+    mode.name = mode_name(mechanism, w.kinematics, mode);
+  }
+  number_equal_names(result.modes);
+  return result;
+}
+
+std::vector<Linearisation> linearise_sweep(const LiftSystem& system,
+                                           const std::vector<double>& times,
+                                           const Eigen::VectorXd& q_start, double interval,
+                                           const EquilibriumSettings& settings) {
+  if (!(interval > 0.0)) {
+    throw ModelError("an equilibrium followed every " + std::to_string(interval) +
+                     " s: the interval must be positive");
+  }
+  EquilibriumSolver solver(system, settings);
+  Eigen::VectorXd q = q_start;
+  solver.solve(0.0, q);
+  double reached = 0.0;
+  std::vector<Linearisation> results;
+  for (const double time : times) {
+    while (reached < time) {
+      // The last step takes what is left, be it a little more than the interval.
+      const double next = time - reached < 1.5 * interval ? time : reached + interval;
+      solver.follow(reached, next, q);
+      reached = next;
+    }
+    results.push_back(linearise(system, time, solver.workspace()));
+  }
+  return results;
+}
+
+}  // namespace blocklift::dynamics
