@@ -1,41 +1,27 @@
-// Nothing is allocated once the workspaces stand: every call of the C allocator in this executable is
-// counted, operator new and Eigen's included. (Sanitizers bring their own allocator: skipped there.)
-#include <atomic>
-#include <cstdlib>
-
+// Nothing is allocated once the workspaces stand.
 #include <gtest/gtest.h>
 
+#include "dynamics/multibody/assembly.h"
+#include "dynamics/multibody/constrained_dynamics.h"
 #include "dynamics/multibody/derivatives.h"
 #include "dynamics/multibody/energy.h"
 #include "dynamics/multibody/forward_dynamics.h"
 #include "dynamics/multibody/inverse_dynamics.h"
+#include "dynamics/multibody/loop_projection.h"
 #include "dynamics/multibody/mass_matrix.h"
 #include "dynamics/multibody/motion_profile.h"
 #include "pipeline/verification/models/random_mechanism.h"
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-#define BLOCKLIFT_COUNTS_ALLOCATIONS
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-}
-#endif
+#include "tests/dynamics/allocation_counter.h"
+#include "tests/dynamics/multibody/sample_loops.h"
 
 namespace blocklift::dynamics {
 namespace {
 
+using blocklift::testing::allocations;
+using blocklift::testing::counts_allocations;
+
 TEST(Allocation, NoneInTheRecursiveAlgorithms) {
-#ifndef BLOCKLIFT_COUNTS_ALLOCATIONS
-  GTEST_SKIP() << "allocations cannot be counted in this build";
-#else
+  if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
   testing::Random random(31);
   const Mechanism mechanism = testing::random_tree(random, 18, true);
   const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
@@ -58,11 +44,11 @@ TEST(Allocation, NoneInTheRecursiveAlgorithms) {
   double sum = 0;
 
   // The counter counts.
-  const long start = allocations;
+  const long start = allocations();
   std::vector<double> probe(100, 1.0);
-  ASSERT_GT(allocations, start);
+  ASSERT_GT(allocations(), start);
 
-  const long before = allocations;
+  const long before = allocations();
   compute_kinematics(mechanism, q, v, kinematics);
   compute_forward_dynamics(mechanism, kinematics, v, forces, forward, tau, vdot);
   compute_inverse_dynamics(mechanism, kinematics, v, vdot, forces, inverse, tau);
@@ -80,9 +66,41 @@ TEST(Allocation, NoneInTheRecursiveAlgorithms) {
   sum += calc_kinetic_energy(mechanism, kinematics) + calc_gravity_potential(mechanism, kinematics);
   sum += calc_momentum(mechanism, kinematics).force.x() + profile.evaluate(0.7).position;
   sum += calc_mass_properties(mechanism, kinematics).mass;
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocations(), before);
   EXPECT_TRUE(std::isfinite(sum));
-#endif
+}
+
+TEST(Allocation, NoneInTheDynamicsOfLoops) {
+  if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
+  const Mechanism andrews = samples::AndrewsSqueezer{}.build();
+  const Mechanism bricard = samples::bricard_linkage();
+  for (const Mechanism* m : {&andrews, &bricard}) {
+    Eigen::VectorXd q =
+        m == &andrews ? samples::AndrewsSqueezer::q_start() : m->zero_configuration();
+    Eigen::VectorXd v = Eigen::VectorXd::Ones(m->nv());
+    Eigen::VectorXd tau = v;
+    Eigen::VectorXd vdot = v;
+    assemble(*m, q, v);
+    Kinematics kinematics(*m);
+    ConstrainedDynamicsWorkspace w(*m);
+    LoopProjector projector(*m);
+    std::vector<ForceVector> forces = testing::no_forces(*m);
+    LoopRows rows = LoopRows::none(*m);
+    const long before = allocations();
+    for (int i = 0; i < 3; ++i) {
+      compute_kinematics(*m, q, v, kinematics);
+      compute_constrained_dynamics(*m, kinematics, q, v, forces, nullptr, w, tau, vdot);
+      q += 1e-3 * v;
+      ASSERT_TRUE(projector.project_positions(q));
+      ASSERT_TRUE(projector.project_velocities(v));
+      projector.remove_normal_part(vdot);
+      rows = projector.independent_rows();
+      compute_constrained_dynamics(*m, kinematics, q, v, forces, &rows, w, tau, vdot);
+      add_loop_forces(*m, kinematics, w.loops, w.lambda, forces, tau);
+    }
+    EXPECT_EQ(allocations(), before);
+    EXPECT_TRUE(vdot.allFinite());
+  }
 }
 
 }  // namespace

@@ -1,41 +1,24 @@
-// The right-hand side as a whole, and that it allocates nothing (see multibody/allocation_test.cc).
+// The right-hand side as a whole, and that it allocates nothing (see allocation_counter.h).
 #include "dynamics/simulation/lift_system.h"
-
-#include <atomic>
-#include <cstdlib>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/simulation/sample_lifts.h"
-
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
-#define BLOCKLIFT_COUNTS_ALLOCATIONS
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-}
-#endif
 
 namespace blocklift::dynamics {
 namespace {
+
+using blocklift::testing::allocations;
+using blocklift::testing::counts_allocations;
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(LiftSystem, RightHandSideOfTheTwoGoliathsAllocatesNothing) {
-#ifndef BLOCKLIFT_COUNTS_ALLOCATIONS
-  GTEST_SKIP() << "allocations cannot be counted in this build";
-#else
+  if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
   const LiftSystem lift = samples::two_goliaths();
   LiftWorkspace w(lift);
   Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
@@ -44,7 +27,7 @@ TEST(LiftSystem, RightHandSideOfTheTwoGoliathsAllocatesNothing) {
   const Contacts contacts = find_contacts(lift, 0.0, y, w);
   EXPECT_EQ(lift.nv_free(), 24);
   EXPECT_EQ(lift.ropes().size(), 12u);
-  const long before = allocations;
+  const long before = allocations();
   double sum = 0.0;
   for (int i = 0; i < 100; ++i) {
     calc_right_hand_side(lift, 10.0 * i, y, &contacts, w, ydot);
@@ -52,30 +35,26 @@ TEST(LiftSystem, RightHandSideOfTheTwoGoliathsAllocatesNothing) {
     sum += calc_energy_rates(lift, 10.0 * i, w).winch_power;
     sum += calc_stored_energy(lift, 10.0 * i, w).sum();
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(allocations(), before);
   EXPECT_TRUE(std::isfinite(sum));
-#endif
 }
 
 // Steps cost no memory: ten times as many allocate no more.
 TEST(LiftSystem, IntegrationAllocatesNothingPerStep) {
-#ifndef BLOCKLIFT_COUNTS_ALLOCATIONS
-  GTEST_SKIP() << "allocations cannot be counted in this build";
-#else
+  if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
   const LiftSystem lift = samples::SingleRopeLift{.duration = 20.0}.build();
   const auto count = [&](double tolerance) {
-    const long before = allocations;
+    const long before = allocations();
     const IntegrationResult run =
         integrate(lift, Vector3(1, 0, -20.05), lift.v_start(),
                   {.relative_tolerance = tolerance, .sample_interval = 1.0});
-    return std::pair(allocations - before, run.statistics.steps);
+    return std::pair(allocations() - before, run.statistics.steps);
   };
   const auto coarse = count(1e-4);
   const auto fine = count(1e-10);
   EXPECT_GT(fine.second, 3 * coarse.second);
   // Events are stored as they come, so their list may grow a few times.
   EXPECT_LE(fine.first, coarse.first + 8);
-#endif
 }
 
 TEST(LiftSystem, JudgesAContactAtItsChangeByWhereItGoes) {

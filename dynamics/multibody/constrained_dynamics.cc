@@ -1,0 +1,113 @@
+#include "dynamics/multibody/constrained_dynamics.h"
+
+#include <algorithm>
+
+namespace blocklift::dynamics {
+namespace {
+
+// Rows that were chosen as independent elsewhere: only what no number can divide is left out.
+constexpr double chosen_threshold = 1e-12;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+LoopRows LoopRows::none(const Mechanism& mechanism) {
+  LoopRows result;
+  const auto count = index(mechanism.loop_row_count());
+  result.rows.reserve(count);
+  result.slot.assign(count, -1);
+  return result;
+}
+
+LoopRows LoopRows::all(const Mechanism& mechanism) {
+  LoopRows result = none(mechanism);
+  for (int row = 0; row < mechanism.loop_row_count(); ++row) {
+    result.slot[index(row)] = row;
+    result.rows.push_back(row);
+  }
+  return result;
+}
+
+void LoopRows::choose(const LoopRows& from, const std::vector<int>& chosen, Eigen::Index count) {
+  std::fill(slot.begin(), slot.end(), -1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    slot[index(from.rows[index(chosen[static_cast<std::size_t>(i)])])] = 0;
+  }
+  rows.clear();
+  for (std::size_t row = 0; row < slot.size(); ++row) {
+    if (slot[row] < 0) continue;
+    slot[row] = static_cast<int>(rows.size());
+    rows.push_back(static_cast<int>(row));
+  }
+}
+
+ConstrainedDynamicsWorkspace::ConstrainedDynamicsWorkspace(const Mechanism& mechanism)
+    : loops(mechanism),
+      lambda(Eigen::VectorXd::Zero(mechanism.loop_row_count())),
+      inverse(mechanism),
+      composite(mechanism),
+      factor(mechanism),
+      all_rows(LoopRows::all(mechanism)),
+      mass(Eigen::MatrixXd::Zero(mechanism.nv(), mechanism.nv())),
+      jacobian(Eigen::MatrixXd::Zero(mechanism.loop_row_count(), mechanism.nv())),
+      free_jacobian(Eigen::MatrixXd::Zero(mechanism.loop_row_count(), factor.size())),
+      qr(factor.size(), mechanism.loop_row_count()),
+      bias(Eigen::VectorXd::Zero(mechanism.nv())),
+      accelerations(lambda),
+      right(lambda),
+      solution(Eigen::VectorXd::Zero(factor.size())),
+      multipliers(lambda),
+      group(index(mechanism.loop_row_count())) {}
+
+void compute_constrained_dynamics(const Mechanism& mechanism, const Kinematics& kinematics,
+                                  ConstVectorRef q, ConstVectorRef v,
+                                  const std::vector<ForceVector>& F_Bo_W, const LoopRows* rows,
+                                  ConstrainedDynamicsWorkspace& w, VectorRef tau, VectorRef vdot) {
+  const std::vector<int>& free = mechanism.free_velocities();
+  const LoopRows& chosen = rows ? *rows : w.all_rows;
+  const Eigen::Index m = chosen.count();
+
+  for (const int k : free) vdot[k] = 0.0;
+  compute_inverse_dynamics(mechanism, kinematics, v, vdot, F_Bo_W, w.inverse, w.bias);
+  compute_mass_matrix(mechanism, kinematics, w.composite, w.mass);
+  w.factor.factorise(mechanism, w.mass);
+  Eigen::Index i = 0;
+  for (const int k : free) w.solution[i++] = tau[k] - w.bias[k];
+  w.factor.solve_transposed(w.solution);
+
+  compute_loops(mechanism, kinematics, q, v, w.loops);
+  calc_loop_accelerations(mechanism, kinematics, w.loops, vdot, w.inverse.A_WB, w.accelerations);
+  auto G = w.jacobian.topRows(m);
+  calc_loop_jacobian(mechanism, kinematics, w.loops, chosen.slot, G);
+  auto B = w.free_jacobian.topRows(m);
+  i = 0;
+  for (const int k : free) B.col(i++) = G.col(k);
+  w.factor.solve_rows(B);
+  w.qr.columns(m) = B.transpose();
+  for (Eigen::Index row = 0; row < m; ++row) {
+    const int which = chosen.rows[static_cast<std::size_t>(row)];
+    w.group[static_cast<std::size_t>(row)] = mechanism.loop_row_is_angle(which) ? 1 : 0;
+    w.right[row] = -w.accelerations[which];
+  }
+  w.qr.factorise(m, w.group, rows ? chosen_threshold : redundancy_threshold);
+  w.rank = w.qr.rank();
+  w.qr.correct(w.right.head(m), w.solution);
+  w.qr.multipliers(w.multipliers.head(m));
+  w.factor.solve(w.solution);
+
+  w.lambda.setZero();
+  for (Eigen::Index row = 0; row < m; ++row) {
+    w.lambda[chosen.rows[static_cast<std::size_t>(row)]] = w.multipliers[row];
+  }
+  for (const int k : mechanism.driven_velocities()) {
+    double force = w.bias[k] - G.col(k).dot(w.multipliers.head(m));
+    i = 0;
+    for (const int j : free) force += w.mass(j, k) * w.solution[i++];
+    tau[k] = force;
+  }
+  i = 0;
+  for (const int k : free) vdot[k] = w.solution[i++];
+}
+
+}  // namespace blocklift::dynamics
