@@ -42,7 +42,10 @@ Pose BodyHistory::X_WB(Eigen::Index sample) const {
 }
 
 History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
-    : time(n), A_WB_(static_cast<std::size_t>(system.mechanism().body_count())) {
+    : time(n),
+      A_WB_(static_cast<std::size_t>(system.mechanism().body_count())),
+      F_Bo_W_(A_WB_.size()),
+      tau_(system.mechanism().nv()) {
   for (const Body& body : system.mechanism().bodies()) {
     if (body.parent < 0) continue;
     BodyHistory& b = bodies.emplace_back();
@@ -69,6 +72,13 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
   for (const SupportPad& pad : system.supports()) {
     supports.push_back({pad.name(), Eigen::VectorXd(n)});
   }
+  for (const Loop& loop : system.mechanism().loops()) {
+    LoopHistory& l = loops.emplace_back();
+    l.name = loop.name;
+    l.force.resize(n, 6);
+    l.multipliers.resize(n, loop.row_count);
+    l.residual.resize(n);
+  }
   for (auto* values : {&energy.kinetic, &energy.gravity, &energy.elastic}) values->resize(n);
   if (with_works) {
     for (auto* values :
@@ -86,8 +96,17 @@ const RopeHistory& History::rope(std::string_view name) const {
   return find_by_name(ropes, name, "rope");
 }
 
+const LoopHistory& History::loop(std::string_view name) const {
+  return find_by_name(loops, name, "loop");
+}
+
 void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w) {
   compute_accelerations(system.mechanism(), w.kinematics, w.vdot, A_WB_);
+  F_Bo_W_ = w.loads.F_Bo_W;
+  if (w.loops) {
+    add_loop_forces(system.mechanism(), w.kinematics, w.loops->loops, w.loops->lambda, F_Bo_W_,
+                    tau_);
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     BodyHistory& b = bodies[i];
     const Pose& X_WB = w.kinematics.X_WB[i + 1];
@@ -100,7 +119,7 @@ void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const
     b.velocity.row(sample) << V.angular.transpose(), V.linear.transpose();
     const MotionVector& A = A_WB_[i + 1];
     b.acceleration.row(sample) << A.angular.transpose(), A.linear.transpose();
-    const ForceVector& F = w.loads.F_Bo_W[i + 1];
+    const ForceVector& F = F_Bo_W_[i + 1];
     b.load.row(sample) << F.moment.transpose(), F.force.transpose();
   }
 }
@@ -121,10 +140,26 @@ void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWo
   }
 }
 
+void History::record_loops(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w) {
+  const Mechanism& mechanism = system.mechanism();
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const Loop& loop = mechanism.loops()[i];
+    const LoopState& state = w.loops->loops;
+    const ForceVector F =
+        loop_force(mechanism, w.kinematics, state, static_cast<int>(i), w.loops->lambda);
+    loops[i].force.row(sample) << F.moment.transpose(), F.force.transpose();
+    loops[i].multipliers.row(sample) =
+        w.loops->lambda.segment(loop.row_offset, loop.row_count).transpose();
+    loops[i].residual[sample] =
+        state.residual.segment(loop.row_offset, loop.row_count).lpNorm<Eigen::Infinity>();
+  }
+}
+
 void History::record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w) {
   time[sample] = t;
   record_bodies(system, sample, w);
   record_ropes(system, sample, w);
+  record_loops(system, sample, w);
   const std::vector<int>& driven = system.mechanism().driven_velocities();
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const int coordinate = coordinate_of(system.mechanism(), driven[i]);

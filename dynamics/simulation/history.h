@@ -16,7 +16,8 @@ struct BodyHistory {
   Rows7 pose;          ///< p_WBo (m), quaternion of R_WB (w, x, y, z), its sign without jumps
   Rows6 velocity;      ///< angular velocity (rad/s), velocity of Bo (m/s), in W
   Rows6 acceleration;  ///< angular acceleration (rad/s2), acceleration of Bo (m/s2), in W
-  Rows6 load;  ///< of ropes, supports and force elements: moment about Bo (N m), force (N), in W
+  Rows6
+      load;  ///< of ropes, supports, force elements and loops: moment about Bo (N m), force (N), in W
 
   Pose X_WB(Eigen::Index sample) const;
   MotionVector V_WB(Eigen::Index sample) const {
@@ -54,6 +55,15 @@ struct SupportHistory {
   Eigen::VectorXd normal_force;  ///< upwards on the body, N
 };
 
+/// What is known of a loop at each sample.
+struct LoopHistory {
+  std::string name;
+  BodyHistory::Rows6
+      force;  ///< on the second body at its loop frame: moment (N m), force (N), in W
+  Eigen::MatrixXd multipliers;  ///< samples x rows of the loop, N or N m (see LoopState)
+  Eigen::VectorXd residual;     ///< largest among its rows, m or rad
+};
+
 /// Energies at each sample. The works are sums since the start and exist for time integrations
 /// only; then  E(t) - E(0) = drive_work + winch_work + wind_work - dissipated,
 /// E = kinetic + gravity + elastic (J).
@@ -76,12 +86,14 @@ class History {
   std::vector<RopeHistory> ropes;
   std::vector<DriveHistory> drives;
   std::vector<SupportHistory> supports;
+  std::vector<LoopHistory> loops;
   EnergyHistory energy;
 
   /// For set-up and evaluation afterwards.
   /// @throws ModelError if there is none of that name; the message lists those that exist.
   const BodyHistory& body(std::string_view name) const;
   const RopeHistory& rope(std::string_view name) const;
+  const LoopHistory& loop(std::string_view name) const;
 
   /// Records the instant that the workspace holds: kinematics, loads, accelerations (w.vdot).
   void record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w);
@@ -91,8 +103,12 @@ class History {
  private:
   void record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
   void record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
+  void record_loops(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
 
-  std::vector<MotionVector> A_WB_;  ///< workspace
+  // Workspaces.
+  std::vector<MotionVector> A_WB_;
+  std::vector<ForceVector> F_Bo_W_;
+  Eigen::VectorXd tau_;
 };
 
 /// A rope's largest load with every other rope's load at that instant (linked statistics).

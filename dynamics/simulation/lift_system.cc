@@ -23,6 +23,7 @@ LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
     throw ModelError("the lift starts from coordinates or velocities that are not finite");
   }
   m.normalise(d_.q_start);
+  if (!m.loops().empty()) d_.mechanism = m.with_loops_as_at(d_.q_start);
   nq_free_ = static_cast<int>(m.free_coordinates().size());
   nv_free_ = static_cast<int>(m.free_velocities().size());
   for (std::size_t i = 0; i < d_.ropes.size(); ++i) {
@@ -65,6 +66,7 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
       rope_loads(system.ropes().size()),
       support_loads(system.supports().size()),
       path(make_rope_path(system.ropes())) {
+  if (!system.mechanism().loops().empty()) loops.emplace(system.mechanism());
   for (std::size_t i = 0; i < feeds.size(); ++i) {
     feeds[i] = {system.ropes()[i].definition().unstretched_length, 0.0};
   }
@@ -139,8 +141,14 @@ void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
   set_drives(system, t, true, w);
   calc_loads(system, t, contacts, w);
   w.joint_force = w.loads.tau;
-  compute_forward_dynamics(mechanism, w.kinematics, w.v, w.loads.F_Bo_W, w.dynamics, w.joint_force,
-                           w.vdot);
+  if (w.loops) {
+    compute_constrained_dynamics(mechanism, w.kinematics, w.q, w.v, w.loads.F_Bo_W,
+                                 w.loop_rows ? &*w.loop_rows : nullptr, *w.loops, w.joint_force,
+                                 w.vdot);
+  } else {
+    compute_forward_dynamics(mechanism, w.kinematics, w.v, w.loads.F_Bo_W, w.dynamics,
+                             w.joint_force, w.vdot);
+  }
   // What forward dynamics finds at a driven joint includes the springs there.
   for (const int k : mechanism.driven_velocities()) w.joint_force[k] -= w.loads.tau[k];
   mechanism.calc_rates(w.q, w.v, w.rates);

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <tuple>
 
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
 #include "dynamics/force/wind.h"
+#include "dynamics/multibody/constrained_dynamics.h"
 #include "dynamics/multibody/forward_dynamics.h"
 #include "dynamics/rope/rope.h"
 #include "dynamics/simulation/operation.h"
@@ -46,6 +48,9 @@ struct LiftDefinition {
 /// order of the mechanism; y has nq_free + nv_free entries. The driven ones follow from the time.
 /// Ropes and support pads are one-sided: each acts or does not act, and changes at an instant.
 /// `Contacts` says which act, ropes first, then pads.
+/// Loops of the mechanism tie the free coordinates together; the state keeps all of them, and whoever
+/// moves it brings it back onto the loops (LoopProjector). Lengths and offsets of loops that are left open
+/// are taken from q_start.
 class LiftSystem {
  public:
   /// A driven joint without a drive in the operation stands still where q_start has it.
@@ -107,6 +112,9 @@ struct LiftWorkspace {
   Kinematics kinematics;
   Loads loads;
   ForwardDynamicsWorkspace dynamics;
+  std::optional<ConstrainedDynamicsWorkspace> loops;  ///< where the mechanism has loops
+  /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
+  std::optional<LoopRows> loop_rows;
   std::vector<RopeFeed> feeds;  ///< for each rope
   std::vector<RopeLoad> rope_loads;
   std::vector<SupportLoad> support_loads;
@@ -127,7 +135,8 @@ void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, Vec
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w);
 
 /// dy/dt at (t, y): the right-hand side. Leaves accelerations (w.vdot), drive forces
-/// (driven entries of w.joint_force) and rope loads in the workspace. Does not allocate.
+/// (driven entries of w.joint_force), rope loads and multipliers of loops in the workspace. Does not
+/// allocate.
 /// @throws ModelError or SimulationError where the geometry is degenerate or the pose singular.
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
                           const Contacts* contacts, LiftWorkspace& w, VectorRef ydot);

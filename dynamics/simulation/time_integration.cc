@@ -10,6 +10,10 @@
 #include <cvodes/cvodes.h>
 #include <cvodes/cvodes_proj.h>
 
+#include "dynamics/multibody/assembly.h"
+#include "dynamics/multibody/derivatives.h"
+#include "dynamics/multibody/loop_projection.h"
+#include "dynamics/simulation/dense_newton_matrix.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/newton_matrix.h"
 #include "dynamics/simulation/sundials.h"
@@ -36,6 +40,9 @@ class Integrator {
  private:
   void set_up_cvode();
   void find_quaternions();
+  void project_state(double t, VectorRef y);
+  bool project_onto_loops(double t, ConstVectorRef y, VectorRef projected);
+  void project_error(VectorRef error);
   void integrate_interval(double start, double end);
   void step(double end);
   void restart(double t);
@@ -66,6 +73,11 @@ class Integrator {
   const IntegrationSettings& settings_;
   LiftWorkspace w_;
   NewtonMatrix newton_;
+  // Where the mechanism has loops.
+  std::optional<LoopProjector> projector_;
+  std::optional<DenseNewtonMatrix> dense_newton_;
+  Eigen::VectorXd projected_;                      ///< state
+  Eigen::VectorXd error_q_, error_v_, increment_;  ///< nq, nv, nv
   Contacts contacts_;
   Eigen::VectorXd sample_times_;
   Eigen::Index next_sample_ = 0;
@@ -113,8 +125,20 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   sampled_work_ = sundials::make_vector(4, context_);
   indicators_.setZero(system.contact_count());
   sundials::view(work_.get()).setZero();
+  if (!system.mechanism().loops().empty()) {
+    set_drives(system, 0.0, true, w_);
+    assemble(system.mechanism(), w_.q, w_.v);
+    projector_.emplace(system.mechanism());
+    dense_newton_.emplace(system);
+    w_.loop_rows = LoopRows::none(system.mechanism());
+    projected_.setZero(system.state_size());
+    error_q_.setZero(system.mechanism().nq());
+    error_v_.setZero(system.mechanism().nv());
+    increment_.setZero(system.mechanism().nv());
+  }
   get_state(system, w_.q, w_.v, sundials::view(y_.get()));
   find_quaternions();
+  project_state(0.0, sundials::view(y_.get()));
 }
 
 void Integrator::find_quaternions() {
@@ -172,9 +196,16 @@ int Integrator::newton_matrix(double t, N_Vector y, N_Vector, SUNMatrix, int kee
       calc_right_hand_side(self.system_, at, sundials::view(y), &self.contacts_, self.w_,
                            sundials::view(self.rates_.get()));
       ++self.result_.statistics.right_hand_sides;
-      self.newton_.set_point(self.system_, at, self.w_);
+      if (self.dense_newton_) {
+        self.result_.statistics.right_hand_sides += self.dense_newton_->set_point(
+            self.system_, at, sundials::view(y), self.contacts_, self.w_);
+      } else {
+        self.newton_.set_point(self.system_, at, self.w_);
+      }
     }
-    singular = self.newton_.factorise(self.system_, gamma) ? 0 : 1;
+    const bool regular = self.dense_newton_ ? self.dense_newton_->factorise(gamma)
+                                            : self.newton_.factorise(self.system_, gamma);
+    singular = regular ? 0 : 1;
   });
   *point_set = keep_point ? SUNFALSE : SUNTRUE;
   return flag != 0 ? flag : singular;
@@ -187,7 +218,11 @@ int Integrator::solve_newton(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Ve
     sundials::view(x) = sundials::view(b);
     return 0;
   }
-  self.newton_.solve(self.system_, sundials::view(b), sundials::view(x));
+  if (self.dense_newton_) {
+    self.dense_newton_->solve(sundials::view(b), sundials::view(x));
+  } else {
+    self.newton_.solve(self.system_, sundials::view(b), sundials::view(x));
+  }
   return 0;
 }
 
@@ -213,12 +248,70 @@ int Integrator::works(double t, N_Vector y, N_Vector rates, void* data) {
   });
 }
 
-int Integrator::project(double, N_Vector y, N_Vector correction, double, N_Vector error,
+// The state that belongs to `y` on the loops, and which rows are independent there. False: none near by.
+bool Integrator::project_onto_loops(double t, ConstVectorRef y, VectorRef projected) {
+  set_state(system_, y, w_);
+  set_drives(system_, within_interval(t), true, w_);
+  if (!projector_->project_positions(w_.q)) return false;
+  if (!projector_->project_velocities(w_.v)) return false;
+  *w_.loop_rows = projector_->independent_rows();
+  get_state(system_, w_.q, w_.v, projected);
+  return true;
+}
+
+// Quaternions to unit length, positions and velocities onto the loops.
+void Integrator::project_state(double t, VectorRef y) {
+  for (const Eigen::Index i : quaternions_) y.segment<4>(i).normalize();
+  if (!projector_) return;
+  if (!project_onto_loops(t, y, projected_)) {
+    throw SimulationError(
+        "the loops miss: " +
+        describe_residual(system_.mechanism(), projector_->state().residual, 1e-9) +
+        ", or a drive moves as they forbid; nothing near by closes them");
+  }
+  y.head(projected_.size()) = projected_;
+}
+
+// Takes out of an error (state_size) what is not along the loops at the last projection.
+void Integrator::project_error(VectorRef error) {
+  const Mechanism& m = system_.mechanism();
+  error_q_.setZero();
+  error_v_.setZero();
+  Eigen::Index i = 0;
+  for (const int k : m.free_coordinates()) error_q_[k] = error[i++];
+  for (const int k : m.free_velocities()) error_v_[k] = error[i++];
+  for (const Link& link : m.links()) {
+    if (velocities_are_rates(link.kind)) {
+      increment_.segment(link.v_offset, link.nv) = error_q_.segment(link.q_offset, link.nv);
+      continue;
+    }
+    const int nq = coordinate_count(link.kind);
+    Eigen::Matrix<double, 6, 7> map;
+    auto increments = map.topLeftCorner(link.nv, nq);
+    joint_increments(link.kind, w_.q.data() + link.q_offset, increments);
+    increment_.segment(link.v_offset, link.nv).noalias() =
+        increments * error_q_.segment(link.q_offset, nq);
+  }
+  projector_->remove_normal_part(increment_);
+  projector_->remove_normal_part(error_v_);
+  m.calc_rates(w_.q, increment_, error_q_);
+  get_state(system_, error_q_, error_v_, error);
+}
+
+int Integrator::project(double t, N_Vector y, N_Vector correction, double, N_Vector error,
                         void* data) {
-  const auto& self = *static_cast<Integrator*>(data);
+  auto& self = *static_cast<Integrator*>(data);
   const auto state = sundials::view(y);
   auto change = sundials::view(correction);
   change.setZero();
+  if (self.projector_) {
+    bool done = false;
+    const int flag = self.guarded([&] { done = self.project_onto_loops(t, state, change); });
+    if (flag != 0 || !done) return flag < 0 ? flag : 1;
+    change.head(self.projected_.size()) -= state.head(self.projected_.size());
+    if (error) self.project_error(sundials::view(error));
+    return 0;
+  }
   for (const Eigen::Index i : self.quaternions_) {
     const Vector4 quaternion = state.segment<4>(i);
     const double norm = quaternion.norm();
@@ -263,7 +356,9 @@ void Integrator::set_up_cvode() {
   linear_solver_ = sundials::make_direct_solver(this, solve_newton, context_);
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(cvode_, newton_matrix), "CVodeSetLinSysFn");
-  if (!quaternions_.empty()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
+  if (projector_ || !quaternions_.empty()) {
+    check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
+  }
   if (system_.contact_count() > 0) {
     check(CVodeRootInit(cvode_, system_.contact_count(), indicators), "CVodeRootInit");
     check(CVodeSetNoInactiveRootWarn(cvode_), "CVodeSetNoInactiveRootWarn");
@@ -319,8 +414,7 @@ void Integrator::count_before_restart() {
 // Begins anew at (t, y_): the method's memory of the past does not hold any more.
 void Integrator::restart(double t) {
   count_before_restart();
-  auto y = sundials::view(y_.get());
-  for (const Eigen::Index i : quaternions_) y.segment<4>(i).normalize();
+  project_state(t, sundials::view(y_.get()));
   sundials::check(CVodeReInit(cvode_, t, y_.get()), "CVodeReInit");
   if (settings_.works) sundials::check(CVodeQuadReInit(cvode_, work_.get()), "CVodeQuadReInit");
   ++result_.statistics.restarts;
@@ -335,9 +429,13 @@ void Integrator::record_samples(double up_to) {
       sundials::view(sample_.get()) = sundials::view(y_.get());
     }
     auto y = sundials::view(sample_.get());
-    for (const Eigen::Index i : quaternions_) y.segment<4>(i).normalize();
+    project_state(t, y);
+    // Multipliers of a sample are the least of all that balance it.
+    std::optional<LoopRows> rows;
+    rows.swap(w_.loop_rows);
     calc_right_hand_side(system_, within_interval(t), y, &contacts_, w_,
                          sundials::view(rates_.get()));
+    rows.swap(w_.loop_rows);
     result_.history.record(system_, next_sample_, t, w_);
     if (settings_.works) {
       sundials::view(sampled_work_.get()).setZero();
@@ -461,6 +559,7 @@ IntegrationResult Integrator::run() {
     integrate_interval(breakpoints[i], breakpoints[i + 1]);
   }
   count_before_restart();
+  project_state(system_.operation().duration(), sundials::view(y_.get()));
   set_state(system_, sundials::view(y_.get()), w_);
   set_drives(system_, system_.operation().duration(), true, w_);
   result_.q_end = w_.q;
