@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/assessment/block_preparation.h"
+#include "pipeline/assessment/history_file.h"
 #include "pipeline/assessment/lift_checks.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/assessment/stopwatch.h"
@@ -44,6 +45,16 @@ std::vector<structure::Vector3> table_forces(const LoadTable& table,
   return forces;
 }
 
+HistorySettings history_settings(const StructureSettings& settings) {
+  HistorySettings result;
+  for (const Named<Vector3>& point : settings.stress_points)
+    result.points.push_back({point.name.value, point.value});
+  result.fatigue_curve = settings.fatigue.curve;
+  result.stress_concentration = settings.fatigue.stress_concentration;
+  result.lifts = settings.fatigue.lifts;
+  return result;
+}
+
 Scene make_scene(const Assessment& assessment) {
   const BuiltLift& model = assessment.lift->model;
   Scene scene;
@@ -70,8 +81,10 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
     write_scene(file, system, scene);
   }
-  write_block(file, structure::Surface(*assessment.block.model), *assessment.block.responses,
-              assessment.block.assessment);
+  const structure::Surface surface(*assessment.block.model);
+  write_block(file, surface, *assessment.block.responses, assessment.block.assessment);
+  if (assessment.block.history)
+    write_block_history(file, surface, *assessment.block.responses, *assessment.block.history);
   file.finish();
 }
 
@@ -143,13 +156,19 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     block.assessment =
         assess_block(*block.responses, recovery, attachment, assessment.lift->static_history,
                      assessment.lift->dynamic_history());
+    progress("block: every instant", 0.7, "");
+    block.history = assess_history(
+        *block.responses, recovery, attachment, assessment.lift->static_history,
+        assessment.lift->dynamic_history(), block.assessment, history_settings(the_case.structure));
   } else {
     const LoadTable& table = *the_case.load_table;
     block.assessment =
         assess_load_table(*block.responses, recovery, table_forces(table, table.static_loads, lugs),
                           table_forces(table, table.dynamic_loads, lugs));
   }
-  for (Check& check : check_block(the_case, block.assessment)) assessment.checks.push_back(check);
+  for (Check& check :
+       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr))
+    assessment.checks.push_back(check);
   assessment.total_s = total.lap();
   return assessment;
 }

@@ -8,6 +8,7 @@
 
 #include "pipeline/assessment/block_assessment.h"
 #include "pipeline/assessment/checks.h"
+#include "pipeline/assessment/history_assessment.h"
 #include "pipeline/assessment/lift_run.h"
 
 namespace blocklift::pipeline {
@@ -17,7 +18,8 @@ struct BlockRun {
   std::unique_ptr<structure::ElasticModel> model;
   std::unique_ptr<structure::UnitResponses> responses;
   BlockAssessment assessment;
-  double mesh_s = 0;  ///< wall-clock time of meshing and mass properties
+  std::optional<HistoryAssessment> history;  ///< every sample of the lift; none for a load table
+  double mesh_s = 0;                         ///< wall-clock time of meshing and mass properties
 };
 
 /// All that one run found out about a case.

@@ -133,26 +133,31 @@ std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
   return checks;
 }
 
-std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block) {
+std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block,
+                               const HistoryAssessment* history) {
   std::map<std::string, Check> worst;  // by material
-  const auto consider = [&](const BlockState& state) {
-    for (const structure::GroupStress& group : state.result.groups) {
-      Check check = check_at_most(
-          fmt::format("stress in {}: checked von Mises against yield / {:g}", group.material,
-                      lift_case.checks.yield_factor),
-          group.checked_von_mises.value, group.yield_stress / lift_case.checks.yield_factor, "Pa");
-      check.time = state.time;
-      check.note = group.checked_von_mises.part;
-      const auto found = worst.find(group.material);
-      if (found == worst.end() || check.utilisation > found->second.utilisation)
-        worst[group.material] = check;
-    }
+  const auto consider = [&](const std::string& material, double yield_stress, double stress,
+                            std::optional<double> time, const std::string& place) {
+    Check check = check_at_most(fmt::format("stress in {}: checked von Mises against yield / {:g}",
+                                            material, lift_case.checks.yield_factor),
+                                stress, yield_stress / lift_case.checks.yield_factor, "Pa");
+    check.time = time;
+    check.note = place;
+    const auto found = worst.find(material);
+    if (found == worst.end() || !(check.utilisation <= found->second.utilisation))
+      worst[material] = check;
   };
-  std::vector<LoadComparison> comparisons = block.simultaneous_by_rope;
-  if (comparisons.empty()) comparisons.push_back(block.simultaneous);
-  for (const LoadComparison& comparison : comparisons) {
-    consider(comparison.static_state);
-    consider(comparison.dynamic_state);
+  if (history) {
+    for (const HistoryState* state : {&history->static_state, &history->dynamic_state})
+      for (const HistoryGroup& group : state->groups)
+        consider(group.material, group.yield_stress, group.checked_von_mises.at.value,
+                 group.checked_von_mises.time, group.checked_von_mises.at.part);
+  } else {
+    const LoadComparison& way = block.simultaneous;
+    for (const BlockState* state : {&way.static_state, &way.dynamic_state})
+      for (const structure::GroupStress& group : state->result.groups)
+        consider(group.material, group.yield_stress, group.checked_von_mises.value, state->time,
+                 group.checked_von_mises.part);
   }
   std::vector<Check> checks;
   for (auto& [material, check] : worst) checks.push_back(check);

@@ -4,6 +4,7 @@
 
 #include "pipeline/assessment/block_assessment.h"
 #include "pipeline/assessment/checks.h"
+#include "pipeline/assessment/history_assessment.h"
 #include "pipeline/assessment/lift_run.h"
 
 namespace blocklift::pipeline {
@@ -13,7 +14,9 @@ namespace blocklift::pipeline {
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift);
 
 /// Checked von Mises stress against yield with the case's factor, a line a material: the plate with
-/// the highest utilisation among all simultaneous load cases.
-std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block);
+/// the highest utilisation at any instant of the lift, or in the load table's states where there is no
+/// history (null).
+std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block,
+                               const HistoryAssessment* history = nullptr);
 
 }  // namespace blocklift::pipeline

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/assessment/assumptions.h"
+#include "pipeline/assessment/history_summary.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/version.h"
 
@@ -213,25 +214,27 @@ Json structure_json(const Assessment& assessment) {
     by_rope.push_back(row);
   }
   const structure::Material& material = model.mesh().materials.front();
-  return {{"unknowns", model.unknowns()},
-          {"elements", model.mesh().cells.size()},
-          {"element_degree", assessment.lift_case.structure.element_degree},
-          {"mesh_size_m", assessment.lift_case.structure.largest_element},
-          {"material", material.name},
-          {"yield_Pa", material.yield_stress},
-          {"first_elastic_period_s", block.first_elastic_period},
-          {"per_rope_maxima", way_json(block.per_rope_maxima)},
-          {"simultaneous", way_json(block.simultaneous)},
-          {"simultaneous_by_rope", by_rope},
-          {"lugs", lugs_json(assessment)},
-          {"mass",
-           {{"total_kg", mass.mass},
-            {"steel_kg", mass.steel_mass},
-            {"outfitting_kg", mass.outfitting_mass},
-            {"centre_of_mass_m", point(mass.centre_of_mass_B)},
-            {"steel_centre_of_mass_m", point(mass.steel_centre_B)},
-            {"smallest_density_factor", mass.smallest_density_factor},
-            {"largest_density_factor", mass.largest_density_factor}}}};
+  Json json{{"unknowns", model.unknowns()},
+            {"elements", model.mesh().cells.size()},
+            {"element_degree", assessment.lift_case.structure.element_degree},
+            {"mesh_size_m", assessment.lift_case.structure.largest_element},
+            {"material", material.name},
+            {"yield_Pa", material.yield_stress},
+            {"first_elastic_period_s", block.first_elastic_period},
+            {"per_rope_maxima", way_json(block.per_rope_maxima)},
+            {"simultaneous", way_json(block.simultaneous)},
+            {"simultaneous_by_rope", by_rope},
+            {"lugs", lugs_json(assessment)},
+            {"mass",
+             {{"total_kg", mass.mass},
+              {"steel_kg", mass.steel_mass},
+              {"outfitting_kg", mass.outfitting_mass},
+              {"centre_of_mass_m", point(mass.centre_of_mass_B)},
+              {"steel_centre_of_mass_m", point(mass.steel_centre_B)},
+              {"smallest_density_factor", mass.smallest_density_factor},
+              {"largest_density_factor", mass.largest_density_factor}}}};
+  if (assessment.block.history) json["history"] = history_json(*assessment.block.history);
+  return json;
 }
 
 Json energy_json(const LiftRun& lift) {
@@ -274,6 +277,7 @@ Json timing_json(const Assessment& assessment) {
   timing["factorisation_s"] = solution.factorisation_s;
   timing["solve_s"] = solution.solve_s;
   timing["evaluation_s"] = assessment.block.assessment.evaluation_s;
+  if (assessment.block.history) timing["history_s"] = assessment.block.history->evaluation_s;
   timing["total_s"] = assessment.total_s;
   return timing;
 }

@@ -72,7 +72,7 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   }
 }
 
-void print_block(const BlockAssessment& block) {
+void print_block(const BlockAssessment& block, const HistoryAssessment* history) {
   const auto print_way = [](const char* name, const LoadComparison& way) {
     fmt::print("{:<28}{:>8.1f}{:>8.1f} MPa ({:+.1f} %){:>8.1f}{:>8.1f} mm ({:+.1f} %)\n", name,
                way.static_state.result.checked_von_mises.value / 1e6,
@@ -87,6 +87,17 @@ void print_block(const BlockAssessment& block) {
   }
   print_way("simultaneous", block.simultaneous);
   print_way("every rope at its maximum", block.per_rope_maxima);
+  if (!history) return;
+  const HistoryState &at_rest = history->static_state, &in_motion = history->dynamic_state;
+  fmt::print("{:<28}{:>8.1f}{:>8.1f} MPa ({:+.1f} %){:>8.1f}{:>8.1f} mm ({:+.1f} %)\n",
+             "the whole lift", at_rest.checked_von_mises.at.value / 1e6,
+             in_motion.checked_von_mises.at.value / 1e6, history->stress_increase_percent(),
+             1e3 * at_rest.displacement.at.value, 1e3 * in_motion.displacement.at.value,
+             history->deformation_increase_percent());
+  fmt::print(
+      "every rope at its maximum gives {:+.1f} % of the largest stress, {:+.1f} % where it is "
+      "furthest off\n",
+      history->per_rope_maxima.largest_percent, history->per_rope_maxima.worst_percent);
 }
 
 void print_checks(const Assessment& assessment) {
@@ -123,7 +134,8 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
 
   fmt::print("{}\n", assessment.lift_case.title);
   if (assessment.lift) print_loads(*assessment.lift, assessment.lift_case);
-  print_block(assessment.block.assessment);
+  print_block(assessment.block.assessment,
+              assessment.block.history ? &*assessment.block.history : nullptr);
   print_checks(assessment);
   fmt::print("report: {}\n", report.string());
   return assessment.pass() ? exit_code::done : exit_code::lift_fails;

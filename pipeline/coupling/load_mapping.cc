@@ -106,6 +106,19 @@ LoadCase map_instant(const History& history, Eigen::Index sample, const BlockAtt
   return result;
 }
 
+std::vector<Vector3> rope_forces(const History& history, Eigen::Index sample,
+                                 const BlockAttachment& attachment) {
+  const Pose X_WB = block_history(history, attachment).X_WB(sample);
+  std::vector<Vector3> forces;
+  for (const LugRope& end : attachment.ropes)
+    forces.push_back(lug_force(history, end, sample, X_WB));
+  return forces;
+}
+
+const std::string& rope_name(const History& history, const LugRope& rope) {
+  return history.ropes[static_cast<std::size_t>(rope.rope)].name;
+}
+
 LoadCase map_rope_maxima(const History& history, const std::vector<dynamics::LinkedMaximum>& maxima,
                          const BlockAttachment& attachment, const structure::MassProperties& mass) {
   const dynamics::BodyHistory& block = block_history(history, attachment);

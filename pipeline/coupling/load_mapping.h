@@ -42,6 +42,13 @@ structure::LoadCase map_instant(const dynamics::History& history, Eigen::Index s
                                 const BlockAttachment& attachment,
                                 const structure::MassProperties& mass);
 
+/// Force of each rope of the attachment on the block at one sample, in B, N.
+std::vector<structure::Vector3> rope_forces(const dynamics::History& history, Eigen::Index sample,
+                                            const BlockAttachment& attachment);
+
+/// Name of a rope at a lug.
+const std::string& rope_name(const dynamics::History& history, const LugRope& rope);
+
 /// Every rope at its own largest load, all at once (the practice of Ku, Ha and Roh, section VII):
 /// each force in the block frame of its own instant. Since these instants differ, no motion belongs
 /// to the set, and it is balanced by the rigid-body acceleration that it would give the block.

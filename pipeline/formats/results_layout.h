@@ -40,6 +40,12 @@
 ///     von_mises                        Pa [N]
 ///     peak_stress_point (o), checked_stress_point (o), max_displacement_point (o)   m [3], block frame
 ///                                      attributes of the group (o): rope (the governing one), time
+///   /structure/history/<state>     (o) the same for the largest von Mises stress over all instants; its
+///                                      displacement is that of the instant of the largest checked stress
+///     patches/von_mises                Pa [P]   patches/time   s [P]   patches/rope   index [P] into ../ropes
+///   /structure/history/ropes           texts;   patches/points   m [P x 3]   patches/plate   index [P] into
+///                                      patches/plates, texts
+///   /structure/history/points/<name>   point m [3]; <state>/von_mises, <state>/normal_stress   Pa [n]
 ///
 /// summary.json, one object; everything but case and verdict may be missing, null stands for "not known"
 ///   case, title, program_version, created
@@ -64,6 +70,13 @@
 ///     STATE = {checked_von_mises_Pa, peak_von_mises_Pa, max_displacement_m, force_residual, moment_residual,
 ///              reaction_over_weight, rope (o), time_s (o), checked_group (o), peak_group (o),
 ///              checked_point_m (o), peak_point_m (o), max_displacement_point_m (o)}
+///     history      (o) WAY, its STATEs with rope_share, largest_principal_Pa, smallest_principal_Pa, instants,
+///                      max_displacement_time_s, lugs: [{name, value, time_s, rope, rope_share}], and beside them
+///                      places, practice: {per_rope_maxima, rope_instants: {safe, largest_difference_percent,
+///                      worst_difference_percent, worst_part, worst_envelope_Pa, share_of_patches_short}},
+///                      fatigue: {curve, source, stress_concentration, lifts}, points: [{name, part, point_m,
+///                      max_static_von_mises_Pa, max_dynamic_von_mises_Pa, cycles_per_lift, largest_range_Pa,
+///                      damage_per_lift, damage}]
 ///   energy         (o) {largest_energy_J, largest_imbalance_J, relative_imbalance}
 ///   solver         (o) {any name: number or text}, shown as it stands, underscores as spaces
 ///   timing         (o) {static_s, dynamic_s, simulated_s, assembly_s, factorisation_s, solve_s, report_s, ...}
@@ -104,6 +117,7 @@ inline constexpr std::string_view surface_group_names = "/structure/surface/grou
 
 inline constexpr std::string_view simultaneous = "simultaneous";
 inline constexpr std::string_view per_rope_maxima = "per_rope_maxima";
+inline constexpr std::string_view history = "history";
 inline constexpr std::string_view static_state = "static";
 inline constexpr std::string_view dynamic_state = "dynamic";
 

@@ -119,9 +119,18 @@ struct DynamicsSettings {
   double static_interval = 0;  ///< s
 };
 
+/// How the wear by repeated lifts is judged.
+struct FatigueSettings {
+  std::string curve = "F";  ///< detail category of DNV-RP-C203, in air
+  double stress_concentration = 1;
+  double lifts = 1;
+};
+
 struct StructureSettings {
   int element_degree = 0;
-  double largest_element = 0;  ///< m
+  double largest_element = 0;                   ///< m
+  std::vector<Named<Vector3>> stress_points{};  ///< whose stress is followed in time, in B, m
+  FatigueSettings fatigue{};
 };
 
 struct CheckSettings {

@@ -1,5 +1,6 @@
 #include "pipeline/input/lift_case.h"
 #include "pipeline/input/table.h"
+#include "structure/response/fatigue.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -169,6 +170,29 @@ Format<DynamicsSettings> dynamics_format() {
   return table.format();
 }
 
+Format<std::string> fatigue_curve_format() {
+  std::vector<std::pair<std::string, std::string>> words;
+  for (const std::string& curve : structure::fatigue_curve_names())
+    words.emplace_back(curve, curve);
+  return choice(words);
+}
+
+Format<FatigueSettings> fatigue_format() {
+  Table<FatigueSettings> table("fatigue settings",
+                               "Wear by repeated lifts: rainflow counts of the stress at each "
+                               "followed point against an S-N curve.");
+  table
+      .by_default("curve", &FatigueSettings::curve, fatigue_curve_format(), "F",
+                  "detail category of DNV-RP-C203, in air; F is class 71 MPa, for plates with "
+                  "attachments")
+      .by_default("stress_concentration", &FatigueSettings::stress_concentration,
+                  number(Range::at_least(1)), "1",
+                  "by which stress ranges are multiplied before the curve is read")
+      .by_default("lifts", &FatigueSettings::lifts, number(Range::at_least(1)), "1",
+                  "lifts of this kind that the block sees");
+  return table.format();
+}
+
 Format<StructureSettings> structure_format() {
   Table<StructureSettings> table("structure settings", "How the stress is computed.");
   table
@@ -176,7 +200,17 @@ Format<StructureSettings> structure_format() {
                   integer(Range::between(1, 4)), "3", "polynomial degree of the hexahedra")
       .by_default("largest_element", &StructureSettings::largest_element,
                   quantity(Dimension::length, Range::between(0.01, 100)), "2 m",
-                  "longest edge of an element");
+                  "longest edge of an element")
+      .optional("stress_points", &StructureSettings::stress_points, names_to(position_format()),
+                "places in the block's frame whose stress is followed in time, each at the nearest "
+                "patch of the checked stress; if left out, the hot spot of the lift and that of "
+                "each lug")
+      .by_default("fatigue", &StructureSettings::fatigue, fatigue_format(), "{}",
+                  "wear by repeated lifts")
+      .rule([](const StructureSettings& settings, Reading& reading, const Mark&) {
+        for (const Named<Vector3>& point : settings.stress_points)
+          check_name(point.name.mark, point.name.value, reading);
+      });
   return table.format();
 }
 

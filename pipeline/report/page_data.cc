@@ -283,6 +283,11 @@ json surface(const ResultsReader& results) {
         "To keep this page small the pictures show the simultaneous loads only; the "
         "per-rope maxima are in the .vtu files.";
   }
+  const std::string whole(layout::history);
+  if (shape_bytes + (ways.size() + 1) * pair_bytes <= picture_budget) {
+    if (json states = fields(results, whole, point_count); !states.empty())
+      ways[whole] = std::move(states);
+  }
   result["fields"] = std::move(ways);
   return result;
 }

@@ -1,5 +1,6 @@
 #include "structure/output/surface.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <Eigen/Dense>
 
 #include "structure/response/cell_stress.h"
+#include "structure/response/envelope.h"
 
 namespace blocklift::structure {
 
@@ -84,6 +86,42 @@ void Surface::build(const ElasticModel& model, int division) {
       }
     faces_.push_back(std::move(patch));
   }
+}
+
+std::vector<double> Surface::envelope(const UnitResponses& responses,
+                                      const LoadHistory& history) const {
+  const ElasticModel& model = responses.model();
+  std::map<std::array<int, 3>, CellStress> samplers;  // (face, parts)
+  std::vector<int> first_sample{0};                   // of each face
+  for (const FacePatch& face : faces_) {
+    const std::array<int, 3> key{face.face, face.parts[0], face.parts[1]};
+    if (samplers.find(key) == samplers.end())
+      samplers.emplace(key,
+                       CellStress(model.mesh(), model.space(), face_points(face.face, face.parts)));
+    first_sample.push_back(first_sample.back() + static_cast<int>(face.points.size()));
+  }
+  const auto stress = [&](int first, int count) {
+    Eigen::MatrixXd result(6 * count, responses.count());
+    auto face = std::upper_bound(first_sample.begin(), first_sample.end(), first) - 1;
+    for (int done = 0; done < count; ++face) {
+      const FacePatch& patch = faces_[static_cast<std::size_t>(face - first_sample.begin())];
+      const int skipped = first + done - *face;
+      const int taken = std::min(count - done, static_cast<int>(patch.points.size()) - skipped);
+      result.middleRows(6 * done, 6 * taken) =
+          samplers.at({patch.face, patch.parts[0], patch.parts[1]})
+              .of_all(patch.cell, responses.displacements())
+              .middleRows(6 * skipped, 6 * taken);
+      done += taken;
+    }
+    return result;
+  };
+  const StressEnvelope of_samples = find_stress_envelope(history, first_sample.back(), stress);
+  std::vector<double> largest(points_.size(), 0);
+  Eigen::Index sample = 0;
+  for (const FacePatch& face : faces_)
+    for (const int point : face.points)
+      largest[at(point)] = std::max(largest[at(point)], of_samples.von_mises.value[sample++]);
+  return largest;
 }
 
 SurfaceField Surface::evaluate(const UnitResponses& responses, const LoadCase& load_case) const {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "structure/response/load_history.h"
 #include "structure/response/unit_responses.h"
 
 namespace blocklift::structure {
@@ -29,6 +30,9 @@ class Surface {
   const std::vector<int>& quad_groups() const { return quad_groups_; }
   const std::vector<std::string>& group_names() const { return group_names_; }
 
+  /// Largest von Mises stress at each point over a history (of factors of the responses), Pa: the
+  /// largest of the cells of one plate at a point, nothing averaged.
+  std::vector<double> envelope(const UnitResponses& responses, const LoadHistory& history) const;
   /// Values of a load case at the points; the responses must be of the same model.
   SurfaceField evaluate(const UnitResponses& responses, const LoadCase& load_case) const;
 

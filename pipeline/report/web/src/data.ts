@@ -1,7 +1,7 @@
 // What the program puts into the page; the twin of pipeline/report/page_data.h. SI units throughout.
 
 export type State = "static" | "dynamic";
-export type Way = "simultaneous" | "per_rope_maxima";
+export type Way = "simultaneous" | "per_rope_maxima" | "history";
 export const states: State[] = ["static", "dynamic"];
 type Maybe<T> = T | null | undefined;
 
@@ -54,6 +54,21 @@ export interface StructureWay {
   rope?: string; static?: StructureState; dynamic?: StructureState;
   stress_increase_percent?: Maybe<number>; deformation_increase_percent?: Maybe<number>;
 }
+export interface Practice {
+  safe?: boolean; largest_difference_percent?: Maybe<number>; worst_difference_percent?: Maybe<number>;
+  worst_part?: string; worst_point_m?: number[]; worst_envelope_Pa?: Maybe<number>; share_of_patches_short?: Maybe<number>;
+}
+export interface StructureHistory extends StructureWay {
+  static?: StructureState & { instants?: number; rope_share?: number };
+  dynamic?: StructureState & { instants?: number; rope_share?: number };
+  places?: number; practice?: { per_rope_maxima?: Practice; rope_instants?: Practice };
+  fatigue?: { curve?: string; source?: string; stress_concentration?: number; lifts?: number };
+  points?: {
+    name: string; part?: string; point_m?: number[]; max_static_von_mises_Pa?: Maybe<number>;
+    max_dynamic_von_mises_Pa?: Maybe<number>; cycles_per_lift?: Maybe<number>; largest_range_Pa?: Maybe<number>;
+    damage_per_lift?: Maybe<number>; damage?: Maybe<number>;
+  }[];
+}
 interface LugStress {
   static_checked_von_mises_Pa?: Maybe<number>; dynamic_checked_von_mises_Pa?: Maybe<number>;
   stress_increase_percent?: Maybe<number>;
@@ -61,7 +76,7 @@ interface LugStress {
 export interface Structure {
   unknowns?: number; elements?: number; element_degree?: number; mesh_size_m?: number;
   material?: string; yield_Pa?: Maybe<number>;
-  per_rope_maxima?: StructureWay; simultaneous?: StructureWay; simultaneous_by_rope?: StructureWay[];
+  per_rope_maxima?: StructureWay; simultaneous?: StructureWay; history?: StructureHistory; simultaneous_by_rope?: StructureWay[];
   lugs?: { name: string; rope?: string; simultaneous?: LugStress; per_rope_maxima?: LugStress }[];
   mass?: {
     total_kg?: Maybe<number>; steel_kg?: Maybe<number>; outfitting_kg?: Maybe<number>;

@@ -11,7 +11,8 @@ import { BlockSurface } from "./surface";
 import { canDraw, Viewer } from "./viewer";
 
 type ScaleTop = "checked" | "peak" | "yield";
-const wayNames: Record<Way, string> = { simultaneous: "simultaneous loads", per_rope_maxima: "per-rope maxima" };
+const wayNames: Record<Way, string> = { simultaneous: "simultaneous loads", per_rope_maxima: "per-rope maxima",
+  history: "the whole lift" };
 
 function colourTexture(): three.DataTexture {
   const count = 256;
@@ -51,7 +52,7 @@ export function stressSection(data: PageData): Section | null {
   if (!surface) return null;
   const note = surface.note && h("p", { class: "hint" }, surface.note);
   const fields = surface.fields ?? {};
-  const ways = (["simultaneous", "per_rope_maxima"] as const).filter((way) => fields[way]);
+  const ways = (["simultaneous", "per_rope_maxima", "history"] as const).filter((way) => fields[way]);
   if (!surface.points || ways.length === 0) return note ? { id: "stress", title: "Stress pictures", content: note } : null;
   if (!canDraw()) return { id: "stress", title: "Stress pictures", content: h("p", { class: "hint" },
     "This browser does not draw in three dimensions (WebGL). The figures are in the tables below, the fields in the .vtu files.") };
@@ -90,7 +91,8 @@ function stressPictures(data: PageData, surface: BlockSurface, ways: Way[]): HTM
   };
   const caption = (state: State, field: Field | undefined, pane: StressPane): (Node | string)[] => {
     const figures = structure?.[way]?.[state];
-    const instant = field?.rope ? `largest load in ${field.rope}${known(field.time) ? ` at ${seconds(field.time)} s` : ""}` : wayNames[way];
+    const instant = way === "history" ? `largest at each point over all instants; shape${known(field?.time) ? ` at ${seconds(field!.time)} s` : ""}`
+      : field?.rope ? `largest load in ${field.rope}${known(field.time) ? ` at ${seconds(field.time)} s` : ""}` : wayNames[way];
     const checked = known(figures?.checked_von_mises_Pa) ? `checked ${megapascals(figures!.checked_von_mises_Pa)} MPa, ` : "";
     return [h("b", {}, state.charAt(0).toUpperCase() + state.slice(1)), `  ${instant}`, h("br"),
       `${checked}raw peak ${megapascals(figures?.peak_von_mises_Pa ?? pane.largestStress)} MPa, `

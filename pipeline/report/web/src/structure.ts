@@ -18,6 +18,7 @@ function waysTable(data: PageData, structure: Structure): Child {
   row(h("b", {}, "Headline: the worst instant"), structure.simultaneous);
   for (const way of structure.simultaneous_by_rope ?? []) row(`Instant of largest load in ${way.rope ?? missing}`, way);
   row("Per-rope maxima, all at once", structure.per_rope_maxima);
+  row("The whole lift, every instant", structure.history);
   const published = data.summary.comparison;
   if (published && (known(published.stress_increase_percent) || known(published.deformation_increase_percent))) {
     rows.push([h("i", {}, "Published, per-rope maxima"), missing, missing, change(published.stress_increase_percent, 2),
@@ -28,9 +29,39 @@ function waysTable(data: PageData, structure: Structure): Child {
     { head: "Static, mm" }, { head: "Dynamic, mm" }, { head: "Increase" }], rows);
 }
 
+/** Every instant of the lift: the envelope, what simpler practices make of it, and the wear. */
+function historyTables(structure: Structure): Child {
+  const history = structure.history;
+  if (!history) return null;
+  const percent = (share: unknown): string => known(share) ? fixed(share * 100, 0) : missing;
+  const states = (["static", "dynamic"] as const).filter((state) => history[state]).map((state) => {
+    const one = history[state]!;
+    return [`${state.charAt(0).toUpperCase()}${state.slice(1)}, ${fixed(one.instants, 0)} instants`,
+      megapascals(one.checked_von_mises_Pa), one.checked_group ?? missing, seconds(one.time_s), one.rope ?? missing,
+      percent(one.rope_share), megapascals(one.peak_von_mises_Pa), millimetres(one.max_displacement_m)];
+  });
+  const practices = ([["Every rope at its own largest load, at once", history.practice?.per_rope_maxima],
+    ["Only the instants of each rope's largest load", history.practice?.rope_instants]] as const)
+    .filter(([, one]) => one).map(([name, one]) => [name, one!.safe ? "yes" : "no", change(one!.largest_difference_percent),
+      change(one!.worst_difference_percent), one!.worst_part ?? missing, percent(one!.share_of_patches_short)]);
+  const wear = (history.points ?? []).map((one) => [one.name, one.part ?? missing, point(one.point_m),
+    megapascals(one.max_static_von_mises_Pa), megapascals(one.max_dynamic_von_mises_Pa), megapascals(one.largest_range_Pa),
+    fixed(one.cycles_per_lift, 0), scientific(one.damage_per_lift), scientific(one.damage)]);
+  return [
+    table("Every instant: the largest stress and deformation of the whole lift", [left("History"), { head: "Checked, MPa" }, left("in"),
+      { head: "at, s" }, left("Rope"), { head: "its share, %" }, { head: "Raw peak, MPa" }, { head: "Deformation, mm" }], states),
+    table("What simpler practices give in its place (negative: too little)", [left("Practice"), left("Safe"),
+      { head: "Largest stress" }, { head: "Where it falls short most" }, left("in"), { head: "Plate area short, %",
+        title: "of the patches that see at least half of the largest stress, those more than 1 % short" }], practices),
+    table(`Stress in time and wear, ${history.fatigue?.source ?? ""} curve ${history.fatigue?.curve ?? missing}, ${
+      fixed(history.fatigue?.lifts, 0)} lifts`, [left("Place"), left("in"), { head: "at x, y, z" }, { head: "Static, MPa" },
+      { head: "Dynamic, MPa" }, { head: "Largest range, MPa" }, { head: "Cycles a lift" }, { head: "Damage a lift" }, { head: "Damage" }], wear)];
+}
+
 function placesTable(structure: Structure): Child {
   const rows: Child[][] = [];
-  for (const [name, way] of [["Simultaneous", structure.simultaneous], ["Per-rope maxima", structure.per_rope_maxima]] as const)
+  for (const [name, way] of [["Simultaneous", structure.simultaneous], ["Per-rope maxima", structure.per_rope_maxima],
+    ["The whole lift", structure.history]] as const)
     for (const state of ["static", "dynamic"] as const) {
       const one = way?.[state];
       if (!one) continue;
@@ -96,6 +127,6 @@ export function structureSection(data: PageData): Section | null {
     id: "structure", title: "Block stress and deformation", short: "Block", content: [
       h("p", { class: "lead" }, "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
         + "headline is the largest of these. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
-      waysTable(data, structure), lugsTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
+      waysTable(data, structure), historyTables(structure), lugsTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
   };
 }
