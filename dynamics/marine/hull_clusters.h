@@ -15,7 +15,7 @@ namespace blocklift::dynamics {
 /// Immutable; may be shared by threads.
 class HullClusters {
  public:
-  static constexpr int most_triangles = 12;               ///< in a leaf
+  static constexpr int most_triangles = 24;               ///< in a leaf
   static constexpr int most_points = 3 * most_triangles;  ///< in a leaf
 
   /// A box of the tree.

@@ -6,6 +6,8 @@
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
 #include "dynamics/force/wind.h"
+#include "dynamics/marine/hull_force.h"
+#include "dynamics/marine/viscous.h"
 #include "dynamics/multibody/constrained_dynamics.h"
 #include "dynamics/multibody/forward_dynamics.h"
 #include "dynamics/rope/rope.h"
@@ -15,7 +17,8 @@ namespace blocklift::dynamics {
 
 /// The kinds of force elements; a new kind is entered here and nowhere else.
 using ForceElements =
-    std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>>;
+    std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>,
+               std::vector<HullForce>, std::vector<MorisonMember>, std::vector<QuadraticDamping>>;
 
 /// Calls `function` with each element of every kind.
 template <class Function>

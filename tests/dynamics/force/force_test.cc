@@ -6,6 +6,7 @@
 #include "dynamics/force/support.h"
 #include "dynamics/force/wind.h"
 #include "pipeline/verification/models/random_mechanism.h"
+#include "tests/dynamics/force/one_body.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -13,54 +14,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// A free body above the world, and what elements do to it.
-struct OneBody {
-  OneBody() : mechanism(make()), kinematics(mechanism), loads(mechanism) {
-    q = mechanism.zero_configuration();
-    v = Eigen::VectorXd::Zero(6);
-    update();
-  }
-  static Mechanism make() {
-    MechanismBuilder builder;
-    builder.add_body({.name = "body",
-                      .joint = {.kind = JointKind::free},
-                      .mass = 1.0,
-                      .I_BBcm_B = Matrix3::Identity()});
-    return builder.build();
-  }
-  void update() { compute_kinematics(mechanism, q, v, kinematics); }
-  MotionState state() const { return {0.0, q, v, kinematics}; }
-
-  Mechanism mechanism;
-  Kinematics kinematics;
-  Loads loads;
-  Eigen::VectorXd q, v;
-};
-
-// The account must balance for every element at any motion.
-template <ForceElement Element>
-void expect_balanced(OneBody& body, const Element& element) {
-  body.loads.set_zero();
-  element.add_forces(body.state(), body.loads);
-  double power = body.loads.tau.dot(body.v);
-  for (std::size_t i = 0; i < body.loads.F_Bo_W.size(); ++i) {
-    power += dot(body.loads.F_Bo_W[i], body.kinematics.V_WB[i]);
-  }
-  const EnergyAccount account = element.calc_energy(body.state());
-  constexpr double h = 1e-5;
-  const Eigen::VectorXd q = body.q;
-  std::array<double, 2> stored{};
-  for (int side = 0; side < 2; ++side) {
-    body.mechanism.integrate(q, body.v, side == 0 ? -h : h, body.q);
-    body.update();
-    stored[static_cast<std::size_t>(side)] = element.calc_energy(body.state()).stored_energy;
-  }
-  body.q = q;
-  body.update();
-  const double balance =
-      account.supplied_power - account.dissipated_power - (stored[1] - stored[0]) / (2 * h);
-  EXPECT_NEAR(power, balance, 1e-6 * (1.0 + std::abs(power)));
-}
+using testing::expect_balanced;
+using testing::OneBody;
 
 TEST(PointSpring, PullsAndPushesAndBalances) {
   OneBody body;
