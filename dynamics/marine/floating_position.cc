@@ -112,8 +112,11 @@ Balance settle(const HullClusters& hull, const FloatingBody& body, Balance b, bo
   const double volume = body.mass / body.water_density;
   const double scale = volume * size_of(hull);
   const double small_moment = 1e-12 * scale;
+  const auto size_of_moment = [about_x](const Balance& at) {
+    return about_x ? at.moment.norm() : std::abs(at.moment.y());
+  };
   for (int i = 0; i < most_iterations; ++i) {
-    const double moment = about_x ? b.moment.norm() : std::abs(b.moment.y());
+    const double moment = size_of_moment(b);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(b.stiffness);
     const bool unstable =
         about_x ? eigen.eigenvalues()[0] < -1e-9 * scale : b.stiffness(1, 1) < -1e-9 * scale;
@@ -126,21 +129,20 @@ Balance settle(const HullClusters& hull, const FloatingBody& body, Balance b, bo
     Balance next = balance(hull, body, turned(b.X_WB.R, turn));
     for (int halving = 0; halving < 40 && next.energy > b.energy; ++halving) {
       // Below the rounding of the energy the moment decides.
-      if (next.energy - b.energy < 1e-13 * std::abs(b.energy) &&
-          next.moment.norm() < b.moment.norm()) {
+      if (next.energy - b.energy < 1e-13 * scale && size_of_moment(next) < moment) {
         break;
       }
       turn *= 0.5;
       next = balance(hull, body, turned(b.X_WB.R, turn));
     }
-    if (next.energy > b.energy && moment < 1e-8 * scale && next.moment.norm() >= b.moment.norm()) {
+    if (next.energy > b.energy && moment < 1e-8 * scale && size_of_moment(next) >= moment) {
       return b;  // rounding
     }
     b = next;
   }
   throw SimulationError("hull \"" + hull.hull().name() + "\": no floating equilibrium found in " +
                         std::to_string(most_iterations) + " steps; the moment left is " +
-                        std::to_string(b.moment.norm() / volume) + " m times the weight");
+                        std::to_string(size_of_moment(b) / volume) + " m times the weight");
 }
 
 }  // namespace
