@@ -79,6 +79,7 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
     write_operation(file, system.operation());
     write_history(file, layout::static_history, system, assessment.lift->static_history, scene);
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
+    write_natural_modes(file, system.mechanism(), assessment.lift->natural_modes);
     write_scene(file, system, scene);
   }
   const structure::Surface surface(*assessment.block.model);

@@ -1,6 +1,7 @@
 #include "pipeline/assessment/lift_run.h"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,8 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   dynamics::EquilibriumSolver(system).solve(0, q);
   dynamics::History static_history =
       dynamics::static_sweep(system, times, q, {}, report("static sweep"));
+  std::vector<NaturalModes> natural_modes =
+      find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
   const double static_s = watch.lap();
 
   dynamics::IntegrationSettings settings;
@@ -33,7 +36,11 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   dynamics::IntegrationResult dynamic_result =
       dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
   const double dynamic_s = watch.lap();
-  return {std::move(model), std::move(static_history), std::move(dynamic_result), static_s,
+  return {std::move(model),
+          std::move(static_history),
+          std::move(natural_modes),
+          std::move(dynamic_result),
+          static_s,
           dynamic_s};
 }
 

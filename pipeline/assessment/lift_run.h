@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/simulation/time_integration.h"
+#include "pipeline/assessment/natural_modes.h"
 #include "pipeline/input/build_lift.h"
 
 namespace blocklift::pipeline {
@@ -16,15 +17,16 @@ using Progress = std::function<void(const std::string&, double, const std::strin
 struct LiftRun {
   BuiltLift model;
   dynamics::History static_history;
+  std::vector<NaturalModes> natural_modes;
   dynamics::IntegrationResult dynamic_result;
-  double static_s = 0;   ///< wall-clock time of the static sweep
+  double static_s = 0;   ///< wall-clock time of the static sweep and the natural modes
   double dynamic_s = 0;  ///< wall-clock time of the time integration
 
   const dynamics::History& dynamic_history() const { return dynamic_result.history; }
   double simulated_s() const { return model.system.operation().duration(); }
 };
 
-/// Sweeps the operation at rest, then integrates it in time from the first equilibrium.
+/// Sweeps the operation at rest, finds the natural modes on the way, then integrates it in time from the first equilibrium.
 /// @throws dynamics::SimulationError when an equilibrium or the integration fails.
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
 

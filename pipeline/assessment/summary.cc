@@ -315,6 +315,8 @@ Json make_summary(const Assessment& assessment) {
     summary["comparison"] = comparison_json(assessment, *assessment.lift_case.compare);
   summary["structure"] = structure_json(assessment);
   if (assessment.lift) {
+    summary["natural_periods"] = natural_periods_json(assessment.lift->model.system.mechanism(),
+                                                      assessment.lift->natural_modes);
     summary["energy"] = energy_json(*assessment.lift);
     summary["solver"] = solver_json(*assessment.lift);
   }

@@ -6,7 +6,7 @@
 /// Where everything lies in results.h5 and summary.json: the one place that names it.
 ///
 /// The report is made from these two files alone. Parts marked (o) are optional: a case with a load
-/// table has no /static, /dynamic, /operation and /scene; a run without structure has no /structure.
+/// table has no /static, /dynamic, /operation, /modes and /scene; a run without structure has no /structure.
 /// Sizes: n samples of the stage, b boxes, k rope points, N surface points, M surface quadrangles.
 /// Frames: W world, B a body, all SI. Poses are x y z, then the unit quaternion w x y z.
 ///
@@ -24,6 +24,13 @@
 ///     bodies/<body>/velocity       (o) rad/s, m/s [n x 6], angular then linear (acceleration alike)
 ///     drives/<drive>/position      (o) m or rad [n]                      force (o) N or N m [n]
 ///     energy/<term>                (o) J [n]; the term `balance` is what the others leave unexplained
+///   /modes/<i>                     (o) natural modes at rest at one instant, i = 1, 2, ...; m modes
+///                                      attributes instant (in words), time
+///     names, kinds                     texts [m]  kind: oscillating, overdamped, neutral, unstable
+///     period                           s [m]      damping_ratio, elastic_share   1 [m]
+///     eigenvalue                       s-1 [m x 2], real and imaginary part
+///     bodies/<body>/motion             rad, m [m x 12], complex amplitudes in W: rotation vector, displacement of
+///                                      the origin (real parts), then both imaginary; largest motion 1 m
 ///   /scene                         (o) what the drawing shows; bodies are those of .../bodies, or "world"
 ///     bodies/<body>/boxes              m [b x 6], size x y z and centre x y z, in B (may have no rows);
 ///                                      attribute kind (o): crane, hook block, load, ...
@@ -77,6 +84,9 @@
 ///                      fatigue: {curve, source, stress_concentration, lifts}, points: [{name, part, point_m,
 ///                      max_static_von_mises_Pa, max_dynamic_von_mises_Pa, cycles_per_lift, largest_range_Pa,
 ///                      damage_per_lift, damage}]
+///   natural_periods (o) [{instant, time_s, modes: [{name, kind, period_s, frequency_Hz, damping_ratio,
+///                      elastic_share, energy_share_by_body: {body: share}}]}], modes slowest first;
+///                      period_s null where nothing brings the motion back
 ///   energy         (o) {largest_energy_J, largest_imbalance_J, relative_imbalance}
 ///   solver         (o) {any name: number or text}, shown as it stands, underscores as spaces
 ///   timing         (o) {static_s, dynamic_s, simulated_s, assembly_s, factorisation_s, solve_s, report_s, ...}
@@ -100,6 +110,8 @@ inline constexpr std::string_view stage_end = "/operation/stage_end";
 
 inline constexpr std::string_view static_history = "/static";
 inline constexpr std::string_view dynamic_history = "/dynamic";
+
+inline constexpr std::string_view modes_group = "/modes";
 
 inline constexpr std::string_view scene_group = "/scene";
 inline constexpr std::string_view scene_bodies = "/scene/bodies";

@@ -149,6 +149,26 @@ json motion(const ResultsReader& results, const std::string& group) {
   return {{"time", floats(frame_time)}, {"bodies", std::move(bodies)}};
 }
 
+/// Shapes of the natural modes, an instant each: 12 numbers a mode and body.
+json modes(const ResultsReader& results) {
+  json list = json::array();
+  for (const std::string& instant : children_of(results, std::string(layout::modes_group))) {
+    const std::string group = join(layout::modes_group, instant);
+    json bodies = json::object();
+    for (const std::string& body : children_of(results, join(group, "bodies"))) {
+      const std::string dataset = join(group, "bodies", body, "motion");
+      const Array<double> motion = results.read(dataset);
+      if (motion.columns() != 12)
+        throw ResultsError("\"" + dataset + "\" has " + std::to_string(motion.columns()) +
+                           " columns; 12 are due");
+      bodies[body] = floats(motion.values);
+    }
+    list.push_back(
+        {{"time", results.read_number_attribute(group, "time")}, {"bodies", std::move(bodies)}});
+  }
+  return list;
+}
+
 json stages(const ResultsReader& results) {
   json list = json::array();
   if (!results.has(layout::stage_names)) return list;
@@ -334,6 +354,7 @@ nlohmann::ordered_json make_page_data(const ResultsReader& results, const json& 
       {"stages", stages(results)},
       {"histories", {{"static", history(results, still)}, {"dynamic", history(results, moving)}}},
       {"motion", {{"static", motion(results, still)}, {"dynamic", motion(results, moving)}}},
+      {"modes", modes(results)},
       {"scene", scene(results)},
       {"surface", surface(results)}};
 }

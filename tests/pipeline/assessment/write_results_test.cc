@@ -144,6 +144,18 @@ TEST(Summary, HoldsEverythingThatReadersCountOn) {
   EXPECT_EQ(structure["simultaneous_by_rope"].size(), 4u);
   EXPECT_EQ(structure["lugs"].size(), 4u);
   expect_numbers(structure["mass"], {"total_kg", "steel_kg", "outfitting_kg"});
+  // At the start, after each stage, and where a rope is nearest to breaking.
+  ASSERT_GE(summary["natural_periods"].size(), 2u);
+  EXPECT_EQ(summary["natural_periods"][0]["instant"], "start");
+  for (const auto& instant : summary["natural_periods"]) {
+    EXPECT_EQ(instant["modes"].size(),
+              static_cast<std::size_t>(small_assessment().lift->model.system.nv_free()));
+    for (const auto& mode : instant["modes"]) {
+      expect_numbers(mode, {"period_s", "frequency_Hz", "damping_ratio", "elastic_share"});
+      EXPECT_EQ(mode["kind"], "oscillating") << mode["name"];
+    }
+  }
+  EXPECT_EQ(summary["solver"]["right_hand_sides_for_differences"], 0);
   expect_numbers(summary["energy"], {"largest_imbalance_J", "relative_imbalance"});
   EXPECT_LT(summary["energy"]["relative_imbalance"], 1e-3);
   expect_numbers(summary["timing"], {"static_s", "dynamic_s", "simulated_s", "assembly_s",

@@ -14,9 +14,9 @@ if (!browser) {
 }
 
 const sections = {
-  whole: ["lift", "histories", "loads", "stress", "structure", "checks", "accuracy", "method"],
+  whole: ["lift", "periods", "histories", "loads", "stress", "structure", "checks", "accuracy", "method"],
   loads: ["loads", "stress", "structure", "checks", "method"],
-  motion: ["lift", "histories", "loads", "checks", "accuracy", "method"],
+  motion: ["lift", "periods", "histories", "loads", "checks", "accuracy", "method"],
 };
 const expected = [">988<", "Decisive: ", "A sample &amp; nothing else"];
 
@@ -35,6 +35,9 @@ try {
     if (!/<body[^>]*class="ready"/.test(dom)) complain("the page did not finish drawing itself");
     const found = [...dom.matchAll(/<section id="([^"]*)"/g)].map((match) => match[1]);
     if (found.join() !== ids.join()) complain(`sections are ${found.join(", ")}; ${ids.join(", ")} are due`);
+    if (ids.includes("periods"))
+      for (const text of ["block: pendulum along x", ">14.6<", "neutral: nothing brings it back"])
+        if (!dom.includes(text)) complain(`"${text}" is not among the natural periods`);
     for (const text of expected) if (!dom.includes(text)) complain(`"${text}" is not on the page`);
     for (const line of (run.stderr ?? "").split("\n"))
       if (/CONSOLE/.test(line) && !/GPU stall|GL Driver Message/.test(line)) complain(line);

@@ -67,6 +67,38 @@ void write_scene(ResultsWriter& writer) {
   writer.write(layout::stage_end, std::vector<double>{90}, {"s", "ends"});
 }
 
+// A swing along x and a yaw that nothing brings back.
+void write_modes(ResultsWriter& writer) {
+  const std::string group = join(layout::modes_group, "1");
+  writer.make_group(group);
+  writer.write_attribute(group, "instant", "start");
+  writer.write_attribute(group, "time", 0.0);
+  RowMajorMatrix motion = RowMajorMatrix::Zero(2, 12);
+  motion(0, 2) = 0.05;
+  motion(1, 3) = 1.0;
+  writer.write_matrix(join(group, "bodies", "block", "motion"), motion, {"rad, m", "amplitudes"});
+}
+
+nlohmann::ordered_json natural_periods() {
+  return {{{"instant", "start"},
+           {"time_s", 0.0},
+           {"modes",
+            {{{"name", "block: yaw"},
+              {"kind", "neutral"},
+              {"period_s", nullptr},
+              {"frequency_Hz", 0.0},
+              {"damping_ratio", 0.0},
+              {"elastic_share", 0.0},
+              {"energy_share_by_body", {{"block", 1.0}}}},
+             {{"name", "block: pendulum along x"},
+              {"kind", "oscillating"},
+              {"period_s", 14.6},
+              {"frequency_Hz", 0.0685},
+              {"damping_ratio", 0.0023},
+              {"elastic_share", 0.01},
+              {"energy_share_by_body", {{"block", 0.98}, {"crane", 0.02}}}}}}}};
+}
+
 void write_structure(ResultsWriter& writer) {
   std::vector<Eigen::Vector3d> points;
   for (const double z : {0.0, 2.0})
@@ -137,6 +169,8 @@ void write_sample_result(const std::filesystem::path& folder, const SampleParts&
     write_history(writer, layout::static_history, 1.0);
     write_history(writer, layout::dynamic_history, 0.005);
     write_scene(writer);
+    write_modes(writer);
+    summary["natural_periods"] = natural_periods();
   }
   if (parts.structure) {
     write_structure(writer);

@@ -90,10 +90,16 @@ export interface Comparison {
     static_difference_percent?: Maybe<number>; dynamic_difference_percent?: Maybe<number>;
   }[];
 }
+export interface NaturalMode {
+  name: string; kind: string; period_s?: Maybe<number>; frequency_Hz?: Maybe<number>; damping_ratio?: Maybe<number>;
+  elastic_share?: Maybe<number>; energy_share_by_body?: Record<string, number>;
+}
+export interface ModeShapes { time: number; bodies: Record<string, Packed> }
 export interface Summary {
   verdict?: string; verdict_reasons?: string[]; checks?: Check[];
   ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[];
   comparison?: Maybe<Comparison>; structure?: Maybe<Structure>;
+  natural_periods?: { instant: string; time_s: number; modes: NaturalMode[] }[];
   energy?: Maybe<{ largest_energy_J?: number; largest_imbalance_J?: number; relative_imbalance?: number }>;
   solver?: Maybe<Record<string, unknown>>; timing?: Maybe<Record<string, unknown>>;
   assumptions?: string[]; warnings?: string[]; files?: { name: string; content: string }[];
@@ -104,6 +110,7 @@ export interface PageData {
   stages: Stage[];
   histories: Record<State, History | null>;
   motion: Record<State, Motion | null>;
+  modes: ModeShapes[];
   scene: Scene | null;
   surface: Surface | null;
 }

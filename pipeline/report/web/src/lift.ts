@@ -7,6 +7,7 @@ import { PageData, Scene, Series, stageAt, State, states } from "./data";
 import { checkbox, choice, h, slider } from "./dom";
 import { elevation, frameOf } from "./elevation";
 import type { Section } from "./main";
+import type { Vibration, VibrationPlayer } from "./modes";
 import { Bodies, boxCorners, inWorld, ropePath, Vector } from "./motion";
 import { kilonewtons, missing, seconds, tonnesForce } from "./numbers";
 import { BlockSurface } from "./surface";
@@ -21,6 +22,8 @@ class LiftView {
   readonly viewer = new Viewer(1, 520, "Drawing of the lift; drag or arrow keys turn it, plus and minus zoom");
   followLoad = false;
   private closeUp = false;
+  /** Largest motion of a natural mode in the drawing, m: what the eye sees well. */
+  get vibrationSize(): number { return 0.05 * Math.max(this.bounds.max.z - this.bounds.min.z, 10); }
   private groups = new Map<string, three.Group>();
   private ropes: Rope[] = [];
   private corners: three.Vector3[] = [];  // of everything drawn, at instants along the lift
@@ -177,7 +180,33 @@ function stageStrip(data: PageData, scene: Scene, bodies: Bodies, clock: Clock):
   }, elevation(scene, bodies, time, "side", frame, false), h("span", {}, name, h("small", {}, `${seconds(time)} s`)))));
 }
 
-export function liftSection(data: PageData, clock: Clock): Section | null {
+/** The line under the drawing that says which natural mode it plays, and the motion itself. */
+function vibrationBar(clock: Clock, view: LiftView, player: VibrationPlayer, bodies: () => Bodies, atRest: () => void): HTMLElement {
+  const shownPeriod = 2500;  // ms of one swing on the screen, whatever its true period
+  const name = h("b", {});
+  const bar = h("p", { class: "vibration", hidden: true }, "Natural motion, enlarged and not at its own pace: ", name, " ",
+    h("button", { type: "button", onclick: () => player.play(null) }, "stop"));
+  let begun = 0;
+  const step = (moment: number): void => {
+    const vibration = player.now;
+    if (!vibration) return;
+    vibration.phase = 2 * Math.PI * (moment - begun) / shownPeriod;
+    view.show(vibration.time);
+    requestAnimationFrame(step);
+  };
+  player.listen((vibration: Vibration | null) => {
+    if (vibration) atRest();
+    bodies().vibrate(vibration, view.vibrationSize);
+    bar.hidden = vibration === null;
+    name.textContent = vibration?.name ?? "";
+    if (vibration) { begun = performance.now(); requestAnimationFrame(step); } else view.show(clock.time);
+  });
+  clock.listen((time) => { if (player.now && Math.abs(time - player.now.time) > 1e-6) player.play(null); });
+  window.addEventListener("beforeprint", () => player.play(null));
+  return bar;
+}
+
+export function liftSection(data: PageData, clock: Clock, player: VibrationPlayer): Section | null {
   const { scene } = data;
   const moving = states.filter((state) => data.motion[state]);
   if (!scene || moving.length === 0) return null;
@@ -219,7 +248,13 @@ export function liftSection(data: PageData, clock: Clock): Section | null {
   clock.listen((value) => view.show(value));
   const views = choice("View", [["oblique", "oblique"], ["side", "side"], ["front", "front"], ["top", "top"], ["load", "load"]], "oblique",
     (name) => view.look(name, clock.time));
-  const which = choice("Motion", moving.map((one) => [one, one]), state, (value) => { state = value; view.show(clock.time); });
+  const which = choice("Motion", moving.map((one) => [one, one]), state, (value) => { player.play(null); state = value; view.show(clock.time); });
+  const vibration = vibrationBar(clock, view, player, bodies, () => {
+    if (!all.has("static")) return;
+    bodies().vibrate(null, 0);
+    state = "static";
+    which.set(state);
+  });
   view.look("oblique", clock.time);
   view.show(clock.time);
   return {
@@ -227,7 +262,7 @@ export function liftSection(data: PageData, clock: Clock): Section | null {
       h("div", { class: "controls" }, views.element, moving.length > 1 && which.element,
         checkbox("follow the load", false, (on) => { view.followLoad = on; view.show(clock.time); })),
       h("div", { class: "stage-view" }, view.viewer.element, tensionPanel(data, clock)),
-      h("div", { class: "player" }, playButton(clock), time, now), strip, drawings],
+      h("div", { class: "player" }, playButton(clock), time, now), vibration, strip, drawings],
   };
 }
 

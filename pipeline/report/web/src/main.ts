@@ -8,6 +8,7 @@ import { checksSection, verdictSection } from "./verdict";
 import { historiesSection } from "./histories";
 import { liftSection } from "./lift";
 import { loadsSection } from "./loads";
+import { modesSection, VibrationPlayer } from "./modes";
 import { stressSection } from "./stress";
 import { structureSection } from "./structure";
 
@@ -27,10 +28,11 @@ function clockOf(data: PageData): Clock {
 function show(): void {
   const data = readPageData();
   const clock = clockOf(data);
+  const vibrations = new VibrationPlayer();
   const report = document.getElementById("report")!;
   append(report, [verdictSection(data)]);
   const makers: (() => Section | null)[] = [
-    () => liftSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock),
+    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => historiesSection(data, clock), () => loadsSection(data, clock),
     () => stressSection(data), () => structureSection(data), () => checksSection(data),
     () => accuracySection(data), () => methodSection(data),
   ];

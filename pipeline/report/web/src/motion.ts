@@ -1,5 +1,6 @@
 // Where every body is at an instant.
 import { locate, Motion, Scene, unpack } from "./data";
+import type { Vibration } from "./modes";
 
 export type Vector = [number, number, number];
 export interface Pose { p: Vector; q: [number, number, number, number] }  // q = w x y z
@@ -23,13 +24,26 @@ export function inWorld(pose: Pose, point: Vector): Vector {
 export class Bodies {
   readonly time: Float32Array;
   private poses = new Map<string, Float32Array>();
+  private vibration: Vibration | null = null;
+  private vibrationSize = 0;
 
   constructor(motion: Motion) {
     this.time = unpack(motion.time);
     for (const [name, packed] of Object.entries(motion.bodies)) this.poses.set(name, unpack(packed));
   }
 
+  /** From now on every pose is moved along a natural mode, by `size` (m) at most; null: no more. */
+  vibrate(vibration: Vibration | null, size: number): void {
+    this.vibration = vibration;
+    this.vibrationSize = size;
+  }
+
   pose(body: string, time: number): Pose {
+    const pose = this.poseAt(body, time);
+    return this.vibration ? this.vibration.moved(body, pose, this.vibrationSize) : pose;
+  }
+
+  private poseAt(body: string, time: number): Pose {
     const poses = this.poses.get(body);
     if (!poses || this.time.length === 0) return atRest;
     const [low, share] = locate(this.time, time);

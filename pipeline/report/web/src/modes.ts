@@ -1,0 +1,140 @@
+// Natural periods: the motions that the hanging lift has of its own, in words, in figures and played in the drawing.
+import { Clock } from "./clock";
+import { known, ModeShapes, NaturalMode, PageData, unpack } from "./data";
+import { Child, Column, h, table } from "./dom";
+import type { Section } from "./main";
+import type { Pose, Vector } from "./motion";
+import { fixed, missing, seconds, share, significant } from "./numbers";
+
+const amplitudes = 12;  // numbers a mode and body: rotation and displacement, real, then imaginary
+
+/** One mode that the drawing plays: its shape, the instant it belongs to, the phase it has come to. */
+export class Vibration {
+  phase = 0;
+  constructor(readonly name: string, readonly time: number, private shapes: Map<string, Float32Array>, private row: number) {}
+
+  /** A body's pose moved along the mode; `size` (m) is the largest motion. */
+  moved(body: string, pose: Pose, size: number): Pose {
+    const motion = this.shapes.get(body)?.subarray(amplitudes * this.row, amplitudes * (this.row + 1));
+    if (!motion) return pose;
+    const at = (k: number): number => size * (motion[k] * Math.cos(this.phase) - motion[k + 6] * Math.sin(this.phase));
+    const turn: Vector = [at(0), at(1), at(2)];
+    const angle = Math.hypot(...turn);
+    const s = angle > 0 ? Math.sin(angle / 2) / angle : 0.5;
+    return {
+      p: [pose.p[0] + at(3), pose.p[1] + at(4), pose.p[2] + at(5)],
+      q: product([Math.cos(angle / 2), s * turn[0], s * turn[1], s * turn[2]], pose.q),
+    };
+  }
+}
+
+function product(a: Pose["q"], b: Pose["q"]): Pose["q"] {
+  return [
+    a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+    a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]];
+}
+
+/** What the drawing plays now; the table sets it, the drawing listens. */
+export class VibrationPlayer {
+  now: Vibration | null = null;
+  private listeners: ((vibration: Vibration | null) => void)[] = [];
+
+  listen(listener: (vibration: Vibration | null) => void): void { this.listeners.push(listener); }
+  get canPlay(): boolean { return this.listeners.length > 0; }
+  play(vibration: Vibration | null): void {
+    this.now = vibration;
+    for (const listener of this.listeners) listener(vibration);
+  }
+}
+
+const kinds: Record<string, string> = {
+  overdamped: "creeps back without swinging", neutral: "neutral: nothing brings it back", unstable: "unstable: grows by itself",
+};
+
+function mover(mode: NaturalMode): string {
+  const parts = Object.entries(mode.energy_share_by_body ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 2).filter(([, part]) => part >= 0.05);
+  return parts.map(([body, part]) => `${body} ${share(part)}`).join(", ");
+}
+
+function period(mode: NaturalMode): string {
+  return known(mode.period_s) ? significant(mode.period_s, 3) : missing;
+}
+
+/** Modes in which the load has a part, those that an operator can feel, and the quick rest apart. */
+function isMain(mode: NaturalMode, load: string): boolean {
+  return mode.kind !== "oscillating" || (mode.energy_share_by_body?.[load] ?? 0) >= 0.2;
+}
+
+function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], play: ((row: number) => void) | null): Child {
+  if (modes.length === 0) return null;
+  const columns: Column[] = [
+    { head: "Motion", align: "left" }, { head: "Period, s" }, { head: "Frequency, Hz" },
+    { head: "Damping ratio", title: "share of critical damping" },
+    { head: "Elastic", title: "part of the restoring energy in stretched ropes; the rest is weight: a pendulum 0 %, a bounce 100 %" },
+    { head: "Kinetic energy in", align: "left" }, ...(play ? [{ head: "" }] : []),
+  ];
+  return table(caption, columns, modes.map((mode) => [
+    h("span", { title: kinds[mode.kind] }, mode.name, mode.kind === "oscillating" ? null : h("small", { class: "mode-kind" }, kinds[mode.kind] ?? mode.kind)),
+    period(mode), mode.kind === "neutral" ? missing : significant(mode.frequency_Hz, 3),
+    mode.kind === "neutral" ? missing : `${fixed((mode.damping_ratio ?? 0) * 100, 2)}\u202f%`,
+    share(mode.elastic_share), mover(mode),
+    ...(play ? [h("button", { type: "button", class: "time", title: "Play this motion in the drawing", onclick: () => play(all.indexOf(mode)) }, "show")] : []),
+  ]));
+}
+
+/** How the load's own periods go along the operation: an instant a row. */
+function overview(data: PageData, load: string, clock: Clock): Child {
+  const instants = data.summary.natural_periods ?? [];
+  if (instants.length < 2) return null;
+  const names: string[] = [];
+  for (const { modes } of instants) for (const mode of modes) if (isMain(mode, load) && !names.includes(mode.name)) names.push(mode.name);
+  const columns: Column[] = [{ head: "Instant", align: "left" }, { head: "at, s" }, ...names.map((name) => ({ head: name }))];
+  return table("Natural periods along the operation, s", columns, instants.map(({ instant, time_s: time, modes }) => [instant,
+    data.scene ? h("button", { class: "time", type: "button", title: "Show this instant in the drawing", onclick: () => {
+      clock.set(time);
+      document.getElementById("lift")?.scrollIntoView({ behavior: "smooth" });
+    } }, seconds(time)) : seconds(time),
+    ...names.map((name) => {
+      const mode = modes.find((one) => one.name === name);
+      return !mode ? missing : mode.kind === "oscillating" ? period(mode) : mode.kind;
+    })]));
+}
+
+function shapesOf(shapes: ModeShapes | undefined): Map<string, Float32Array> {
+  return new Map(Object.entries(shapes?.bodies ?? {}).map(([body, packed]) => [body, unpack(packed)]));
+}
+
+export function modesSection(data: PageData, clock: Clock, player: VibrationPlayer): Section | null {
+  const instants = data.summary.natural_periods ?? [];
+  if (instants.length === 0) return null;
+  const load = data.scene?.load ?? "";
+  const body = h("div", {});
+  const show = (index: number): void => {
+    const { modes, time_s: time } = instants[index];
+    const shapes = shapesOf(data.modes[index]);
+    const play = player.canPlay && shapes.size > 0 ? (row: number): void => {
+      clock.set(time);
+      player.play(new Vibration(modes[row].name, time, shapes, row));
+      document.getElementById("lift")?.scrollIntoView({ behavior: "smooth" });
+    } : null;
+    const main = modes.filter((mode) => isMain(mode, load));
+    const rest = modes.filter((mode) => !isMain(mode, load));
+    body.replaceChildren();
+    for (const part of [
+      modeTable(`Motions of the load: ${instants[index].instant}, ${seconds(time)} s`, main, modes, play),
+      rest.length > 0 ? h("details", { class: "modes" }, h("summary", {}, `Motions of hook blocks and other bodies (${rest.length})`),
+        modeTable("Motions in which the load has little part", rest, modes, play) as HTMLElement) : null,
+    ]) if (part) body.appendChild(part as Node);
+  };
+  show(0);
+  const which = h("select", { "aria-label": "Instant", onchange: (event: Event) => show(Number((event.target as HTMLSelectElement).value)) },
+    instants.map((one, i) => h("option", { value: i }, `${one.instant}, ${seconds(one.time_s)} s`)));
+  return {
+    id: "periods", title: "Natural periods", content: [
+      h("p", { class: "lead" }, "The motions that the lift has of its own while it hangs at rest, drives and winches held: a push or a "
+        + "start of the cranes wakes those whose period it meets. Small vibrations about the equilibrium at the start, after each stage, "
+        + "and where a rope at rest is nearest to breaking."),
+      overview(data, load, clock),
+      instants.length > 1 ? h("div", { class: "controls" }, h("label", {}, "Instant ", which)) : null, body],
+  };
+}
