@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/force/loop_derivatives.h"
+
 namespace blocklift::dynamics {
 
 namespace {
@@ -29,6 +31,12 @@ void calc_force_derivatives(const LiftSystem& system, double t, bool stretch_onl
   const MotionState state{t, w.q, w.v, w.kinematics};
   for_each_element(system.elements(),
                    [&](const auto& element) { element.add_derivatives(state, tangent.forces); });
+  tangent.loads.F_Bo_W = w.loads.F_Bo_W;
+  if (!w.loops || stretch_only) return;
+  const Mechanism& mechanism = system.mechanism();
+  add_loop_forces(mechanism, w.kinematics, w.loops->loops, w.loops->lambda, tangent.loads.F_Bo_W,
+                  tangent.loads.tau);
+  add_loop_derivatives(mechanism, w.kinematics, w.loops->loops, w.loops->lambda, tangent.forces);
 }
 
 }  // namespace
@@ -38,7 +46,8 @@ TangentMatrices::TangentMatrices(const LiftSystem& system)
       damping(system.nv_free(), system.nv_free()),
       stiffness(system.nv_free(), system.nv_free()),
       inverse(system.mechanism()),
-      forces(system.mechanism(), most_points(system)) {}
+      forces(system.mechanism(), most_points(system)),
+      loads(system.mechanism()) {}
 
 void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
                            TangentMatrices& tangent) {
@@ -46,7 +55,7 @@ void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
   InverseDynamicsDerivatives& inverse = tangent.inverse;
   const ForceDerivatives& forces = tangent.forces;
   compute_inverse_dynamics_derivatives(system.mechanism(), w.kinematics, w.v, w.vdot,
-                                       w.loads.F_Bo_W, forces.arm_moments(), inverse);
+                                       tangent.loads.F_Bo_W, forces.arm_moments(), inverse);
   const std::vector<int>& free = system.mechanism().free_velocities();
   Eigen::Index column = 0;
   for (const int k : free) {

@@ -10,7 +10,8 @@ namespace blocklift::dynamics {
 /// e being the tangent increment of the coordinates (Mechanism::integrate), dv and dvdot the changes of
 /// velocities and accelerations; time, drives and winches are held. M is the mass matrix, C and K hold
 /// gyroscopic, centrifugal and geometric terms, damping, and the stiffness of all ropes, pads and force
-/// elements that act. N/m, N m/rad and so on, as the velocities are.
+/// elements that act. N/m, N m/rad and so on, as the velocities are. Of loops, K holds what their forces do
+/// at held multipliers lambda; those change besides:  M dvdot + C dv + K e = G^T dlambda.
 struct TangentMatrices {
   explicit TangentMatrices(const LiftSystem& system);
 
@@ -18,6 +19,7 @@ struct TangentMatrices {
 
   InverseDynamicsDerivatives inverse;  ///< of the whole mechanism, nv x nv
   ForceDerivatives forces;             ///< of the whole mechanism, nv x nv
+  Loads loads;                         ///< with the forces of the loops
 };
 
 /// Tangent matrices at the instant that calc_right_hand_side has just left in the workspace; its v, vdot,

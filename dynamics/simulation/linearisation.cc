@@ -96,6 +96,34 @@ std::vector<Mode> solve_modes(const Normalised& equations, const Eigen::MatrixXd
   return modes;
 }
 
+// Multipliers of the loops at rest.
+void find_multipliers(const Mechanism& mechanism, LiftWorkspace& w) {
+  Eigen::VectorXd tau = w.loads.tau;
+  Eigen::VectorXd vdot = Eigen::VectorXd::Zero(mechanism.nv());
+  compute_constrained_dynamics(mechanism, w.kinematics, w.q, w.v, w.loads.F_Bo_W, nullptr, *w.loops,
+                               tau, vdot);
+}
+
+// Orthonormal basis of the free velocities that the loops allow, nv_free x degrees of freedom.
+Eigen::MatrixXd motions_of_loops(const Mechanism& mechanism, const LiftWorkspace& w) {
+  const Eigen::MatrixXd whole = calc_loop_jacobian(mechanism, w.kinematics, w.loops->loops);
+  const std::vector<int>& free = mechanism.free_velocities();
+  const auto n = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd jacobian(whole.rows(), n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    jacobian.col(i) = whole.col(free[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
+    const double length = jacobian.row(i).norm();
+    if (length > 0.0) jacobian.row(i) /= length;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
+  Eigen::Index rank = 0;
+  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > redundancy_threshold) {
+    ++rank;
+  }
+  return svd.matrixV().rightCols(n - rank);
+}
+
 int rank(const Mode& mode) {
   switch (mode.kind) {
     case ModeKind::unstable:
@@ -220,10 +248,11 @@ Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w) {
   const std::vector<int>& free = mechanism.free_velocities();
   const Eigen::Index n = system.nv_free();
   TangentMatrices tangent(system);
+  if (w.loops) find_multipliers(mechanism, w);
   calc_tangent_matrices(system, t, w, tangent);
   Linearisation result;
   result.time = t;
-  result.basis = Eigen::MatrixXd::Identity(n, n);
+  result.basis = w.loops ? motions_of_loops(mechanism, w) : Eigen::MatrixXd::Identity(n, n);
   result.mass = result.basis.transpose() * tangent.mass * result.basis;
   result.damping = result.basis.transpose() * tangent.damping * result.basis;
   result.stiffness = result.basis.transpose() * tangent.stiffness * result.basis;

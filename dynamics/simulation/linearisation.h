@@ -57,7 +57,8 @@ struct Linearisation {
 };
 
 /// Linearises at the rest that an EquilibriumSolver has left in its workspace at time t: drives and
-/// winches held, one-sided elements acting as they do there.
+/// winches held, one-sided elements acting as they do there. Loops leave the motions along them, an
+/// orthonormal basis of the null space of their Jacobian; what their forces do by turning is in K.
 ///
 /// Eigenvalues are those of the quadratic problem (lambda^2 M + lambda C + K) z = 0, as 2n x 2n ordinary
 /// one in coordinates in which M = 1 and the largest frequency is about 1 (Tisseur and Meerbergen 2001,

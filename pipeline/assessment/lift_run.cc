@@ -36,12 +36,8 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   dynamics::IntegrationResult dynamic_result =
       dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
   const double dynamic_s = watch.lap();
-  return {std::move(model),
-          std::move(static_history),
-          std::move(natural_modes),
-          std::move(dynamic_result),
-          static_s,
-          dynamic_s};
+  return {std::move(model), std::move(static_history), std::move(dynamic_result), static_s,
+          dynamic_s,        std::move(natural_modes)};
 }
 
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,

@@ -17,10 +17,10 @@ using Progress = std::function<void(const std::string&, double, const std::strin
 struct LiftRun {
   BuiltLift model;
   dynamics::History static_history;
-  std::vector<NaturalModes> natural_modes;
   dynamics::IntegrationResult dynamic_result;
   double static_s = 0;   ///< wall-clock time of the static sweep and the natural modes
   double dynamic_s = 0;  ///< wall-clock time of the time integration
+  std::vector<NaturalModes> natural_modes = {};
 
   const dynamics::History& dynamic_history() const { return dynamic_result.history; }
   double simulated_s() const { return model.system.operation().duration(); }

@@ -284,6 +284,41 @@ TEST(Linearisation, FreeDecayOfATimeIntegration) {
   EXPECT_NEAR(mode.damping_ratio(), 0.02, 1e-9);
 }
 
+// A platform on two parallel rods that are loops swings without turning: omega^2 = g / l, and the rods'
+// tension is all that brings it back. As a tree it has three degrees of freedom, with the rods one.
+TEST(Linearisation, PlatformOnTwoRods) {
+  constexpr double rod = 4.0;
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -g});
+  builder.add_body({.name = "platform",
+                    .joint = {.kind = JointKind::planar,
+                              .axis = Vector3::UnitY(),
+                              .second_axis = Vector3::UnitX()},
+                    .mass = 700,
+                    .p_BoBcm_B = {0.2, 0, -0.3},
+                    .I_BBcm_B = Vector3(80, 90, 100).asDiagonal()});
+  for (const double x : {-1.5, 1.5}) {
+    LoopDefinition loop;
+    loop.name = x < 0 ? "left rod" : "right rod";
+    loop.kind = LoopKind::distance;
+    loop.first = std::string(world_name);
+    loop.second = "platform";
+    loop.X_FirstK = Pose::translation({x, 0, rod});
+    loop.X_SecondK = Pose::translation({x, 0, 0});
+    loop.length = rod;
+    builder.add_loop(loop);
+  }
+  const LiftSystem system = at_rest(builder.build(), {}, Eigen::Vector3d::Zero());
+  LiftWorkspace w(system);
+  w.v.setZero();
+  calc_loads(system, 0.0, nullptr, w);
+  const Linearisation l = linearise(system, 0.0, w);
+  ASSERT_EQ(l.modes.size(), 1u);
+  EXPECT_NEAR(l.modes[0].natural_frequency() / std::sqrt(g / rod), 1.0, 1e-9);
+  EXPECT_EQ(l.modes[0].name, "platform: pendulum along x");
+  EXPECT_LT(l.modes[0].bodies[0].rotation.norm(), 1e-9);
+}
+
 // Along an operation: the pendulum of the turn-over shortens as the block goes up.
 TEST(Linearisation, FollowsAnOperation) {
   const LiftSystem lift = samples::two_goliaths();

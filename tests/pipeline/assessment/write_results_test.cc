@@ -148,12 +148,15 @@ TEST(Summary, HoldsEverythingThatReadersCountOn) {
   ASSERT_GE(summary["natural_periods"].size(), 2u);
   EXPECT_EQ(summary["natural_periods"][0]["instant"], "start");
   for (const auto& instant : summary["natural_periods"]) {
-    EXPECT_EQ(instant["modes"].size(),
-              static_cast<std::size_t>(small_assessment().lift->model.system.nv_free()));
+    // Two eigenvalues a degree of freedom: a swing has both, creeping back (its damped hooks) one.
+    int eigenvalues = 0;
     for (const auto& mode : instant["modes"]) {
       expect_numbers(mode, {"period_s", "frequency_Hz", "damping_ratio", "elastic_share"});
-      EXPECT_EQ(mode["kind"], "oscillating") << mode["name"];
+      EXPECT_GE(mode["damping_ratio"], 0.0);
+      eigenvalues += mode["kind"] == "oscillating" ? 2 : 1;
     }
+    EXPECT_EQ(eigenvalues, 2 * small_assessment().lift->model.system.nv_free());
+    EXPECT_EQ(instant["modes"][0]["kind"], "oscillating");
   }
   EXPECT_EQ(summary["solver"]["right_hand_sides_for_differences"], 0);
   expect_numbers(summary["energy"], {"largest_imbalance_J", "relative_imbalance"});
