@@ -1,0 +1,210 @@
+#include "dynamics/marine/radiation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/incident_wave.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::array<double, 3> gauss_points = {0.1127016653792583, 0.5, 0.8872983346207417};
+constexpr std::array<double, 3> gauss_weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+
+}  // namespace
+
+MemoryConvolution::MemoryConvolution(const HydrodynamicDatabase& database)
+    : step_(database.time_step), samples_(database.retardation) {
+  if (samples_.size() < 4 || !(step_ > 0.0)) {
+    throw ModelError("a convolution needs retardation functions at four instants at least");
+  }
+  memory_ = step_ * static_cast<double>(samples_.size() - 1);
+  kernel_ = MatrixXd::Zero(samples_[0].rows(), samples_[0].cols());
+  value_ = VectorXd::Zero(samples_[0].rows());
+  for (std::size_t cell = 0; cell + 1 < samples_.size(); ++cell) {
+    for (const double point : gauss_points) {
+      interpolate_kernel((static_cast<double>(cell) + point) * step_);
+      gauss_.push_back(kernel_);
+    }
+  }
+}
+
+void MemoryConvolution::interpolate_kernel(double lag) const {
+  const double position = lag / step_;
+  const auto last = static_cast<long>(samples_.size()) - 1;
+  const long cell = std::clamp(static_cast<long>(std::floor(position)), 0L, last - 1);
+  const double s = position - static_cast<double>(cell);
+  // Lagrange's cubic through the four samples about the cell; K is even about zero.
+  const auto sample = [&](long k) -> const MatrixXd& {
+    return samples_[static_cast<std::size_t>(k < 0 ? -k : std::min(k, last))];
+  };
+  kernel_ = (-s * (s - 1.0) * (s - 2.0) / 6.0) * sample(cell - 1) +
+            ((s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0) * sample(cell) +
+            (-(s + 1.0) * s * (s - 2.0) / 2.0) * sample(cell + 1) +
+            ((s + 1.0) * s * (s - 1.0) / 6.0) * sample(cell + 2);
+}
+
+void MemoryConvolution::start(double time, const VectorXd& velocity, const VectorXd& acceleration) {
+  history_.clear();
+  history_.push_back({time, velocity, acceleration});
+}
+
+void MemoryConvolution::record(double time, const VectorXd& velocity,
+                               const VectorXd& acceleration) {
+  if (history_.empty() || !(time > history_.back().time)) {
+    throw ModelError("the history of a convolution must be started, and its instants ascend; " +
+                     std::to_string(time) + " s does not follow");
+  }
+  history_.push_back({time, velocity, acceleration});
+  // Now and then drop what no force can see any more.
+  std::size_t old = 0;
+  while (old + 2 < history_.size() && history_[old + 1].time < time - memory_) ++old;
+  if (old > 1000 && 2 * old > history_.size()) {
+    history_.erase(history_.begin(), history_.begin() + static_cast<std::ptrdiff_t>(old));
+  }
+}
+
+/// Velocity at a past instant into value_; `instant` walks backwards through the history.
+void MemoryConvolution::interpolate(double time, double now, const VectorXd& velocity_now,
+                                    std::size_t& instant) const {
+  while (instant > 0 && history_[instant].time > time) --instant;
+  const Instant& from = history_[instant];
+  if (instant + 1 == history_.size()) {
+    // Beyond the last instant: the parabola through it, with its slope, and the present velocity.
+    const double h = now - from.time;
+    const double s = h > 0.0 ? (time - from.time) / h : 0.0;
+    value_ = (1.0 - s * s) * from.velocity + (s * (1.0 - s) * h) * from.acceleration +
+             (s * s) * velocity_now;
+    return;
+  }
+  const Instant& to = history_[instant + 1];
+  const double h = to.time - from.time, s = (time - from.time) / h;
+  value_ = ((1.0 + 2.0 * s) * (1.0 - s) * (1.0 - s)) * from.velocity +
+           (h * s * (1.0 - s) * (1.0 - s)) * from.acceleration +
+           (s * s * (3.0 - 2.0 * s)) * to.velocity + (h * s * s * (s - 1.0)) * to.acceleration;
+}
+
+void MemoryConvolution::calc_force(double time, const VectorXd& velocity, VectorXd& force) const {
+  force.setZero(kernel_.rows());
+  const double reach = std::min(memory_, time - history_.front().time);
+  std::size_t instant = history_.size() - 1;
+  const auto whole = static_cast<std::size_t>(std::max(0.0, std::floor(reach / step_ + 1e-12)));
+  for (std::size_t cell = 0; cell < whole && cell + 1 < samples_.size(); ++cell) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double lag = (static_cast<double>(cell) + gauss_points[k]) * step_;
+      interpolate(time - lag, time, velocity, instant);
+      force.noalias() -= (step_ * gauss_weights[k]) * (gauss_[3 * cell + k] * value_);
+    }
+  }
+  // The cell in which the motion started, up to there.
+  const double from = static_cast<double>(whole) * step_;
+  if (reach <= from || whole + 1 >= samples_.size()) return;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double lag = from + gauss_points[k] * (reach - from);
+    interpolate(time - lag, time, velocity, instant);
+    interpolate_kernel(lag);
+    force.noalias() -= ((reach - from) * gauss_weights[k]) * (kernel_ * value_);
+  }
+}
+
+DirectRadiation::DirectRadiation(const PanelModel& model, const Settings& settings)
+    : wave_(settings.wave),
+      infinite_added_mass_(MatrixXd::Zero(model.mode_count(), model.mode_count())) {
+  RankineSettings rankine = settings.rankine;
+  rankine.keep_factors = wave_.has_value();
+  const VectorXd damping = DampingZone{settings.damping_strength}.rates(model.surface());
+  const Water& water = model.water();
+  for (const Parity& parity : model.parities()) {
+    if (model.normal_velocities(parity).isZero(0.0)) continue;
+    RankinePart part(model, parity, rankine);
+    const auto& modes = part.modes();
+    const MatrixXd share = water.density * part.infinite_frequency_volume();
+    infinite_added_mass_(modes, modes) += 0.5 * (share + share.transpose());
+    FreeSurfaceMarch march(part, damping, water.gravity, 1);
+    const double factor = water.density * water.gravity * part.image_count();
+    parts_.push_back({std::move(part), std::move(march), factor, {}, {}, {}});
+    if (wave_) add_wave(model, parts_.back());
+  }
+}
+
+void DirectRadiation::add_wave(const PanelModel& model, Part& part) const {
+  const Water& water = model.water();
+  const IncidentWave wave(water, wave_->frequency, wave_->heading);
+  const Complex i(0.0, 1.0);
+  const Parity& parity = part.rankine.parity();
+  const Eigen::VectorXcd potential =
+      model.part_of(parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
+  const Eigen::VectorXcd opposed =
+      model.part_of(parity, [&](const Vector3& p, const Vector3& n) -> Complex {
+        return -(wave.velocity(p).transpose() * n)(0);
+      });
+  MatrixXd velocities(opposed.size(), 2), bodies, supply;
+  velocities << opposed.real(), opposed.imag();
+  part.rankine.solve(velocities, bodies, supply);
+  const MatrixXd weighted = water.density * part.rankine.image_count() *
+                            (model.body_areas().asDiagonal() * part.rankine.normal_velocities());
+  const Complex a = wave_->amplitude;
+  part.wave_supply = a * (supply.col(0).cast<Complex>() + i * supply.col(1).cast<Complex>());
+  part.wave_force = a * i * wave_->frequency * (weighted.transpose() * potential);
+  part.wave_potential = a * (weighted.transpose() *
+                             (bodies.col(0).cast<Complex>() + i * bodies.col(1).cast<Complex>()));
+}
+
+double DirectRadiation::step_limit() const {
+  double limit = std::numeric_limits<double>::infinity();
+  for (const Part& part : parts_) limit = std::min(limit, part.march.step_limit());
+  return limit;
+}
+
+void DirectRadiation::start(double step) {
+  step_ = step;
+  time_ = 0.0;
+  for (Part& part : parts_) {
+    part.march.start(MatrixXd::Zero(part.rankine.surface_columns().rows(), 1), step);
+  }
+}
+
+double DirectRadiation::ramp(double time) const {
+  const double fraction = time * wave_->frequency / (4.0 * std::numbers::pi);
+  if (fraction >= 1.0) return 1.0;
+  return fraction <= 0.0 ? 0.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * fraction));
+}
+
+VectorXd DirectRadiation::calc_force() const {
+  VectorXd force = VectorXd::Zero(infinite_added_mass_.rows());
+  for (const Part& part : parts_) {
+    VectorXd share = -part.force_factor *
+                     (part.rankine.surface_columns().transpose() * part.march.elevation().col(0));
+    if (wave_) {
+      // The wave grows with the ramp r: d/dt (r e^{iwt}) by central difference of the ramp.
+      const double r = ramp(time_), dr = (ramp(time_ + 1e-3) - ramp(time_ - 1e-3)) / 2e-3;
+      const Complex oscillation = std::polar(1.0, wave_->frequency * time_);
+      share += (r * oscillation * part.wave_force).real();
+      share += (Complex(dr, r * wave_->frequency) * oscillation * part.wave_potential).real();
+    }
+    force(part.rankine.modes()) += share;
+  }
+  return force;
+}
+
+void DirectRadiation::advance(const VectorXd& velocity) {
+  const double middle = time_ + 0.5 * step_;
+  for (Part& part : parts_) {
+    MatrixXd supply = part.rankine.surface_columns() * velocity(part.rankine.modes());
+    if (wave_) {
+      const Complex oscillation = ramp(middle) * std::polar(1.0, wave_->frequency * middle);
+      supply += (oscillation * part.wave_supply).real();
+    }
+    part.march.advance(supply);
+  }
+  time_ += step_;
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <optional>
+
+#include "dynamics/marine/hydrodynamic_database.h"
+
+namespace blocklift::dynamics {
+
+/// Memory force of Cummins' equation by convolution with the velocity's own history:
+///
+///   F(t) = - integral over tau from 0 to t - t_start of K(tau) v(t - tau),    at rest before t_start.
+///
+/// The history is interpolated by cubic Hermite polynomials between whatever instants were recorded,
+/// K by cubic polynomials between its own; the integral is taken cell by cell of K (Gauss, three
+/// points). The result therefore does not depend on the simulation's step but by the fourth order of
+/// the interpolation. Source: Cummins (1962).
+class MemoryConvolution {
+ public:
+  explicit MemoryConvolution(const HydrodynamicDatabase& database);
+
+  int mode_count() const { return static_cast<int>(kernel_.rows()); }
+  /// How far back the force looks, s.
+  double memory() const { return memory_; }
+
+  /// Forgets everything; motion starts with this velocity (6N) at this time (s).
+  void start(double time, const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration);
+  /// Adds an accepted instant behind the last one, and forgets what is out of memory.
+  /// @throws ModelError if the time does not follow the last.
+  void record(double time, const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration);
+  /// Force (6N; N, N m) at a time not before the last recorded, with the velocity there.
+  void calc_force(double time, const Eigen::VectorXd& velocity, Eigen::VectorXd& force) const;
+
+ private:
+  struct Instant {
+    double time;
+    Eigen::VectorXd velocity, acceleration;
+  };
+  void add_cell(double time, double from, double to, const Eigen::VectorXd& velocity,
+                std::size_t& instant, Eigen::VectorXd& force) const;
+  void interpolate(double time, double now, const Eigen::VectorXd& velocity_now,
+                   std::size_t& instant) const;
+  void interpolate_kernel(double lag) const;
+
+  double step_, memory_;
+  std::vector<Eigen::MatrixXd> samples_;
+  std::vector<Eigen::MatrixXd> gauss_;  ///< K at three points of each cell, in order
+  std::vector<Instant> history_;
+  mutable Eigen::MatrixXd kernel_;  ///< workspace
+  mutable Eigen::VectorXd value_;   ///< workspace
+};
+
+/// A regular wave with its amplitude: eta = Re a exp(i (w t - k.x)).
+struct RegularWave {
+  double frequency = not_a_number;         ///< rad/s
+  double heading = 0.0;                    ///< rad
+  std::complex<double> amplitude = {1.0};  ///< m
+};
+
+/// Radiation and diffraction without a database: the free surface is marched with the bodies, as the
+/// paper does (its equations 20-30). Steps of one fixed length; at each instant the force follows from
+/// the surface, the acceleration from the force (added mass on the left), and the velocity half a step
+/// on drives the surface.
+class DirectRadiation {
+ public:
+  struct Settings {
+    double damping_strength = not_a_number;  ///< nu at the edge of the surface, rad/s
+    std::optional<RegularWave> wave;         ///< that the bodies diffract, if any
+    RankineSettings rankine;
+  };
+  DirectRadiation(const PanelModel& model, const Settings& settings);
+
+  /// A_inf, 6N x 6N, symmetric.
+  const Eigen::MatrixXd& infinite_added_mass() const { return infinite_added_mass_; }
+  double step_limit() const;
+
+  /// Calm water at the time 0, to be marched by this step (s).
+  void start(double step);
+  double time() const { return time_; }
+  /// Force (6N) on the bodies now but for -A_inf times their acceleration: memory of the surface,
+  /// and with a wave Froude-Krylov and diffraction. The wave's share grows over its first two periods.
+  Eigen::VectorXd calc_force() const;
+  /// One step, with the bodies' velocity (6N) at its middle.
+  void advance(const Eigen::VectorXd& velocity);
+
+ private:
+  struct Part {
+    RankinePart rankine;
+    FreeSurfaceMarch march;
+    double force_factor;              ///< rho g times the number of images
+    Eigen::MatrixXcd wave_supply;     ///< W^1/2 q of the wave's normal velocity
+    Eigen::VectorXcd wave_force;      ///< Froude-Krylov, per unit ramp
+    Eigen::VectorXcd wave_potential;  ///< rho n W Phi of the wave: its force needs d/dt
+  };
+  void add_wave(const PanelModel& model, Part& part) const;
+  double ramp(double time) const;
+
+  std::vector<Part> parts_;
+  std::optional<RegularWave> wave_;
+  Eigen::MatrixXd infinite_added_mass_;
+  double step_ = not_a_number, time_ = 0.0;
+};
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,182 @@
+// The panel method against closed forms for other bodies, and several bodies at once.
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/marine/hydrodynamic_database.h"
+#include "dynamics/marine/panel_shapes.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Lamb, Hydrodynamics, art. 114: added mass of an ellipsoid along the axis i over the displaced mass:
+// k_i = alpha_i/(2 - alpha_i), alpha_i = a b c int_0^inf d lambda/((a_i^2 + lambda) Delta),
+// Delta^2 = (a^2 + lambda)(b^2 + lambda)(c^2 + lambda).
+double lamb(const Vector3& axes, int i) {
+  // lambda = s/(1 - s) on 0 < s < 1, midpoint rule refined at the end by s = u^2 (3 - 2 u).
+  constexpr int n = 200000;
+  double alpha = 0.0;
+  for (int k = 0; k < n; ++k) {
+    const double u = (k + 0.5) / n, s = u * u * (3.0 - 2.0 * u), ds = 6.0 * u * (1.0 - u);
+    const double lambda = s / (1.0 - s), dlambda = ds / ((1.0 - s) * (1.0 - s));
+    const double delta = std::sqrt((axes.array().square() + lambda).prod());
+    alpha += axes.prod() * dlambda / ((axes[i] * axes[i] + lambda) * delta) / n;
+  }
+  return alpha / (2.0 - alpha);
+}
+
+TEST(Ellipsoid, AddedMassInInfiniteFluid) {
+  const Vector3 axes(3, 1.5, 1);
+  std::array<double, 3> last = {1, 1, 1};
+  for (const int n : {16, 32}) {
+    const PanelMesh hull =
+        make_ellipsoid(axes, {0, 0, -1000}, {.meridians = 2 * n, .parallels = n / 2});
+    const PanelModel model({{"ellipsoid", hull, {0, 0, -1000}}}, {}, {1, 1});
+    const RankinePart part(model, {});
+    const double mass = 4.0 / 3.0 * pi * axes.prod();
+    for (int i = 0; i < 3; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      const double error = part.infinite_frequency_volume()(i, i) / mass / lamb(axes, i) - 1.0;
+      std::printf("%d panels, axis %d: %+.2f %%\n", hull.size(), i, 100 * error);
+      EXPECT_LT(std::abs(error), 0.6 * last[index]);
+      last[index] = std::abs(error);
+    }
+  }
+  for (const double error : last) EXPECT_LT(error, 0.02);
+}
+
+// MacCamy and Fuchs (1954): horizontal force on a vertical cylinder that stands on the bottom,
+// |X| = 4 rho g tanh(k h)/(k^2 |H1'(k a)|).
+TEST(StandingCylinder, ExcitationAfterMacCamyAndFuchs) {
+  const double depth = 2.0;
+  const std::vector<WettedBody> bodies{
+      {"column",
+       make_vertical_cylinder(1.0, depth, false,
+                              {.meridians = 32, .parallels = 12, .grading = 3.0}),
+       Vector3(0, 0, -depth)}};
+  const SurfaceMesh surface = make_surface_mesh(
+      find_water_lines(bodies), {.first_ring = 0.06, .growth = 1.08, .radius = 40.0});
+  const PanelModel model(bodies, surface, {1.0, 1.0, depth}, {true, true});
+  DatabaseSettings settings;
+  for (const double ka : {0.3, 0.6, 1.0, 1.5, 2.0}) {
+    settings.frequencies.push_back(std::sqrt(ka * std::tanh(ka * depth)));
+  }
+  settings.headings = {0.0};
+  settings.duration = 60.0;
+  settings.damping_strength = 0.5;
+  const HydrodynamicDatabase database = compute_database(model, settings);
+  for (std::size_t i = 0; i < settings.frequencies.size(); ++i) {
+    const double k = calc_wave_number(settings.frequencies[i], model.water());
+    // H1' = H0 - H1/x.
+    const double J = std::cyl_bessel_j(0.0, k) - std::cyl_bessel_j(1.0, k) / k;
+    const double Y = std::cyl_neumann(0.0, k) - std::cyl_neumann(1.0, k) / k;
+    const double exact = 4.0 * std::tanh(k * depth) / (k * k * std::hypot(J, Y));
+    const double found = std::abs(database.excitation(i)(surge, 0));
+    std::printf("ka %.2f: %.4f (%.4f) %+.2f %%\n", k, found, exact, 100 * (found / exact - 1));
+    EXPECT_NEAR(found, exact, 0.02 * exact);
+  }
+}
+
+struct Pair {
+  std::vector<WettedBody> bodies;
+  SurfaceMesh surface;
+};
+
+Pair make_hemispheres(double gap, int meridians, int parallels) {
+  const PanelMesh sphere =
+      make_half_ellipsoid({1, 1, 1}, {.meridians = meridians, .parallels = parallels});
+  const double x = 1.0 + gap / 2;
+  Pair pair;
+  pair.bodies = {{"left", translate(sphere, {-x, 0, 0}), {-x, 0, 0}},
+                 {"right", translate(sphere, {x, 0, 0}), {x, 0, 0}}};
+  pair.surface =
+      make_surface_mesh(find_water_lines(pair.bodies), {.first_ring = 0.08, .radius = 35.0});
+  return pair;
+}
+
+// Two hemispheres half a radius apart: reciprocity between the bodies, mirror images of each other,
+// positive damping; one quarter computed and the whole computed are the same.
+TEST(TwoHemispheres, InteractionIsSymmetric) {
+  const Pair pair = make_hemispheres(0.5, 24, 8);
+  DatabaseSettings settings;
+  settings.frequencies = {0.6, 1.0, 1.4};
+  settings.headings = {0.5};
+  settings.duration = 40.0;
+  settings.damping_strength = 0.5;
+  settings.time_step = 0.1;
+  const PanelModel quarter(pair.bodies, pair.surface, {1.0, 1.0}, {true, true});
+  DatabaseReport report;
+  const HydrodynamicDatabase database = compute_database(quarter, settings, &report);
+  std::printf("%d + %d panels in %d parts, A_inf symmetric to %.1e\n", report.body_panels,
+              report.surface_panels, report.parts, report.asymmetry);
+  EXPECT_LT(report.asymmetry, 3e-3);
+  const Eigen::MatrixXd& A = database.infinite_added_mass;
+  EXPECT_EQ((A - A.transpose()).norm(), 0.0);
+  // The mirror image in x = 0 exchanges the bodies and turns surge, pitch and yaw round.
+  Eigen::VectorXd turn(6);
+  turn << -1, 1, 1, 1, -1, -1;
+  const auto exchanged = [&](const Eigen::MatrixXd& M) -> Eigen::MatrixXd {
+    Eigen::MatrixXd result(12, 12);
+    for (int i = 0; i < 12; ++i) {
+      for (int j = 0; j < 12; ++j) {
+        result(i, j) = turn[i % 6] * turn[j % 6] * M((i + 6) % 12, (j + 6) % 12);
+      }
+    }
+    return result;
+  };
+  EXPECT_LT((exchanged(A) - A).norm(), 1e-9 * A.norm());
+  // Between the bodies: their heave is coupled, and more than with the other far away.
+  EXPECT_GT(std::abs(A(heave, 6 + heave)), 0.01 * A(heave, heave));
+  for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(database.damping[k]);
+    EXPECT_GT(eigen.eigenvalues()[0], -2e-3 * eigen.eigenvalues()[11]);
+    EXPECT_LT((exchanged(database.added_mass[k]) - database.added_mass[k]).norm(),
+              1e-5 * database.added_mass[k].norm());
+  }
+  const PanelModel whole(pair.bodies, pair.surface, {1.0, 1.0});
+  const HydrodynamicDatabase other = compute_database(whole, settings);
+  EXPECT_LT((A - other.infinite_added_mass).norm(), 1e-8 * A.norm());
+  for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
+    EXPECT_LT((database.added_mass[k] - other.added_mass[k]).norm(), 1e-4 * A.norm());
+    EXPECT_LT((database.excitation(k) - other.excitation(k)).norm(),
+              1e-4 * other.excitation(k).norm());
+  }
+}
+
+// Far apart (100 radii) each is alone: added mass at infinite frequency to the coupling's (a/d)^3.
+TEST(TwoHemispheres, AreAloneWhenFarApart) {
+  const PanelMesh sphere = make_half_ellipsoid({1, 1, 1}, {.meridians = 24, .parallels = 8});
+  const std::vector<WettedBody> one{{"one", sphere, {0, 0, 0}}};
+  const std::vector<WettedBody> two{{"left", translate(sphere, {-50, 0, 0}), {-50, 0, 0}},
+                                    {"right", translate(sphere, {50, 0, 0}), {50, 0, 0}}};
+  const PanelModel alone(one, {}, {1, 1}), apart(two, {}, {1, 1});
+  const double heave_alone = RankinePart(alone, {}).infinite_frequency_volume()(heave, heave);
+  const Eigen::MatrixXd A = RankinePart(apart, {}).infinite_frequency_volume();
+  EXPECT_NEAR(A(heave, heave), heave_alone, 1e-5 * heave_alone);
+  EXPECT_LT(std::abs(A(heave, A.cols() / 2 + heave)), 1e-5 * heave_alone);
+}
+
+// A barge of 90 x 24 m with a draught of 4 m: A_inf converges at the sharp edges, and the parts of
+// different parity stay apart.
+TEST(Barge, ConvergesAtSharpEdges) {
+  std::vector<double> heave_mass;
+  for (const int n : {1, 2, 3}) {
+    const PanelMesh hull = make_box_hull(90, 24, 4, {12 * n, 6 * n, 2 * n, 3.0});
+    const PanelModel model({{"barge", hull, {0, 0, 0}}}, {}, {1000, 9.81}, {true, true});
+    const RankinePart part(model, {1, 1});
+    ASSERT_EQ(part.modes().size(), 1U);
+    heave_mass.push_back(1000 * part.infinite_frequency_volume()(0, 0));
+    std::printf("%d panels: A33 %.4e kg\n", hull.size(), heave_mass.back());
+  }
+  EXPECT_LT(std::abs(heave_mass[2] / heave_mass[1] - 1.0), 0.02);
+  EXPECT_LT(std::abs(heave_mass[2] - heave_mass[1]), 0.6 * std::abs(heave_mass[1] - heave_mass[0]));
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics
