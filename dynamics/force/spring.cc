@@ -89,28 +89,29 @@ JointSpring::JointSpring(const Mechanism& mechanism, Definition definition)
                      "\" needs the joint coordinate at which it is free of force");
   }
   const Body& body = mechanism.body(definition_.body);
-  if (body.nv() != 1) {
-    throw ModelError("spring \"" + definition_.name + "\" acts on the " +
+  const int degree = definition_.degree_of_freedom;
+  if (degree < 0 || degree >= body.nv() || !velocities_are_rates(body.joint.kind)) {
+    throw ModelError("spring \"" + definition_.name + "\" acts at degree of freedom " +
+                     std::to_string(degree) + " of the " +
                      std::string(joint_kind_name(body.joint.kind)) + " joint of \"" + body.name +
-                     "\"; a joint with one degree of freedom (revolute, prismatic) is due");
+                     "\"; one is due that has a coordinate of its own, counted from 0");
   }
-  q_offset_ = body.q_offset;
-  v_offset_ = body.v_offset;
+  q_index_ = body.q_offset + degree;
+  v_index_ = body.v_offset + degree;
 }
 
 void JointSpring::add_forces(const MotionState& state, Loads& loads) const {
-  loads.tau[v_offset_] -=
-      definition_.stiffness * (state.q[q_offset_] - definition_.free_coordinate) +
-      definition_.damping * state.v[v_offset_];
+  loads.tau[v_index_] -= definition_.stiffness * (state.q[q_index_] - definition_.free_coordinate) +
+                         definition_.damping * state.v[v_index_];
 }
 
 void JointSpring::add_derivatives(const MotionState&, ForceDerivatives& derivatives) const {
-  derivatives.add_joint(v_offset_, -definition_.stiffness, -definition_.damping);
+  derivatives.add_joint(v_index_, -definition_.stiffness, -definition_.damping);
 }
 
 EnergyAccount JointSpring::calc_energy(const MotionState& state) const {
-  const double deflection = state.q[q_offset_] - definition_.free_coordinate;
-  const double rate = state.v[v_offset_];
+  const double deflection = state.q[q_index_] - definition_.free_coordinate;
+  const double rate = state.v[v_index_];
   return {.stored_energy = 0.5 * definition_.stiffness * deflection * deflection,
           .dissipated_power = definition_.damping * rate * rate};
 }

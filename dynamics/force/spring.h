@@ -44,20 +44,21 @@ class PointSpring {
   Definition definition_;
 };
 
-/// Spring and damper that acts on a joint of one degree of freedom:
-///   tau = -k (q - q0) - c v,   N m for a revolute joint, N for a prismatic one.
+/// Spring and damper at one degree of freedom of a joint whose v is dq/dt:
+///   tau = -k (q - q0) - c v,   N m where the joint turns, N where it slides.
 class JointSpring {
  public:
   struct Definition {
     std::string name;
     BodyIndex body = -1;                    ///< the body that the joint carries
+    int degree_of_freedom = 0;              ///< which of the joint's velocities, from 0
     double stiffness = not_a_number;        ///< k, N m/rad or N/m
     double damping = 0.0;                   ///< c, N m s/rad or N s/m
     double free_coordinate = not_a_number;  ///< q0, rad or m
   };
 
-  /// @throws ModelError if the joint has not exactly one degree of freedom, or stiffness or damping
-  /// is negative or not finite.
+  /// @throws ModelError if the joint has no such degree of freedom or a quaternion (spherical, free), or
+  /// stiffness or damping is negative or not finite.
   JointSpring(const Mechanism& mechanism, Definition definition);
 
   const std::string& name() const { return definition_.name; }
@@ -69,8 +70,8 @@ class JointSpring {
 
  private:
   Definition definition_;
-  int q_offset_ = -1;
-  int v_offset_ = -1;
+  int q_index_ = -1;
+  int v_index_ = -1;
 };
 
 static_assert(ForceElement<PointSpring> && ForceElement<JointSpring>);

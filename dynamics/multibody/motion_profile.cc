@@ -231,6 +231,11 @@ MotionProfile MotionProfile::cam(MotionProfile leader, NaturalSpline spline) {
           std::move(breakpoints)};
 }
 
+MotionProfile MotionProfile::along(NaturalSpline spline) {
+  std::vector<double> breakpoints = spline.knots();
+  return {std::make_shared<const NaturalSpline>(std::move(spline)), std::move(breakpoints)};
+}
+
 MotionProfile MotionProfile::sum(std::vector<MotionProfile> parts) {
   std::vector<double> breakpoints;
   for (const MotionProfile& part : parts) {
@@ -256,6 +261,9 @@ ProfileValue MotionProfile::evaluate(double t) const {
     const ProfileValue y = (*cam)->spline.evaluate(x.position);
     return {y.position, y.velocity * x.velocity,
             y.acceleration * x.velocity * x.velocity + y.velocity * x.acceleration};
+  }
+  if (const auto* spline = std::get_if<std::shared_ptr<const NaturalSpline>>(&content_)) {
+    return (*spline)->evaluate(t);
   }
   ProfileValue value{0, 0, 0};
   for (const MotionProfile& part : std::get<std::shared_ptr<const Sum>>(content_)->parts) {

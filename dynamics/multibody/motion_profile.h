@@ -75,6 +75,7 @@ class NaturalSpline {
   ProfileValue evaluate(double x) const;
   double first_x() const { return x_.front(); }
   double last_x() const { return x_.back(); }
+  const std::vector<double>& knots() const { return x_; }
 
  private:
   std::vector<double> x_, y_, curvature_;
@@ -88,6 +89,8 @@ class MotionProfile {
   /// Starts at `initial` and makes the moves one after another.
   /// @throws ModelError if a move starts before the one before it has ended, or `initial` is not finite.
   static MotionProfile sequence(double initial, std::vector<RestToRestMove> moves);
+  /// Goes along a spline over the time: position y(t), straight beyond its ends.
+  static MotionProfile along(NaturalSpline spline);
   /// Follows another profile like a cam: position y(x(t)), x being the leader's position.
   /// @throws ModelError if the leader leaves the spline's range.
   static MotionProfile cam(MotionProfile leader, NaturalSpline spline);
@@ -109,7 +112,8 @@ class MotionProfile {
   };
   struct Cam;
   struct Sum;
-  using Content = std::variant<Sequence, std::shared_ptr<const Cam>, std::shared_ptr<const Sum>>;
+  using Content = std::variant<Sequence, std::shared_ptr<const Cam>, std::shared_ptr<const Sum>,
+                               std::shared_ptr<const NaturalSpline>>;
 
   MotionProfile(Content content, std::vector<double> breakpoints);
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <tuple>
 
+#include "dynamics/force/applied_load.h"
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
 #include "dynamics/force/wind.h"
@@ -18,7 +19,8 @@ namespace blocklift::dynamics {
 /// The kinds of force elements; a new kind is entered here and nowhere else.
 using ForceElements =
     std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>,
-               std::vector<HullForce>, std::vector<MorisonMember>, std::vector<QuadraticDamping>>;
+               std::vector<HullForce>, std::vector<MorisonMember>, std::vector<QuadraticDamping>,
+               std::vector<AppliedLoad>, std::vector<JointLoad>>;
 
 /// Calls `function` with each element of every kind.
 template <class Function>

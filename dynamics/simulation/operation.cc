@@ -40,7 +40,7 @@ void OperationBuilder::add_track(const std::string& name, bool is_winch, std::si
   for (const Track& track : tracks_) {
     if (track.name == name) throw ModelError("there are two drives named \"" + name + "\"");
   }
-  tracks_.push_back({name, is_winch, index, start, {}, {}});
+  tracks_.push_back({name, is_winch, index, start, {}, {}, {}});
 }
 
 void OperationBuilder::add_joint_drive(const Mechanism& mechanism, std::string name, BodyIndex body,
@@ -124,6 +124,10 @@ void OperationBuilder::check_free(const Track& track, Interval wanted) const {
                        "; let one move end before the next begins");
     }
   };
+  if (track.motion) {
+    throw ModelError("drive \"" + track.name +
+                     "\" goes along a profile and cannot be moved besides");
+  }
   if (!(wanted.start >= 0.0)) {
     throw ModelError("drive \"" + track.name + "\" is moved at " + seconds(wanted.start) +
                      ", before the operation begins at 0 s");
@@ -140,6 +144,19 @@ void OperationBuilder::add_move(std::string_view drive, const RestToRestMove& mo
   const auto later = std::find_if(track.moves.begin(), track.moves.end(),
                                   [&](const auto& other) { return other.start() > move.start(); });
   track.moves.insert(later, move);
+}
+
+void OperationBuilder::set_motion(std::string_view drive, MotionProfile motion) {
+  Track& track = find_track(drive);
+  if (track.is_winch || track.motion || !track.moves.empty() || !track.followers.empty()) {
+    throw ModelError("drive \"" + track.name +
+                     "\" cannot go along a profile: it is a winch, or is moved otherwise");
+  }
+  track.motion = std::move(motion);
+}
+
+void OperationBuilder::add_breakpoints(const std::vector<double>& times) {
+  more_breakpoints_.insert(more_breakpoints_.end(), times.begin(), times.end());
 }
 
 void OperationBuilder::add_follower(std::string_view drive, std::string_view leader, double start,
@@ -180,6 +197,7 @@ double OperationBuilder::end() const {
 }
 
 MotionProfile OperationBuilder::make_profile(const Track& track) const {
+  if (track.motion) return *track.motion;
   MotionProfile own = MotionProfile::sequence(track.start_value, track.moves);
   if (track.followers.empty()) return own;
   std::vector<MotionProfile> parts{std::move(own)};
@@ -224,6 +242,7 @@ std::vector<double> OperationBuilder::collect_breakpoints(const Operation& opera
   for (const Stage& stage : operation.stages_) add({stage.start, stage.end});
   for (const JointDrive& drive : operation.joint_drives_) add(drive.position.breakpoints());
   for (const Winch& winch : operation.winches_) add(winch.length.breakpoints());
+  add(more_breakpoints_);
   std::sort(times.begin(), times.end());
   std::vector<double> breakpoints;
   for (const double t : times) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,6 +88,14 @@ class OperationBuilder {
   /// move of the same drive.
   void add_move(std::string_view drive, const RestToRestMove& move);
 
+  /// A joint's drive goes along a profile throughout: a table over time, a constant speed. Its start is
+  /// the profile's.
+  /// @throws ModelError if there is no such drive, it is a winch, or it is moved otherwise.
+  void set_motion(std::string_view drive, MotionProfile motion);
+
+  /// Integration steps end at these times (s), too: loads change their slope there.
+  void add_breakpoints(const std::vector<double>& times);
+
   /// From `start` to `end` (s) the drive follows another: its own travel is a smooth function of the
   /// leader's travel since `start` (both zero there), like a cam. Leader's moves come first.
   /// @throws ModelError if there is no such drive or leader, the leader follows another drive itself
@@ -120,6 +129,7 @@ class OperationBuilder {
     double start_value;
     std::vector<RestToRestMove> moves;
     std::vector<Follower> followers;
+    std::optional<MotionProfile> motion;  ///< in place of start, moves and followers
   };
   Track& find_track(std::string_view drive);
   void add_track(const std::string& name, bool is_winch, std::size_t index, double start);
@@ -129,6 +139,7 @@ class OperationBuilder {
 
   Operation operation_;
   std::vector<Track> tracks_;
+  std::vector<double> more_breakpoints_;
 };
 
 }  // namespace blocklift::dynamics

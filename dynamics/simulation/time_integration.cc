@@ -365,8 +365,10 @@ void Integrator::set_up_cvode() {
   }
   if (settings_.works) {
     check(CVodeQuadInit(cvode_, works, work_.get()), "CVodeQuadInit");
-    // Where nothing is free the works alone say how long a step may be.
-    const bool alone = system_.state_size() == 0;
+    // Where nothing is free, or loops and drives leave nothing free, the works alone say how long a step
+    // may be.
+    const bool alone = system_.state_size() == 0 ||
+                       (projector_ && projector_->independent_rows().count() >= system_.nv_free());
     check(CVodeSetQuadErrCon(cvode_, alone ? SUNTRUE : SUNFALSE), "CVodeSetQuadErrCon");
     check(CVodeQuadSStolerances(cvode_, settings_.relative_tolerance, settings_.relative_tolerance),
           "CVodeQuadSStolerances");
@@ -437,6 +439,7 @@ void Integrator::record_samples(double up_to) {
                          sundials::view(rates_.get()));
     rows.swap(w_.loop_rows);
     result_.history.record(system_, next_sample_, t, w_);
+    if (settings_.observe) settings_.observe(next_sample_, t, w_);
     if (settings_.works) {
       sundials::view(sampled_work_.get()).setZero();
       if (t > 0.0) {

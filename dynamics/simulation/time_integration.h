@@ -16,6 +16,9 @@ struct IntegrationSettings {
   long largest_step_count = 50'000'000;
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
+  /// Called at each sample with its number and time (s) and the workspace of that instant: accelerations,
+  /// loads and multipliers are those of the sample. May be empty.
+  std::function<void(Eigen::Index, double, const LiftWorkspace&)> observe = {};
 };
 
 /// What the integration cost.

@@ -68,13 +68,31 @@ ForceElements random_elements(Random& random, const Mechanism& mechanism) {
     std::get<std::vector<PointSpring>>(elements).emplace_back(spring(name));
   }
   for (BodyIndex i = 1; i < mechanism.body_count(); ++i) {
-    if (mechanism.body(i).nv() != 1) continue;
+    const Body& body = mechanism.body(i);
+    if (body.nv() == 0) continue;
+    std::get<std::vector<JointLoad>>(elements).emplace_back(
+        mechanism, JointLoad::Definition{.name = "load " + std::to_string(i),
+                                         .body = i,
+                                         .degree_of_freedom = body.nv() - 1,
+                                         .load = LoadTable(random.vector(3))});
+    if (!velocities_are_rates(body.joint.kind)) continue;
     std::get<std::vector<JointSpring>>(elements).emplace_back(
         mechanism, JointSpring::Definition{.name = "joint " + std::to_string(i),
                                            .body = i,
+                                           .degree_of_freedom = body.nv() - 1,
                                            .stiffness = random.uniform(5, 20),
                                            .damping = 1,
                                            .free_coordinate = 0.3});
+  }
+  for (const auto axes : {AppliedLoad::Axes::world, AppliedLoad::Axes::body}) {
+    BodyPoint point = random_point(random, mechanism);
+    point.body = 1 + point.body % (mechanism.body_count() - 1);
+    std::get<std::vector<AppliedLoad>>(elements).emplace_back(
+        AppliedLoad::Definition{.name = "applied",
+                                .point = point,
+                                .axes = axes,
+                                .force = LoadTable(random.vector(10)),
+                                .moment = LoadTable(random.vector(10))});
   }
   const Wind wind = Wind::level(8, 0.4);
   for (const bool flat : {false, true}) {
