@@ -14,6 +14,7 @@
 #include "pipeline/assessment/block_preparation.h"
 #include "pipeline/assessment/history_file.h"
 #include "pipeline/assessment/lift_checks.h"
+#include "pipeline/assessment/lift_scene.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/assessment/stopwatch.h"
 #include "pipeline/assessment/summary.h"
@@ -26,10 +27,6 @@ namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-LoadMass load_mass(const structure::MassProperties& mass) {
-  return {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B};
-}
 
 /// Forces of a load table in the order of the mesh's lugs, N, in the block frame.
 std::vector<structure::Vector3> table_forces(const LoadTable& table,
@@ -55,27 +52,14 @@ HistorySettings history_settings(const StructureSettings& settings) {
   return result;
 }
 
-Scene make_scene(const Assessment& assessment) {
-  const BuiltLift& model = assessment.lift->model;
-  Scene scene;
-  for (const LiftBody& body : model.bodies) {
-    DrawnBody drawn{body.name, body.kind, {}};
-    for (const BoxShape& box : body.boxes) drawn.boxes.push_back({box.size, box.centre});
-    scene.bodies.push_back(drawn);
-  }
-  for (const LiftHoist& hoist : model.hoists) scene.hoists.push_back(hoist.rope);
-  scene.load_body = model.system.mechanism().body(model.load).name;
-  scene.lugs = assessment.block.model->mesh().lugs;
-  return scene;
-}
-
 void write_result_file(const Assessment& assessment, const fs::path& path) {
   ResultsWriter file(path);
   write_case(file, assessment.lift_case.name, assessment.lift_case.title,
              assessment.lift_case.yaml);
   if (assessment.lift) {
     const dynamics::LiftSystem& system = assessment.lift->model.system;
-    const Scene scene = make_scene(assessment);
+    const Scene scene =
+        make_scene(assessment.lift->model, assessment.block.model->mesh().lugs);
     write_operation(file, system.operation());
     write_history(file, layout::static_history, system, assessment.lift->static_history, scene);
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);

@@ -16,13 +16,6 @@ const char* axis_name(std::size_t axis) {
 }
 
 template <class T>
-std::vector<std::string> names_of(const std::vector<T>& items) {
-  std::vector<std::string> names;
-  for (const T& item : items) names.push_back(item.name.value);
-  return names;
-}
-
-template <class T>
 const T* find_by_name(const std::vector<T>& items, const std::string& name) {
   const auto found = std::find_if(items.begin(), items.end(),
                                   [&](const T& item) { return item.name.value == name; });

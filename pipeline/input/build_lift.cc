@@ -1,6 +1,7 @@
 #include "pipeline/input/build_lift.h"
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/multibody/kinematics.h"
+#include "pipeline/input/build_parts.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -55,6 +57,7 @@ class LiftBuilder {
     set_start(mechanism);
     add_ropes();
     add_wind_areas();
+    for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements_);
     std::vector<dynamics::Rope> ropes;
     for (const dynamics::RopeDefinition& rope : rope_definitions_) {
       ropes.emplace_back(mechanism, rope);
@@ -83,59 +86,20 @@ class LiftBuilder {
 
   void add_crane(dynamics::MechanismBuilder& builder, std::size_t index) {
     const CraneInCase& crane = case_.cranes[index];
-    const std::string prefix = crane.name.value + ".";
     const Pose X_WC{rotation_of(crane.attitude), crane.position};
-    // Bodies become children of ones that are there already: as many rounds as the tree is deep.
-    std::vector<const JointModel*> waiting;
-    for (const JointModel& joint : crane.model->joints) waiting.push_back(&joint);
-    while (!waiting.empty()) {
-      const auto next = std::find_if(waiting.begin(), waiting.end(), [&](const JointModel* joint) {
-        return joint->parent.value == "world" || body_of_.contains(prefix + joint->parent.value);
-      });
-      if (next == waiting.end()) {
-        throw dynamics::ModelError("crane " + crane.name.value + ": its joints form a ring");
-      }
-      add_crane_body(builder, crane, **next, X_WC);
-      waiting.erase(next);
+    PartsBuilder& parts = crane_parts_.emplace_back(*crane.model, crane.name.value + ".", X_WC);
+    parts.add_bodies(builder);
+    parts.add_loops(builder);
+    for (const BodyModel* body : parts.added()) {
+      note_body(crane.name.value + "." + body->name.value, parts.body(body->name.value), "crane",
+                body->shapes);
+    }
+    for (const DrivenFreedom& freedom : parts.driven()) {
+      const std::string& drive = freedom.drive->name.value;
+      driven_joints_.push_back({crane.name.value + "." + drive, freedom.body,
+                                freedom.degree_of_freedom, crane.find_start(drive)->value.value});
     }
     for (const HoistModel& hoist : crane.model->hoists) add_hoist(builder, index, hoist);
-  }
-
-  void add_crane_body(dynamics::MechanismBuilder& builder, const CraneInCase& crane,
-                      const JointModel& joint, const Pose& X_WC) {
-    const std::string prefix = crane.name.value + ".";
-    const BodyModel& model = *crane.model->find_body(joint.child.value);
-    BodyDefinition body;
-    body.name = prefix + model.name.value;
-    body.joint.kind = joint.kind;
-    body.joint.axis = joint.axis;
-    if (joint.second_axis) body.joint.second_axis = *joint.second_axis;
-    body.X_PJ = {rotation_of(joint.attitude), joint.position};
-    if (joint.parent.value == "world") {
-      body.X_PJ = X_WC * body.X_PJ;
-    } else {
-      body.parent = prefix + joint.parent.value;
-    }
-    body.mass = model.mass;
-    body.p_BoBcm_B = model.centre_of_mass;
-    body.I_BBcm_B = model.inertia_matrix();
-    for (const Located<Quantity>& damping : joint.damping) {
-      body.damping.push_back(damping.value.value);
-    }
-    std::vector<DrivenJoint> driven;
-    for (const DriveModel& drive : crane.model->drives) {
-      if (drive.joint.value != joint.name.value) continue;
-      body.driven.resize(joint_turns(joint.kind).size(), false);
-      const int degree = drive.degree_of_freedom.value - 1;
-      body.driven[static_cast<std::size_t>(degree)] = true;
-      driven.push_back(
-          {prefix + drive.name.value, -1, degree, crane.find_start(drive.name.value)->value.value});
-    }
-    const BodyIndex index = register_body(builder, body, "crane", model.shapes);
-    for (DrivenJoint& joint_drive : driven) {
-      joint_drive.body = index;
-      driven_joints_.push_back(joint_drive);
-    }
   }
 
   void add_hoist(dynamics::MechanismBuilder& builder, std::size_t crane_index,
@@ -174,9 +138,14 @@ class LiftBuilder {
   BodyIndex register_body(dynamics::MechanismBuilder& builder, const BodyDefinition& body,
                           std::string kind, std::vector<BoxShape> boxes) {
     const BodyIndex index = builder.add_body(body);
-    body_of_[body.name] = index;
-    bodies_.push_back({body.name, std::move(kind), index, std::move(boxes)});
+    note_body(body.name, index, std::move(kind), std::move(boxes));
     return index;
+  }
+
+  void note_body(const std::string& name, BodyIndex index, std::string kind,
+                 std::vector<BoxShape> boxes) {
+    body_of_[name] = index;
+    bodies_.push_back({name, std::move(kind), index, std::move(boxes)});
   }
 
   static void set_rope(dynamics::RopeDefinition& rope, const RopeModel& model,
@@ -286,9 +255,6 @@ class LiftBuilder {
   dynamics::Operation make_operation(const dynamics::Mechanism& mechanism,
                                      const Schedule& schedule) const {
     dynamics::OperationBuilder builder;
-    for (const ScheduledStage& stage : schedule.stages) {
-      builder.add_stage(stage.name, stage.start, stage.end);
-    }
     for (const DrivenJoint& drive : driven_joints_) {
       builder.add_joint_drive(mechanism, drive.drive, drive.body, drive.start,
                               drive.degree_of_freedom);
@@ -296,15 +262,7 @@ class LiftBuilder {
     for (const WinchStart& winch : winches_) {
       builder.add_winch(winch.name, winch.rope, winch.length);
     }
-    for (const ScheduledMove& move : schedule.moves) {
-      builder.add_move(schedule.movers[move.mover].name, move.move);
-    }
-    for (const ScheduledFollower& follower : schedule.followers) {
-      const ScheduledStage& stage = schedule.stages[follower.stage];
-      builder.add_follower(schedule.movers[follower.mover].name,
-                           schedule.movers[follower.leader].name, stage.start, stage.end,
-                           follower.own_travel_over_leaders);
-    }
+    add_schedule(schedule, builder);
     return builder.build(schedule.duration);
   }
 
@@ -317,6 +275,7 @@ class LiftBuilder {
   const LiftCase& case_;
   const LoadMass& load_;
   std::map<std::string, BodyIndex> body_of_;
+  std::deque<PartsBuilder> crane_parts_;
   std::vector<LiftBody> bodies_;
   std::vector<LiftHoist> hoists_;
   std::vector<LiftRope> ropes_;

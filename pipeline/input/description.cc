@@ -44,6 +44,8 @@ std::string ValueDescription::phrase() const {
   switch (kind) {
     case Kind::quantity:
       return nouns_of(dimensions);
+    case Kind::measure:
+      return "a number with its unit";
     case Kind::number:
       return "a plain number";
     case Kind::integer:

@@ -37,6 +37,7 @@ struct TableDescription;
 struct ValueDescription {
   enum class Kind {
     quantity,  ///< a number with a unit of one of `dimensions`
+    measure,   ///< a number with any unit, or none
     number,    ///< a plain number
     integer,
     boolean,

@@ -71,6 +71,14 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 std::string names_hint(std::string_view introduction, const std::vector<std::string>& candidates,
                        std::string_view wrong_name);
 
+/// Names of things that have a located one, for hints.
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& items) {
+  std::vector<std::string> names;
+  for (const T& item : items) names.push_back(item.name.value);
+  return names;
+}
+
 /// "a, b, c", cut after twelve: "a, b, ... (30 in all)".
 std::string list_of_names(const std::vector<std::string>& names);
 

@@ -27,6 +27,25 @@ bool check_range(const YAML::Node& node, const Range& range, const Quantity& fou
   return false;
 }
 
+/// A number with its unit, or the result of an expression.
+/// @returns nothing after a complaint.
+std::optional<Quantity> read_quantity(const YAML::Node& node, const std::string& written,
+                                      const std::vector<Dimension>& dimensions, Reading& reading) {
+  try {
+    if (is_expression(written)) {
+      return evaluate_expression(written, reading.parameters(), dimensions);
+    }
+    return parse_quantity(written, dimensions);
+  } catch (const UnreadParameter&) {
+    return std::nullopt;
+  } catch (const ExpressionError& error) {
+    reading.error(node, fmt::format("{} {}", reading.key(), error.what()), error.hints());
+  } catch (const QuantityError& error) {
+    reading.error(node, fmt::format("{} {}", reading.key(), error.what()));
+  }
+  return std::nullopt;
+}
+
 Format<std::string> word_format(Kind kind) {
   auto description = describe(kind);
   return {description, [description](const YAML::Node& node, Reading& reading, std::string& value) {
@@ -42,12 +61,9 @@ Format<Quantity> quantity_of(std::vector<Dimension> dimensions, Range range) {
   return {description, [description](const YAML::Node& node, Reading& reading, Quantity& value) {
             std::string written;
             if (!reading.scalar_text(node, *description, written)) return false;
-            try {
-              value = parse_quantity(written, description->dimensions);
-            } catch (const QuantityError& error) {
-              reading.error(node, fmt::format("{} {}", reading.key(), error.what()));
-              return false;
-            }
+            const auto found = read_quantity(node, written, description->dimensions, reading);
+            if (!found) return false;
+            value = *found;
             return check_range(node, description->range, value, reading);
           }};
 }
@@ -68,6 +84,12 @@ Format<double> number(Range range) {
             std::string written;
             value = std::nan("");
             if (!reading.scalar_text(node, *description, written)) return false;
+            if (is_expression(written)) {
+              const auto found = read_quantity(node, written, {Dimension::ratio}, reading);
+              if (!found || !check_range(node, description->range, *found, reading)) return false;
+              value = found->value;
+              return true;
+            }
             try {
               const double found = parse_number(written);
               if (!check_range(node, description->range, {found, Dimension::ratio}, reading)) {

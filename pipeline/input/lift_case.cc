@@ -41,7 +41,7 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
   const fs::path folder = lift_case.file.parent_path();
   for (CraneInCase& crane : lift_case.cranes) {
     if (crane.model_name.value.empty()) continue;
-    crane.model = library.load_crane(crane.model_name, folder, diagnostics);
+    crane.model = library.load_crane(crane.model_name, folder, diagnostics, crane.parameters);
   }
   if (!lift_case.load.model_name.value.empty()) {
     lift_case.load.model = library.load_block(lift_case.load.model_name, folder, diagnostics);

@@ -20,6 +20,7 @@ struct CraneInCase {
   Located<std::string> name;
   Located<std::string> model_name;
   std::shared_ptr<const CraneModel> model;  ///< after the look-up; null if it failed
+  ParameterValues parameters;               ///< in place of the model's own
   Vector3 position = Vector3::Zero();       ///< of the crane's base in the world, m
   Vector3 attitude = Vector3::Zero();       ///< roll, pitch, yaw of the base, rad
   /// Drives: coordinate. Hoists: unstretched rope length. Ordered as in the file.
@@ -191,6 +192,12 @@ struct LiftCase {
   const CraneInCase* find_crane(const std::string& name) const;
   const RopeInCase* find_rope(const std::string& name) const;
 };
+
+/// The keys of a rope; its points are given as the file at hand gives them.
+Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
+                                       bool breaking_load_required);
+/// A stage of an operation; shared with mechanism files.
+Format<StageInCase> stage_format();
 
 /// The format of a case file, without the look-up of models.
 Format<LiftCase> lift_case_format();

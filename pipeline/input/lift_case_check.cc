@@ -11,13 +11,6 @@
 namespace blocklift::pipeline {
 namespace {
 
-template <class T>
-std::vector<std::string> names_of(const std::vector<T>& items) {
-  std::vector<std::string> names;
-  for (const T& item : items) names.push_back(item.name.value);
-  return names;
-}
-
 /// "hull-860t" of "blocks/hull-860t".
 std::string short_name(const std::string& model_name) {
   return std::filesystem::path(model_name).stem().string();
@@ -358,7 +351,15 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_kind_of_case(lift_case, diagnostics);
   check_names(lift_case, diagnostics);
   for (const CraneInCase& crane : lift_case.cranes) {
-    if (crane.model && !lift_case.load_table) check_start(crane, diagnostics);
+    if (!crane.model || lift_case.load_table) continue;
+    check_start(crane, diagnostics);
+    if (crane.model->loops.empty()) continue;
+    diagnostics.error(
+        crane.model_name.mark,
+        fmt::format("crane {} has loops, and the equilibrium that a lift starts from cannot "
+                    "be found with loops",
+                    crane.name.value),
+        {"model the crane as a tree: joints, springs, ropes"});
   }
   check_ropes(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);

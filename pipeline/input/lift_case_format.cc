@@ -5,7 +5,6 @@
 namespace blocklift::pipeline {
 namespace {
 
-const std::vector<Dimension> travels = {Dimension::length, Dimension::angle};
 const auto zero_position = "[0 m, 0 m, 0 m]";
 const auto zero_attitude = "[0 deg, 0 deg, 0 deg]";
 
@@ -14,6 +13,8 @@ Format<CraneInCase> crane_format() {
   table
       .required("model", &CraneInCase::model_name, located(reference()),
                 "name of the crane's model file")
+      .optional("parameters", &CraneInCase::parameters, parameter_overrides_format(),
+                "values for parameters of the model, in place of its own")
       .by_default("position", &CraneInCase::position, position_format(), zero_position,
                   "of the crane's base in the world")
       .by_default("orientation", &CraneInCase::attitude, attitude_format(), zero_attitude,
@@ -53,27 +54,6 @@ Format<Located<RopePoint>> rope_point_format() {
                                                                     return point;
                                                                   });
   return located(by_shape<RopePoint>(by_name, std::nullopt, table.format()));
-}
-
-Format<RopeInCase> rope_format() {
-  Table<RopeInCase> table("rope",
-                          "A rope, sling or line of the lift. Its ends and the sheaves "
-                          "between them are hooks (crane and hoist: C1.upper_1), lugs of "
-                          "the load (L1), or points of bodies.");
-  table.required("from", &RopeInCase::from, rope_point_format(), "upper end")
-      .optional("through", &RopeInCase::through, list_of(rope_point_format()),
-                "frictionless sheaves on its way")
-      .required("to", &RopeInCase::to, rope_point_format(), "lower end")
-      .required("model", &RopeInCase::rope_choice, rope_choice_format(),
-                "name of the rope's model file, or the rope's keys")
-      .required("length", &RopeInCase::length, quantity(Dimension::length, Range::positive()),
-                "unstretched, at the start")
-      .optional("end_stiffness", &RopeInCase::end_stiffness,
-                quantity(Dimension::stiffness, Range::positive()),
-                "of what the rope is fastened to, in series with it; rigid if left out")
-      .optional("winch", &RopeInCase::winch, winch_format(),
-                "of its own: then the rope is moved by its name, like a hoist");
-  return table.format();
 }
 
 Format<SupportInCase> support_format() {
@@ -143,15 +123,6 @@ Format<MoveInCase> move_format() {
                 "own travel over the leader's travel, a smooth curve through these points: "
                 "[[leader, own], ...]")
       .place(&MoveInCase::place);
-  return table.format();
-}
-
-Format<StageInCase> stage_format() {
-  Table<StageInCase> table("stage", "A part of the operation; it ends with the last of its moves.");
-  table.required("stage", &StageInCase::name, text(), "its name, for people")
-      .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
-                  "0 s", "before the stage begins")
-      .optional("moves", &StageInCase::moves, list_of(move_format()), "what moves");
   return table.format();
 }
 
@@ -271,6 +242,36 @@ Format<LoadTable> load_table_format() {
 
 }  // namespace
 
+Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
+                                       bool breaking_load_required) {
+  Table<RopeInCase> table("rope",
+                          "A rope, sling or line of the lift. Its ends and the sheaves "
+                          "between them are hooks (crane and hoist: C1.upper_1), lugs of "
+                          "the load (L1), or points of bodies.");
+  table.required("from", &RopeInCase::from, point, "upper end")
+      .optional("through", &RopeInCase::through, list_of(point), "frictionless sheaves on its way")
+      .required("to", &RopeInCase::to, point, "lower end")
+      .required("model", &RopeInCase::rope_choice, rope_choice_format(breaking_load_required),
+                "name of the rope's model file, or the rope's keys")
+      .required("length", &RopeInCase::length, quantity(Dimension::length, Range::positive()),
+                "unstretched, at the start")
+      .optional("end_stiffness", &RopeInCase::end_stiffness,
+                quantity(Dimension::stiffness, Range::positive()),
+                "of what the rope is fastened to, in series with it; rigid if left out")
+      .optional("winch", &RopeInCase::winch, winch_format(),
+                "of its own: then the rope is moved by its name, like a hoist");
+  return table.format();
+}
+
+Format<StageInCase> stage_format() {
+  Table<StageInCase> table("stage", "A part of the operation; it ends with the last of its moves.");
+  table.required("stage", &StageInCase::name, text(), "its name, for people")
+      .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
+                  "0 s", "before the stage begins")
+      .optional("moves", &StageInCase::moves, list_of(move_format()), "what moves");
+  return table.format();
+}
+
 Format<LiftCase> lift_case_format() {
   Table<LiftCase> table("lift case",
                         "What is lifted, by what, how, and what is asked. A case has "
@@ -282,7 +283,8 @@ Format<LiftCase> lift_case_format() {
                   "acceleration of gravity; nothing hangs without")
       .required("load", &LiftCase::load, load_format(), "the block that is lifted")
       .optional("cranes", &LiftCase::cranes, named_tables(crane_format()), "by name")
-      .optional("ropes", &LiftCase::ropes, named_tables(rope_format()), "by name")
+      .optional("ropes", &LiftCase::ropes,
+                named_tables(rope_in_case_format(rope_point_format(), true)), "by name")
       .optional("supports", &LiftCase::supports, named_tables(support_format()),
                 "pads on which the load stands at the start")
       .optional("wind", &LiftCase::wind, wind_format(), "none if left out")

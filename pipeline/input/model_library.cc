@@ -38,12 +38,26 @@ bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& 
 /// Reads a model file into a value; null if nothing could be read.
 template <class T>
 std::shared_ptr<T> read_model(const fs::path& file, const std::string& kind,
-                              const Format<T>& format, Diagnostics& diagnostics) {
+                              const Format<T>& format, Diagnostics& diagnostics,
+                              const ParameterValues& parameters = {}) {
   const std::optional<Document> document = load_document(file, diagnostics);
   if (!document || !is_of_kind(*document, kind, diagnostics)) return nullptr;
   auto model = std::make_shared<T>();
   Reading reading(*document, diagnostics);
+  std::vector<OutsideParameter> outside;
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    outside.push_back({parameter.name.value, parameter.value.value, parameter.value.mark});
+  }
+  reading.set_outside_parameters(std::move(outside));
   reading.with_owner("the " + kind, [&] { return format.read(document->root, reading, *model); });
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    if (reading.parameters().find(parameter.name.value)) continue;
+    const std::vector<std::string> known = reading.parameters().names();
+    reading.error(parameter.name.mark,
+                  fmt::format("{} has no parameter \"{}\"", *document->file, parameter.name.value),
+                  {known.empty() ? "it has none at all"
+                                 : names_hint("its parameters are", known, parameter.name.value)});
+  }
   return model;
 }
 
@@ -135,9 +149,10 @@ std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
 
 std::shared_ptr<const CraneModel> ModelLibrary::load_crane(const Located<std::string>& name,
                                                            const fs::path& beside,
-                                                           Diagnostics& diagnostics) {
+                                                           Diagnostics& diagnostics,
+                                                           const ParameterValues& parameters) {
   const fs::path file = find(name, "crane", beside, diagnostics);
-  return file.empty() ? nullptr : read_crane(file, diagnostics);
+  return file.empty() ? nullptr : read_crane(file, diagnostics, parameters);
 }
 
 std::shared_ptr<const BlockModel> ModelLibrary::load_block(const Located<std::string>& name,
@@ -158,16 +173,22 @@ RopeModel ModelLibrary::resolve(const RopeChoice& choice, const fs::path& beside
 }
 
 std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
-                                                           Diagnostics& diagnostics) {
-  const auto known = cranes_.find(file);
+                                                           Diagnostics& diagnostics,
+                                                           const ParameterValues& parameters) {
+  std::string key = file.string();
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    key += fmt::format("\n{} = {:a}", parameter.name.value, parameter.value.value.value);
+  }
+  const auto known = cranes_.find(key);
   if (known != cranes_.end()) return known->second;
-  std::shared_ptr<CraneModel> crane = read_model(file, "crane", crane_model_format(), diagnostics);
+  std::shared_ptr<CraneModel> crane =
+      read_model(file, "crane", crane_model_format(), diagnostics, parameters);
   if (crane) {
     for (HoistModel& hoist : crane->hoists) {
       hoist.rope = resolve(hoist.rope_choice, file.parent_path(), diagnostics);
     }
   }
-  return cranes_[file] = crane;
+  return cranes_[key] = crane;
 }
 
 std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,

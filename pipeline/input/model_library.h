@@ -18,7 +18,7 @@ namespace blocklift::pipeline {
 /// A model `cranes/goliath-600t` of the kind crane is one of the files, in this order of places and
 /// names: in the folder of the file that names it, then in each folder of models,
 ///   cranes/goliath-600t, cranes/goliath-600t.yaml, cranes/goliath-600t/crane.yaml.
-/// Each file is read once, however often it is named.
+/// Each file is read once, however often it is named; a crane once for each set of parameters.
 class ModelLibrary {
  public:
   explicit ModelLibrary(std::vector<std::filesystem::path> model_folders)
@@ -31,9 +31,11 @@ class ModelLibrary {
   /// Reads a model; complains at the place of the name if there is none, and returns null then and
   /// when the file cannot be read. A model with mistakes inside is returned, too: they have been
   /// complained about, and the checks pass over what is missing.
+  /// @param parameters values that take the place of the crane's own.
   std::shared_ptr<const CraneModel> load_crane(const Located<std::string>& name,
                                                const std::filesystem::path& beside,
-                                               Diagnostics& diagnostics);
+                                               Diagnostics& diagnostics,
+                                               const ParameterValues& parameters = {});
   std::shared_ptr<const BlockModel> load_block(const Located<std::string>& name,
                                                const std::filesystem::path& beside,
                                                Diagnostics& diagnostics);
@@ -43,20 +45,22 @@ class ModelLibrary {
 
   /// Reads a crane's file itself, with the ropes that it names.
   std::shared_ptr<const CraneModel> read_crane(const std::filesystem::path& file,
-                                               Diagnostics& diagnostics);
+                                               Diagnostics& diagnostics,
+                                               const ParameterValues& parameters = {});
   std::shared_ptr<const BlockModel> read_block(const std::filesystem::path& file,
                                                Diagnostics& diagnostics);
   std::shared_ptr<const RopeModel> read_rope(const std::filesystem::path& file,
                                              Diagnostics& diagnostics);
 
  private:
+  /// The file of a model; empty after a complaint.
   std::filesystem::path find(const Located<std::string>& name, const std::string& kind,
                              const std::filesystem::path& beside, Diagnostics& diagnostics) const;
   std::vector<std::string> names_of_kind(const std::string& kind,
                                          const std::filesystem::path& beside) const;
 
   std::vector<std::filesystem::path> model_folders_;
-  std::map<std::filesystem::path, std::shared_ptr<const CraneModel>> cranes_;
+  std::map<std::string, std::shared_ptr<const CraneModel>> cranes_;  ///< by file and parameters
   std::map<std::filesystem::path, std::shared_ptr<const BlockModel>> blocks_;
   std::map<std::filesystem::path, std::shared_ptr<const RopeModel>> ropes_;
 };

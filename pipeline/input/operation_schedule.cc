@@ -44,21 +44,35 @@ void add_mover(std::vector<Mover>& movers, std::string name, bool is_winch,
   if (complete && of_one_kind) movers.push_back(std::move(mover));
 }
 
+/// Is this a drive that exists but could not be read (or whose crane could not)?
+bool is_incomplete(const LiftCase& lift_case, const std::string& name) {
+  const std::size_t dot = name.find('.');
+  if (dot == std::string::npos) {
+    const RopeInCase* rope = lift_case.find_rope(name);
+    return rope && rope->winch;
+  }
+  const CraneInCase* crane = lift_case.find_crane(name.substr(0, dot));
+  if (!crane) return false;
+  if (!crane->model) return true;
+  const std::string part = name.substr(dot + 1);
+  return crane->model->find_drive(part) || crane->model->find_hoist(part);
+}
+
 /// Gathers a schedule stage by stage, following each drive's coordinate.
 class Scheduler {
  public:
-  Scheduler(const LiftCase& lift_case, Diagnostics& diagnostics)
-      : case_(lift_case), diagnostics_(diagnostics) {
-    schedule_.movers = movers_of(lift_case);
+  Scheduler(OperationPlan plan, Diagnostics& diagnostics)
+      : plan_(std::move(plan)), diagnostics_(diagnostics) {
+    schedule_.movers = plan_.movers;
     for (const Mover& mover : schedule_.movers) coordinates_.push_back(mover.start);
   }
 
   Schedule run() {
     double time = 0;
-    for (const StageInCase& stage : case_.operation) {
+    for (const StageInCase& stage : *plan_.stages) {
       time = add_stage(stage, time + (std::isfinite(stage.pause) ? stage.pause : 0));
     }
-    schedule_.duration = time + (std::isfinite(case_.settle) ? case_.settle : 0);
+    schedule_.duration = time + (std::isfinite(plan_.settle) ? plan_.settle : 0);
     return std::move(schedule_);
   }
 
@@ -90,27 +104,12 @@ class Scheduler {
       if (schedule_.movers[i].name == name.value) return i;
       known.push_back(schedule_.movers[i].name);
     }
-    if (is_incomplete(name.value)) return std::nullopt;
-    diagnostics_.error(
-        name.mark,
-        fmt::format("stage \"{}\" moves \"{}\", which is no drive or winch of the case",
-                    stage_->name.value, name.value),
-        {names_hint("its drives and winches are", known, name.value)});
+    if (plan_.is_incomplete(name.value)) return std::nullopt;
+    diagnostics_.error(name.mark,
+                       fmt::format("stage \"{}\" moves \"{}\", which is no drive or winch of {}",
+                                   stage_->name.value, name.value, plan_.owner),
+                       {names_hint("its drives and winches are", known, name.value)});
     return std::nullopt;
-  }
-
-  /// Is this a drive that exists but could not be read (or whose crane could not)?
-  bool is_incomplete(const std::string& name) const {
-    const std::size_t dot = name.find('.');
-    if (dot == std::string::npos) {
-      const RopeInCase* rope = case_.find_rope(name);
-      return rope && rope->winch;
-    }
-    const CraneInCase* crane = case_.find_crane(name.substr(0, dot));
-    if (!crane) return false;
-    if (!crane->model) return true;
-    const std::string part = name.substr(dot + 1);
-    return crane->model->find_drive(part) || crane->model->find_hoist(part);
   }
 
   void add_moves(const MoveInCase& move, double stage_start) {
@@ -388,7 +387,7 @@ class Scheduler {
     coordinates_[index] += own_travel;
   }
 
-  const LiftCase& case_;
+  OperationPlan plan_;
   Diagnostics& diagnostics_;
   Schedule schedule_;
   std::vector<double> coordinates_;  // of each mover, after what is scheduled so far
@@ -425,8 +424,50 @@ std::vector<Mover> movers_of(const LiftCase& lift_case) {
   return movers;
 }
 
+Schedule schedule_operation(OperationPlan plan, Diagnostics& diagnostics) {
+  return Scheduler(std::move(plan), diagnostics).run();
+}
+
 Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  return Scheduler(lift_case, diagnostics).run();
+  return schedule_operation(
+      {"the case", movers_of(lift_case), &lift_case.operation, lift_case.settle,
+       [&](const std::string& name) { return is_incomplete(lift_case, name); }},
+      diagnostics);
+}
+
+Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics) {
+  std::vector<Mover> movers;
+  for (const DriveModel& drive : file.drives) {
+    if (drive.constant_speed || drive.table) continue;
+    add_mover(movers, drive.name.value, false, drive, file.start_of(drive));
+  }
+  for (const RopeInCase& rope : file.ropes) {
+    if (rope.winch) {
+      add_mover(movers, rope.name.value, true, *rope.winch, {rope.length.value, Dimension::length});
+    }
+  }
+  const auto is_known = [&](const std::string& name) {
+    const RopeInCase* rope = file.find_rope(name);
+    const DriveModel* drive = file.find_drive(name);
+    return (rope && rope->winch) || (drive && !drive->constant_speed && !drive->table);
+  };
+  return schedule_operation({"the mechanism", std::move(movers), &file.operation, 0, is_known},
+                            diagnostics);
+}
+
+void add_schedule(const Schedule& schedule, dynamics::OperationBuilder& builder) {
+  for (const ScheduledStage& stage : schedule.stages) {
+    builder.add_stage(stage.name, stage.start, stage.end);
+  }
+  for (const ScheduledMove& move : schedule.moves) {
+    builder.add_move(schedule.movers[move.mover].name, move.move);
+  }
+  for (const ScheduledFollower& follower : schedule.followers) {
+    const ScheduledStage& stage = schedule.stages[follower.stage];
+    builder.add_follower(schedule.movers[follower.mover].name,
+                         schedule.movers[follower.leader].name, stage.start, stage.end,
+                         follower.own_travel_over_leaders);
+  }
 }
 
 }  // namespace blocklift::pipeline

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/multibody/motion_profile.h"
-#include "pipeline/input/lift_case.h"
+#include "dynamics/simulation/operation.h"
+#include "pipeline/input/mechanism_file.h"
 
 namespace blocklift::pipeline {
 
@@ -58,12 +60,27 @@ struct Schedule {
   double duration = 0;  ///< with the time to settle, s
 };
 
+/// What a schedule is made of.
+struct OperationPlan {
+  std::string owner;  ///< "the case": whose drives they are, for messages
+  std::vector<Mover> movers;
+  const std::vector<StageInCase>* stages = nullptr;
+  double settle = 0;  ///< after the last move, s
+  /// Is it a drive that exists, but could not be read?
+  std::function<bool(const std::string&)> is_incomplete;
+};
+
 /// Sets the stages one after another: each begins when the one before has ended and its own pause
 /// is over, and ends with the last of its moves.
 ///
 /// Complains about drives that do not exist, moves beyond a drive's limits or range, ropes that
 /// would be pulled through their sheave, drives that are moved twice at once, and followers that
 /// cannot follow. What was complained about is left out of the schedule.
+Schedule schedule_operation(OperationPlan plan, Diagnostics& diagnostics);
 Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics);
+Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics);
+
+/// Adds a schedule's stages, moves and followers; the drives and winches that it moves come first.
+void add_schedule(const Schedule& schedule, dynamics::OperationBuilder& builder);
 
 }  // namespace blocklift::pipeline

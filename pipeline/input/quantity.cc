@@ -18,15 +18,6 @@ namespace {
 /// Standard gravity, 3rd CGPM (1901), m/s^2: turns a mass into its weight.
 constexpr double standard_gravity = 9.80665;
 
-/// Exponents of metre, kilogram, second and radian.
-struct Exponents {
-  int metre = 0;
-  int kilogram = 0;
-  int second = 0;
-  int radian = 0;
-  bool operator==(const Exponents&) const = default;
-};
-
 /// A unit in terms of the base units: the SI value of one of it and its exponents.
 struct UnitMeaning {
   double scale = 1;
@@ -67,13 +58,15 @@ const DimensionEntry& entry_of(Dimension dimension) {
       {Dimension::moment_of_inertia,
        {{2, 1, 0, 0}, {"a moment of inertia", "kg m^2", "450 t m^2"}}},
       {Dimension::mass_per_length, {{-1, 1, 0, 0}, {"a mass per length", "kg/m", "60 kg/m"}}},
+      {Dimension::length_per_angle, {{1, 0, 0, -1}, {"a length per angle", "m/rad", "0.5 m/rad"}}},
+      {Dimension::angle_per_length, {{-1, 0, 0, 1}, {"an angle per length", "rad/m", "2 rad/m"}}},
   };
   return entries.at(dimension);
 }
 
 /// The noun for exponents that a file has where others are due; empty if nobody has a name for them.
 std::string noun_of(const Exponents& exponents) {
-  for (int i = 0; i <= static_cast<int>(Dimension::mass_per_length); ++i) {
+  for (int i = 0; i <= static_cast<int>(Dimension::angle_per_length); ++i) {
     const DimensionEntry& entry = entry_of(static_cast<Dimension>(i));
     if (entry.exponents == exponents) return entry.text.noun;
   }
@@ -200,15 +193,6 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// "; a speed is due, for example "3 m/min"": the end of every message about a quantity.
-std::string what_is_due(const std::vector<Dimension>& allowed) {
-  std::string examples;
-  for (const Dimension dimension : allowed) {
-    examples += fmt::format("{}\"{}\"", examples.empty() ? "" : " or ", text_of(dimension).example);
-  }
-  return fmt::format("; {} is due, for example {}", nouns_of(allowed), examples);
-}
-
 /// The number at the head of the text; the rest, trimmed, is left in `rest`.
 double leading_number(std::string_view text, std::string_view& rest, const std::string& due) {
   const std::string_view all = trimmed(text);
@@ -253,6 +237,47 @@ bool looks_like_unit(std::string_view unit) {
 
 const DimensionText& text_of(Dimension dimension) { return entry_of(dimension).text; }
 
+std::string what_is_due(const std::vector<Dimension>& allowed) {
+  std::string examples;
+  for (const Dimension dimension : allowed) {
+    examples += fmt::format("{}\"{}\"", examples.empty() ? "" : " or ", text_of(dimension).example);
+  }
+  return fmt::format("; {} is due, for example {}", nouns_of(allowed), examples);
+}
+
+std::string text_of(const Exponents& exponents) {
+  std::string noun = noun_of(exponents);
+  if (!noun.empty()) return noun;
+  std::string unit;
+  const auto add = [&](const char* symbol, int power) {
+    if (power == 0) return;
+    unit += fmt::format("{}{}", unit.empty() ? "" : " ", symbol);
+    if (power != 1) unit += fmt::format("^{}", power);
+  };
+  add("kg", exponents.kilogram);
+  add("m", exponents.metre);
+  add("s", exponents.second);
+  add("rad", exponents.radian);
+  return "of the unit " + unit;
+}
+
+std::optional<Measure> find_unit(const std::string& unit) {
+  const std::optional<UnitMeaning> meaning = UnitDatabase::instance().find(unit);
+  if (!meaning) return std::nullopt;
+  return Measure{meaning->scale, meaning->exponents};
+}
+
+std::optional<Quantity> as_quantity(const Measure& measure, const std::vector<Dimension>& allowed) {
+  for (const Dimension dimension : allowed) {
+    if (entry_of(dimension).exponents == measure.exponents)
+      return Quantity{measure.value, dimension};
+    if (dimension == Dimension::load && measure.exponents == entry_of(Dimension::mass).exponents) {
+      return Quantity{measure.value * standard_gravity, dimension};
+    }
+  }
+  return std::nullopt;
+}
+
 std::string nouns_of(const std::vector<Dimension>& dimensions) {
   std::string nouns;
   for (std::size_t i = 0; i < dimensions.size(); ++i) {
@@ -262,21 +287,19 @@ std::string nouns_of(const std::vector<Dimension>& dimensions) {
   return nouns;
 }
 
-Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& allowed) {
-  const std::string due = what_is_due(allowed);
+namespace {
+
+/// The number and its unit in SI. `due` is the end of every message.
+Measure read_measure(std::string_view text, bool needs_unit, const std::string& due) {
   std::string_view unit;
   const double value = leading_number(text, unit, due);
   const std::string_view all = trimmed(text);
-
   if (unit.empty()) {
-    if (std::find(allowed.begin(), allowed.end(), Dimension::ratio) != allowed.end()) {
-      return {value, Dimension::ratio};
-    }
+    if (!needs_unit) return {value, {}};
     throw QuantityError(fmt::format("\"{}\" has no unit{}", all, due));
   }
   if (!looks_like_unit(unit)) throw QuantityError(fmt::format("\"{}\" is no quantity{}", all, due));
   refuse_ambiguous(unit, all, due);
-
   const std::optional<UnitMeaning> meaning = UnitDatabase::instance().find(std::string(unit));
   if (!meaning) {
     throw QuantityError(fmt::format("\"{}\" has the unknown unit \"{}\"{}", all, unit, due));
@@ -285,15 +308,23 @@ Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& all
   if (!std::isfinite(in_si)) {
     throw QuantityError(fmt::format("\"{}\" is too large a number{}", all, due));
   }
-  for (const Dimension dimension : allowed) {
-    if (entry_of(dimension).exponents == meaning->exponents) return {in_si, dimension};
-    if (dimension == Dimension::load && meaning->exponents == entry_of(Dimension::mass).exponents) {
-      return {in_si * standard_gravity, dimension};
-    }
-  }
-  const std::string noun = noun_of(meaning->exponents);
+  return {in_si, meaning->exponents};
+}
+
+}  // namespace
+
+Measure parse_measure(std::string_view text) {
+  return read_measure(text, false, "; a number with its unit is due, for example \"12 m\"");
+}
+
+Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& allowed) {
+  const std::string due = what_is_due(allowed);
+  const bool plain = std::find(allowed.begin(), allowed.end(), Dimension::ratio) != allowed.end();
+  const Measure measure = read_measure(text, !plain, due);
+  if (const std::optional<Quantity> quantity = as_quantity(measure, allowed)) return *quantity;
+  const std::string noun = noun_of(measure.exponents);
   const std::string found = noun.empty() ? "has a unit of another kind" : "is " + noun;
-  throw QuantityError(fmt::format("\"{}\" {}{}", all, found, due));
+  throw QuantityError(fmt::format("\"{}\" {}{}", trimmed(text), found, due));
 }
 
 double parse_quantity(std::string_view text, Dimension dimension) {

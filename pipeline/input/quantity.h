@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,6 +38,23 @@ enum class Dimension {
   rotational_damping,
   moment_of_inertia,
   mass_per_length,
+  length_per_angle,
+  angle_per_length,
+};
+
+/// Exponents of metre, kilogram, second and radian: what a unit or the result of an expression measures.
+struct Exponents {
+  int metre = 0;
+  int kilogram = 0;
+  int second = 0;
+  int radian = 0;
+  bool operator==(const Exponents&) const = default;
+};
+
+/// A value in coherent SI units with what it measures.
+struct Measure {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  Exponents exponents;
 };
 
 /// How a dimension is spoken of in messages, in the schema and in the manual.
@@ -75,6 +93,22 @@ Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& all
 
 /// The value in SI units of a text that must have the one dimension. @throws as parse_quantity.
 double parse_quantity(std::string_view text, Dimension dimension);
+
+/// Reads a number with any unit of mechanics, or none. @throws as parse_quantity.
+Measure parse_measure(std::string_view text);
+
+/// The SI value and the exponents of one of a unit ("kN", "min"); none if nobody knows it.
+std::optional<Measure> find_unit(const std::string& unit);
+
+/// A measure as the first of the allowed dimensions that it has (a mass where a load is due becomes its
+/// weight). None if it has none of them.
+std::optional<Quantity> as_quantity(const Measure& measure, const std::vector<Dimension>& allowed);
+
+/// "a length", or "of the unit kg m^2/s" where nobody has a name for it.
+std::string text_of(const Exponents& exponents);
+
+/// "; a speed is due, for example "3 m/min"": the end of every message about a quantity.
+std::string what_is_due(const std::vector<Dimension>& allowed);
 
 /// Reads a plain finite number; the whole text must be the number. @throws QuantityError.
 double parse_number(std::string_view text);

@@ -11,6 +11,7 @@
 #include "pipeline/input/description.h"
 #include "pipeline/input/diagnostics.h"
 #include "pipeline/input/document.h"
+#include "pipeline/input/expression.h"
 
 namespace blocklift::pipeline {
 
@@ -19,6 +20,13 @@ struct Entry {
   std::string key;
   Mark mark;  ///< of the key
   YAML::Node value;
+};
+
+/// A value for a parameter that another file gives, and where.
+struct OutsideParameter {
+  std::string name;
+  Measure value;
+  Mark mark;
 };
 
 /// The reading of one document: knows where it is, so that complaints can name key and owner.
@@ -55,6 +63,14 @@ class Reading {
   /// What the table being read describes: "rope R1".
   const std::string& owner() const { return owner_; }
 
+  /// What expressions in this document may use.
+  Parameters& parameters() { return parameters_; }
+  /// Values that take the place of the document's own parameters of these names.
+  const std::vector<OutsideParameter>& outside_parameters() const { return outside_parameters_; }
+  void set_outside_parameters(std::vector<OutsideParameter> values) {
+    outside_parameters_ = std::move(values);
+  }
+
   /// Reads a value with key and owner set for the time being.
   bool with_key(const std::string& key, const std::function<bool()>& read);
   bool with_owner(const std::string& owner, const std::function<bool()>& read);
@@ -68,6 +84,8 @@ class Reading {
 
   const Document& document_;
   Diagnostics& diagnostics_;
+  Parameters parameters_;
+  std::vector<OutsideParameter> outside_parameters_;
   std::size_t value_count_ = 0;
   std::string key_;
   std::string owner_ = "the file";

@@ -31,6 +31,7 @@ struct RopeChoice {
 Format<RopeModel> rope_model_format();
 
 /// `ropes/sling-250t`, or `{axial_stiffness: ..., ...}` in its place.
-Format<RopeChoice> rope_choice_format();
+/// @param breaking_load_required false where nothing is held against it.
+Format<RopeChoice> rope_choice_format(bool breaking_load_required = true);
 
 }  // namespace blocklift::pipeline

@@ -10,6 +10,7 @@
 #include "pipeline/input/block_model.h"
 #include "pipeline/input/crane_model.h"
 #include "pipeline/input/lift_case.h"
+#include "pipeline/input/mechanism_file.h"
 #include "pipeline/input/rope_model.h"
 
 namespace blocklift::pipeline {
@@ -27,6 +28,7 @@ struct FileKind {
 
 std::vector<FileKind> file_kinds() {
   return {{"lift case", lift_case_format().description->table},
+          {"mechanism", mechanism_file_format().description->table},
           {"crane", crane_model_format().description->table},
           {"block", block_model_format().description->table},
           {"rope", rope_model_format().description->table}};
@@ -83,7 +85,7 @@ Json schema_of_quantity(const ValueDescription& value) {
     schema["type"] = {"number", "string"};
   } else {
     schema["type"] = "string";
-    schema["pattern"] = "^ *[-+]?[0-9]*\\.?[0-9]+([eE][-+]?[0-9]+)? *[^-+.,0-9 ]";
+    schema["pattern"] = "^ *=|^ *[-+]?[0-9]*\\.?[0-9]+([eE][-+]?[0-9]+)? *[^-+.,0-9 ]";
   }
   schema["examples"] = std::move(examples);
   return schema;
@@ -93,8 +95,14 @@ Json schema_of(const ValueDescription& value) {
   switch (value.kind) {
     case Kind::quantity:
       return schema_of_quantity(value);
-    case Kind::number:
-      return schema_of_number(value, "number");
+    case Kind::measure:
+      return {{"type", {"number", "string"}}};
+    case Kind::number: {
+      Json schema = schema_of_number(value, "number");
+      schema["type"] = {"number", "string"};
+      schema["pattern"] = "^ *=";  // an expression, or the number in quotes
+      return schema;
+    }
     case Kind::integer:
       return schema_of_number(value, "integer");
     case Kind::boolean:

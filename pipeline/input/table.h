@@ -65,6 +65,12 @@ class Table {
         member, format);
   }
 
+  /// The key declared last is read before all that are not early, wherever it stands in the file.
+  Table& early() {
+    keys_.back().early = true;
+    return *this;
+  }
+
   /// The member that takes the place of the table itself.
   Table& place(Mark T::*member) {
     place_ = member;
@@ -94,6 +100,7 @@ class Table {
   struct Key {
     KeyDescription description;
     std::function<bool(const YAML::Node&, const Mark&, Reading&, T&)> read;
+    bool early = false;
   };
 
   template <class U, class M, class C>
@@ -106,7 +113,8 @@ class Table {
            const bool done = format.read(node, reading, read);
            table_detail::store(value.*member, std::move(read), mark);
            return done;
-         }});
+         },
+         false});
     return *this;
   }
 
@@ -115,7 +123,11 @@ class Table {
     const std::size_t errors_before = reading.diagnostics().error_count();
     if (place_) value.*place_ = mark;
     const std::vector<Entry> entries = reading.entries_of(node);
-    for (const Entry& entry : entries) read_entry(entry, reading, value);
+    for (const bool early : {true, false}) {
+      for (const Entry& entry : entries) {
+        if (is_early(entry.key) == early) read_entry(entry, reading, value);
+      }
+    }
     for (const Key& key : keys_) {
       bool given = false;
       for (const Entry& entry : entries) given |= entry.key == key.description.name;
@@ -123,6 +135,13 @@ class Table {
     }
     for (const auto& rule : rules_) rule(value, reading, mark);
     return reading.diagnostics().error_count() == errors_before;
+  }
+
+  bool is_early(const std::string& name) const {
+    for (const Key& key : keys_) {
+      if (key.description.name == name) return key.early;
+    }
+    return false;
   }
 
   void read_entry(const Entry& entry, Reading& reading, T& value) const {

@@ -108,7 +108,7 @@ TEST(LiftCaseErrors, NegativeMass) {
   lift.crane = with(lift.crane, "mass: 100 t", "mass: -100 t");
   lift.block = with(lift.block, "mass: 10 t", "mass: -10 t");
   EXPECT_EQ(complaints_about(lift),
-            "gantry/crane.yaml:5:11: error: mass \"-100 t\" must be greater than 0\n"
+            "gantry/crane.yaml:5:11: error: mass \"-100 t\" must be at least 0\n"
             "plate.yaml:4:7: error: mass \"-10 t\" must be greater than 0\n"
             "2 errors\n");
 }

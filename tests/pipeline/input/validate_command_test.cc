@@ -67,7 +67,7 @@ TEST(ValidateCommand, SaysEverythingThatIsWrongAndWritesNothing) {
       "    its lugs are L1, L2; did you mean \"L1\"?\n"
       "case.yaml:18:48: error: speed \"3 m\" is a length; a speed or an angular speed is due, "
       "for example \"3 m/min\" or \"0.5 deg/s\"\n"
-      "gantry/crane.yaml:10:19: error: mass \"-8 t\" must be greater than 0\n"
+      "gantry/crane.yaml:10:19: error: mass \"-8 t\" must be at least 0\n"
       "3 errors\n");
   EXPECT_EQ(files_in(folder.path()), files_before);
 }

@@ -1,0 +1,22 @@
+#include "pipeline/assessment/lift_scene.h"
+
+namespace blocklift::pipeline {
+
+LoadMass load_mass(const structure::MassProperties& mass) {
+  return {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B};
+}
+
+Scene make_scene(const BuiltLift& model, const std::vector<structure::LugRegion>& lugs) {
+  Scene scene;
+  for (const LiftBody& body : model.bodies) {
+    DrawnBody drawn{body.name, body.kind, {}};
+    for (const BoxShape& box : body.boxes) drawn.boxes.push_back({box.size, box.centre});
+    scene.bodies.push_back(drawn);
+  }
+  for (const LiftHoist& hoist : model.hoists) scene.hoists.push_back(hoist.rope);
+  scene.load_body = model.system.mechanism().body(model.load).name;
+  scene.lugs = lugs;
+  return scene;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/assessment/result_file.h"
+#include "pipeline/input/build_lift.h"
+
+namespace blocklift::pipeline {
+
+/// Mass, centre and inertia of the load as its mesh has them.
+LoadMass load_mass(const structure::MassProperties& mass);
+
+/// Names and roles of the parts of a lift, for results.h5.
+Scene make_scene(const BuiltLift& model, const std::vector<structure::LugRegion>& lugs);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,184 @@
+#include "pipeline/input/mechanism_file.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "pipeline/input/build_mechanism.h"
+#include "pipeline/input/document.h"
+#include "pipeline/input/file_kind.h"
+#include "pipeline/input/urdf_import.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class T>
+const T* find_by_name(const std::vector<T>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const T& item) { return item.name.value == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+/// Puts what comes from a robot description before the file's own parts; complains about names that
+/// both have.
+template <class T>
+void put_before(std::vector<T> imported, std::vector<T>& own, const char* noun,
+                Diagnostics& diagnostics) {
+  for (const T& item : own) {
+    if (find_by_name(imported, item.name.value)) {
+      diagnostics.error(item.name.mark, fmt::format("the robot description has a {} \"{}\", too",
+                                                    noun, item.name.value));
+    }
+  }
+  own.insert(own.begin(), std::make_move_iterator(imported.begin()),
+             std::make_move_iterator(imported.end()));
+}
+
+/// Adds the parts of a robot; its root stands fixed in the world unless a joint of the file carries it.
+void add_robot(RobotImport robot, const Mark& mark, MechanismFile& mechanism,
+               Diagnostics& diagnostics) {
+  for (std::string& note : robot.notes) mechanism.notes.push_back(std::move(note));
+  const auto is_carried = [&](const JointModel& joint) { return joint.child.value == robot.root; };
+  if (!robot.root.empty() &&
+      std::none_of(mechanism.joints.begin(), mechanism.joints.end(), is_carried)) {
+    JointModel base;
+    base.name = {robot.root + "_to_world", mark};
+    base.parent = {"world", mark};
+    base.child = {robot.root, mark};
+    robot.parts.joints.insert(robot.parts.joints.begin(), std::move(base));
+    mechanism.notes.push_back(fmt::format("link {} stands fixed in the world", robot.root));
+  }
+  put_before(std::move(robot.parts.bodies), mechanism.bodies, "link", diagnostics);
+  put_before(std::move(robot.parts.joints), mechanism.joints, "joint", diagnostics);
+  put_before(std::move(robot.parts.loops), mechanism.loops, "loop", diagnostics);
+  for (BodyModel& body : mechanism.bodies) {
+    if (!body.name.mark.file) body.name.mark = mark;
+  }
+  for (JointModel& joint : mechanism.joints) {
+    for (Located<std::string>* name : {&joint.name, &joint.parent, &joint.child}) {
+      if (!name->mark.file) name->mark = mark;
+    }
+  }
+}
+
+/// A robot description alone, as a mechanism: at rest, with all joints at zero, for ten seconds.
+std::optional<MechanismFile> read_robot(const fs::path& path, Diagnostics& diagnostics) {
+  constexpr double duration = 10;  // s
+  const std::size_t errors_before = diagnostics.error_count();
+  const Document document{std::make_shared<const std::string>(shown_path(path)), {}, {}};
+  const Mark mark{document.file, 0, 0};
+  std::optional<RobotImport> robot = import_urdf(path, mark, diagnostics);
+  if (!robot) return std::nullopt;
+  MechanismFile mechanism;
+  mechanism.file = path;
+  mechanism.yaml = fmt::format("urdf: {}\n", path.string());
+  mechanism.place = mark;
+  mechanism.name = robot->name;
+  mechanism.title = "Robot description " + robot->name;
+  mechanism.gravity = Vector3(0, 0, -9.80665);
+  mechanism.simulate.duration = {duration, mark};
+  mechanism.simulate.relative_tolerance = 1e-8;
+  mechanism.notes.push_back(fmt::format(
+      "simulated for {:g} s from rest with all joints at zero, under standard gravity; a "
+      "mechanism file with \"urdf: {}\" says otherwise",
+      duration, path.filename().string()));
+  add_robot(std::move(*robot), mark, mechanism, diagnostics);
+  Reading reading(document, diagnostics);
+  check_mechanism_file(mechanism, reading);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return mechanism;
+}
+
+/// The mechanism, unless it cannot be built, which is complained about.
+std::optional<MechanismFile> if_buildable(MechanismFile mechanism, Diagnostics& diagnostics) {
+  const std::string complaint = try_to_build(mechanism);
+  if (complaint.empty()) return mechanism;
+  diagnostics.error(mechanism.place, complaint);
+  return std::nullopt;
+}
+
+}  // namespace
+
+const RopeInCase* MechanismFile::find_rope(const std::string& rope) const {
+  return find_by_name(ropes, rope);
+}
+const SpringModel* MechanismFile::find_spring(const std::string& spring) const {
+  return find_by_name(springs, spring);
+}
+const LoopModel* MechanismFile::find_loop(const std::string& loop) const {
+  return find_by_name(loops, loop);
+}
+
+Quantity MechanismFile::start_of(const DriveModel& drive) const {
+  const auto degree = static_cast<std::size_t>(std::max(0, drive.degree_of_freedom.value - 1));
+  for (const auto& position : initial.positions) {
+    if (position.name.value == drive.joint.value && degree < position.value.value.size()) {
+      return position.value.value[degree];
+    }
+  }
+  return {0, drive.range[0].dimension};
+}
+
+const std::vector<std::string>& output_quantities(const std::string& subject) {
+  static const std::map<std::string, std::vector<std::string>> quantities = {
+      {"joint", {"position", "velocity", "acceleration", "force"}},
+      {"point",
+       {"position", "velocity", "acceleration", "orientation", "angular_velocity",
+        "angular_acceleration"}},
+      {"spring", {"force", "elongation"}},
+      {"rope", {"tension", "elongation", "length"}},
+      {"loop", {"force", "multipliers", "residual"}},
+      {"energy",
+       {"total", "kinetic", "gravity", "elastic", "drive_work", "winch_work", "outside_work",
+        "dissipated", "imbalance"}},
+  };
+  return quantities.at(subject);
+}
+
+std::string output_subject(const OutputModel& output) {
+  if (output.joint) return "joint";
+  if (output.point) return "point";
+  if (output.spring) return "spring";
+  if (output.rope) return "rope";
+  if (output.loop) return "loop";
+  return output.energy ? "energy" : "";
+}
+
+std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibrary& library,
+                                                 Diagnostics& diagnostics) {
+  if (kind_of_file(path) == FileKind::robot) {
+    std::optional<MechanismFile> robot = read_robot(path, diagnostics);
+    return robot ? if_buildable(std::move(*robot), diagnostics) : std::nullopt;
+  }
+  const std::size_t errors_before = diagnostics.error_count();
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? path / "mechanism.yaml" : path;
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  MechanismFile mechanism;
+  mechanism.file = file;
+  mechanism.yaml = document->text;
+  Reading reading(*document, diagnostics);
+  mechanism_file_format().read(document->root, reading, mechanism);
+  if (!document->root.IsMap()) return std::nullopt;
+  if (mechanism.urdf && !mechanism.urdf->value.empty()) {
+    const Mark& mark = mechanism.urdf->mark;
+    auto robot = import_urdf(file.parent_path() / mechanism.urdf->value, mark, diagnostics);
+    if (!robot) return std::nullopt;
+    add_robot(std::move(*robot), mark, mechanism, diagnostics);
+  }
+  for (RopeInCase& rope : mechanism.ropes) {
+    rope.rope = library.resolve(rope.rope_choice, file.parent_path(), diagnostics);
+  }
+  check_mechanism_file(mechanism, reading);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return if_buildable(std::move(mechanism), diagnostics);
+}
+
+}  // namespace blocklift::pipeline
