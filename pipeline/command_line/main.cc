@@ -11,6 +11,7 @@
 
 #include "pipeline/command_line/assess_command.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/simulate_command.h"
 #include "pipeline/command_line/validate_command.h"
 #include "pipeline/command_line/verify_command.h"
 #include "pipeline/input/diagnostics.h"
@@ -38,6 +39,20 @@ void add_report(CLI::App& app, int& code) {
   auto folder = std::make_shared<std::string>();
   command->add_option("RESULT", *folder, "folder with results.h5 and summary.json")->required();
   command->callback([folder, &code] { code = report_results(*folder); });
+}
+
+void add_simulate(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "simulate", "Run the motion alone, of a mechanism file, a robot description or a lift case");
+  auto options = std::make_shared<SimulateOptions>();
+  command
+      ->add_option("FILE", options->path,
+                   "mechanism file, URDF file, case file, or a folder of one")
+      ->required();
+  command->add_option("-o,--output", options->output,
+                      "folder of the results (results/<name> if not given)");
+  command->add_flag("--csv", options->csv, "write a CSV file beside the HDF5 one");
+  command->callback([options, &code] { code = simulate_file(*options); });
 }
 
 void add_validate(CLI::App& app, int& code) {
@@ -90,6 +105,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   int code = exit_code::done;
   add_assess(app, code);
+  add_simulate(app, code);
   add_validate(app, code);
   add_report(app, code);
   add_schema(app);

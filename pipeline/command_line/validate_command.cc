@@ -9,7 +9,9 @@
 
 #include "pipeline/assessment/block_preparation.h"
 #include "pipeline/input/document.h"
+#include "pipeline/input/file_kind.h"
 #include "pipeline/input/lift_case.h"
+#include "pipeline/input/mechanism_file.h"
 #include "pipeline/input/operation_schedule.h"
 
 namespace blocklift::pipeline {
@@ -19,17 +21,6 @@ namespace fs = std::filesystem;
 
 std::string count(std::size_t number, const std::string& noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
-}
-
-/// The `kind` that a model file names; empty for lift cases and for what cannot be read.
-std::string kind_of(const fs::path& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) return {};
-  Diagnostics ignored;  // the reader of the lift case says the same again
-  const std::optional<Document> document = load_document(path, ignored);
-  if (!document || !document->root.IsMap()) return {};
-  const YAML::Node kind = document->root["kind"];
-  return kind && kind.IsScalar() ? kind.Scalar() : std::string();
 }
 
 std::string summary_of(const LiftCase& lift_case) {
@@ -52,8 +43,17 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
     if (diagnostics.error_count() > errors_before) return std::nullopt;
     return summary;
   };
-  const std::string kind = kind_of(path);
-  if (kind == "crane") {
+  const FileKind kind = kind_of_file(path);
+  if (kind == FileKind::mechanism || kind == FileKind::robot) {
+    const auto mechanism = read_mechanism_file(path, library, diagnostics);
+    if (!mechanism) return std::nullopt;
+    return if_sound(fmt::format(
+        "mechanism {} with {}, {} and {}", mechanism->name,
+        mechanism->bodies.size() == 1 ? "1 body"
+                                      : fmt::format("{} bodies", mechanism->bodies.size()),
+        count(mechanism->joints.size(), "joint"), count(mechanism->loops.size(), "loop")));
+  }
+  if (kind == FileKind::crane) {
     const auto crane = library.read_crane(path, diagnostics);
     if (!crane) return std::nullopt;
     return if_sound(fmt::format(
@@ -61,7 +61,7 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
         crane->bodies.size() == 1 ? "1 body" : fmt::format("{} bodies", crane->bodies.size()),
         count(crane->drives.size(), "drive"), count(crane->hoists.size(), "hoist")));
   }
-  if (kind == "block") {
+  if (kind == FileKind::block) {
     const auto block = library.read_block(path, diagnostics);
     if (!block || diagnostics.error_count() > errors_before) return std::nullopt;
     check_block_model(*block, path.string(), diagnostics);
@@ -69,7 +69,7 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
                                 count(block->plates.size(), "kind") + " of plates",
                                 count(block->lugs.size(), "lug")));
   }
-  if (kind == "rope") {
+  if (kind == FileKind::rope) {
     library.read_rope(path, diagnostics);
     return if_sound("rope");
   }

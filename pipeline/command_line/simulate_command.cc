@@ -1,0 +1,137 @@
+#include "pipeline/command_line/simulate_command.h"
+
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "pipeline/assessment/assessment.h"
+#include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/progress_bar.h"
+#include "pipeline/input/file_kind.h"
+#include "pipeline/simulation/lift_simulation.h"
+#include "pipeline/simulation/mechanism_run.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double newton_per_tonne = 9806.65;
+
+/// The folder of the results, asked for before the run.
+fs::path result_folder(const SimulateOptions& options, const std::string& name) {
+  fs::path folder = options.output ? fs::path(*options.output) : fs::path("results") / name;
+  require_writable(folder);
+  return folder;
+}
+
+void print_statistics(const dynamics::IntegrationStatistics& statistics, double seconds) {
+  fmt::print("{} steps, {} right-hand sides, {} Jacobians, {:.3g} s\n", statistics.steps,
+             statistics.right_hand_sides + statistics.difference_right_hand_sides,
+             statistics.jacobians, seconds);
+}
+
+void print_files(const fs::path& folder, bool csv) {
+  fmt::print("results: {}\n", (folder / "results.h5").string());
+  if (csv) fmt::print("table: {}\n", (folder / "results.csv").string());
+}
+
+void print_rope_use(const MechanismFile& file, const MechanismRun& run) {
+  for (const OutputModel& output : file.outputs) {
+    const RopeInCase* rope = output.rope ? file.find_rope(output.rope->value) : nullptr;
+    const bool tension = rope && (!output.quantity || output.quantity->value == "tension");
+    if (!tension || !(rope->rope.breaking_load > 0)) continue;
+    for (const OutputSeries& series : run.outputs) {
+      if (series.name != output.name.value) continue;
+      fmt::print("rope {}: at most {:.1f} % of its breaking load\n", rope->name.value,
+                 100 * series.values.maxCoeff() / rope->rope.breaking_load);
+    }
+  }
+}
+
+int simulate_mechanism(const SimulateOptions& options) {
+  ModelLibrary library = ModelLibrary::of_installation();
+  Diagnostics diagnostics;
+  const auto file = read_mechanism_file(options.path, library, diagnostics);
+  if (!file) throw InputError(diagnostics);
+  const fs::path folder = result_folder(options, file->name);
+  for (const std::string& note : file->notes) fmt::print("note: {}\n", note);
+  auto bar = std::make_unique<ProgressBar>("time integration");
+  const MechanismRun run = run_mechanism(*file, [&](double fraction, double time) {
+    bar->show(fraction, fmt::format("t = {:.3g} s", time));
+  });
+  bar.reset();
+  for (const std::string& finding : run.findings) fmt::print("loops: {}\n", finding);
+  {
+    const HeldSignals until_all_is_in_place;
+    write_mechanism_results(*file, run, folder, options.csv);
+  }
+  fmt::print("{}\n\n{}\n", file->title.empty() ? file->name : file->title,
+             extremes_table(run.time, run.outputs));
+  print_rope_use(*file, run);
+  print_statistics(run.statistics, run.elapsed);
+  print_files(folder, options.csv);
+  return exit_code::done;
+}
+
+int simulate_lift_case(const SimulateOptions& options) {
+  LiftCase lift_case = read_lift_case(options.path);
+  if (lift_case.load_table) {
+    Diagnostics diagnostics;
+    diagnostics.error(lift_case.load_table->place,
+                      "the case is a load table: it has nothing that moves",
+                      {"blocklift assess computes the block's stress under these loads"});
+    throw InputError(diagnostics);
+  }
+  const fs::path folder = result_folder(options, lift_case.name);
+  std::unique_ptr<ProgressBar> bar;
+  std::string shown;
+  const LiftSimulation simulation =
+      simulate_lift(std::move(lift_case),
+                    [&](const std::string& stage, double fraction, const std::string& detail) {
+                      if (stage != shown) {
+                        bar.reset();
+                        bar = std::make_unique<ProgressBar>(stage);
+                        shown = stage;
+                      }
+                      bar->show(fraction, detail);
+                    });
+  bar.reset();
+  {
+    const HeldSignals until_all_is_in_place;
+    write_lift_simulation(simulation, folder, options.csv);
+  }
+  fmt::print("{}\n\n", simulation.lift_case.title);
+  const auto at_rest = dynamics::find_largest_tensions(simulation.run.static_history);
+  const auto in_motion = dynamics::find_largest_tensions(simulation.run.dynamic_history());
+  fmt::print("{:<16}{:>12}{:>10}{:>12}{:>10}\n", "rope", "static t", "at s", "dynamic t", "at s");
+  for (std::size_t i = 0; i < at_rest.size(); ++i) {
+    fmt::print("{:<16}{:>12.1f}{:>10.1f}{:>12.1f}{:>10.1f}\n",
+               simulation.run.static_history.ropes[i].name, at_rest[i].tension / newton_per_tonne,
+               at_rest[i].time, in_motion[i].tension / newton_per_tonne, in_motion[i].time);
+  }
+  fmt::print("\n");
+  print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
+  print_files(folder, options.csv);
+  return exit_code::done;
+}
+
+}  // namespace
+
+int simulate_file(const SimulateOptions& options) {
+  const FileKind kind = kind_of_file(options.path);
+  if (kind == FileKind::mechanism || kind == FileKind::robot) return simulate_mechanism(options);
+  if (kind == FileKind::lift_case) return simulate_lift_case(options);
+  Diagnostics diagnostics;
+  diagnostics.error(
+      {std::make_shared<const std::string>(options.path), 0, 0},
+      "this file describes a part, which does nothing by itself",
+      {"simulate takes a mechanism file, a robot description (URDF) or a lift case; a "
+       "crane moves in a lift case that names it"});
+  throw InputError(diagnostics);
+}
+
+}  // namespace blocklift::pipeline

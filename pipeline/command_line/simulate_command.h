@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace blocklift::pipeline {
+
+/// What `blocklift simulate FILE` is asked for.
+struct SimulateOptions {
+  std::string path;  ///< mechanism file, robot description, lift case, or a folder of one
+  std::optional<std::string> output;  ///< folder; results/<name> if none
+  bool csv = false;                   ///< a CSV file beside the HDF5 one
+};
+
+/// `blocklift simulate FILE`: the motion of a mechanism or lift case into results.h5.
+/// @returns the exit code: 0. What goes wrong is thrown: InputError for the input, anything else for the
+///   run.
+int simulate_file(const SimulateOptions& options);
+
+}  // namespace blocklift::pipeline

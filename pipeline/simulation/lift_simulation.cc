@@ -1,0 +1,67 @@
+#include "pipeline/simulation/lift_simulation.h"
+
+#include <utility>
+
+#include "pipeline/assessment/block_preparation.h"
+#include "pipeline/assessment/lift_scene.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/simulation/mechanism_run.h"
+#include "structure/elasticity/elastic_model.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+OutputSeries series_of(const std::string& name, const std::string& unit,
+                       const Eigen::VectorXd& values) {
+  return {name, "", {{"", unit}}, values};
+}
+
+/// Tensions and drive positions of the time integration.
+std::vector<OutputSeries> table_of(const LiftSimulation& simulation) {
+  const dynamics::History& history = simulation.run.dynamic_history();
+  std::vector<OutputSeries> series;
+  for (const dynamics::RopeHistory& rope : history.ropes) {
+    series.push_back(series_of(rope.name + ".tension", "N", rope.tension));
+  }
+  const dynamics::Mechanism& mechanism = simulation.run.model.system.mechanism();
+  const std::vector<int>& driven = mechanism.driven_velocities();
+  for (std::size_t i = 0; i < history.drives.size(); ++i) {
+    const bool turns = mechanism.angular()[static_cast<std::size_t>(driven[i])] != 0;
+    series.push_back(series_of(history.drives[i].name + ".position", turns ? "rad" : "m",
+                               history.drives[i].position));
+  }
+  return series;
+}
+
+}  // namespace
+
+LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
+  Diagnostics diagnostics;
+  const auto block = make_block_model(*lift_case.load.model, lift_case.load.model_name.value,
+                                      lift_case.structure, diagnostics);
+  if (!block) throw InputError(diagnostics);
+  BuiltLift model = build_lift(lift_case, load_mass(block->mass_properties()));
+  LiftRun run = run_lift(lift_case, std::move(model), progress);
+  return {std::move(lift_case), block->mesh().lugs, std::move(run)};
+}
+
+void write_lift_simulation(const LiftSimulation& simulation, const std::filesystem::path& folder,
+                           bool with_csv) {
+  const LiftCase& lift_case = simulation.lift_case;
+  const dynamics::LiftSystem& system = simulation.run.model.system;
+  const Scene scene = make_scene(simulation.run.model, simulation.lugs);
+  ResultsWriter file(folder / layout::results_file);
+  write_case(file, lift_case.name, lift_case.title, lift_case.yaml);
+  write_operation(file, system.operation());
+  write_history(file, layout::static_history, system, simulation.run.static_history, scene);
+  write_history(file, layout::dynamic_history, system, simulation.run.dynamic_history(), scene);
+  write_scene(file, system, scene);
+  write_statistics(file, simulation.run.dynamic_result.statistics);
+  file.finish();
+  if (!with_csv) return;
+  write_file(folder / "results.csv",
+             csv_text(simulation.run.dynamic_history().time, table_of(simulation)));
+}
+
+}  // namespace blocklift::pipeline
