@@ -12,6 +12,7 @@
 #include "pipeline/command_line/assess_command.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/simulate_command.h"
+#include "pipeline/command_line/stress_command.h"
 #include "pipeline/command_line/validate_command.h"
 #include "pipeline/command_line/verify_command.h"
 #include "pipeline/input/diagnostics.h"
@@ -31,6 +32,18 @@ void add_assess(CLI::App& app, int& code) {
   command->add_option("-o,--output", *output,
                       "folder of the results (results/<name of the case> if not given)");
   command->callback([path, output, &code] { code = assess_case(*path, *output); });
+}
+
+void add_stress(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "stress", "Solve a part on any mesh that Gmsh reads: stress, deformation, reactions, probes");
+  auto options = std::make_shared<StressOptions>();
+  command->add_option("PART", options->part, "file of the part")->required();
+  command->add_option("-o,--output", options->output,
+                      "folder of the results (results/<name of the part> if not given)");
+  command->add_flag("--calculix", options->calculix,
+                    "write part.inp as well: the same model for CalculiX");
+  command->callback([options, &code] { code = stress(*options); });
 }
 
 void add_report(CLI::App& app, int& code) {
@@ -107,6 +120,7 @@ int run(int argc, char** argv) {
   add_assess(app, code);
   add_simulate(app, code);
   add_validate(app, code);
+  add_stress(app, code);
   add_report(app, code);
   add_schema(app);
   add_verify(app, code);

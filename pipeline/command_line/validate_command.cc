@@ -8,11 +8,13 @@
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/assessment/block_preparation.h"
+#include "pipeline/assessment/part_assessment.h"
 #include "pipeline/input/document.h"
 #include "pipeline/input/file_kind.h"
 #include "pipeline/input/lift_case.h"
 #include "pipeline/input/mechanism_file.h"
 #include "pipeline/input/operation_schedule.h"
+#include "pipeline/input/part_file.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -72,6 +74,13 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   if (kind == FileKind::rope) {
     library.read_rope(path, diagnostics);
     return if_sound("rope");
+  }
+  if (kind == FileKind::part) {
+    const std::optional<PartFile> part = read_part_file(path, diagnostics);
+    if (!part) return std::nullopt;
+    const structure::PartModel model = make_part_model(*part, diagnostics);
+    return if_sound(fmt::format("part {} with {}", part->name,
+                                count(model.mesh.solids.size(), "solid element")));
   }
   const std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
   if (!lift_case) return std::nullopt;

@@ -26,6 +26,8 @@ FileKind kind_of_file(const fs::path& path) {
   if (fs::is_directory(path, error)) {
     const bool mechanism =
         fs::exists(path / "mechanism.yaml", error) && !fs::exists(path / "case.yaml", error);
+    if (fs::exists(path / "part.yaml", error) && !fs::exists(path / "case.yaml", error))
+      return FileKind::part;
     return mechanism ? FileKind::mechanism : FileKind::lift_case;
   }
   if (fs::is_regular_file(path, error) && (path.extension() == ".urdf" || begins_as_xml(path))) {
@@ -35,6 +37,7 @@ FileKind kind_of_file(const fs::path& path) {
   const std::optional<Document> document = load_document(path, ignored);
   if (!document || !document->root.IsMap()) return FileKind::lift_case;
   if (document->root["mechanism"]) return FileKind::mechanism;
+  if (document->root["part"]) return FileKind::part;
   const YAML::Node node = document->root["kind"];
   const std::string kind = node && node.IsScalar() ? node.Scalar() : std::string();
   if (kind == "crane") return FileKind::crane;

@@ -28,6 +28,8 @@ class ModelLibrary {
   /// or above the executable, of the installation, and of the source tree.
   static ModelLibrary of_installation();
 
+  const std::vector<std::filesystem::path>& folders() const { return model_folders_; }
+
   /// Reads a model; complains at the place of the name if there is none, and returns null then and
   /// when the file cannot be read. A model with mistakes inside is returned, too: they have been
   /// complained about, and the checks pass over what is missing.

@@ -11,6 +11,7 @@
 #include "pipeline/input/crane_model.h"
 #include "pipeline/input/lift_case.h"
 #include "pipeline/input/mechanism_file.h"
+#include "pipeline/input/part_file.h"
 #include "pipeline/input/rope_model.h"
 
 namespace blocklift::pipeline {
@@ -31,7 +32,8 @@ std::vector<FileKind> file_kinds() {
           {"mechanism", mechanism_file_format().description->table},
           {"crane", crane_model_format().description->table},
           {"block", block_model_format().description->table},
-          {"rope", rope_model_format().description->table}};
+          {"rope", rope_model_format().description->table},
+          {"part", part_file_format().description->table}};
 }
 
 std::vector<FileKind> chosen_kinds(const std::string& kind) {

@@ -9,8 +9,8 @@ namespace blocklift::pipeline {
 
 std::vector<VerificationCase> verification_suite(const ModelLibrary& library) {
   std::vector<VerificationCase> suite;
-  for (std::vector<VerificationCase>& stage :
-       std::vector<std::vector<VerificationCase>>{dynamics_cases(library), structure_cases()}) {
+  for (std::vector<VerificationCase>& stage : std::vector<std::vector<VerificationCase>>{
+           dynamics_cases(library), structure_cases(library)}) {
     suite.insert(suite.end(), std::make_move_iterator(stage.begin()),
                  std::make_move_iterator(stage.end()));
   }

@@ -14,10 +14,11 @@
 namespace blocklift::structure {
 
 struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLower, Eigen::Lower> {
-  Factor() {
+  explicit Factor(EliminationOrder order) {
     cholmod().nmethods = 1;
-    cholmod().method[0].ordering = CHOLMOD_NATURAL;
-    cholmod().postorder = 0;  // the unknowns come in postorder already
+    const bool given = order == EliminationOrder::given;
+    cholmod().method[0].ordering = given ? CHOLMOD_NATURAL : CHOLMOD_METIS;
+    cholmod().postorder = given ? 0 : 1;  // given unknowns come in postorder already
     cholmod().print = 0;
   }
   double bytes() const {
@@ -33,8 +34,9 @@ double available_memory() {
   return std::numeric_limits<double>::infinity();
 }
 
-ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed)
-    : fixed_(std::move(fixed)), factor_(new Factor) {
+ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed,
+                                     EliminationOrder order)
+    : fixed_(std::move(fixed)), factor_(new Factor(order)) {
   stiffness_.swap(stiffness);  // Eigen's sparse matrices do not move, they copy
   separate_fixed();
   factor_->analyzePattern(stiffness_);

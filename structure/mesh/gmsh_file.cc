@@ -12,6 +12,7 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
+#include "structure/mesh/gmsh_session.h"
 
 namespace blocklift::structure {
 
@@ -22,24 +23,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr int linear_hexahedron = 5;  // Gmsh's element types
 constexpr int quadratic_hexahedron = 12;
 constexpr std::array<std::size_t, 8> gmsh_order = {0, 1, 3, 2, 4, 5, 7, 6};
-
-// Gmsh keeps one global session; this opens it for a scope, quietly.
-class GmshSession {
- public:
-  GmshSession() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::model::add("blocklift");
-  }
-  ~GmshSession() {
-    try {
-      gmsh::finalize();
-    } catch (...) {  // a destructor must not throw; the session is lost anyhow
-    }
-  }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-};
 
 void fill_session(const BlockMesh& mesh) {
   // One volume for the plates' cells of a group, one for its crossings.

@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <string>
@@ -12,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include "structure/error.h"
+#include "structure/output/vtk_array.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
@@ -54,43 +54,6 @@ std::array<int, 3> parts_of(const HexMesh& mesh, int cell, int degree) {
   for (int a = 0; a < 3; ++a) parts[at(a)] = length[a] > 3 * length.minCoeff() ? degree : 1;
   if (length.maxCoeff() <= 3 * length.minCoeff()) parts.fill(length.maxCoeff() > 0.2 ? degree : 1);
   return parts;
-}
-
-std::string base64(const char* data, std::size_t size) {
-  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(size / 3 * 4 + 4);
-  for (std::size_t i = 0; i < size; i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t b = 0; b < 3; ++b)
-      group = group << 8 | (i + b < size ? static_cast<unsigned char>(data[i + b]) : 0U);
-    for (std::size_t d = 0; d < 4; ++d)
-      text += i + d > size ? '=' : digits[group >> (18 - 6 * d) & 63U];
-  }
-  return text;
-}
-
-template <typename Number>
-void write_array(std::ofstream& file, const std::string& type, const std::string& name,
-                 int components, const std::vector<Number>& values) {
-  const std::uint64_t bytes = values.size() * sizeof(Number);
-  std::string data(sizeof(bytes) + bytes, '\0');
-  std::memcpy(data.data(), &bytes, sizeof(bytes));
-  if (bytes > 0) std::memcpy(data.data() + sizeof(bytes), values.data(), bytes);
-  file << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\""
-       << components << "\" format=\"binary\">" << base64(data.data(), data.size())
-       << "</DataArray>\n";
-}
-
-void write_names(std::ofstream& file, const std::string& name,
-                 const std::vector<std::string>& values) {
-  file << "<DataArray type=\"String\" Name=\"" << name << "\" NumberOfTuples=\"" << values.size()
-       << "\" format=\"ascii\">";
-  for (const std::string& value : values) {
-    for (const char c : value) file << static_cast<int>(static_cast<unsigned char>(c)) << ' ';
-    file << "0 ";
-  }
-  file << "</DataArray>\n";
 }
 
 struct Content {

@@ -1,9 +1,13 @@
 #include "pipeline/verification/structure/structure_cases.h"
 
+#include <utility>
+
 namespace blocklift::pipeline {
 
-std::vector<VerificationCase> structure_cases() {
-  return {manufactured_solution(), clamped_plate(), nafems_le10()};
+std::vector<VerificationCase> structure_cases(const ModelLibrary& library) {
+  std::vector<VerificationCase> cases = {manufactured_solution(), clamped_plate(), nafems_le10()};
+  for (VerificationCase& part : part_cases(library)) cases.push_back(std::move(part));
+  return cases;
 }
 
 }  // namespace blocklift::pipeline

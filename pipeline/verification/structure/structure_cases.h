@@ -2,12 +2,18 @@
 
 #include <vector>
 
+#include "pipeline/input/model_library.h"
 #include "pipeline/verification/verification.h"
 
 namespace blocklift::pipeline {
 
 /// Cases of the structure.
-std::vector<VerificationCase> structure_cases();
+/// @param library where parts with references are found.
+/// @throws InputError if one of them cannot be read.
+std::vector<VerificationCase> structure_cases(const ModelLibrary& library);
+
+/// One case for each parts/<name>/part.yaml of the models that has references.
+std::vector<VerificationCase> part_cases(const ModelLibrary& library);
 
 /// A smooth field on distorted hexahedra: orders of convergence.
 VerificationCase manufactured_solution();

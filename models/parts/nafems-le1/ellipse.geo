@@ -1,0 +1,24 @@
+// Quarter of an elliptic ring between half axes 2 x 1 and 3.25 x 2.75 m; half of its thickness of 0.1 m.
+Point(1) = {0, 0, 0};
+Point(2) = {2, 0, 0};
+Point(3) = {3.25, 0, 0};
+Point(4) = {0, 2.75, 0};
+Point(5) = {0, 1, 0};
+Line(1) = {2, 3};
+Ellipse(2) = {3, 1, 3, 4};
+Line(3) = {4, 5};
+Ellipse(4) = {5, 1, 2, 2};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve{1} = 9 Using Progression 1.2;
+Transfinite Curve{-3} = 9 Using Progression 1.2;
+Transfinite Curve{2} = 13;
+Transfinite Curve{4} = 13;
+Transfinite Surface{1};
+Recombine Surface{1};
+out[] = Extrude{0, 0, 0.05}{ Surface{1}; Layers{1}; Recombine; };
+Physical Volume("plate") = {out[1]};
+Physical Surface("middle") = {1};
+Physical Surface("side on x") = {out[2]};
+Physical Surface("outer") = {out[3]};
+Physical Surface("side on y") = {out[4]};

@@ -1,0 +1,130 @@
+// Files of a solved part.
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/assessment/part_assessment.h"
+#include "pipeline/assessment/result_file.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/results_store.h"
+#include "pipeline/version.h"
+#include "structure/output/part_files.h"
+#include "structure/response/cell_stress.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json group_json(const structure::PartGroupResult& group) {
+  return {{"von_mises_Pa", group.von_mises},
+          {"point_m", vector(group.point)},
+          {"raw_von_mises_Pa", group.raw_von_mises},
+          {"raw_point_m", vector(group.raw_point)},
+          {"max_displacement_m", group.displacement}};
+}
+
+Json probe_json(const structure::PartProbe& probe) {
+  Json json{{"point_m", vector(probe.point)}};
+  if (!probe.inside) return json;  // no figures where there is no material
+  const auto& s = probe.stress;
+  json["displacement_m"] = vector(probe.displacement);
+  json["stress_Pa"] = {{"xx", s[0]}, {"yy", s[1]}, {"zz", s[2]},
+                       {"xy", s[3]}, {"yz", s[4]}, {"zx", s[5]}};
+  json["von_mises_Pa"] = structure::von_mises(s);
+  return json;
+}
+
+Json make_part_summary(const PartAssessment& assessment) {
+  const structure::PartSolution& solution = assessment.solution;
+  const structure::PartModel& model = assessment.model;
+  std::map<std::string, int> kinds;
+  for (const int element : model.mesh.solids) ++kinds[model.mesh.kind(element).name];
+  std::map<std::string, structure::Wrench> reactions;
+  for (std::size_t s = 0; s < model.supports.size(); ++s) {
+    reactions[model.supports[s].name].force += solution.reactions[s].force;
+    reactions[model.supports[s].name].moment += solution.reactions[s].moment;
+  }
+  Json summary{{"part", assessment.file.name},
+               {"title", assessment.file.title},
+               {"program_version", program_version},
+               {"created", creation_time()},
+               {"nodes", model.mesh.nodes.cols()},
+               {"elements", kinds},
+               {"unknowns", 3 * model.mesh.nodes.cols()},
+               {"mass_kg", assessment.mass.mass},
+               {"volume_m3", assessment.mass.volume},
+               {"centre_of_mass_m", vector(assessment.mass.centre)},
+               {"applied",
+                {{"force_N", vector(solution.applied.force)},
+                 {"moment_about_origin_N_m", vector(solution.applied.moment)}}}};
+  for (const auto& [name, wrench] : reactions)
+    summary["reactions"][name] = {{"force_N", vector(wrench.force)},
+                                  {"moment_about_origin_N_m", vector(wrench.moment)}};
+  summary["force_residual"] = solution.force_residual;
+  summary["moment_residual"] = solution.moment_residual;
+  summary["estimated_error"] = solution.estimated_error;
+  summary["strain_energy_J"] = solution.strain_energy;
+  summary["all"] = group_json(solution.all);
+  for (const structure::PartGroupResult& group : solution.groups)
+    summary["groups"][group.group] = group_json(group);
+  for (const ProbeResult& probe : assessment.probes) {
+    if (!probe.is_line) {
+      summary["probes"][probe.name] = probe_json(probe.points[0]);
+      continue;
+    }
+    for (const structure::PartProbe& point : probe.points)
+      summary["probes"][probe.name].push_back(probe_json(point));
+  }
+  if (assessment.file.references)
+    for (const PartReference& figure : assessment.file.references->figures)
+      summary["references"].push_back({{"probe", figure.probe.value},
+                                       {"quantity", name_of(figure.quantity)},
+                                       {"reference", figure.value.value.value},
+                                       {"computed", figure_of(assessment, figure)},
+                                       {"source", assessment.file.references->source}});
+  summary["timing"] = {{"mesh_s", assessment.mesh_s},
+                       {"assembly_s", solution.assembly_s},
+                       {"factorisation_s", solution.factorisation_s},
+                       {"solve_s", solution.solve_s},
+                       {"recovery_s", solution.recovery_s},
+                       {"factor_GB", solution.factor_bytes / 1e9}};
+  return summary;
+}
+
+void write_fields(const PartAssessment& assessment, const std::filesystem::path& path) {
+  const structure::PartModel& model = assessment.model;
+  const structure::PartStress& stress = assessment.solution.stress;
+  ResultsWriter file(path);
+  file.write_text("/part/yaml", assessment.file.yaml, "the part's file");
+  file.write_matrix("/nodes/position", model.mesh.nodes.transpose(), {"m", "places of the nodes"});
+  file.write_matrix("/nodes/displacement",
+                    Eigen::Map<const RowMajorMatrix>(assessment.solution.displacement.data(),
+                                                     model.mesh.nodes.cols(), 3),
+                    {"m", "displacement of the nodes"});
+  file.write("/stress/node", std::vector<std::int32_t>(stress.node.begin(), stress.node.end()),
+             {"1", "node of each point of stress; a node has one for each material that meets it"});
+  file.write_matrix("/stress/components", stress.averaged.transpose(),
+                    {"Pa", "xx, yy, zz, xy, yz, zx, averaged over the solids of one material"});
+  file.finish();
+}
+
+}  // namespace
+
+void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
+                        bool calculix) {
+  std::filesystem::create_directories(folder);
+  structure::write_part_vtu((folder / "part.vtu").string(), assessment.model, assessment.solution);
+  if (calculix) structure::write_calculix((folder / "part.inp").string(), assessment.model);
+  write_fields(assessment, folder / "results.h5");
+  write_file(folder / "summary.json", make_part_summary(assessment).dump(2));
+}
+
+}  // namespace blocklift::pipeline

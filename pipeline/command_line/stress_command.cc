@@ -1,0 +1,88 @@
+#include "pipeline/command_line/stress_command.h"
+
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "pipeline/assessment/assessment.h"
+#include "pipeline/assessment/part_assessment.h"
+#include "pipeline/command_line/exit_code.h"
+#include "structure/response/cell_stress.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+void print_probe(const std::string& name, const structure::PartProbe& probe) {
+  if (!probe.inside) {
+    fmt::print("{:<18}{:>9.4g}{:>9.4g}{:>9.4g}   outside\n", name, probe.point.x(), probe.point.y(),
+               probe.point.z());
+    return;
+  }
+  fmt::print("{:<18}{:>9.4g}{:>9.4g}{:>9.4g}", name, probe.point.x(), probe.point.y(),
+             probe.point.z());
+  for (int a = 0; a < 3; ++a) fmt::print("{:>10.4g}", 1e3 * probe.displacement[a]);
+  for (int c = 0; c < 6; ++c) fmt::print("{:>10.4g}", probe.stress[c] / 1e6);
+  fmt::print("{:>10.4g}\n", structure::von_mises(probe.stress) / 1e6);
+}
+
+void print_table(const PartAssessment& assessment) {
+  const structure::PartSolution& solution = assessment.solution;
+  fmt::print("{}\n", assessment.file.title.empty() ? assessment.file.name : assessment.file.title);
+  fmt::print("{} solid elements, {} unknowns, {:.6g} kg\n\n", assessment.model.mesh.solids.size(),
+             3 * assessment.model.mesh.nodes.cols(), assessment.mass.mass);
+  fmt::print("{:<18}{:>14}{:>14}   {}\n", "group", "von Mises MPa", "displaced mm",
+             "at x, y, z, m");
+  const auto print_group = [](const structure::PartGroupResult& group) {
+    fmt::print("{:<18}{:>14.4g}{:>14.4g}   {:.4g}, {:.4g}, {:.4g}\n", group.group,
+               group.von_mises / 1e6, 1e3 * group.displacement, group.point.x(), group.point.y(),
+               group.point.z());
+  };
+  for (const structure::PartGroupResult& group : solution.groups) print_group(group);
+  if (!assessment.probes.empty())
+    fmt::print(
+        "\n{:<18}{:>9}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n",
+        "probe", "x m", "y m", "z m", "u_x mm", "u_y mm", "u_z mm", "s_xx MPa", "s_yy", "s_zz",
+        "s_xy", "s_yz", "s_zx", "v. Mises");
+  for (const ProbeResult& probe : assessment.probes)
+    for (const structure::PartProbe& point : probe.points) print_probe(probe.name, point);
+  fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "force on the part", "x N", "y N", "z N");
+  const auto print_force = [](const std::string& name, const Eigen::Vector3d& force) {
+    fmt::print("{:<18}{:>14.6g}{:>14.6g}{:>14.6g}\n", name, force.x(), force.y(), force.z());
+  };
+  print_force("loads", solution.applied.force);
+  for (std::size_t s = 0; s < assessment.model.supports.size(); ++s)
+    print_force(assessment.model.supports[s].name, solution.reactions[s].force);
+  if (assessment.file.references) {
+    fmt::print("\n{:<18}{:>10}{:>14}{:>14}{:>10}   {}\n", "reference", "quantity", "published",
+               "computed", "off", assessment.file.references->source);
+    for (const PartReference& figure : assessment.file.references->figures) {
+      const double computed = figure_of(assessment, figure), published = figure.value.value.value;
+      fmt::print("{:<18}{:>10}{:>14.6g}{:>14.6g}{:>8.2f} %\n", figure.probe.value,
+                 name_of(figure.quantity), published, computed, 100 * (computed / published - 1));
+    }
+  }
+  fmt::print("\nestimated error of the stress field {:.1f} %; balance to {:.0e}\n",
+             100 * solution.estimated_error,
+             std::max(solution.force_residual, solution.moment_residual));
+}
+
+}  // namespace
+
+int stress(const StressOptions& options) {
+  Diagnostics diagnostics;
+  std::optional<PartFile> file = read_part_file(options.part, diagnostics);
+  if (!file) throw InputError(diagnostics);
+  const std::filesystem::path folder = options.output
+                                           ? std::filesystem::path(*options.output)
+                                           : std::filesystem::path("results") / file->name;
+  require_writable(folder);
+  const PartAssessment assessment = assess_part(std::move(*file));
+  write_part_results(assessment, folder, options.calculix);
+  print_table(assessment);
+  fmt::print("results: {}\n", folder.string());
+  return exit_code::done;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,232 @@
+#include "pipeline/input/part_file.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/input/table.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+Format<Vector3> vector_of(Dimension dimension) {
+  return converted<std::array<double, 3>, Vector3>(
+      array_of<double, 3>(quantity(dimension)),
+      [](std::array<double, 3> v) { return Vector3(v[0], v[1], v[2]); });
+}
+
+const auto origin = "[0 m, 0 m, 0 m]";
+
+Format<PartMeshInFile> mesh_format() {
+  const std::vector<std::pair<std::string, double>> units = {
+      {"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
+  Table<PartMeshInFile> table("mesh", "The part's mesh, or a geometry that is meshed.");
+  table
+      .required(
+          "file", &PartMeshInFile::file, located(text()),
+          "what Gmsh opens: .msh, .geo, .step, .brep, .inp, .bdf, .unv; relative to this file")
+      .optional("length_unit", &PartMeshInFile::length_unit, choice<double>(units),
+                "of the file's coordinates; m if left out, and then doubted where the part comes "
+                "out too large or too small")
+      .by_default("element_order", &PartMeshInFile::element_order, integer(Range::between(1, 2)),
+                  "2",
+                  "that linear elements are raised to; linear ones are far too stiff in bending")
+      .optional("element_size", &PartMeshInFile::element_size,
+                quantity(Dimension::length, Range::positive()),
+                "largest edge where the file is a geometry");
+  return table.format();
+}
+
+Format<PartMaterial> material_format() {
+  Table<PartMaterial> table("material", "An isotropic elastic material and where it is.");
+  table
+      .required("youngs_modulus", &PartMaterial::youngs_modulus,
+                quantity(Dimension::stress, Range::positive()), "E")
+      .required("poisson_ratio", &PartMaterial::poisson_ratio, number(Range::inside(-1, 0.5)), "nu")
+      .by_default("density", &PartMaterial::density,
+                  quantity(Dimension::density, Range::not_negative()), "0 kg/m^3",
+                  "needed by gravity, acceleration and rotation")
+      .required("yield_stress", &PartMaterial::yield_stress,
+                quantity(Dimension::stress, Range::positive()), "smallest yield stress")
+      .optional("groups", &PartMaterial::groups, list_of(located(text()), 1),
+                "groups of solids; if left out, all that no other material names");
+  return table.format();
+}
+
+Format<PartSupportInFile> support_format() {
+  const std::vector<std::pair<std::string, std::size_t>> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
+  Table<PartSupportInFile> table("support", "Components of the displacement that are given.");
+  table
+      .required("groups", &PartSupportInFile::groups, list_of(located(text()), 1),
+                "of faces, edges, points or solids")
+      .by_default("fixed", &PartSupportInFile::fixed, list_of(choice<std::size_t>(axes), 1),
+                  "[x, y, z]", "components")
+      .by_default("displacement", &PartSupportInFile::displacement, position_format(), origin,
+                  "of the fixed components");
+  return table.format();
+}
+
+Format<PartRotation> rotation_format() {
+  Table<PartRotation> table("rotation", "Steady rotation: the centrifugal load.");
+  table.required("axis", &PartRotation::axis, direction_format(), "direction of the axis")
+      .by_default("point", &PartRotation::point, position_format(), origin, "on the axis")
+      .required("speed", &PartRotation::speed, quantity(Dimension::angular_speed), "of rotation");
+  return table.format();
+}
+
+void check_load(const PartLoadInFile& load, Reading& reading, const Mark& mark) {
+  const int on_groups =
+      load.pressure.has_value() + load.traction.has_value() + load.force.has_value();
+  const int on_all =
+      load.gravity.has_value() + load.acceleration.has_value() + load.rotation.has_value();
+  if (on_groups + on_all != 1)
+    reading.error(mark,
+                  fmt::format("the load has {} kinds; exactly one is due", on_groups + on_all),
+                  {"pressure, traction, force, gravity, acceleration or rotation"});
+  if (on_groups == 1 && load.groups.empty())
+    reading.error(mark, "the load acts on no group", {"name them: groups: [...]"});
+  if (on_all == 1 && !load.groups.empty())
+    reading.error(load.groups[0].mark, "gravity, acceleration and rotation act on the whole part",
+                  {"leave groups out"});
+}
+
+Format<PartLoadInFile> load_format() {
+  Table<PartLoadInFile> table("load", "A load on groups, or on all material.");
+  table
+      .optional("groups", &PartLoadInFile::groups, list_of(located(text()), 1),
+                "of faces; a force may act on edges and points, too")
+      .optional("pressure", &PartLoadInFile::pressure, quantity(Dimension::stress),
+                "against the faces; negative pulls")
+      .optional("traction", &PartLoadInFile::traction, vector_of(Dimension::stress),
+                "force for each area of the faces")
+      .optional("force", &PartLoadInFile::force, vector_of(Dimension::load),
+                "resultant, spread evenly over all of a group; each group bears it")
+      .optional("gravity", &PartLoadInFile::gravity, vector_of(Dimension::acceleration),
+                "acceleration of gravity")
+      .optional("acceleration", &PartLoadInFile::acceleration, vector_of(Dimension::acceleration),
+                "of the part: its inertia pulls the other way")
+      .optional("rotation", &PartLoadInFile::rotation, rotation_format(), "about a fixed axis")
+      .rule(check_load);
+  return table.format();
+}
+
+void check_probe(const PartProbeInFile& probe, Reading& reading, const Mark& mark) {
+  const bool is_line = probe.from && probe.to && !probe.at;
+  if (is_line || (probe.at && !probe.from && !probe.to)) return;
+  reading.error(mark, "the probe is neither a point nor a line",
+                {"a point: at: [x, y, z]", "a line: from: [x, y, z], to: [x, y, z]"});
+}
+
+Format<PartProbeInFile> probe_format() {
+  Table<PartProbeInFile> table("probe", "Where displacement and stress are asked for.");
+  table.optional("at", &PartProbeInFile::at, position_format(), "a point")
+      .optional("from", &PartProbeInFile::from, position_format(), "start of a line")
+      .optional("to", &PartProbeInFile::to, position_format(), "its end")
+      .by_default("points", &PartProbeInFile::points, integer(Range::between(2, 100000)), "11",
+                  "along a line")
+      .rule(check_probe);
+  return table.format();
+}
+
+const std::vector<std::pair<std::string, PartQuantity>>& quantity_words() {
+  using Q = PartQuantity;
+  static const std::vector<std::pair<std::string, Q>> words = {{"xx", Q::xx},
+                                                               {"yy", Q::yy},
+                                                               {"zz", Q::zz},
+                                                               {"xy", Q::xy},
+                                                               {"yz", Q::yz},
+                                                               {"zx", Q::zx},
+                                                               {"von_mises", Q::von_mises},
+                                                               {"u_x", Q::u_x},
+                                                               {"u_y", Q::u_y},
+                                                               {"u_z", Q::u_z}};
+  return words;
+}
+
+Format<PartReference> reference_figure_format() {
+  Table<PartReference> table("figure", "A published figure of a point probe.");
+  table.required("probe", &PartReference::probe, located(reference()), "one of the point probes")
+      .required("quantity", &PartReference::quantity, choice<PartQuantity>(quantity_words()),
+                "stress component, von Mises stress or displacement")
+      .required("value", &PartReference::value,
+                located(quantity_of({Dimension::stress, Dimension::length})), "as published")
+      .required("tolerance", &PartReference::tolerance,
+                quantity(Dimension::ratio, Range::positive()), "of the value, as \"1 %\"")
+      .rule([](const PartReference& figure, Reading& reading, const Mark&) {
+        const bool is_displacement = figure.quantity >= PartQuantity::u_x;
+        if ((figure.value.value.dimension == Dimension::length) == is_displacement) return;
+        reading.error(figure.value.mark, is_displacement ? "a displacement is a length"
+                                                         : "a stress is due, such as \"90 MPa\"");
+      });
+  return table.format();
+}
+
+Format<PartReferences> references_format() {
+  Table<PartReferences> table("references", "Published figures, held by `blocklift verify`.");
+  table.required("source", &PartReferences::source, text(), "where they stand")
+      .required("figures", &PartReferences::figures, list_of(reference_figure_format(), 1),
+                "one for each figure");
+  return table.format();
+}
+
+void check_references(const PartFile& part, Reading& reading, const Mark&) {
+  if (!part.references) return;
+  std::vector<std::string> names;
+  for (const PartProbeInFile& probe : part.probes)
+    if (probe.at) names.push_back(probe.name.value);
+  for (const PartReference& figure : part.references->figures)
+    if (std::find(names.begin(), names.end(), figure.probe.value) == names.end())
+      reading.error(figure.probe.mark,
+                    fmt::format("there is no point probe \"{}\"", figure.probe.value),
+                    {names_hint("the point probes are", names, figure.probe.value)});
+}
+
+}  // namespace
+
+const std::string& name_of(PartQuantity quantity) {
+  return quantity_words()[static_cast<std::size_t>(quantity)].first;
+}
+
+std::filesystem::path PartFile::mesh_path() const {
+  return file.parent_path() / std::filesystem::path(mesh.file.value);
+}
+
+Format<PartFile> part_file_format() {
+  Table<PartFile> table("part",
+                        "Any part of solids with materials, supports and loads, for "
+                        "`blocklift stress`.");
+  table.required("part", &PartFile::name, name(), "its name")
+      .optional("title", &PartFile::title, text(), "for people")
+      .required("mesh", &PartFile::mesh, mesh_format(), "the part's mesh")
+      .required("materials", &PartFile::materials, named_tables(material_format()), "by name")
+      .required("supports", &PartFile::supports, named_tables(support_format()), "by name")
+      .required("loads", &PartFile::loads, named_tables(load_format()),
+                "by name; they act together")
+      .optional("probes", &PartFile::probes, named_tables(probe_format()), "by name")
+      .optional("references", &PartFile::references, references_format(),
+                "published figures to hold against ours")
+      .rule(check_references);
+  return table.format();
+}
+
+std::optional<PartFile> read_part_file(const std::filesystem::path& path,
+                                       Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  std::error_code error;
+  const std::filesystem::path file =
+      std::filesystem::is_directory(path, error) ? path / "part.yaml" : path;
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  PartFile part;
+  part.file = file;
+  part.yaml = document->text;
+  Reading reading(*document, diagnostics);
+  part_file_format().read(document->root, reading, part);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return part;
+}
+
+}  // namespace blocklift::pipeline

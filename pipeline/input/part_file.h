@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/input/format.h"
+#include "pipeline/input/geometry_format.h"
+
+namespace blocklift::pipeline {
+
+/// Where a part's mesh comes from.
+struct PartMeshInFile {
+  Located<std::string> file;
+  std::optional<double> length_unit;  ///< of the file's coordinates, m; absent: m, and doubted
+  int element_order = 2;
+  std::optional<double> element_size;  ///< m
+};
+
+/// A material of a part with the groups of solids that are of it.
+struct PartMaterial {
+  Located<std::string> name;
+  double youngs_modulus = 0;  ///< Pa
+  double poisson_ratio = 0;
+  double density = 0;                        ///< kg/m^3
+  double yield_stress = 0;                   ///< Pa
+  std::vector<Located<std::string>> groups;  ///< none: all that no other material names
+};
+
+/// Components of groups that are held.
+struct PartSupportInFile {
+  Located<std::string> name;
+  std::vector<Located<std::string>> groups;
+  std::vector<std::size_t> fixed;          ///< axes
+  Vector3 displacement = Vector3::Zero();  ///< m
+};
+
+/// Rotation about a fixed axis.
+struct PartRotation {
+  Vector3 axis = Vector3::UnitZ();
+  Vector3 point = Vector3::Zero();  ///< m
+  double speed = 0;                 ///< rad/s
+};
+
+/// One load: exactly one of its kinds is given.
+struct PartLoadInFile {
+  Located<std::string> name;
+  std::vector<Located<std::string>> groups;
+  std::optional<double> pressure;       ///< Pa
+  std::optional<Vector3> traction;      ///< Pa
+  std::optional<Vector3> force;         ///< N
+  std::optional<Vector3> gravity;       ///< m/s^2
+  std::optional<Vector3> acceleration;  ///< of the part, m/s^2
+  std::optional<PartRotation> rotation;
+};
+
+/// A point, or a line with points along it, where displacement and stress are asked for.
+struct PartProbeInFile {
+  Located<std::string> name;
+  std::optional<Vector3> at;  ///< m
+  std::optional<Vector3> from, to;
+  int points = 11;
+};
+
+/// What is looked at in a probe.
+enum class PartQuantity { xx, yy, zz, xy, yz, zx, von_mises, u_x, u_y, u_z };
+
+/// A published figure of a point probe.
+struct PartReference {
+  Located<std::string> probe;
+  PartQuantity quantity = PartQuantity::von_mises;
+  Located<Quantity> value;  ///< Pa, or m for displacements
+  double tolerance = 0;     ///< as a ratio of the value
+};
+
+/// Published figures and where they stand.
+struct PartReferences {
+  std::string source;
+  std::vector<PartReference> figures;
+};
+
+/// What `blocklift stress` computes: any mesh with materials, supports, loads and probes. SI units.
+struct PartFile {
+  std::string name;
+  std::string title;
+  PartMeshInFile mesh;
+  std::vector<PartMaterial> materials;
+  std::vector<PartSupportInFile> supports;
+  std::vector<PartLoadInFile> loads;
+  std::vector<PartProbeInFile> probes;
+  std::optional<PartReferences> references;
+  std::string yaml;            ///< the file as it stands
+  std::filesystem::path file;  ///< where it is
+
+  /// The mesh's path: relative ones count from the part's file.
+  std::filesystem::path mesh_path() const;
+};
+
+/// How a quantity is called in a file: "yy", "von_mises", "u_x".
+const std::string& name_of(PartQuantity quantity);
+
+Format<PartFile> part_file_format();
+
+/// Reads a part's file, or part.yaml in a folder; the mesh is not looked at.
+/// @returns the part only if nothing is wrong with it; else the complaints are in `diagnostics`.
+std::optional<PartFile> read_part_file(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+}  // namespace blocklift::pipeline

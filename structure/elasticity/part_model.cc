@@ -1,0 +1,287 @@
+#include "structure/elasticity/part_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+const PartGroup& group_of(const PartMesh& mesh, const std::string& owner, const std::string& name) {
+  const PartGroup* group = mesh.find_group(name);
+  if (!group)
+    throw ModelError(owner + " names group \"" + name + "\", which the mesh does not have");
+  if (group->elements.empty())
+    throw ModelError(owner + " names group \"" + name + "\", which holds no element");
+  return *group;
+}
+
+// Weighted tangent vectors at a rule point give the measure: a face's normal, an edge's length.
+struct Measure {
+  double size = 0;
+  Vector3 normal = Vector3::Zero();  ///< unit, of faces
+};
+
+Measure measure(const ElementKind& kind, const Eigen::Matrix3Xd& places, Eigen::Index q) {
+  const Eigen::Matrix3d tangents = places * kind.gradients.middleRows<3>(3 * q).transpose();
+  if (kind.dimension == 1) return {kind.weights[q] * tangents.col(0).norm(), Vector3::Zero()};
+  const Vector3 across = tangents.col(0).cross(tangents.col(1));
+  return {kind.weights[q] * across.norm(), across.normalized()};
+}
+
+// Centre of a solid behind each face that is asked for, by the face's corners.
+class SolidsBehindFaces {
+ public:
+  explicit SolidsBehindFaces(const PartMesh& mesh) : mesh_(mesh) {
+    for (const int element : mesh.solids)
+      for (int i = 0; i < mesh.kind(element).corners; ++i)
+        solids_of_node_[mesh.node(element, i)].push_back(element);
+  }
+
+  /// -1 if no solid has all corners of the face; -2 if two have (the face lies inside).
+  int behind(int face) const {
+    int found = -1;
+    const auto solids = solids_of_node_.find(mesh_.node(face, 0));
+    if (solids == solids_of_node_.end()) return -1;
+    for (const int solid : solids->second) {
+      if (!has_corners(solid, face)) continue;
+      if (found >= 0) return -2;
+      found = solid;
+    }
+    return found;
+  }
+
+ private:
+  bool has_corners(int solid, int face) const {
+    for (int i = 0; i < mesh_.kind(face).corners; ++i) {
+      bool has = false;
+      for (int j = 0; j < mesh_.kind(solid).corners && !has; ++j)
+        has = mesh_.node(solid, j) == mesh_.node(face, i);
+      if (!has) return false;
+    }
+    return true;
+  }
+
+  const PartMesh& mesh_;
+  std::map<int, std::vector<int>> solids_of_node_;
+};
+
+void add_surface_load(const PartMesh& mesh, const SurfaceLoad& load, Eigen::VectorXd& forces) {
+  const PartGroup& group = group_of(mesh, "load " + load.name, load.group);
+  const bool is_force = load.kind == SurfaceLoad::Kind::force;
+  if (group.dimension == 3 || (!is_force && group.dimension != 2))
+    throw ModelError(fmt::format("load {} is {}, but group \"{}\" holds {}", load.name,
+                                 is_force ? "a force on faces, edges or points" : "on faces",
+                                 load.group,
+                                 group.dimension == 3   ? "solids"
+                                 : group.dimension == 1 ? "edges"
+                                                        : "points"));
+  // Measure of the whole group first: a force is spread evenly.
+  Eigen::VectorXd shape_integrals = Eigen::VectorXd::Zero(mesh.nodes.cols());
+  const SolidsBehindFaces solids(mesh);
+  for (const int element : group.elements) {
+    const ElementKind& kind = mesh.kind(element);
+    if (kind.dimension == 0) {
+      shape_integrals[mesh.node(element, 0)] += 1;
+      continue;
+    }
+    const Eigen::Matrix3Xd places = mesh.places(element);
+    double outwards = 1;
+    if (load.kind == SurfaceLoad::Kind::pressure) {
+      const int solid = solids.behind(element);
+      if (solid < 0)
+        throw ModelError(
+            fmt::format("load {}: {} of group \"{}\" {}, so that no side of it is "
+                        "outside",
+                        load.name, mesh.describe(element), load.group,
+                        solid == -1 ? "is on no solid" : "lies between two solids"));
+      const Vector3 away = mesh.centre(element) - mesh.centre(solid);
+      outwards = measure(kind, places, 0).normal.dot(away) > 0 ? 1 : -1;
+    }
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const Measure of = measure(kind, places, q);
+      for (int i = 0; i < kind.nodes; ++i) {
+        const double share = kind.values(q, i) * of.size;
+        const int node = mesh.node(element, i);
+        shape_integrals[node] += share;
+        if (load.kind == SurfaceLoad::Kind::pressure)
+          forces.segment<3>(3 * node) -= load.pressure * outwards * share * of.normal;
+        if (load.kind == SurfaceLoad::Kind::traction)
+          forces.segment<3>(3 * node) += share * load.vector;
+      }
+    }
+  }
+  if (!is_force) return;
+  const double whole = shape_integrals.sum();
+  for (Eigen::Index node = 0; node < shape_integrals.size(); ++node)
+    forces.segment<3>(3 * node) += shape_integrals[node] / whole * load.vector;
+}
+
+void add_body_load(const PartModel& model, const BodyLoad& load, Eigen::VectorXd& forces) {
+  for (std::size_t s = 0; s < model.mesh.solids.size(); ++s) {
+    const int element = model.mesh.solids[s];
+    const ElementKind& kind = model.mesh.kind(element);
+    const double density = model.materials[at(model.material_of_solid[s])].density;
+    const Eigen::Matrix3Xd places = model.mesh.places(element);
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const double volume =
+          kind.weights[q] *
+          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
+      const Vector3 x = places * kind.values.row(q).transpose();
+      const Vector3& omega = load.angular_velocity;
+      const Vector3 force =
+          density * volume * (load.gravity - omega.cross(omega.cross(x - load.point)));
+      for (int i = 0; i < kind.nodes; ++i)
+        forces.segment<3>(3 * model.mesh.node(element, i)) += kind.values(q, i) * force;
+    }
+  }
+}
+
+}  // namespace
+
+PartMass find_part_mass(const PartModel& model) {
+  PartMass mass;
+  for (std::size_t s = 0; s < model.mesh.solids.size(); ++s) {
+    const int element = model.mesh.solids[s];
+    const ElementKind& kind = model.mesh.kind(element);
+    const double density = model.materials[at(model.material_of_solid[s])].density;
+    const Eigen::Matrix3Xd places = model.mesh.places(element);
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const double volume =
+          kind.weights[q] *
+          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
+      mass.volume += volume;
+      mass.mass += density * volume;
+      mass.centre += density * volume * (places * kind.values.row(q).transpose());
+    }
+  }
+  if (mass.mass > 0) mass.centre /= mass.mass;
+  return mass;
+}
+
+Eigen::VectorXd part_load(const PartModel& model) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(3 * model.mesh.nodes.cols());
+  for (const SurfaceLoad& load : model.surface_loads) add_surface_load(model.mesh, load, forces);
+  for (const BodyLoad& load : model.body_loads) add_body_load(model, load, forces);
+  return forces;
+}
+
+std::vector<FixedUnknown> part_supports(const PartModel& model, std::vector<int>& support_of) {
+  std::vector<FixedUnknown> fixed;
+  std::map<int, std::size_t> place_of_unknown;
+  support_of.clear();
+  for (std::size_t s = 0; s < model.supports.size(); ++s) {
+    const PartSupport& support = model.supports[s];
+    const PartGroup& group = group_of(model.mesh, "support " + support.name, support.group);
+    for (const int element : group.elements)
+      for (int i = 0; i < model.mesh.kind(element).nodes; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+          if (!support.fixed[at(axis)]) continue;
+          const int unknown = 3 * model.mesh.node(element, i) + axis;
+          const auto [known, is_new] = place_of_unknown.try_emplace(unknown, fixed.size());
+          if (is_new) {
+            fixed.push_back({unknown, support.displacement[axis]});
+            support_of.push_back(static_cast<int>(s));
+          } else if (fixed[known->second].value != support.displacement[axis]) {
+            throw ModelError(fmt::format(
+                "supports {} and {} give the same nodes different displacements along {}",
+                model.supports[at(support_of[known->second])].name, support.name, "xyz"[axis]));
+          }
+        }
+  }
+  return fixed;
+}
+
+namespace {
+
+using Twist = Eigen::Matrix<double, 6, 1>;  // rotation times length, translation
+
+std::string vector_text(const Vector3& v) {
+  const auto clean = [](double x) { return std::abs(x) < 1e-6 ? 0.0 : x; };
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", clean(v.x()), clean(v.y()), clean(v.z()));
+}
+
+std::string motion_text(const Twist& twist, const Vector3& centre, double length) {
+  const Vector3 omega = twist.head<3>() / length, velocity = twist.tail<3>();
+  if (omega.norm() * length < 1e-6 * velocity.norm())
+    return "translation along " + vector_text(velocity.normalized());
+  const Vector3 point = centre + omega.cross(velocity) / omega.squaredNorm();
+  return "rotation about the axis along " + vector_text(omega.normalized()) + " through " +
+         vector_text(point) + " m";
+}
+
+// What is left of the rigid motions of one body, in as plain words as there are.
+std::vector<std::string> motions_left(const Eigen::Matrix<double, 6, 6>& held,
+                                      const Vector3& centre, double length) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(held);
+  std::vector<Twist> free;
+  for (int i = 0; i < 6; ++i)
+    if (solver.eigenvalues()[i] <= 1e-10 * std::max(1.0, solver.eigenvalues()[5]))
+      free.push_back(solver.eigenvectors().col(i));
+  std::vector<std::string> plain;
+  for (const int i : {3, 4, 5, 0, 1, 2}) {
+    double within = 0;
+    for (const Twist& twist : free) within += twist[i] * twist[i];
+    if (within < 1 - 1e-9) continue;
+    plain.push_back(
+        i >= 3 ? fmt::format("translation along {}", "xyz"[i - 3])
+               : fmt::format("rotation about {} through {} m", "xyz"[i], vector_text(centre)));
+  }
+  if (plain.size() == free.size()) return plain;
+  std::vector<std::string> general;
+  for (const Twist& twist : free) general.push_back(motion_text(twist, centre, length));
+  return general;
+}
+
+}  // namespace
+
+std::vector<std::string> remaining_rigid_motions(const PartModel& model,
+                                                 const std::vector<FixedUnknown>& fixed) {
+  const std::vector<int> body_of_node = connected_bodies(model.mesh);
+  const int bodies = 1 + *std::max_element(body_of_node.begin(), body_of_node.end());
+  std::vector<Vector3> lower(at(bodies), Vector3::Constant(1e300)), upper(lower);
+  for (Vector3& corner : upper) corner = -corner;
+  for (Eigen::Index node = 0; node < model.mesh.nodes.cols(); ++node) {
+    const int body = body_of_node[static_cast<std::size_t>(node)];
+    if (body < 0) continue;
+    lower[at(body)] = lower[at(body)].cwiseMin(model.mesh.nodes.col(node));
+    upper[at(body)] = upper[at(body)].cwiseMax(model.mesh.nodes.col(node));
+  }
+  std::vector<Eigen::Matrix<double, 6, 6>> held(at(bodies), Eigen::Matrix<double, 6, 6>::Zero());
+  for (const FixedUnknown& unknown : fixed) {
+    const int node = unknown.unknown / 3, axis = unknown.unknown % 3;
+    const int body = body_of_node[at(node)];
+    if (body < 0) continue;
+    const Vector3 centre = (lower[at(body)] + upper[at(body)]) / 2;
+    const double length = (upper[at(body)] - lower[at(body)]).norm() / 2;
+    Twist row;
+    row.head<3>() = (model.mesh.nodes.col(node) - centre).cross(Vector3::Unit(axis)) / length;
+    row.tail<3>() = Vector3::Unit(axis);
+    held[at(body)] += row * row.transpose();
+  }
+  std::vector<std::string> motions;
+  for (int body = 0; body < bodies; ++body) {
+    const Vector3 centre = (lower[at(body)] + upper[at(body)]) / 2;
+    const double length = (upper[at(body)] - lower[at(body)]).norm() / 2;
+    for (const std::string& motion : motions_left(held[at(body)], centre, length))
+      motions.push_back(bodies == 1 ? motion
+                                    : fmt::format("{} of the body about {} m, which no other part "
+                                                  "of the mesh touches",
+                                                  motion, vector_text(centre)));
+  }
+  return motions;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/elasticity/linear_solver.h"
+#include "structure/mesh/material.h"
+#include "structure/mesh/part_mesh.h"
+
+namespace blocklift::structure {
+
+/// Components of a group's nodes that are held.
+struct PartSupport {
+  std::string name;
+  std::string group;
+  std::array<bool, 3> fixed = {true, true, true};  ///< along x, y, z
+  Vector3 displacement = Vector3::Zero();          ///< where fixed, m
+};
+
+/// A load on a group of faces, edges or points.
+struct SurfaceLoad {
+  enum class Kind { pressure, traction, force };
+  std::string name;
+  std::string group;
+  Kind kind = Kind::force;
+  double pressure = 0;               ///< against the face, positive pushes, Pa
+  Vector3 vector = Vector3::Zero();  ///< traction, Pa; or the resultant, spread evenly, N
+};
+
+/// A load on all material: b(x) = rho (g - omega x (omega x (x - point))), N/m^3.
+struct BodyLoad {
+  std::string name;
+  Vector3 gravity = Vector3::Zero();           ///< g, or minus the acceleration of the part, m/s^2
+  Vector3 angular_velocity = Vector3::Zero();  ///< rad/s
+  Vector3 point = Vector3::Zero();             ///< on the axis, m
+};
+
+/// Mass, volume and centre of a part.
+struct PartMass {
+  double mass = 0;    ///< kg
+  double volume = 0;  ///< m^3
+  Vector3 centre = Vector3::Zero();
+};
+
+/// A part with its materials, supports and loads: linear elasticity on any mesh of solids.
+///
+/// Unknown 3 n + a is the displacement of node n along axis a. The stiffness is
+///   K_ia,jb = int lambda d_a N_i d_b N_j + mu (d_b N_i d_a N_j + delta_ab grad N_i . grad N_j) dV
+/// by the elements' own integration rules. Source: Zienkiewicz, Taylor, Zhu (2013), chapter 6.
+struct PartModel {
+  PartMesh mesh;
+  std::vector<Material> materials;
+  std::vector<int> material_of_solid;  ///< place in materials, in the order of mesh.solids
+  std::vector<PartSupport> supports;
+  std::vector<SurfaceLoad> surface_loads;
+  std::vector<BodyLoad> body_loads;
+};
+
+/// Stiffness of a part, N/m. Unknowns of nodes that are on no solid have 1 on the diagonal.
+/// @throws ModelError if the stiffness alone would not fit into the memory that is free; the message
+///   has the figures.
+SparseLower assemble_part_stiffness(const PartModel& model, int threads = 0);
+
+PartMass find_part_mass(const PartModel& model);
+
+/// Load vector of all loads, N. @throws ModelError if a pressure acts on faces that are on no solid.
+Eigen::VectorXd part_load(const PartModel& model);
+
+/// Held unknowns of all supports; where two hold the same unknown, their displacements must agree.
+/// @param support_of the place of the support in the model, one a held unknown.
+/// @throws ModelError if they do not.
+std::vector<FixedUnknown> part_supports(const PartModel& model, std::vector<int>& support_of);
+
+/// The rigid motions that the supports leave each body of the mesh, in words: "translation along x",
+/// "rotation about the axis along (0, 0, 1) through (1, 2, 0) m". Empty if none.
+std::vector<std::string> remaining_rigid_motions(const PartModel& model,
+                                                 const std::vector<FixedUnknown>& fixed);
+
+}  // namespace blocklift::structure

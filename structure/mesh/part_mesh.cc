@@ -1,0 +1,93 @@
+#include "structure/mesh/part_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Eigen::Matrix3Xd PartMesh::places(int element) const {
+  Eigen::Matrix3Xd result(3, kind(element).nodes);
+  for (int i = 0; i < result.cols(); ++i) result.col(i) = nodes.col(node(element, i));
+  return result;
+}
+
+Vector3 PartMesh::centre(int element) const {
+  return places(element).leftCols(kind(element).corners).rowwise().mean();
+}
+
+const PartGroup* PartMesh::find_group(const std::string& name) const {
+  for (const PartGroup& group : groups)
+    if (group.name == name) return &group;
+  return nullptr;
+}
+
+std::vector<std::string> PartMesh::group_names() const {
+  std::vector<std::string> names;
+  for (const PartGroup& group : groups) names.push_back(group.name);
+  return names;
+}
+
+std::string PartMesh::describe(int element) const {
+  const Vector3 place = centre(element);
+  return fmt::format("element {} ({}) at ({:.4g}, {:.4g}, {:.4g}) m", elements[at(element)].tag,
+                     kind(element).name, place.x(), place.y(), place.z());
+}
+
+std::vector<int> connected_bodies(const PartMesh& mesh) {
+  std::vector<int> parent(at(static_cast<int>(mesh.nodes.cols())));
+  std::iota(parent.begin(), parent.end(), 0);
+  std::vector<char> used(parent.size(), 0);
+  const auto root = [&](int node) {
+    while (parent[at(node)] != node) node = parent[at(node)] = parent[at(parent[at(node)])];
+    return node;
+  };
+  for (const int element : mesh.solids)
+    for (int i = 0; i < mesh.kind(element).nodes; ++i) {
+      used[at(mesh.node(element, i))] = 1;
+      parent[at(root(mesh.node(element, i)))] = root(mesh.node(element, 0));
+    }
+  std::vector<int> number(parent.size(), -1), body(parent.size(), -1);
+  int bodies = 0;
+  for (std::size_t node = 0; node < parent.size(); ++node) {
+    if (!used[node]) continue;
+    int& of_root = number[at(root(static_cast<int>(node)))];
+    if (of_root < 0) of_root = bodies++;
+    body[node] = of_root;
+  }
+  return body;
+}
+
+void check_part_mesh(const PartMesh& mesh) {
+  constexpr int most_named = 10;
+  std::string named;
+  int wrong = 0;
+  for (const int element : mesh.solids) {
+    const ElementKind& kind = mesh.kind(element);
+    const Eigen::Matrix3Xd places = mesh.places(element);
+    double smallest = 1e300;
+    for (Eigen::Index q = 0; q < kind.rule.cols(); ++q)
+      smallest = std::min(smallest,
+                          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant());
+    if (smallest > 0) continue;
+    if (++wrong <= most_named) named += "\n    " + mesh.describe(element);
+  }
+  if (wrong == 0) return;
+  throw ModelError(fmt::format(
+      "{} of {} solid elements are inverted or folded (their Jacobian is not positive):{}{}", wrong,
+      mesh.solids.size(), named, wrong > most_named ? "\n    ..." : ""));
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "structure/mesh/part_mesh.h"
+
+namespace blocklift::structure {
+
+/// How a file becomes a mesh.
+struct PartReading {
+  double length_unit = 1;  ///< m, of the file's coordinates
+  /// Polynomial order that the elements are raised to, 1 or 2; elements of a higher order stay.
+  int element_order = 2;
+  double element_size = 0;  ///< largest edge where the file is a geometry, m; 0: as the file says
+};
+
+/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .inp, .bdf, .unv, ...): a mesh as it is, a
+/// geometry after meshing it.
+///
+/// Groups are the physical groups by their names, or "volume group 3" and so on where they have none;
+/// besides them each geometric entity is a group of its own: "volume 1", "surface 4", "curve 2",
+/// "point 7". Gmsh's session is opened and closed again here.
+/// @throws ModelError if the file cannot be read or meshed, or holds no solid elements, or kinds
+///   other than hexahedra, tetrahedra and wedges (pyramids among them).
+PartMesh read_part_mesh(const std::string& path, const PartReading& reading);
+
+}  // namespace blocklift::structure

@@ -1,0 +1,161 @@
+#include "structure/output/part_files.h"
+
+#include <bit>
+#include <cctype>
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "structure/error.h"
+#include "structure/output/vtk_array.h"
+#include "structure/response/cell_stress.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::vector<int> shared_order(const ElementKind& kind) {
+  std::vector<int> order = kind.corner_order;
+  order.insert(order.end(), kind.edge_order.begin(), kind.edge_order.end());
+  return order;
+}
+
+std::uint8_t vtk_type(const ElementKind& kind) {
+  const bool quadratic = kind.order > 1;
+  if (kind.corners == 4) return quadratic ? 24 : 10;  // tetrahedron
+  if (kind.corners == 6) return quadratic ? 26 : 13;  // wedge
+  return quadratic ? 25 : 12;                         // hexahedron
+}
+
+const char* calculix_type(const ElementKind& kind) {
+  switch (kind.nodes) {
+    case 4:
+      return "C3D4";
+    case 10:
+      return "C3D10";
+    case 6:
+      return "C3D6";
+    case 15:
+      return "C3D15";
+    case 8:
+      return "C3D8";
+    case 20:
+      return "C3D20";
+    default:
+      throw ModelError("CalculiX has no elements of kind " + kind.name);
+  }
+}
+
+std::string name_of(std::string text) {
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  return text;
+}
+
+}  // namespace
+
+void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution) {
+  const PartStress& stress = solution.stress;
+  std::vector<float> points, displacement, components, equivalent;
+  for (std::size_t p = 0; p < stress.node.size(); ++p) {
+    const int node = stress.node[p];
+    const auto s = stress.averaged.col(static_cast<Eigen::Index>(p));
+    for (int a = 0; a < 3; ++a) {
+      points.push_back(static_cast<float>(model.mesh.nodes(a, node)));
+      displacement.push_back(static_cast<float>(solution.displacement[3 * node + a]));
+    }
+    for (int c = 0; c < 6; ++c) components.push_back(static_cast<float>(s[c]));
+    equivalent.push_back(static_cast<float>(von_mises(s)));
+  }
+  std::vector<std::int32_t> connectivity, offsets, material;
+  std::vector<std::int64_t> tags;
+  std::vector<std::uint8_t> types;
+  for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid) {
+    const int element = model.mesh.solids[solid];
+    for (const int i : shared_order(model.mesh.kind(element)))
+      connectivity.push_back(stress.point_of[at(stress.first_of[solid] + i)]);
+    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
+    types.push_back(vtk_type(model.mesh.kind(element)));
+    material.push_back(model.material_of_solid[solid]);
+    tags.push_back(static_cast<std::int64_t>(model.mesh.elements[at(element)].tag));
+  }
+  std::vector<std::string> materials;
+  for (const Material& one : model.materials) materials.push_back(one.name);
+  std::ofstream file(path, std::ios::binary);
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+          "byte_order=\""
+       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
+       << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
+  write_names(file, "material_names", materials);
+  file << "</FieldData>\n<Piece NumberOfPoints=\"" << stress.node.size() << "\" NumberOfCells=\""
+       << types.size() << "\">\n<Points>\n";
+  write_array(file, "Float32", "points", 3, points);
+  file << "</Points>\n<Cells>\n";
+  write_array(file, "Int32", "connectivity", 1, connectivity);
+  write_array(file, "Int32", "offsets", 1, offsets);
+  write_array(file, "UInt8", "types", 1, types);
+  file << "</Cells>\n<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n";
+  write_array(file, "Float32", "displacement", 3, displacement);
+  write_array(file, "Float32", "von_mises", 1, equivalent);
+  write_array(file, "Float32", "stress", 6, components);
+  file << "</PointData>\n<CellData>\n";
+  write_array(file, "Int32", "material", 1, material);
+  write_array(file, "Int64", "element", 1, tags);
+  file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  file.close();
+  if (!file) throw ModelError("cannot write \"" + path + "\"");
+}
+
+void write_calculix(const std::string& path, const PartModel& model) {
+  std::ofstream file(path);
+  fmt::print(file, "** Written by Blocklift. Units: m, kg, s, N, Pa.\n*NODE, NSET=ALL_NODES\n");
+  for (Eigen::Index n = 0; n < model.mesh.nodes.cols(); ++n)
+    fmt::print(file, "{}, {:.12g}, {:.12g}, {:.12g}\n", n + 1, model.mesh.nodes(0, n),
+               model.mesh.nodes(1, n), model.mesh.nodes(2, n));
+  std::map<std::pair<int, int>, std::vector<int>> sets;  // (material, kind): solids
+  for (std::size_t s = 0; s < model.mesh.solids.size(); ++s)
+    sets[{model.material_of_solid[s], model.mesh.elements[at(model.mesh.solids[s])].kind}]
+        .push_back(static_cast<int>(s));
+  for (const auto& [set, solids] : sets) {
+    const ElementKind& kind = model.mesh.kinds[at(set.second)];
+    fmt::print(file, "*ELEMENT, TYPE={}, ELSET={}\n", calculix_type(kind),
+               name_of(model.materials[at(set.first)].name));
+    for (const int solid : solids) {
+      fmt::print(file, "{}", solid + 1);
+      int in_line = 1;
+      for (const int i : shared_order(kind)) {
+        // Sixteen numbers a line at most.
+        fmt::print(file, ",{}{}", in_line++ == 15 ? "\n" : " ",
+                   model.mesh.node(model.mesh.solids[at(solid)], i) + 1);
+      }
+      fmt::print(file, "\n");
+    }
+  }
+  for (const Material& material : model.materials)
+    fmt::print(file,
+               "*MATERIAL, NAME={0}\n*ELASTIC\n{1:.12g}, {2:.12g}\n*DENSITY\n{3:.12g}\n"
+               "*SOLID SECTION, ELSET={0}, MATERIAL={0}\n",
+               name_of(material.name), material.youngs_modulus, material.poisson_ratio,
+               material.density);
+  std::vector<int> support_of;
+  fmt::print(file, "*STEP\n*STATIC\n*BOUNDARY\n");
+  for (const FixedUnknown& fixed : part_supports(model, support_of))
+    fmt::print(file, "{}, {}, {}, {:.12g}\n", fixed.unknown / 3 + 1, fixed.unknown % 3 + 1,
+               fixed.unknown % 3 + 1, fixed.value);
+  fmt::print(file, "*CLOAD\n");
+  const Eigen::VectorXd load = part_load(model);
+  for (Eigen::Index u = 0; u < load.size(); ++u)
+    if (load[u] != 0) fmt::print(file, "{}, {}, {:.15g}\n", u / 3 + 1, u % 3 + 1, load[u]);
+  fmt::print(file, "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=ALL_NODES\nU\n*END STEP\n");
+  file.close();
+  if (!file) throw ModelError("cannot write \"" + path + "\"");
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "structure/response/part_solution.h"
+
+namespace blocklift::structure {
+
+/// Writes a solved part for ParaView (`.vtu`). Point data: `displacement` (m), `stress` (six
+/// components, averaged within a material, Pa), `von_mises` (of it, Pa). Cell data: `material`,
+/// `element` (its number in the mesh file). Nodes inside elements and faces are left out.
+/// @throws ModelError if the file cannot be written.
+void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution);
+
+/// Writes mesh, materials, supports and loads as input of CalculiX (`.inp`), in m, kg, s, N, Pa; the
+/// loads as nodal forces, just as they are solved here, so that a comparison compares elements.
+/// Elements become C3D4, C3D10, C3D6, C3D15, C3D8 and C3D20.
+/// @throws ModelError if the mesh holds elements with nodes inside faces, which CalculiX lacks, or
+///   the file cannot be written.
+void write_calculix(const std::string& path, const PartModel& model);
+
+}  // namespace blocklift::structure

@@ -1,0 +1,279 @@
+#include "structure/response/part_solution.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "structure/error.h"
+#include "structure/mesh/element_shape.h"
+#include "structure/response/cell_stress.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    start_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void require_supported(const PartModel& model, const std::vector<FixedUnknown>& fixed) {
+  const std::vector<std::string> motions = remaining_rigid_motions(model, fixed);
+  if (motions.empty()) return;
+  constexpr std::size_t most_named = 12;
+  std::string text = "the supports leave the part free to move:";
+  for (std::size_t i = 0; i < std::min(motions.size(), most_named); ++i)
+    text += "\n    " + motions[i];
+  if (motions.size() > most_named) text += "\n    ...";
+  throw ModelError(text);
+}
+
+// Nodes of no solid (middles of circles and the like) have no stiffness: they are held.
+std::vector<FixedUnknown> with_idle_nodes(const PartModel& model, std::vector<FixedUnknown> fixed) {
+  std::vector<char> held(at(static_cast<int>(3 * model.mesh.nodes.cols())), 0);
+  for (const FixedUnknown& unknown : fixed) held[at(unknown.unknown)] = 1;
+  const std::vector<int> body = connected_bodies(model.mesh);
+  for (std::size_t node = 0; node < body.size(); ++node)
+    for (int a = 0; a < 3; ++a) {
+      const int unknown = 3 * static_cast<int>(node) + a;
+      if (body[node] < 0 && !held[at(unknown)]) fixed.push_back({unknown, 0});
+    }
+  return fixed;
+}
+
+// Stresses of one solid at points whose gradients by local coordinates are given.
+StressColumns stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
+                       const Eigen::VectorXd& displacement) {
+  const int element = model.mesh.solids[at(solid)];
+  const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
+  const Eigen::Matrix3Xd places = model.mesh.places(element);
+  Eigen::Matrix3Xd moved(3, places.cols());
+  for (int i = 0; i < places.cols(); ++i)
+    moved.col(i) = displacement.segment<3>(3 * model.mesh.node(element, i));
+  StressColumns result(6, gradients.rows() / 3);
+  for (Eigen::Index q = 0; q < result.cols(); ++q) {
+    const auto by_unit = gradients.middleRows<3>(3 * q);
+    const Eigen::Matrix3d inverse = (places * by_unit.transpose()).inverse();
+    result.col(q) = stress_of_gradient(material, (moved * by_unit.transpose()) * inverse);
+  }
+  return result;
+}
+
+PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
+                   std::vector<StressColumns>& of_solids) {
+  PartStress stress;
+  std::map<std::pair<int, int>, int> known;  // (node, material)
+  std::vector<int> shares;
+  const int solids = static_cast<int>(model.mesh.solids.size());
+  for (int solid = 0; solid < solids; ++solid) {
+    const int element = model.mesh.solids[at(solid)];
+    const ElementKind& kind = model.mesh.kind(element);
+    of_solids.push_back(stresses(model, solid, kind.gradients_at_nodes, displacement));
+    stress.first_of.push_back(static_cast<int>(stress.point_of.size()));
+    for (int i = 0; i < kind.nodes; ++i) {
+      const int node = model.mesh.node(element, i);
+      const auto [entry, is_new] = known.try_emplace({node, model.material_of_solid[at(solid)]},
+                                                     static_cast<int>(stress.node.size()));
+      if (is_new) {
+        stress.node.push_back(node);
+        shares.push_back(0);
+      }
+      stress.point_of.push_back(entry->second);
+      ++shares[at(entry->second)];
+    }
+  }
+  stress.averaged.setZero(6, static_cast<Eigen::Index>(stress.node.size()));
+  for (int solid = 0; solid < solids; ++solid)
+    for (Eigen::Index i = 0; i < of_solids[at(solid)].cols(); ++i) {
+      const int point = stress.point_of[at(stress.first_of[at(solid)] + static_cast<int>(i))];
+      stress.averaged.col(point) += of_solids[at(solid)].col(i) / shares[at(point)];
+    }
+  return stress;
+}
+
+// Averaged stress at the nodes of a solid.
+StressColumns averaged_at(const PartStress& stress, int solid, int nodes) {
+  StressColumns result(6, nodes);
+  for (int i = 0; i < nodes; ++i)
+    result.col(i) = stress.averaged.col(stress.point_of[at(stress.first_of[at(solid)] + i)]);
+  return result;
+}
+
+// s : C^-1 : s, twice the energy of a stress, J/m^3.
+double complementary(const Material& material, const Eigen::Matrix<double, 6, 1>& s) {
+  const double trace = s.head<3>().sum();
+  return ((1 + material.poisson_ratio) *
+              (s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm()) -
+          material.poisson_ratio * trace * trace) /
+         material.youngs_modulus;
+}
+
+void estimate_error(const PartModel& model, PartSolution& solution) {
+  double error = 0, whole = 0;
+  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
+    const int element = model.mesh.solids[at(solid)];
+    const ElementKind& kind = model.mesh.kind(element);
+    const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
+    const StressColumns own = stresses(model, solid, kind.gradients, solution.displacement);
+    const StressColumns smooth =
+        averaged_at(solution.stress, solid, kind.nodes) * kind.values.transpose();
+    const Eigen::Matrix3Xd places = model.mesh.places(element);
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const double volume =
+          kind.weights[q] *
+          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
+      error += volume * complementary(material, smooth.col(q) - own.col(q));
+      whole += volume * complementary(material, own.col(q));
+    }
+  }
+  solution.strain_energy = whole / 2;
+  solution.estimated_error = whole > 0 ? std::sqrt(error / (whole + error)) : 0;
+}
+
+PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
+                           const std::vector<StressColumns>& of_solids, std::string name,
+                           const std::vector<int>& solids) {
+  PartGroupResult result;
+  result.group = std::move(name);
+  for (const int solid : solids) {
+    const int element = model.mesh.solids[at(solid)];
+    for (int i = 0; i < model.mesh.kind(element).nodes; ++i) {
+      const int node = model.mesh.node(element, i);
+      const double averaged = von_mises(solution.stress.averaged.col(
+          solution.stress.point_of[at(solution.stress.first_of[at(solid)] + i)]));
+      if (averaged > result.von_mises) {
+        result.von_mises = averaged;
+        result.point = model.mesh.nodes.col(node);
+      }
+      const double raw = von_mises(of_solids[at(solid)].col(i));
+      if (raw > result.raw_von_mises) {
+        result.raw_von_mises = raw;
+        result.raw_point = model.mesh.nodes.col(node);
+      }
+      result.displacement =
+          std::max(result.displacement, solution.displacement.segment<3>(3 * node).norm());
+    }
+  }
+  return result;
+}
+
+void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_solids,
+                 PartSolution& solution) {
+  std::map<int, int> solid_of_element;
+  std::vector<int> all;
+  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
+    solid_of_element[model.mesh.solids[at(solid)]] = solid;
+    all.push_back(solid);
+  }
+  solution.all = largest_of(model, solution, of_solids, "all", all);
+  for (const PartGroup& group : model.mesh.groups) {
+    if (group.dimension != 3) continue;
+    std::vector<int> solids;
+    for (const int element : group.elements) solids.push_back(solid_of_element.at(element));
+    solution.groups.push_back(largest_of(model, solution, of_solids, group.name, solids));
+  }
+}
+
+void find_balance(const PartModel& model, const Eigen::VectorXd& load,
+                  const std::vector<FixedUnknown>& fixed, const std::vector<int>& support_of,
+                  const Eigen::VectorXd& forces, PartSolution& solution) {
+  solution.applied = resultant(model.mesh.nodes, load);
+  solution.reactions.assign(model.supports.size(), {});
+  double force_sum = 0, moment_sum = 0;
+  const auto add_magnitude = [&](const Vector3& place, const Vector3& force) {
+    force_sum += force.norm();
+    moment_sum += place.norm() * force.norm();
+  };
+  for (Eigen::Index node = 0; node < model.mesh.nodes.cols(); ++node)
+    add_magnitude(model.mesh.nodes.col(node), load.segment<3>(3 * node));
+  Vector3 force = solution.applied.force, moment = solution.applied.moment;
+  for (std::size_t i = 0; i < support_of.size(); ++i) {  // idle nodes come after and bear nothing
+    const Vector3 place = model.mesh.nodes.col(fixed[i].unknown / 3);
+    const Vector3 reaction =
+        forces[static_cast<Eigen::Index>(i)] * Vector3::Unit(fixed[i].unknown % 3);
+    Wrench& of_support = solution.reactions[at(support_of[i])];
+    of_support.force += reaction;
+    of_support.moment += place.cross(reaction);
+    force += reaction;
+    moment += place.cross(reaction);
+    add_magnitude(place, reaction);
+  }
+  solution.force_residual = force_sum > 0 ? force.norm() / force_sum : 0;
+  solution.moment_residual = moment_sum > 0 ? moment.norm() / moment_sum : 0;
+}
+
+}  // namespace
+
+PartSolution solve_part(const PartModel& model) {
+  check_part_mesh(model.mesh);
+  std::vector<int> support_of;
+  std::vector<FixedUnknown> fixed = part_supports(model, support_of);
+  require_supported(model, fixed);
+  fixed = with_idle_nodes(model, std::move(fixed));
+  PartSolution solution;
+  Stopwatch watch;
+  const Eigen::VectorXd load = part_load(model);
+  SparseLower stiffness = assemble_part_stiffness(model);
+  solution.assembly_s = watch.lap();
+  ConstrainedSystem system(std::move(stiffness), fixed, EliminationOrder::found);
+  solution.factor_bytes = system.factor_bytes();
+  system.factorise();
+  solution.factorisation_s = watch.lap();
+  solution.displacement = system.solve(load);
+  find_balance(model, load, fixed, support_of, system.reactions(solution.displacement, load),
+               solution);
+  solution.solve_s = watch.lap();
+  std::vector<StressColumns> of_solids;
+  solution.stress = recover(model, solution.displacement, of_solids);
+  find_maxima(model, of_solids, solution);
+  estimate_error(model, solution);
+  solution.recovery_s = watch.lap();
+  return solution;
+}
+
+PartProbe probe_part(const PartModel& model, const PartSolution& solution, const Vector3& point) {
+  PartProbe probe;
+  probe.point = point;
+  std::map<int, std::unique_ptr<ElementShape>> shapes;  // by kind
+  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
+    const int element = model.mesh.solids[at(solid)];
+    const Eigen::Matrix3Xd places = model.mesh.places(element);
+    // Curved sides may stand out of the box of the nodes a little.
+    const Vector3 lower = places.rowwise().minCoeff(), upper = places.rowwise().maxCoeff();
+    const Vector3 slack = Vector3::Constant(0.1 * (upper - lower).maxCoeff());
+    if ((point - lower + slack).minCoeff() < 0 || (upper + slack - point).minCoeff() < 0) continue;
+    auto& shape = shapes[model.mesh.elements[at(element)].kind];
+    if (!shape) shape = std::make_unique<ElementShape>(model.mesh.kind(element));
+    Vector3 xi;
+    if (!shape->locate(places, point, 1e-6, xi)) continue;
+    const Eigen::VectorXd values = shape->values(xi);
+    probe.inside = true;
+    probe.stress = averaged_at(solution.stress, solid, static_cast<int>(values.size())) * values;
+    for (int i = 0; i < values.size(); ++i)
+      probe.displacement +=
+          values[i] * solution.displacement.segment<3>(3 * model.mesh.node(element, i));
+    break;
+  }
+  return probe;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/elasticity/load.h"
+#include "structure/elasticity/part_model.h"
+
+namespace blocklift::structure {
+
+/// Stresses of a part at its nodes: a point for each node and material that meets it, since stress
+/// jumps between materials.
+struct PartStress {
+  std::vector<int> node;      ///< of each point
+  std::vector<int> point_of;  ///< point of each node of each solid, solids after one another
+  std::vector<int> first_of;  ///< place in point_of of each solid's first node
+  Eigen::Matrix<double, 6, Eigen::Dynamic> averaged;  ///< over the solids at each point, Pa
+};
+
+/// Largest values of a group of solids.
+struct PartGroupResult {
+  std::string group;
+  double von_mises = 0;  ///< of the averaged stress, Pa
+  Vector3 point = Vector3::Zero();
+  double raw_von_mises = 0;  ///< largest of any solid at any of its nodes, nothing averaged, Pa
+  Vector3 raw_point = Vector3::Zero();
+  double displacement = 0;  ///< m
+};
+
+/// Solution of a part.
+struct PartSolution {
+  Eigen::VectorXd displacement;  ///< 3 a node, m
+  PartStress stress;
+  Wrench applied;                 ///< all loads about the origin
+  std::vector<Wrench> reactions;  ///< of each support on the part, about the origin
+  /// |loads + reactions| over the sum of the magnitudes of both.
+  double force_residual = 0;
+  double moment_residual = 0;           ///< likewise, moments about the origin
+  std::vector<PartGroupResult> groups;  ///< of solids
+  PartGroupResult all;
+  double strain_energy = 0;  ///< J
+  /// Zienkiewicz and Zhu's estimate of the error in the energy norm, as a share of the norm: by the
+  /// difference between the averaged stress and that of each solid.
+  double estimated_error = 0;
+  double factor_bytes = 0;
+  double assembly_s = 0, factorisation_s = 0, solve_s = 0, recovery_s = 0;  ///< wall-clock times
+};
+
+/// Displacement and stress at a place.
+struct PartProbe {
+  Vector3 point = Vector3::Zero();  ///< m
+  bool inside = false;              ///< false: it lies in no solid; the rest says nothing then
+  Vector3 displacement = Vector3::Zero();
+  Eigen::Matrix<double, 6, 1> stress = Eigen::Matrix<double, 6, 1>::Zero();  ///< averaged, Pa
+};
+
+/// Solves a part. @throws ModelError if the supports leave a rigid motion (named), an element is
+/// inverted, a group is missing or empty, or memory does not suffice.
+PartSolution solve_part(const PartModel& model);
+
+/// Displacement and averaged stress at a place, interpolated in the solid that holds it (to 1e-6 of
+/// its size).
+PartProbe probe_part(const PartModel& model, const PartSolution& solution, const Vector3& point);
+
+}  // namespace blocklift::structure

@@ -1,0 +1,156 @@
+// `blocklift stress` as a user meets it: run as a process.
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/input/temporary_folder.h"
+#include "tests/pipeline/run_program.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::TemporaryFolder;
+using test::text_of_file;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+Outcome run(const std::string& arguments) {
+  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+}
+
+const char* const bar_geometry = R"(
+Point(1) = {0, 0, 0}; Point(2) = {2000, 0, 0}; Point(3) = {2000, 300, 0}; Point(4) = {0, 300, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Mesh.MeshSizeMax = 400;
+out[] = Extrude{0, 0, 200}{ Surface{1}; };
+Physical Volume("bar") = {out[1]};
+Physical Surface("root") = {out[5]};
+Physical Surface("end") = {out[3]};
+Physical Surface("nothing") = {};
+)";
+
+const char* const bar_part = R"(
+part: bar
+mesh: {file: bar.geo, length_unit: mm}
+materials:
+  steel: {youngs_modulus: 206 GPa, poisson_ratio: 0, density: 7850 kg/m^3, yield_stress: 235 MPa}
+supports:
+  root: {groups: [root]}
+loads:
+  pull: {groups: [end], force: [600 kN, 0 kN, 0 kN]}
+probes:
+  middle: {at: [1 m, 0.1 m, 0.1 m]}
+  axis: {from: [0 m, 0.15 m, 0.1 m], to: [2 m, 0.15 m, 0.1 m], points: 5}
+)";
+
+class StressCommand : public ::testing::Test {
+ protected:
+  StressCommand() {
+    folder_.write("bar.geo", bar_geometry);
+    folder_.write("bar.yaml", bar_part);
+  }
+  void change(const std::string& old_passage, const std::string& new_passage) const {
+    std::string text = bar_part;
+    const std::size_t at = text.find(old_passage);
+    ASSERT_NE(at, std::string::npos);
+    folder_.write("bar.yaml", text.replace(at, old_passage.size(), new_passage));
+  }
+  void expect_refused(const ::testing::Matcher<std::string>& message) const {
+    const Outcome outcome = run("stress bar.yaml");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, message);
+    EXPECT_FALSE(fs::exists("results"));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+// F/A = 10 MPa and F L / (E A) = 97.1 micrometres, with Poisson's ratio 0 exact for any mesh.
+TEST_F(StressCommand, SolvesAndWritesResults) {
+  const Outcome outcome = run("stress bar.yaml --calculix");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("von Mises MPa"), HasSubstr("middle"),
+                                 HasSubstr("results: results/bar")));
+  for (const char* file : {"summary.json", "results.h5", "part.vtu", "part.inp"})
+    EXPECT_TRUE(fs::is_regular_file(fs::path("results/bar") / file)) << file;
+  const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
+  const double stress = 10e6;
+  EXPECT_NEAR(summary["probes"]["middle"]["stress_Pa"]["xx"], stress, 1e-7 * stress);
+  EXPECT_EQ(summary["probes"]["axis"].size(), 5u);
+  EXPECT_NEAR(summary["probes"]["axis"][4]["displacement_m"][0], stress * 2 / 206e9, 1e-12);
+  EXPECT_NEAR(summary["reactions"]["root"]["force_N"][0], -600e3, 1e-3);
+  EXPECT_NEAR(summary["mass_kg"], 7850 * 0.12, 1e-6);
+  EXPECT_LT(summary["force_residual"], 1e-8);
+}
+
+TEST_F(StressCommand, MeshesAreReadBackFromOtherFormats) {
+  ASSERT_EQ(run("stress bar.yaml --calculix").exit_code, 0);
+  // What was written for CalculiX is read as an Abaqus mesh. Its sets have no faces: edges of the
+  // bar are not named there, so that only validation of the mesh itself can succeed.
+  fs::rename("results/bar/part.inp", "bar.inp");
+  change("bar.geo, length_unit: mm", "bar.inp, length_unit: m");
+  const Outcome outcome = run("stress bar.yaml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("there is no group \"root\""), HasSubstr("volume")));
+}
+
+TEST_F(StressCommand, GroupsThatAreMissingOrEmpty) {
+  change("groups: [root]", "groups: [rot]");
+  expect_refused(AllOf(HasSubstr("bar.yaml:7:"), HasSubstr("there is no group \"rot\""),
+                       HasSubstr("did you mean \"root\"")));
+}
+
+TEST_F(StressCommand, MechanismsAreNamed) {
+  change("{groups: [root]}", "{groups: [root], fixed: [x]}");
+  expect_refused(AllOf(HasSubstr("free to move"), HasSubstr("translation along y"),
+                       HasSubstr("translation along z"), HasSubstr("rotation about x")));
+}
+
+TEST_F(StressCommand, APartAThousandTimesTooLargeIsDoubted) {
+  change(", length_unit: mm", "");
+  expect_refused(AllOf(HasSubstr("2000 m long"), HasSubstr("length_unit: mm")));
+}
+
+TEST_F(StressCommand, LoadsOfNoOrTwoKindsAreRefused) {
+  change("force: [600 kN, 0 kN, 0 kN]", "force: [1 kN, 0 kN, 0 kN], pressure: 1 MPa");
+  expect_refused(HasSubstr("2 kinds"));
+  change("{groups: [end], force: [600 kN, 0 kN, 0 kN]}", "{gravity: [0 m, 0 m/s^2, 0 m/s^2]}");
+  expect_refused(HasSubstr("is a length"));
+}
+
+TEST_F(StressCommand, WeightNeedsADensity) {
+  change("density: 7850 kg/m^3, ", "");
+  EXPECT_EQ(run("stress bar.yaml").exit_code, 0);
+  std::string text = text_of_file("bar.yaml");
+  text += "  weight: {gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]}\n";
+  const std::string probes =
+      text.substr(text.find("probes:"), text.rfind("  weight") - text.find("probes:"));
+  text.erase(text.find("probes:"), probes.size());
+  folder_.write("bar.yaml", text + probes);
+  const Outcome outcome = run("stress bar.yaml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("no density"));
+}
+
+TEST_F(StressCommand, ProbesOutsideAndMissingMeshes) {
+  change("at: [1 m, 0.1 m, 0.1 m]", "at: [1 m, 0.5 m, 0.1 m]");
+  expect_refused(HasSubstr("probe middle lies outside the part"));
+  change("bar.geo", "beam.geo");
+  expect_refused(HasSubstr("there is no file"));
+}
+
+TEST_F(StressCommand, IsValidated) {
+  const Outcome outcome = run("validate bar.yaml");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("valid, part bar with"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
