@@ -213,12 +213,19 @@ std::string vector_text(const Vector3& v) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", clean(v.x()), clean(v.y()), clean(v.z()));
 }
 
+// Of the two unit vectors along an axis the one that points forwards.
+Vector3 direction(const Vector3& v) {
+  Eigen::Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  return (v[largest] < 0 ? -v : v).normalized();
+}
+
 std::string motion_text(const Twist& twist, const Vector3& centre, double length) {
   const Vector3 omega = twist.head<3>() / length, velocity = twist.tail<3>();
   if (omega.norm() * length < 1e-6 * velocity.norm())
-    return "translation along " + vector_text(velocity.normalized());
+    return "translation along " + vector_text(direction(velocity));
   const Vector3 point = centre + omega.cross(velocity) / omega.squaredNorm();
-  return "rotation about the axis along " + vector_text(omega.normalized()) + " through " +
+  return "rotation about the axis along " + vector_text(direction(omega)) + " through " +
          vector_text(point) + " m";
 }
 

@@ -84,12 +84,14 @@ class NodalStress {
     return result;
   }
 
-  TimedExtreme extreme(const PointExtremes& extremes, int point) const {
+  TimedExtreme extreme(const LargestStress& largest) const {
     TimedExtreme result;
+    const int point = largest.point;
+    if (point < 0) return result;
     const int cell = point / nodes_;
     const BlockMesh& mesh = model_.mesh();
-    result.value = extremes.value[point];
-    result.instant = extremes.instant[point];
+    result.value = largest.value;
+    result.instant = largest.instant;
     result.point_B = model_.space().nodes.col(model_.space().node(cell, point % nodes_));
     if (mesh.cell_sheet[at(cell)] >= 0)
       result.part = mesh.sheet_names[at(mesh.cell_sheet[at(cell)])];
@@ -178,27 +180,21 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
     envelope.lugs.push_back({mesh.lugs[lug].name, named(checked.lugs[lug])});
 
   const NodalStress nodal(responses);
-  const StressEnvelope peaks = find_stress_envelope(
+  const int groups = static_cast<int>(mesh.groups.size());
+  const LargestStresses peaks = find_largest_stresses(
       history, nodal.points(), [&](int first, int count) { return nodal.at_points(first, count); },
-      threads);
+      groups, [&](int point) { return nodal.group(point); }, threads);
   envelope.places = patches + nodal.points();
-  Running peak, largest, smallest;
-  std::vector<Running> peak_of_group(mesh.groups.size());
-  for (int point = 0; point < nodal.points(); ++point) {
-    peak.take(peaks.von_mises.value[point], point);
-    peak_of_group[at(nodal.group(point))].take(peaks.von_mises.value[point], point);
-    largest.take(peaks.largest_principal.value[point], point);
-    smallest.take(-peaks.smallest_principal.value[point], point);
-  }
-  envelope.peak_von_mises = nodal.extreme(peaks.von_mises, peak.point);
-  envelope.largest_principal = nodal.extreme(peaks.largest_principal, largest.point);
-  envelope.smallest_principal = nodal.extreme(peaks.smallest_principal, smallest.point);
+  LargestStress peak;
+  for (const LargestStress& of_group : peaks.von_mises)
+    if (of_group.point >= 0 && (peak.point < 0 || of_group.value > peak.value)) peak = of_group;
+  envelope.peak_von_mises = nodal.extreme(peak);
+  envelope.largest_principal = nodal.extreme(peaks.largest_principal);
+  envelope.smallest_principal = nodal.extreme(peaks.smallest_principal);
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[at(mesh.groups[g].material)];
-    envelope.groups.push_back(
-        {mesh.groups[g].name, material.name, material.yield_stress, named(checked.groups[g]),
-         peak_of_group[g].point < 0 ? TimedExtreme{}
-                                    : nodal.extreme(peaks.von_mises, peak_of_group[g].point)});
+    envelope.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
+                               named(checked.groups[g]), nodal.extreme(peaks.von_mises[g])});
   }
   envelope.displacement = largest_displacement(responses, history, threads);
   return envelope;

@@ -89,6 +89,64 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
   return envelope;
 }
 
+namespace {
+
+// Larger, or as large at an earlier point: whatever the threads have done, the result is the same.
+void merge(LargestStress& into, const Found& found, int point) {
+  if (into.point < 0 || found.value > into.value ||
+      (found.value == into.value && point < into.point))
+    into = {found.value, point, found.instant};
+}
+
+// Just below what is known, so that equals are found and merged by their places.
+Found as_floor(const LargestStress& largest) {
+  if (largest.point < 0) return {};
+  return {std::nextafter(largest.value, -std::numeric_limits<double>::infinity()), -1};
+}
+
+}  // namespace
+
+LargestStresses find_largest_stresses(const LoadHistory& history, int points,
+                                      const UnitResponsesAt& stress, int sets,
+                                      const std::function<int(int)>& set_of, int threads) {
+  // Within, the smallest principal stress stands with the opposite sign.
+  LargestStresses all;
+  all.von_mises.resize(static_cast<std::size_t>(sets));
+  std::mutex updating;
+  in_batches(points, threads, [&](int first, int count) {
+    const Rows rows = responses_of(history, stress, first, count, 6);
+    SearchWorkspace workspace(history);
+    LargestStresses known;
+    {
+      const std::lock_guard lock(updating);
+      known = all;
+    }
+    for (int i = 0; i < count; ++i) {
+      LargestStress& in_set = known.von_mises[static_cast<std::size_t>(set_of(first + i))];
+      const StressFound floor{as_floor(in_set), as_floor(known.largest_principal),
+                              as_floor(known.smallest_principal)};
+      const StressFound found =
+          search_stress(history, rows.data() + 6L * i * rows.cols(), workspace, floor);
+      const auto raise = [&](LargestStress& known_one, const Found& one) {
+        if (one.instant >= 0) merge(known_one, one, first + i);
+      };
+      raise(in_set, found.von_mises);
+      raise(known.largest_principal, found.largest_principal);
+      raise(known.smallest_principal, found.minus_smallest_principal);
+    }
+    const std::lock_guard lock(updating);
+    const auto raise = [](LargestStress& into, const LargestStress& from) {
+      if (from.point >= 0) merge(into, {from.value, from.instant}, from.point);
+    };
+    for (std::size_t set = 0; set < known.von_mises.size(); ++set)
+      raise(all.von_mises[set], known.von_mises[set]);
+    raise(all.largest_principal, known.largest_principal);
+    raise(all.smallest_principal, known.smallest_principal);
+  });
+  all.smallest_principal.value = -all.smallest_principal.value;
+  return all;
+}
+
 PointExtremes find_displacement_envelope(const LoadHistory& history, int points,
                                          const UnitResponsesAt& displacement, int threads) {
   PointExtremes extremes = sized(points);

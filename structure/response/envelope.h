@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -41,6 +42,27 @@ using UnitResponsesAt = std::function<Eigen::MatrixXd(int first, int count)>;
 /// @throws ModelError if a unit response is not a number.
 StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
                                     const UnitResponsesAt& stress, int threads = 0);
+
+/// The largest of one quantity over points and instants.
+struct LargestStress {
+  double value = 0;  ///< Pa
+  int point = -1;    ///< -1: there is no point
+  int instant = -1;
+};
+
+/// Extremes over sets of points.
+struct LargestStresses {
+  std::vector<LargestStress> von_mises;  ///< of each set
+  LargestStress largest_principal;       ///< of all points
+  LargestStress smallest_principal;      ///< of all points
+};
+
+/// The extremes of find_stress_envelope over sets of points, without those of each point: points that
+/// nowhere reach what has been found already are passed over as a whole.
+/// @param set_of the set of a point, 0 .. sets - 1; called from several threads at once.
+LargestStresses find_largest_stresses(const LoadHistory& history, int points,
+                                      const UnitResponsesAt& stress, int sets,
+                                      const std::function<int(int)>& set_of, int threads = 0);
 
 /// The largest magnitude of a displacement at points over all instants, m, likewise.
 PointExtremes find_displacement_envelope(const LoadHistory& history, int points,

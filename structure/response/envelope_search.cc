@@ -64,7 +64,6 @@ const Kernel& kernel() {
   return best;
 }
 
-constexpr double none = -std::numeric_limits<double>::infinity();
 constexpr int members = LoadHistory::cluster_size;
 
 // Takes a value that is larger, or as large and earlier.
@@ -121,8 +120,9 @@ int largest_of(const float* values, int count) {
 /// Search at one point for extremes of the stress.
 class StressSearch {
  public:
-  StressSearch(const LoadHistory& history, const double* rows, SearchWorkspace& workspace)
-      : history_(history), rows_(rows), workspace_(workspace) {
+  StressSearch(const LoadHistory& history, const double* rows, SearchWorkspace& workspace,
+               const StressFound& floor)
+      : history_(history), rows_(rows), workspace_(workspace), found_(floor) {
     prepare();
   }
 
@@ -131,11 +131,14 @@ class StressSearch {
     float* bounds = workspace_.bounds.data();
     kernel().bound_stress(screen_, history_, workspace_.work.data(), bounds);
     // The most promising clusters first; they rule out most others.
-    for (int quantity = 0; quantity < 3; ++quantity)
-      evaluate(largest_of(bounds + static_cast<std::ptrdiff_t>(quantity) * width, clusters));
-    for (int cluster = 0; cluster < clusters; ++cluster)
+    const auto evaluate_if_worth = [&](int cluster) {
       if (reaches(bounds[cluster], bounds[width + cluster], bounds[2 * width + cluster]))
         evaluate(cluster);
+    };
+    for (int quantity = 0; quantity < 3; ++quantity)
+      evaluate_if_worth(
+          largest_of(bounds + static_cast<std::ptrdiff_t>(quantity) * width, clusters));
+    for (int cluster = 0; cluster < clusters; ++cluster) evaluate_if_worth(cluster);
     return found_;
   }
 
@@ -193,7 +196,7 @@ class StressSearch {
   SearchWorkspace& workspace_;
   double scale_ = 1;
   Screen screen_{};
-  StressFound found_{{none, -1}, {none, -1}, {none, -1}};
+  StressFound found_;
 };
 
 }  // namespace
@@ -204,8 +207,8 @@ SearchWorkspace::SearchWorkspace(const LoadHistory& history)
       bounds(3 * static_cast<std::size_t>(history.padded_clusters())) {}
 
 StressFound search_stress(const LoadHistory& history, const double* rows,
-                          SearchWorkspace& workspace) {
-  return StressSearch(history, rows, workspace).run();
+                          SearchWorkspace& workspace, const StressFound& floor) {
+  return StressSearch(history, rows, workspace, floor).run();
 }
 
 Found search_displacement(const LoadHistory& history, const double* rows,
@@ -222,7 +225,7 @@ Found search_displacement(const LoadHistory& history, const double* rows,
   const Screen screen{coarse, nullptr, norms, 2 * margin(history, norms)};
   float* bounds = workspace.bounds.data();
   kernel().bound_displacement(screen, history, workspace.work.data(), bounds);
-  Found found{none, -1};
+  Found found;
   const auto evaluate = [&](int cluster) {
     float member_bounds[members];
     kernel().screen_displacement(screen, history, cluster, member_bounds);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "structure/response/load_history.h"
@@ -10,7 +11,7 @@ namespace blocklift::structure {
 
 /// An extreme value and its instant.
 struct Found {
-  double value = 0;
+  double value = -std::numeric_limits<double>::infinity();
   int instant = -1;
 };
 
@@ -28,8 +29,10 @@ struct SearchWorkspace {
 };
 
 /// @param rows 6 x rank, row after row: stress (Pa) for unit coordinates.
+/// @param floor what has been found elsewhere: only what reaches it is looked for, so that most
+///   points of no interest cost little; it comes back where the point does not reach it.
 StressFound search_stress(const LoadHistory& history, const double* rows,
-                          SearchWorkspace& workspace);
+                          SearchWorkspace& workspace, const StressFound& floor = {});
 
 /// @param rows 3 x rank, row after row: displacement (m) for unit coordinates.
 Found search_displacement(const LoadHistory& history, const double* rows,

@@ -88,6 +88,33 @@ TEST(Envelope, ShortAndConstantHistoriesAreOnes) {
   EXPECT_EQ(find_stress_envelope(history, 20, responses, 1).von_mises.instant.maxCoeff(), 0);
 }
 
+// Extremes over sets of points are those of the points' own envelopes.
+TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
+  const Eigen::MatrixXd units = testing::random_responses(6 * 400, 12, 13);
+  const Eigen::MatrixXd factors = testing::lift_like_history(12, 400, 14);
+  const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
+  const auto responses = [&](int first, int count) {
+    return units.middleRows(6 * first, 6 * count);
+  };
+  const StressEnvelope each = find_stress_envelope(history, 400, responses, 2);
+  const LargestStresses sets = find_largest_stresses(
+      history, 400, responses, 4, [](int point) { return point % 3; }, 2);
+  for (int set = 0; set < 3; ++set) {
+    int best = set;
+    for (int point = set; point < 400; point += 3)
+      if (each.von_mises.value[point] > each.von_mises.value[best]) best = point;
+    const LargestStress& found = sets.von_mises[static_cast<std::size_t>(set)];
+    EXPECT_EQ(found.point, best);
+    EXPECT_EQ(found.value, each.von_mises.value[best]);
+    EXPECT_EQ(found.instant, each.von_mises.instant[best]);
+  }
+  EXPECT_EQ(sets.von_mises[3].point, -1);
+  EXPECT_EQ(sets.largest_principal.value, each.largest_principal.value.maxCoeff());
+  EXPECT_EQ(sets.smallest_principal.value, each.smallest_principal.value.minCoeff());
+  EXPECT_EQ(each.smallest_principal.value[sets.smallest_principal.point],
+            sets.smallest_principal.value);
+}
+
 TEST(Envelope, DisplacementEqualsBruteForce) {
   const Eigen::MatrixXd units = testing::random_responses(3 * 200, 30, 7);
   const Eigen::MatrixXd factors = testing::lift_like_history(30, 500, 8);
