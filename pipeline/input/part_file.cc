@@ -25,9 +25,8 @@ Format<PartMeshInFile> mesh_format() {
       {"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
   Table<PartMeshInFile> table("mesh", "The part's mesh, or a geometry that is meshed.");
   table
-      .required(
-          "file", &PartMeshInFile::file, located(text()),
-          "what Gmsh opens: .msh, .geo, .step, .brep, .inp, .bdf, .unv; relative to this file")
+      .required("file", &PartMeshInFile::file, located(text()),
+                "what Gmsh opens: .msh, .geo, .step, .brep, .bdf, .unv; relative to this file")
       .optional("length_unit", &PartMeshInFile::length_unit, choice<double>(units),
                 "of the file's coordinates; m if left out, and then doubted where the part comes "
                 "out too large or too small")

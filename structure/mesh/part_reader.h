@@ -14,7 +14,7 @@ struct PartReading {
   double element_size = 0;  ///< largest edge where the file is a geometry, m; 0: as the file says
 };
 
-/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .inp, .bdf, .unv, ...): a mesh as it is, a
+/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .bdf, .unv, ...; .inp not as of its version 4.8): a mesh as it is, a
 /// geometry after meshing it.
 ///
 /// Groups are the physical groups by their names, or "volume group 3" and so on where they have none;

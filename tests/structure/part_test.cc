@@ -172,17 +172,19 @@ INSTANTIATE_TEST_SUITE_P(Part, Kinds,
                                                               Shape::tetrahedra),
                                             ::testing::Values(1, 2)));
 
-// A cantilever of quadratic hexahedra under an end load: Timoshenko's deflection within 1 %.
+// A cantilever of quadratic hexahedra under an end load: Timoshenko's deflection within 0.5 %. Without
+// Poisson's effect, which the root would hinder and the beam's theory does not know.
 TEST(Part, CantileverBends) {
   PartModel model = part(box(Shape::hexahedra, 2, Vector3(2, 0.1, 0.2), {10, 1, 2}));
+  model.materials[0].poisson_ratio = 0;
   model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
   model.surface_loads = {{"tip", "x1", SurfaceLoad::Kind::force, 0, Vector3(0, 0, -1e4)}};
   const PartSolution solution = solve_part(model);
   const double inertia = 0.1 * std::pow(0.2, 3) / 12, shear_area = 5.0 / 6 * 0.02;
   const double deflection = 1e4 * 8 / (3 * steel.youngs_modulus * inertia) +
-                            1e4 * 2 / (steel.shear_modulus() * shear_area);
+                            1e4 * 2 / (model.materials[0].shear_modulus() * shear_area);
   const double found = -probe_part(model, solution, Vector3(2, 0.05, 0.1)).displacement.z();
-  EXPECT_NEAR(found, deflection, 0.01 * deflection);
+  EXPECT_NEAR(found, deflection, 0.005 * deflection);
   EXPECT_GT(solution.estimated_error, 0);
   EXPECT_LT(solution.estimated_error, 0.2);
 }
