@@ -18,9 +18,11 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
       matrix_(system.nv_free(), system.nv_free()),
       factor_(system.nv_free()),
       right_(system.nv_free()),
+      solution_(system.nv_free()),
       moved_(Eigen::VectorXd::Zero(system.nv_free())),
       x_q_(system.nq_free()) {
   const Mechanism& m = system.mechanism();
+  if (!m.loops().empty()) loops_.emplace(system);
   for (std::size_t i = 0; i < m.links().size(); ++i) {
     const Link& link = m.links()[i];
     const bool rates = velocities_are_rates(link.kind);
@@ -41,6 +43,16 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
 
 void NewtonMatrix::set_point(const LiftSystem& system, double t, LiftWorkspace& w) {
   calc_tangent_matrices(system, t, w, tangent_);
+  if (loops_) {
+    loops_->calc(system, w);
+    // As many rows as are independent: this changes at most where the mechanism passes a toggle.
+    const Eigen::Index size = system.nv_free() + loops_->row_count();
+    if (matrix_.rows() != size) {
+      matrix_.resize(size, size);
+      right_.resize(size);
+      solution_.resize(size);
+    }
+  }
   for (Joint& joint : joints_) {
     const Link& link = system.mechanism().links()[static_cast<std::size_t>(joint.link)];
     joint_rate_derivatives(link.kind, w.q.data() + link.q_offset, w.v.data() + link.v_offset,
@@ -51,9 +63,24 @@ void NewtonMatrix::set_point(const LiftSystem& system, double t, LiftWorkspace& 
   }
 }
 
-bool NewtonMatrix::factorise(const LiftSystem&, double gamma) {
+// result += factor by_increments Z.
+void NewtonMatrix::multiply_by_Z(double factor,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& by_increments,
+                                 Eigen::Ref<Eigen::MatrixXd> result) const {
+  result += factor * by_increments;
+  for (const Joint& joint : joints_) {
+    const auto columns = by_increments.middleCols(joint.v, joint.nv);
+    for (int j = 0; j < joint.nv; ++j) {
+      for (int i = 0; i < joint.nv; ++i) {
+        const double beyond = joint.Z(i, j) - (i == j ? 1.0 : 0.0);
+        if (beyond != 0.0) result.col(joint.v + j) += (factor * beyond) * columns.col(i);
+      }
+    }
+  }
+}
+
+bool NewtonMatrix::factorise(const LiftSystem& system, double gamma) {
   gamma_ = gamma;
-  matrix_ = tangent_.mass + gamma * tangent_.damping + (gamma * gamma) * tangent_.stiffness;
   for (Joint& joint : joints_) {
     const int nq = joint.nq;
     const int nv = joint.nv;
@@ -63,15 +90,18 @@ bool NewtonMatrix::factorise(const LiftSystem&, double gamma) {
     joint.Z.topLeftCorner(nv, nv) = joint.increments.topLeftCorner(nv, nq) *
                                     joint.inverse.topLeftCorner(nq, nq) *
                                     joint.rates_by_v.topLeftCorner(nq, nv);
-    const auto stiffness = tangent_.stiffness.middleCols(joint.v, nv);
-    for (int j = 0; j < nv; ++j) {
-      for (int i = 0; i < nv; ++i) {
-        const double beyond = joint.Z(i, j) - (i == j ? 1.0 : 0.0);
-        if (beyond != 0.0) {
-          matrix_.col(joint.v + j) += (gamma * gamma * beyond) * stiffness.col(i);
-        }
-      }
-    }
+  }
+  const Eigen::Index n = system.nv_free();
+  auto motion = matrix_.topLeftCorner(n, n);
+  motion = tangent_.mass + gamma * tangent_.damping;
+  multiply_by_Z(gamma * gamma, tangent_.stiffness, motion);
+  if (loops_) {
+    const Eigen::Index m = loops_->row_count();
+    matrix_.topRightCorner(n, m) = -loops_->jacobian().transpose();
+    auto demand = matrix_.bottomLeftCorner(m, n);
+    demand = loops_->jacobian() + gamma * loops_->by_v();
+    multiply_by_Z(gamma * gamma, loops_->by_q(), demand);
+    matrix_.bottomRightCorner(m, m).setZero();
   }
   factor_.compute(matrix_);
   // A pivot of zero shows as a factor that is not finite once it has been divided by.
@@ -90,9 +120,15 @@ void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x
     moved_.segment(joint.v, joint.nv).noalias() =
         joint.increments.topLeftCorner(joint.nv, joint.nq) * x_q_.segment(joint.q, joint.nq);
   }
-  right_.noalias() = tangent_.mass * b.segment(nq, nv);
-  right_.noalias() -= gamma_ * (tangent_.stiffness * moved_);
-  moved_ = factor_.solve(right_);
+  right_.head(nv).noalias() = tangent_.mass * b.segment(nq, nv);
+  right_.head(nv).noalias() -= gamma_ * (tangent_.stiffness * moved_);
+  if (loops_) {
+    auto demand = right_.tail(loops_->row_count());
+    demand.noalias() = loops_->jacobian() * b.segment(nq, nv);
+    demand.noalias() -= gamma_ * (loops_->by_q() * moved_);
+  }
+  solution_ = factor_.solve(right_);
+  moved_ = solution_.head(nv);
   // x_q = (1 - gamma A)^-1 (b_q + gamma N x_v).
   for (std::size_t i = 0; i < plain_q_.size(); ++i) {
     x[plain_q_[i]] = b[plain_q_[i]] + gamma_ * moved_[plain_v_[i]];

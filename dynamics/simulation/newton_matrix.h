@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "dynamics/simulation/jacobian.h"
+#include "dynamics/simulation/loop_tangent.h"
 
 namespace blocklift::dynamics {
 
@@ -11,7 +14,11 @@ namespace blocklift::dynamics {
 /// so that, with Y = E (1 - gamma A)^-1 joint by joint and Z = Y N (1 where v is dq/dt),
 ///   (M + gamma C + gamma^2 K Z) x_v = M b_v - gamma K Y b_q
 /// is all that has to be factorised: nv_free unknowns instead of nq_free + nv_free, and M itself is not
-/// inverted. Workspaces are made once.
+/// inverted. Loops add their multipliers, mu = gamma dlambda, and what they demand of the accelerations
+/// (see LoopTangent):
+///   [ M + gamma C + gamma^2 K Z             -G^T ] [ x_v ]   [ M b_v - gamma K Y b_q    ]
+///   [ G + gamma by_v + gamma^2 by_q Z        0   ] [ mu  ] = [ G b_v - gamma by_q Y b_q ].
+/// Workspaces are made once.
 class NewtonMatrix {
  public:
   explicit NewtonMatrix(const LiftSystem& system);
@@ -38,13 +45,17 @@ class NewtonMatrix {
     Eigen::Matrix<double, 6, 6> Z;
   };
 
+  void multiply_by_Z(double factor, const Eigen::Ref<const Eigen::MatrixXd>& by_increments,
+                     Eigen::Ref<Eigen::MatrixXd> result) const;
+
   TangentMatrices tangent_;
+  std::optional<LoopTangent> loops_;
   std::vector<Joint> joints_;
   // Free coordinates whose rate is a velocity: their places among both.
   std::vector<Eigen::Index> plain_q_, plain_v_;
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd right_, moved_, x_q_;
+  Eigen::VectorXd right_, solution_, moved_, x_q_;
   double gamma_ = not_a_number;
 };
 

@@ -13,7 +13,6 @@
 #include "dynamics/multibody/assembly.h"
 #include "dynamics/multibody/derivatives.h"
 #include "dynamics/multibody/loop_projection.h"
-#include "dynamics/simulation/dense_newton_matrix.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/newton_matrix.h"
 #include "dynamics/simulation/sundials.h"
@@ -75,7 +74,6 @@ class Integrator {
   NewtonMatrix newton_;
   // Where the mechanism has loops.
   std::optional<LoopProjector> projector_;
-  std::optional<DenseNewtonMatrix> dense_newton_;
   Eigen::VectorXd projected_;                      ///< state
   Eigen::VectorXd error_q_, error_v_, increment_;  ///< nq, nv, nv
   Contacts contacts_;
@@ -129,7 +127,6 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
     set_drives(system, 0.0, true, w_);
     assemble(system.mechanism(), w_.q, w_.v);
     projector_.emplace(system.mechanism());
-    dense_newton_.emplace(system);
     w_.loop_rows = LoopRows::none(system.mechanism());
     projected_.setZero(system.state_size());
     error_q_.setZero(system.mechanism().nq());
@@ -196,16 +193,9 @@ int Integrator::newton_matrix(double t, N_Vector y, N_Vector, SUNMatrix, int kee
       calc_right_hand_side(self.system_, at, sundials::view(y), &self.contacts_, self.w_,
                            sundials::view(self.rates_.get()));
       ++self.result_.statistics.right_hand_sides;
-      if (self.dense_newton_) {
-        self.result_.statistics.right_hand_sides += self.dense_newton_->set_point(
-            self.system_, at, sundials::view(y), self.contacts_, self.w_);
-      } else {
-        self.newton_.set_point(self.system_, at, self.w_);
-      }
+      self.newton_.set_point(self.system_, at, self.w_);
     }
-    const bool regular = self.dense_newton_ ? self.dense_newton_->factorise(gamma)
-                                            : self.newton_.factorise(self.system_, gamma);
-    singular = regular ? 0 : 1;
+    singular = self.newton_.factorise(self.system_, gamma) ? 0 : 1;
   });
   *point_set = keep_point ? SUNFALSE : SUNTRUE;
   return flag != 0 ? flag : singular;
@@ -218,11 +208,7 @@ int Integrator::solve_newton(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Ve
     sundials::view(x) = sundials::view(b);
     return 0;
   }
-  if (self.dense_newton_) {
-    self.dense_newton_->solve(sundials::view(b), sundials::view(x));
-  } else {
-    self.newton_.solve(self.system_, sundials::view(b), sundials::view(x));
-  }
+  self.newton_.solve(self.system_, sundials::view(b), sundials::view(x));
   return 0;
 }
 

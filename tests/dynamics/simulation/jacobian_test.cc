@@ -124,6 +124,19 @@ LiftSystem random_system(Random& random) {
                      .v_start = {}});
 }
 
+LiftSystem alone(Mechanism mechanism, Random& random) {
+  OperationBuilder operation;
+  const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  const Operation built = operation.build(1.0);
+  return LiftSystem({.mechanism = std::move(mechanism),
+                     .ropes = {},
+                     .supports = {},
+                     .elements = {},
+                     .operation = built,
+                     .q_start = q,
+                     .v_start = {}});
+}
+
 double error(const Eigen::MatrixXd& a, const Eigen::MatrixXd& reference) {
   return (a - reference).lpNorm<Eigen::Infinity>() / reference.lpNorm<Eigen::Infinity>();
 }
@@ -184,6 +197,63 @@ TEST_P(Jacobian, NewtonMatrixSolvesWithIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Jacobian, ::testing::Range(1u, 9u));
+
+// With loops of several kinds between two branches, off the constraint as trial states are: the structured
+// solution with multipliers is that of the whole matrix, here by central differences.
+TEST(NewtonMatrixOfLoops, SolvesWithTheJacobianOfTheConstrainedMotion) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+    Random random(seed);
+    MechanismBuilder builder;
+    builder.set_gravity(random.vector(10));
+    const auto add = [&](JointKind kind, const char* name, const char* parent) {
+      BodyDefinition body = testing::random_body(random, kind, name, parent);
+      body.damping.assign(static_cast<std::size_t>(velocity_count(kind)), 0.4);
+      builder.add_body(body);
+    };
+    add(JointKind::free, "a1", "world");
+    add(JointKind::universal, "a2", "a1");
+    add(JointKind::spherical, "b1", "world");
+    add(JointKind::planar, "b2", "b1");
+    add(JointKind::revolute, "c", "b2");
+    const auto loop = [&](LoopKind kind, const char* first, const char* second) {
+      LoopDefinition definition;
+      definition.name = std::string(loop_kind_name(kind)) + first;
+      definition.kind = kind;
+      definition.first = first;
+      definition.second = second;
+      definition.X_FirstK = Pose::translation(random.vector(1));
+      definition.X_SecondK = Pose::translation(random.vector(1));
+      if (kind == LoopKind::distance) definition.length = 2.0;
+      builder.add_loop(definition);
+    };
+    loop(LoopKind::universal, "a2", "b2");
+    loop(LoopKind::distance, "a1", "c");
+    loop(LoopKind::point_on_line, "world", "a1");
+    LoopDefinition rope;
+    rope.name = "rope";
+    rope.kind = LoopKind::rope_length;
+    rope.length = 4.0;
+    rope.paths = {{{"world", random.vector(1)}, {"b1", random.vector(1)}, {"c", random.vector(1)}}};
+    builder.add_loop(rope);
+    LiftSystem system = alone(builder.build(), random);
+    LiftWorkspace w(system);
+    Eigen::VectorXd y(system.state_size());
+    get_state(system, system.q_start(), random.values(system.mechanism().nv(), 1), y);
+    const Eigen::MatrixXd J = difference_jacobian(system, 0.0, y, nullptr, w, 1e-6);
+    Eigen::VectorXd b = random.values(static_cast<int>(y.size()), 1);
+    Eigen::VectorXd x(y.size());
+    calc_right_hand_side(system, 0.0, y, nullptr, w, x);
+    ASSERT_EQ(w.loops->rank, 8);
+    NewtonMatrix newton(system);
+    newton.set_point(system, 0.0, w);
+    for (const double gamma : {1e-3, 0.05}) {
+      ASSERT_TRUE(newton.factorise(system, gamma));
+      newton.solve(system, b, x);
+      EXPECT_LT((x - gamma * (J * x) - b).norm(), 1e-5 * (b.norm() + gamma * J.norm() * x.norm()))
+          << seed << " " << gamma;
+    }
+  }
+}
 
 TEST(JacobianOfALift, IsThatOfDifferencesWhileItSwings) {
   const LiftSystem lift = samples::two_goliaths();
