@@ -109,6 +109,7 @@ void ForceDerivatives::add_turning(std::size_t slot, const Matrix3& df_dtheta) {
 void ForceDerivatives::add_wrench_block(std::size_t on, std::size_t by,
                                         const Eigen::Matrix<double, 6, 6>& dF_dX,
                                         const Eigen::Matrix<double, 6, 6>& dF_dV) {
+  if (stretch_only_) return;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   const Point& a = points_[on];
   const Point& b = points_[by];

@@ -21,8 +21,8 @@ class ForceDerivatives {
   ForceDerivatives(const Mechanism& mechanism, std::size_t most_points);
 
   /// Begins anew at the instant of `kinematics`, with its columns; both must stay until the end.
-  /// @param stretch_only leaves out what forces that are held do by turning with their line or body: what
-  /// remains at rest is the stiffness of stretching alone.
+  /// @param stretch_only leaves out what forces that are held do by turning with their line or body, and
+  /// wrench blocks: what remains at rest is the stiffness of stretching alone.
   void start(const Kinematics& kinematics, const MotionColumns& columns, bool stretch_only = false);
 
   /// Slot: the point fixed in the body at r_W from Bo (in W, m).

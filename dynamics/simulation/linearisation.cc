@@ -256,6 +256,7 @@ Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w) {
   result.mass = result.basis.transpose() * tangent.mass * result.basis;
   result.damping = result.basis.transpose() * tangent.damping * result.basis;
   result.stiffness = result.basis.transpose() * tangent.stiffness * result.basis;
+  if (result.basis.cols() == 0) return result;
   const Eigen::MatrixXd whole_mass = tangent.inverse.mass;
   Eigen::MatrixXd elastic(n, n);
   calc_elastic_stiffness(system, t, w, tangent, elastic);
