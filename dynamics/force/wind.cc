@@ -11,8 +11,24 @@ Wind Wind::level(double speed, double heading, double air_density) {
 }
 
 WindArea::WindArea(const Wind& wind, Definition definition)
+    : WindArea(wind, nullptr, std::move(definition)) {}
+
+namespace {
+
+Wind density_of(const WindField* field, const std::string& name) {
+  if (!field) throw ModelError("wind area \"" + name + "\" needs a wind");
+  return {Vector3::Zero(), field->air_density()};
+}
+
+}  // namespace
+
+WindArea::WindArea(std::shared_ptr<const WindField> wind, Definition definition)
+    : WindArea(density_of(wind.get(), definition.name), wind, definition) {}
+
+WindArea::WindArea(const Wind& wind, std::shared_ptr<const WindField> field, Definition definition)
     : definition_(std::move(definition)),
       velocity_W_(wind.velocity_W),
+      field_(std::move(field)),
       half_density_area_(0.5 * wind.air_density * definition_.coefficient * definition_.area) {
   const auto require = [&](const char* what, double value) {
     if (!std::isfinite(value) || value < 0.0) {
@@ -33,9 +49,17 @@ WindArea::WindArea(const Wind& wind, Definition definition)
   }
 }
 
+Vector3 WindArea::calc_relative_velocity(const MotionState& state) const {
+  const BodyPoint& centre = definition_.centre_of_pressure;
+  const Vector3 own = point_velocity(state.kinematics, centre.body, centre.p_BoQ_B);
+  if (!field_) return velocity_W_ - own;
+  const double z = point_position(state.kinematics, centre.body, centre.p_BoQ_B).z();
+  return field_->calc_velocity(state.time, z) - own;
+}
+
 Vector3 WindArea::calc_force(const MotionState& state) const {
   const BodyPoint& centre = definition_.centre_of_pressure;
-  const Vector3 u = velocity_W_ - point_velocity(state.kinematics, centre.body, centre.p_BoQ_B);
+  const Vector3 u = calc_relative_velocity(state);
   if (!definition_.normal_B) return half_density_area_ * u.norm() * u;
   const Vector3 n =
       state.kinematics.X_WB[static_cast<std::size_t>(centre.body)].R * *definition_.normal_B;
@@ -50,7 +74,7 @@ void WindArea::add_forces(const MotionState& state, Loads& loads) const {
 
 void WindArea::add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const {
   const BodyPoint& centre = definition_.centre_of_pressure;
-  const Vector3 u = velocity_W_ - point_velocity(state.kinematics, centre.body, centre.p_BoQ_B);
+  const Vector3 u = calc_relative_velocity(state);
   const Matrix3 none = Matrix3::Zero();
   derivatives.locate(0, centre.body, arm_W(state.kinematics, centre));
   derivatives.add_held_force(0, calc_force(state));

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "dynamics/force/force_element.h"
+#include "dynamics/force/wind_field.h"
 
 namespace blocklift::dynamics {
 
@@ -36,6 +38,9 @@ class WindArea {
   /// @throws ModelError if area, coefficient or density is negative or not finite, or the normal
   /// has no length.
   WindArea(const Wind& wind, Definition definition);
+  /// Wind that changes with the height and in time; its speed is that at the centre of pressure.
+  /// @throws ModelError as above, and if there is no wind.
+  WindArea(std::shared_ptr<const WindField> wind, Definition definition);
 
   const std::string& name() const { return definition_.name; }
   const Definition& definition() const { return definition_; }
@@ -49,9 +54,14 @@ class WindArea {
   EnergyAccount calc_energy(const MotionState& state) const;
 
  private:
+  WindArea(const Wind& wind, std::shared_ptr<const WindField> field, Definition definition);
+  /// Velocity of the air relative to the centre of pressure, m/s.
+  Vector3 calc_relative_velocity(const MotionState& state) const;
+
   Definition definition_;
-  Vector3 velocity_W_;
-  double half_density_area_;  ///< 1/2 rho C A, kg/m
+  Vector3 velocity_W_;                      ///< everywhere, where there is no field
+  std::shared_ptr<const WindField> field_;  ///< may be null
+  double half_density_area_;                ///< 1/2 rho C A, kg/m
 };
 
 static_assert(ForceElement<WindArea>);

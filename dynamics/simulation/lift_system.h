@@ -7,10 +7,12 @@
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
 #include "dynamics/force/wind.h"
+#include "dynamics/force/wind_load.h"
 #include "dynamics/marine/hull_force.h"
 #include "dynamics/marine/viscous.h"
 #include "dynamics/multibody/constrained_dynamics.h"
 #include "dynamics/multibody/forward_dynamics.h"
+#include "dynamics/rope/mooring_line.h"
 #include "dynamics/rope/rope.h"
 #include "dynamics/simulation/operation.h"
 
@@ -19,7 +21,8 @@ namespace blocklift::dynamics {
 /// The kinds of force elements; a new kind is entered here and nowhere else.
 using ForceElements =
     std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>,
-               std::vector<HullForce>, std::vector<MorisonMember>, std::vector<QuadraticDamping>,
+               std::vector<WindLoad>, std::vector<HullForce>, std::vector<MorisonMember>,
+               std::vector<QuadraticDamping>, std::vector<MooringLine>, std::vector<TuggerLine>,
                std::vector<AppliedLoad>, std::vector<JointLoad>>;
 
 /// Calls `function` with each element of every kind.

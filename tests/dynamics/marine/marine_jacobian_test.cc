@@ -1,5 +1,7 @@
 // How the forces of the sea change with the motion, against central differences of the whole
 // right-hand side: a barge with a boom, afloat, in a current, moving fast.
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull_shapes.h"
@@ -85,6 +87,35 @@ TEST(MarineJacobian, OfDampingWetInPart) {
   d.hull = small_barge();
   d.reference_volume = 1000;
   std::get<std::vector<QuadraticDamping>>(elements).push_back(QuadraticDamping(d));
+  expect_jacobian(elements, random);
+}
+
+TEST(MarineJacobian, OfMooringAndTuggerLines) {
+  Random random(5);
+  ForceElements elements;
+  auto& lines = std::get<std::vector<MooringLine>>(elements);
+  lines.push_back(
+      MooringLine({"m1", {world_index, {-60, 10, -20}}, {1, {1, 2, -0.5}}, {68, 10, 1e5, true}}));
+  lines.push_back(MooringLine({"m2", {2, {2, 0, 1}}, {world_index, {30, 0, 10}}, {40, 5, 1e5}}));
+  std::get<std::vector<TuggerLine>>(elements).push_back(
+      TuggerLine({"t", {2, {2, 0, 1}}, {world_index, {30, 20, 10}}, 100, 10, 5}));
+  expect_jacobian(elements, random);
+}
+
+TEST(MarineJacobian, OfWindOnTheBarge) {
+  Random random(6);
+  ForceElements elements;
+  const auto wind =
+      std::make_shared<const WindField>(WindField::Definition{.speed = 12, .heading = 0.3});
+  std::get<std::vector<WindLoad>>(elements).push_back(WindLoad(
+      {"w",
+       {1, {1, 0, 2}},
+       10,
+       20,
+       3,
+       12,
+       {{0, 1, 0, 0, 0, 0}, {1.5, 0.2, 1, 0.3, 0.1, 0.2}, {std::numbers::pi, -1, 0, 0, 0, 0}},
+       wind}));
   expect_jacobian(elements, random);
 }
 
