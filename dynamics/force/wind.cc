@@ -22,7 +22,7 @@ Wind density_of(const WindField* field, const std::string& name) {
 
 }  // namespace
 
-WindArea::WindArea(std::shared_ptr<const WindField> wind, Definition definition)
+WindArea::WindArea(const std::shared_ptr<const WindField>& wind, const Definition& definition)
     : WindArea(density_of(wind.get(), definition.name), wind, definition) {}
 
 WindArea::WindArea(const Wind& wind, std::shared_ptr<const WindField> field, Definition definition)

@@ -40,7 +40,7 @@ class WindArea {
   WindArea(const Wind& wind, Definition definition);
   /// Wind that changes with the height and in time; its speed is that at the centre of pressure.
   /// @throws ModelError as above, and if there is no wind.
-  WindArea(std::shared_ptr<const WindField> wind, Definition definition);
+  WindArea(const std::shared_ptr<const WindField>& wind, const Definition& definition);
 
   const std::string& name() const { return definition_.name; }
   const Definition& definition() const { return definition_; }

@@ -58,7 +58,8 @@ class BoxSkin {
     return hull_.add_vertex({row.x(), fraction * row.y(), row.z()});
   }
   int number(const Place& p) const {
-    return number_[static_cast<std::size_t>((p[0] * (n_[1] + 1) + p[1]) * (n_[2] + 1) + p[2])];
+    const int place = (p[0] * (n_[1] + 1) + p[1]) * (n_[2] + 1) + p[2];
+    return number_[static_cast<std::size_t>(place)];
   }
   void add(const Place& a, const Place& b, const Place& c, const Place& d) {
     hull_.add_panel({number(a), number(b), number(c), number(d)});
