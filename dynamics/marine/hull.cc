@@ -209,6 +209,81 @@ Hull with_mirror_image(const Hull& hull, int axis, double tolerance) {
 
 namespace {
 
+// Panels on each edge; `forward` tells whether a panel runs from the smaller vertex to the larger.
+struct EdgeSide {
+  int panel;
+  bool forward;
+};
+
+std::map<std::array<int, 2>, std::vector<EdgeSide>> find_edge_sides(const Hull& hull) {
+  std::map<std::array<int, 2>, std::vector<EdgeSide>> edges;
+  for (int panel = 0; panel < hull.panel_count(); ++panel) {
+    const std::span<const int> corners = hull.panel(panel);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const int a = corners[i];
+      const int b = corners[(i + 1) % corners.size()];
+      edges[{std::min(a, b), std::max(a, b)}].push_back({panel, a < b});
+    }
+  }
+  return edges;
+}
+
+// Six times the volume between a panel and Bo.
+double six_volumes(const Hull& hull, int panel) {
+  double sum = 0.0;
+  for (int i = 0; i < static_cast<int>(hull.panel(panel).size()) - 2; ++i) {
+    const auto [a, b, c] = hull.triangle(panel, i);
+    sum += a.dot(b.cross(c));
+  }
+  return sum;
+}
+
+}  // namespace
+
+Hull turned_outwards(const Hull& hull) {
+  struct Neighbour {
+    int panel;
+    bool opposed;
+  };
+  const auto count = static_cast<std::size_t>(hull.panel_count());
+  std::vector<std::vector<Neighbour>> neighbours(count);
+  for (const auto& [edge, sides] : find_edge_sides(hull)) {
+    if (sides.size() != 2) continue;
+    const bool opposed = sides[0].forward == sides[1].forward;
+    neighbours[static_cast<std::size_t>(sides[0].panel)].push_back({sides[1].panel, opposed});
+    neighbours[static_cast<std::size_t>(sides[1].panel)].push_back({sides[0].panel, opposed});
+  }
+  std::vector<int> sense(count, 0);  // 1: as it is, -1: turned, 0: not yet seen
+  for (std::size_t first = 0; first < count; ++first) {
+    if (sense[first] != 0) continue;
+    std::vector<int> part = {static_cast<int>(first)};
+    sense[first] = 1;
+    double volume = 0.0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const auto panel = static_cast<std::size_t>(part[i]);
+      volume += sense[panel] * six_volumes(hull, part[i]);
+      for (const Neighbour& n : neighbours[panel]) {
+        int& other = sense[static_cast<std::size_t>(n.panel)];
+        if (other != 0) continue;
+        other = n.opposed ? -sense[panel] : sense[panel];
+        part.push_back(n.panel);
+      }
+    }
+    if (volume >= 0.0) continue;
+    for (const int panel : part) sense[static_cast<std::size_t>(panel)] *= -1;
+  }
+  Hull turned(hull.name());
+  for (const Vector3& p : hull.vertices()) turned.add_vertex(p);
+  for (int panel = 0; panel < hull.panel_count(); ++panel) {
+    std::vector<int> corners(hull.panel(panel).begin(), hull.panel(panel).end());
+    if (sense[static_cast<std::size_t>(panel)] < 0) std::reverse(corners.begin(), corners.end());
+    turned.add_panel(corners);
+  }
+  return turned;
+}
+
+namespace {
+
 std::string text_of(const Vector3& p) {
   std::ostringstream text;
   text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ") m";
