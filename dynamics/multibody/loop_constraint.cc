@@ -445,7 +445,7 @@ ForceVector loop_force(const Mechanism& mechanism, const Kinematics& kinematics,
                        const LoopState& state, int number, ConstVectorRef lambda) {
   const Loop& wanted = mechanism.loops().at(index(number));
   if (is_pair(wanted)) {
-    const ForceVector F = force_on_follower(wanted, state, lambda);
+    ForceVector F = force_on_follower(wanted, state, lambda);
     if (wanted.follower == wanted.second) return F;
     const Vector3 p_WSecondK = point_position(kinematics, wanted.base, wanted.X_BaseK.p);
     return shift_to(-1.0 * F, state.p_WK[index(number)] - p_WSecondK);

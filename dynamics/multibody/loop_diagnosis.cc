@@ -187,14 +187,16 @@ std::vector<std::string> LoopDiagnosis::sentences(const Mechanism& mechanism) co
     }
     result.push_back(text);
   }
-  if (!toggled.empty()) {
-    result.push_back(
-        "this is a toggle position: " + row_list(mechanism, toggled) +
-        " holds nothing here that other equations do not, and the mechanism may leave it "
-        "in more than one way");
-  }
+  for (const std::string& sentence : toggle_sentences(mechanism)) result.push_back(sentence);
   for (const std::string& sentence : conflict_sentences(mechanism)) result.push_back(sentence);
   return result;
+}
+
+std::vector<std::string> LoopDiagnosis::toggle_sentences(const Mechanism& mechanism) const {
+  if (toggled.empty()) return {};
+  return {"this is a toggle position: " + row_list(mechanism, toggled) +
+          " holds nothing here that other equations do not, and the mechanism may leave it in more "
+          "than one way"};
 }
 
 std::vector<std::string> LoopDiagnosis::conflict_sentences(const Mechanism& mechanism) const {

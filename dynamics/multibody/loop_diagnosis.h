@@ -37,6 +37,7 @@ struct LoopDiagnosis {
 
   /// One sentence for each finding, in words; empty where all is well.
   std::vector<std::string> sentences(const Mechanism& mechanism) const;
+  std::vector<std::string> toggle_sentences(const Mechanism& mechanism) const;
   std::vector<std::string> conflict_sentences(const Mechanism& mechanism) const;
 };
 

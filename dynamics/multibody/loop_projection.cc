@@ -14,6 +14,10 @@ namespace {
 constexpr double on_constraint = 1e-14;
 constexpr double stalled_on_constraint = 1e-11;
 constexpr int most_iterations = 12;
+// Nearer to a toggle position than this the row that is being lost is left alone: dividing by what is left
+// of it would turn rounding (1e-16) into moves that an integrator takes for errors, and it can be missed by
+// the square of this only.
+constexpr double lost_row = 1e-5;
 // Velocity of a row that no free velocity can take up, relative to 1 m/s or the velocities there are.
 constexpr double no_conflict = 1e-9;
 
@@ -108,11 +112,10 @@ void LoopProjector::look(ConstVectorRef q) {
 bool LoopProjector::project_positions(VectorRef q) {
   evaluate(q);
   // Rows that repeat others follow by themselves as long as the others still imply them.
-  constexpr double chosen_threshold = 1e-12;
-  bool done = independent_.count() > 0 && iterate(independent_, chosen_threshold, q);
-  if (!done) done = iterate(all_, 1e-6, q);
+  bool done = independent_.count() > 0 && iterate(independent_, lost_row, q);
+  if (!done) done = iterate(all_, lost_row, q);
   if (!done) return false;
-  factorise(all_, redundancy_threshold);
+  factorise(all_, lost_row);
   independent_.choose(all_, qr_.pivots(), qr_.rank());
   return true;
 }
@@ -148,6 +151,12 @@ void LoopProjector::remove_normal_part(VectorRef v) {
     v[k] = inverse_root_weight_[i] * free_move_[i];
     ++i;
   }
+}
+
+void LoopProjector::balance(VectorRef f, VectorRef lambda) {
+  right_.setZero();
+  qr_.correct(right_, f);
+  qr_.multipliers(lambda);
 }
 
 }  // namespace blocklift::dynamics

@@ -28,6 +28,10 @@ class LoopProjector {
   /// Takes out of v (nv, of which driven entries count as zero) what is not along the loops at that q.
   void remove_normal_part(VectorRef v);
 
+  /// Splits generalised forces f of the free velocities (unit weights) at that q: f becomes
+  /// f + G^T lambda, the part along the loops, lambda (rows) being the least multipliers.
+  void balance(VectorRef f, VectorRef lambda);
+
   /// Evaluates everything at q without moving it.
   void look(ConstVectorRef q);
 

@@ -11,6 +11,7 @@
 #include "dynamics/multibody/inverse_dynamics.h"
 #include "dynamics/multibody/mass_matrix.h"
 #include "dynamics/simulation/jacobian.h"
+#include "dynamics/simulation/reduced_coordinates.h"
 #include "dynamics/simulation/sundials.h"
 
 namespace blocklift::dynamics {
@@ -28,6 +29,8 @@ struct EquilibriumSolver::Implementation {
   Implementation(const Implementation&) = delete;
   Implementation& operator=(const Implementation&) = delete;
 
+  void make_kinsol(Eigen::Index n);
+  void set_reference(const Eigen::VectorXd& q);
   void calc_scales();
   void calc_residual(const Eigen::VectorXd& u, const Contacts* set, Eigen::VectorXd& residual);
   void calc_stiffness(const Eigen::VectorXd& u, const Contacts* set, Eigen::MatrixXd& stiffness);
@@ -51,17 +54,18 @@ struct EquilibriumSolver::Implementation {
   LiftWorkspace w;
   InverseDynamicsWorkspace inverse;
   double time = 0.0;
-  Eigen::VectorXd q_reference;  ///< increments count from here
-  Eigen::VectorXd tangent;      ///< nv
-  Eigen::VectorXd tau, zero;    ///< nv
-  Eigen::VectorXd weight;  ///< for each free velocity: force that its residual is compared with
-  Eigen::MatrixXd mass;    ///< of the free velocities
+  ReducedCoordinates coordinates;  ///< the unknowns
+  Eigen::VectorXd tau;             ///< nv
+  Eigen::VectorXd free_force;      ///< for each free velocity: what the loops leave of its force
+  Eigen::VectorXd
+      free_weight;         ///< for each free velocity: force that its residual is compared with
+  Eigen::VectorXd weight;  ///< the same for each unknown
+  Eigen::MatrixXd mass;    ///< of the unknowns
   Contacts contacts;       ///< fixed set of acting ropes and pads
   bool contacts_known = false;
   TangentMatrices tangent_matrices;
   Eigen::VectorXd residual_here;
-  Eigen::MatrixXd moved, free_moved;  ///< increment_jacobian, of all and of the free velocities
-  Eigen::MatrixXd stiffness;
+  Eigen::MatrixXd stiffness;  ///< of the unknowns
 
   sundials::Context context;
   sundials::Vector unknowns, unknown_scale, force_scale;
@@ -77,19 +81,21 @@ EquilibriumSolver::Implementation::Implementation(const LiftSystem& lift, Equili
       settings(s),
       w(lift),
       inverse(lift.mechanism()),
-      q_reference(lift.q_start()),
-      tangent(Eigen::VectorXd::Zero(mechanism.nv())),
+      coordinates(lift),
       tau(Eigen::VectorXd::Zero(mechanism.nv())),
-      zero(Eigen::VectorXd::Zero(mechanism.nv())),
+      free_force(Eigen::VectorXd::Zero(lift.nv_free())),
+      free_weight(Eigen::VectorXd::Ones(lift.nv_free())),
       contacts(static_cast<std::size_t>(lift.contact_count()), 1),
       tangent_matrices(lift),
       context(sundials::make_context()) {
-  const Eigen::Index n = system.nv_free();
+  make_kinsol(system.nv_free());
+}
+
+// KINSOL for n unknowns.
+void EquilibriumSolver::Implementation::make_kinsol(Eigen::Index n) {
   weight.setOnes(n);
   residual_here.resize(n);
-  moved.resize(mechanism.nv(), mechanism.nv());
-  free_moved.resize(n, n);
-  stiffness.resize(n, n);
+  if (kinsol) KINFree(&kinsol);
   if (n == 0) return;
   unknowns = sundials::make_vector(n, context);
   unknown_scale = sundials::make_vector(n, context);
@@ -111,18 +117,25 @@ EquilibriumSolver::Implementation::Implementation(const LiftSystem& lift, Equili
   sundials::view(unknown_scale.get()).setOnes();
 }
 
+// Unknowns count from here, brought onto the loops with the drives as they are at the time.
+void EquilibriumSolver::Implementation::set_reference(const Eigen::VectorXd& q) {
+  w.q = q;
+  set_drives(system, time, false, w);
+  coordinates.set_reference(w.q);
+  if (coordinates.size() != weight.size()) {
+    make_kinsol(coordinates.size());
+    compute_kinematics(mechanism, w.q, Eigen::VectorXd::Zero(mechanism.nv()), w.kinematics);
+    calc_scales();
+  }
+}
+
 void EquilibriumSolver::Implementation::calc_scales() {
   const std::vector<int>& free = mechanism.free_velocities();
   MassMatrixWorkspace workspace(mechanism);
   Eigen::MatrixXd whole(mechanism.nv(), mechanism.nv());
   compute_mass_matrix(mechanism, w.kinematics, workspace, whole);
   const auto n = static_cast<Eigen::Index>(free.size());
-  mass.resize(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      mass(i, j) = whole(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
-    }
-  }
+  const Eigen::MatrixXd free_mass = whole(free, free);
   const double g = std::max(1.0, mechanism.gravity().norm());
   for (Eigen::Index i = 0; i < n; ++i) {
     const int k = free[static_cast<std::size_t>(i)];
@@ -130,42 +143,44 @@ void EquilibriumSolver::Implementation::calc_scales() {
         workspace.composite[static_cast<std::size_t>(mechanism.body_of_velocity(k))].M.trace() /
         3.0;
     const bool turns = mechanism.angular()[static_cast<std::size_t>(k)] != 0;
-    weight[i] = turns ? g * std::sqrt(mass(i, i) * m) : g * mass(i, i);
+    const double inertia = free_mass(i, i);
+    free_weight[i] = turns ? g * std::sqrt(inertia * m) : g * inertia;
   }
-  if (n > 0) sundials::view(force_scale.get()) = weight.cwiseInverse();
+  const Eigen::MatrixXd& Z = coordinates.basis();
+  mass = Z.transpose() * free_mass * Z;
+  weight = (Z.cwiseAbs2().transpose() * free_weight.cwiseAbs2()).cwiseSqrt();
+  if (weight.size() > 0) sundials::view(force_scale.get()) = weight.cwiseInverse();
 }
 
-// Generalised force on each free velocity with everything at rest at q_reference (+) u.
+// Generalised force on each unknown with everything at rest at q(u).
 void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, const Contacts* set,
                                                       Eigen::VectorXd& residual) {
-  Eigen::Index i = 0;
-  for (const int k : mechanism.free_velocities()) tangent[k] = u[i++];
-  mechanism.integrate(q_reference, tangent, 1.0, w.q);
+  coordinates.move_to(u, w.q);
   w.v.setZero();
   w.vdot.setZero();
   set_drives(system, time, false, w);
   calc_loads(system, time, set, w);
   compute_inverse_dynamics(mechanism, w.kinematics, w.v, w.vdot, w.loads.F_Bo_W, inverse, tau);
-  i = 0;
-  for (const int k : mechanism.free_velocities()) residual[i++] = w.loads.tau[k] - tau[k];
+  Eigen::Index i = 0;
+  for (const int k : mechanism.free_velocities()) free_force[i++] = w.loads.tau[k] - tau[k];
+  if (w.loops) {
+    compute_loops(mechanism, w.kinematics, w.q, w.v, w.loops->loops);
+    coordinates.balance(free_force, w.loops->lambda);
+  }
+  residual.noalias() = coordinates.basis().transpose() * free_force;
 }
 
-// Minus the derivative of the residual by u: the stiffness at q_reference (+) u, times what a further
-// increment of u moves there.
+// Minus the derivative of the residual by u: the stiffness at q(u), times what a further increment of u
+// moves there.
 void EquilibriumSolver::Implementation::calc_stiffness(const Eigen::VectorXd& u,
                                                        const Contacts* set,
                                                        Eigen::MatrixXd& result) {
   calc_residual(u, set, residual_here);
   calc_tangent_matrices(system, time, w, tangent_matrices);
-  increment_jacobian(mechanism, tangent, moved);
-  const std::vector<int>& free = mechanism.free_velocities();
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      free_moved(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          moved(free[i], free[j]);
-    }
-  }
-  result.noalias() = tangent_matrices.stiffness * free_moved;
+  const Eigen::MatrixXd moved = coordinates.tangent();
+  // What the loops bear of the force's change does not count: along the tangent, or Z where they are one.
+  const Eigen::MatrixXd& along = w.loops ? moved : coordinates.basis();
+  result.noalias() = along.transpose() * (tangent_matrices.stiffness * moved);
   result.diagonal() += holding_stiffness * weight;
 }
 
@@ -176,7 +191,7 @@ double EquilibriumSolver::Implementation::scaled_norm(const Eigen::VectorXd& res
 int EquilibriumSolver::Implementation::residual_callback(N_Vector u, N_Vector f, void* data) {
   auto& self = *static_cast<Implementation*>(data);
   try {
-    Eigen::VectorXd residual(self.system.nv_free());
+    Eigen::VectorXd residual(self.coordinates.size());
     self.calc_residual(sundials::view(u), &self.contacts, residual);
     sundials::view(f) = residual;
     return residual.allFinite() ? 0 : 1;
@@ -200,14 +215,14 @@ int EquilibriumSolver::Implementation::jacobian_callback(N_Vector u, N_Vector, S
 }
 
 void EquilibriumSolver::Implementation::accept(const Eigen::VectorXd& u) {
-  Eigen::Index i = 0;
-  for (const int k : mechanism.free_velocities()) tangent[k] = u[i++];
-  const Eigen::VectorXd q_old = q_reference;
-  mechanism.integrate(q_old, tangent, 1.0, q_reference);
+  Eigen::VectorXd q(mechanism.nq());
+  coordinates.move_to(u, q);
+  set_reference(q);
 }
 
 // Newton's method with the contacts as they stand; true when it converged.
 bool EquilibriumSolver::Implementation::newton() {
+  if (coordinates.size() == 0) return true;
   auto u = sundials::view(unknowns.get());
   u.setZero();
   sundials::check(KINSetMaxNewtonStep(kinsol, 1e3), "KINSetMaxNewtonStep");
@@ -215,10 +230,10 @@ bool EquilibriumSolver::Implementation::newton() {
       KINSol(kinsol, unknowns.get(), KIN_LINESEARCH, unknown_scale.get(), force_scale.get());
   const Eigen::VectorXd solution = u;
   if (!solution.allFinite()) return false;
-  Eigen::VectorXd residual(system.nv_free());
+  Eigen::VectorXd residual(coordinates.size());
   try {
     calc_residual(solution, &contacts, residual);
-  } catch (const ModelError&) {
+  } catch (const std::runtime_error&) {
     return false;
   }
   // A step that can no longer shrink the residual (rounding) counts if the residual is small.
@@ -232,10 +247,11 @@ bool EquilibriumSolver::Implementation::newton() {
 bool EquilibriumSolver::Implementation::solve_active_set() {
   const int most_rounds = 3 * static_cast<int>(contacts.size()) + 3;
   Eigen::VectorXd indicators(system.contact_count());
-  Eigen::VectorXd residual(system.nv_free());
+  Eigen::VectorXd residual;
   for (int round = 0; round < most_rounds; ++round) {
     if (!newton()) return false;
-    calc_residual(Eigen::VectorXd::Zero(system.nv_free()), &contacts, residual);
+    residual.resize(coordinates.size());
+    calc_residual(Eigen::VectorXd::Zero(coordinates.size()), &contacts, residual);
     calc_contact_indicators(w, indicators);
     bool agrees = true;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -260,10 +276,10 @@ bool EquilibriumSolver::Implementation::try_step(double h, double largest_move,
   if (!du.allFinite() || !(before > 0.0) || du.lpNorm<Eigen::Infinity>() > largest_move) {
     return false;
   }
-  Eigen::VectorXd f_new(system.nv_free());
+  Eigen::VectorXd f_new(coordinates.size());
   try {
     calc_residual(du, nullptr, f_new);
-  } catch (const ModelError&) {
+  } catch (const std::runtime_error&) {
     return false;
   }
   if (!f_new.allFinite() || f_new.dot(du) < -before) return false;
@@ -274,10 +290,10 @@ bool EquilibriumSolver::Implementation::try_step(double h, double largest_move,
 
 // Descent from a rough guess with the ropes' own laws; true when forces are small enough for Newton.
 bool EquilibriumSolver::Implementation::relax() {
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(system.nv_free());
-  Eigen::VectorXd f(system.nv_free());
   double h = 0.1;  // s; grows into Newton's method
   for (int i = 0; i < settings.largest_relaxations; ++i) {
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(coordinates.size());
+    Eigen::VectorXd f(rest.size());
     calc_residual(rest, nullptr, f);
     if (scaled_norm(f) < 1e-6) return true;
     calc_scales();
@@ -293,8 +309,13 @@ bool EquilibriumSolver::Implementation::relax() {
 
 bool EquilibriumSolver::Implementation::solve_at(double t, Eigen::VectorXd& q) {
   time = t;
-  q_reference = q;
   exception = nullptr;
+  try {
+    set_reference(q);
+  } catch (const SimulationError&) {
+    exception = std::current_exception();
+    return false;
+  }
   if (!solve_active_set()) return false;
   finish(q);
   return true;
@@ -302,9 +323,12 @@ bool EquilibriumSolver::Implementation::solve_at(double t, Eigen::VectorXd& q) {
 
 // Leaves the workspace at the solution by the elements' own laws, with the drive forces.
 void EquilibriumSolver::Implementation::finish(Eigen::VectorXd& q) {
-  Eigen::VectorXd residual(system.nv_free());
-  calc_residual(Eigen::VectorXd::Zero(system.nv_free()), nullptr, residual);
+  Eigen::VectorXd residual(coordinates.size());
+  calc_residual(Eigen::VectorXd::Zero(coordinates.size()), nullptr, residual);
   w.joint_force = tau - w.loads.tau;
+  for (const int k : mechanism.driven_velocities()) {
+    if (w.loops) w.joint_force[k] -= coordinates.loop_force(k, w.loops->lambda);
+  }
   q = w.q;
 }
 
@@ -316,13 +340,13 @@ void EquilibriumSolver::Implementation::fail(double t) {
   } catch (const std::exception& error) {
     text << " (" << error.what() << ")";
   }
-  Eigen::VectorXd residual(system.nv_free());
+  Eigen::VectorXd residual(coordinates.size());
   try {
-    calc_residual(Eigen::VectorXd::Zero(system.nv_free()), nullptr, residual);
+    calc_residual(Eigen::VectorXd::Zero(coordinates.size()), nullptr, residual);
     text << "; " << describe_ropes(system, w) << "; largest residuals: ";
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(residual.size()));
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(free_force.size()));
     std::iota(order.begin(), order.end(), 0);
-    const Eigen::VectorXd relative = residual.cwiseQuotient(weight).cwiseAbs();
+    const Eigen::VectorXd relative = free_force.cwiseQuotient(free_weight).cwiseAbs();
     std::sort(order.begin(), order.end(),
               [&](Eigen::Index a, Eigen::Index b) { return relative[a] > relative[b]; });
     for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) {
@@ -348,24 +372,24 @@ LiftWorkspace& EquilibriumSolver::workspace() { return implementation_->w; }
 void EquilibriumSolver::solve(double t, Eigen::VectorXd& q) {
   Implementation& s = *implementation_;
   s.time = t;
-  s.q_reference = q;
   s.exception = nullptr;
-  if (s.system.nv_free() == 0) {
+  s.set_reference(q);
+  if (s.coordinates.size() == 0) {
     s.finish(q);
     return;
   }
-  Eigen::VectorXd residual(s.system.nv_free());
+  Eigen::VectorXd residual(s.coordinates.size());
   Eigen::VectorXd indicators(s.system.contact_count());
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(s.system.nv_free());
-  s.calc_residual(rest, nullptr, residual);
+  s.calc_residual(Eigen::VectorXd::Zero(s.coordinates.size()), nullptr, residual);
   s.calc_scales();
   const bool relaxed = s.relax();
-  s.calc_residual(rest, nullptr, residual);
+  residual.resize(s.coordinates.size());
+  s.calc_residual(Eigen::VectorXd::Zero(s.coordinates.size()), nullptr, residual);
   calc_contact_indicators(s.w, indicators);
   for (std::size_t i = 0; i < s.contacts.size(); ++i) {
     s.contacts[i] = indicators[static_cast<Eigen::Index>(i)] > 0.0 ? 1 : 0;
   }
-  q = s.q_reference;
+  q = s.coordinates.reference();
   if (!relaxed || !s.solve_at(t, q)) s.fail(t);
 }
 

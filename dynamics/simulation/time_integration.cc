@@ -12,6 +12,7 @@
 
 #include "dynamics/multibody/assembly.h"
 #include "dynamics/multibody/derivatives.h"
+#include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/multibody/loop_projection.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/newton_matrix.h"
@@ -42,6 +43,7 @@ class Integrator {
   void project_state(double t, VectorRef y);
   bool project_onto_loops(double t, ConstVectorRef y, VectorRef projected);
   void project_error(VectorRef error);
+  std::string describe_loops() const;
   void integrate_interval(double start, double end);
   void step(double end);
   void restart(double t);
@@ -245,15 +247,20 @@ bool Integrator::project_onto_loops(double t, ConstVectorRef y, VectorRef projec
   return true;
 }
 
+// Why the last projection failed.
+std::string Integrator::describe_loops() const {
+  const std::string missing =
+      describe_residual(system_.mechanism(), projector_->state().residual, 1e-9);
+  return missing != "none" ? "the loops cannot be closed near by; they miss: " + missing
+                           : "a drive moves as the loops forbid";
+}
+
 // Quaternions to unit length, positions and velocities onto the loops.
 void Integrator::project_state(double t, VectorRef y) {
   for (const Eigen::Index i : quaternions_) y.segment<4>(i).normalize();
   if (!projector_) return;
   if (!project_onto_loops(t, y, projected_)) {
-    throw SimulationError(
-        "the loops miss: " +
-        describe_residual(system_.mechanism(), projector_->state().residual, 1e-9) +
-        ", or a drive moves as they forbid; nothing near by closes them");
+    throw SimulationError(describe_loops());
   }
   y.head(projected_.size()) = projected_;
 }
@@ -293,7 +300,11 @@ int Integrator::project(double t, N_Vector y, N_Vector correction, double, N_Vec
   if (self.projector_) {
     bool done = false;
     const int flag = self.guarded([&] { done = self.project_onto_loops(t, state, change); });
-    if (flag != 0 || !done) return flag < 0 ? flag : 1;
+    if (flag != 0) return flag;
+    if (!done) {
+      self.exception_ = std::make_exception_ptr(SimulationError(self.describe_loops()));
+      return 1;
+    }
     change.head(self.projected_.size()) -= state.head(self.projected_.size());
     if (error) self.project_error(sundials::view(error));
     return 0;
@@ -528,6 +539,12 @@ void Integrator::fail(const char* what) {
     for (std::size_t i = 0; i < std::min<std::size_t>(3, n); ++i) {
       text << (i > 0 ? ", " : "") << system_.mechanism().body(static_cast<int>(order[i])).name
            << " (" << w_.kinematics.V_WB[order[i]].linear.norm() << " m/s)";
+    }
+    if (projector_) {
+      const LoopDiagnosis diagnosis = diagnose_loops(system_.mechanism(), w_.q);
+      for (const std::string& sentence : diagnosis.toggle_sentences(system_.mechanism())) {
+        text << "; " << sentence;
+      }
     }
   } catch (const std::exception& error) {
     text << "; " << error.what();

@@ -60,7 +60,12 @@ struct IntegrationResult {
 /// the interpolated state, so that each sample is consistent in itself. Largest loads are those of
 /// the samples.
 ///
-/// @throws SimulationError when a step fails: time, ropes, bodies, and what to try.
+/// A mechanism with loops is assembled first: the closest configuration and velocities that its loops
+/// allow. Every step ends with positions and velocities projected back onto the loops (and the error
+/// estimate along them); which equations are independent is judged there anew, so that loops may repeat
+/// one another. Samples lie on the loops, their multipliers are the least that balance them.
+///
+/// @throws SimulationError if the loops cannot be closed at the start, or when a step fails: time, ropes, bodies, and what to try.
 IntegrationResult integrate(const LiftSystem& system, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, const IntegrationSettings& settings = {});
 

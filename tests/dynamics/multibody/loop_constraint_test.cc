@@ -141,56 +141,14 @@ TEST(LoopDefinition, NamesMustDifferAndRowsHaveNames) {
   EXPECT_FALSE(loop_kind("hinge").has_value());
 }
 
-// Two branches of random bodies, with one loop of each kind between them at random places. (Together they
-// could not close; each is examined alone.)
+// A random mechanism with a loop of the kind in a random state, which does not close it.
 struct LoopOfKind {
   LoopOfKind(LoopKind kind, unsigned seed)
       : random(seed),
-        mechanism(build(kind)),
+        mechanism(samples::random_mechanism_with_loop(random, kind)),
         q(mechanism.nq()),
         v(random.values(mechanism.nv(), 1)) {
     q = testing::random_configuration(random, mechanism);
-  }
-
-  Mechanism build(LoopKind kind) {
-    MechanismBuilder builder;
-    builder.add_body(testing::random_body(random, JointKind::spherical, "a1", "world"));
-    builder.add_body(testing::random_body(random, JointKind::cylindrical, "a2", "a1"));
-    builder.add_body(testing::random_body(random, JointKind::planar, "b1", "world"));
-    builder.add_body(testing::random_body(random, JointKind::universal, "b2", "b1"));
-    builder.add_body(testing::random_body(random, JointKind::fixed, "b3", "b2"));
-    builder.add_body(testing::random_body(random, JointKind::free, "c", "a1"));
-    LoopDefinition loop;
-    loop.name = "loop";
-    loop.kind = kind;
-    if (kind == LoopKind::gear) {
-      loop.first = "a2";
-      loop.second = "b1";
-      loop.first_velocity = 1;
-      loop.second_velocity = 2;
-      loop.ratio = -1.7;
-      loop.offset = 0.4;
-    } else if (kind == LoopKind::rope_length) {
-      loop.length = 5;
-      loop.paths = {
-          {{"a2", random.vector(1)}, {"world", random.vector(1)}, {"b3", random.vector(1)}},
-          {{"c", random.vector(1)}, {"a1", random.vector(1)}}};
-    } else {
-      loop.first = "c";
-      loop.second = "b3";
-      loop.X_FirstK = random.pose(1);
-      loop.X_SecondK = random.pose(1);
-      if (kind == LoopKind::distance) {
-        loop.length = 1.3;
-      } else {
-        loop.axis = random.direction();
-      }
-      if (kind == LoopKind::universal) {
-        loop.second_axis = loop.axis.cross(random.direction()).normalized();
-      }
-    }
-    builder.add_loop(loop);
-    return builder.build();
   }
 
   LoopState state_at(const Eigen::VectorXd& where, const Eigen::VectorXd& velocity) const {

@@ -97,9 +97,9 @@ Mechanism bricard_linkage() {
   return builder.build();
 }
 
-Mechanism four_bar(double crank, double coupler, double rocker, double base, bool driven_crank) {
+Mechanism four_bar(double crank, double coupler, double rocker, double base, bool driven_crank,
+                   double side) {
   const Vector3 x = Vector3::UnitX(), z = Vector3::UnitZ();
-  constexpr double side = 0.01;
   MechanismBuilder builder;
   builder.set_gravity(-g * Vector3::UnitY());
   BodyDefinition first = rod("crank", world_name, Vector3::Zero(), z, crank * x, side);
@@ -108,6 +108,46 @@ Mechanism four_bar(double crank, double coupler, double rocker, double base, boo
   builder.add_body(rod("coupler", "crank", crank * x, z, coupler * x, side));
   builder.add_body(rod("rocker", "coupler", coupler * x, z, rocker * x, side));
   builder.add_loop(hinge_loop("D", "rocker", rocker * x, "world", base * x, z));
+  return builder.build();
+}
+
+Mechanism random_mechanism_with_loop(testing::Random& random, LoopKind kind) {
+  MechanismBuilder builder;
+  builder.add_body(testing::random_body(random, JointKind::spherical, "a1", "world"));
+  builder.add_body(testing::random_body(random, JointKind::cylindrical, "a2", "a1"));
+  builder.add_body(testing::random_body(random, JointKind::planar, "b1", "world"));
+  builder.add_body(testing::random_body(random, JointKind::universal, "b2", "b1"));
+  builder.add_body(testing::random_body(random, JointKind::fixed, "b3", "b2"));
+  builder.add_body(testing::random_body(random, JointKind::free, "c", "a1"));
+  LoopDefinition loop;
+  loop.name = "loop";
+  loop.kind = kind;
+  if (kind == LoopKind::gear) {
+    loop.first = "a2";
+    loop.second = "b1";
+    loop.first_velocity = 1;
+    loop.second_velocity = 2;
+    loop.ratio = -1.7;
+    loop.offset = 0.4;
+  } else if (kind == LoopKind::rope_length) {
+    loop.length = 5;
+    loop.paths = {{{"a2", random.vector(1)}, {"world", random.vector(1)}, {"b3", random.vector(1)}},
+                  {{"c", random.vector(1)}, {"a1", random.vector(1)}}};
+  } else {
+    loop.first = "c";
+    loop.second = "b3";
+    loop.X_FirstK = random.pose(1);
+    loop.X_SecondK = random.pose(1);
+    if (kind == LoopKind::distance) {
+      loop.length = 1.3;
+    } else {
+      loop.axis = random.direction();
+    }
+    if (kind == LoopKind::universal) {
+      loop.second_axis = loop.axis.cross(random.direction()).normalized();
+    }
+  }
+  builder.add_loop(loop);
   return builder.build();
 }
 

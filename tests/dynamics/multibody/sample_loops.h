@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/multibody/mechanism.h"
+#include "pipeline/verification/models/random_mechanism.h"
 
 /// Mechanisms with loops that several tests and benchmarks share.
 namespace blocklift::dynamics::samples {
@@ -33,8 +33,11 @@ Mechanism bricard_linkage();
 
 /// Plane four-bar linkage with bars of `crank`, `coupler`, `rocker` (m, 1 kg each, uniform) over a base of
 /// `base` m along x; z is the axis of all joints, gravity along -y. The loop "D" is at (base, 0, 0) on
-/// the rocker's end. Zero coordinates: all bars along x.
+/// the rocker's end. Zero coordinates: all bars along x. Bars have a square section of the side `side` (m).
 Mechanism four_bar(double crank, double coupler, double rocker, double base,
-                   bool driven_crank = false);
+                   bool driven_crank = false, double side = 0.01);
+
+/// Two branches of random bodies with a loop of the kind between them at random places.
+Mechanism random_mechanism_with_loop(testing::Random& random, LoopKind kind);
 
 }  // namespace blocklift::dynamics::samples
