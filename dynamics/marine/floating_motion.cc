@@ -86,6 +86,36 @@ FloatingMotion march_with_database(const LinearFloatation& bodies,
   return motion;
 }
 
+FloatingMotion march_with_state_space(const LinearFloatation& bodies,
+                                      const MatrixXd& infinite_added_mass,
+                                      const MemoryStateSpace& memory, double step,
+                                      double duration) {
+  const Eigen::LDLT<MatrixXd> mass(bodies.mass + infinite_added_mass);
+  const Eigen::Index modes = bodies.start.size(), states = memory.state_count();
+  // One vector: positions, velocities, states of the memory.
+  VectorXd force(modes), rate(states);
+  const auto derivative = [&](const VectorXd& y) -> VectorXd {
+    memory.calc_force(y.tail(states), force);
+    memory.calc_rate(y.tail(states), y.segment(modes, modes), rate);
+    VectorXd result(2 * modes + states);
+    result << y.segment(modes, modes), mass.solve(force - bodies.stiffness * y.head(modes)), rate;
+    return result;
+  };
+  VectorXd y = VectorXd::Zero(2 * modes + states);
+  y.head(modes) = bodies.start;
+  FloatingMotion motion{step, {bodies.start}};
+  const auto steps = static_cast<long>(std::ceil(duration / step));
+  for (long k = 0; k < steps; ++k) {
+    const VectorXd first = derivative(y);
+    const VectorXd second = derivative(y + 0.5 * step * first);
+    const VectorXd third = derivative(y + 0.5 * step * second);
+    const VectorXd fourth = derivative(y + step * third);
+    y += step / 6.0 * (first + 2.0 * second + 2.0 * third + fourth);
+    motion.position.emplace_back(y.head(modes));
+  }
+  return motion;
+}
+
 std::vector<Extremum> find_extrema(const FloatingMotion& motion, int mode) {
   std::vector<Extremum> extrema;
   for (std::size_t k = 1; k + 1 < motion.position.size(); ++k) {

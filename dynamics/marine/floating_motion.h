@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/marine/memory_state_space.h"
 #include "dynamics/marine/radiation.h"
 
 namespace blocklift::dynamics {
@@ -29,6 +30,12 @@ FloatingMotion march_directly(const LinearFloatation& bodies, DirectRadiation& w
 FloatingMotion march_with_database(const LinearFloatation& bodies,
                                    const HydrodynamicDatabase& database, double step,
                                    double duration, const std::optional<RegularWave>& wave = {});
+
+/// Marches Cummins' equation with its memory as a state space; Runge-Kutta of order 4, any step.
+/// `infinite_added_mass` is the database's A_inf.
+FloatingMotion march_with_state_space(const LinearFloatation& bodies,
+                                      const Eigen::MatrixXd& infinite_added_mass,
+                                      const MemoryStateSpace& memory, double step, double duration);
 
 /// A maximum or minimum of one coordinate of a motion.
 struct Extremum {

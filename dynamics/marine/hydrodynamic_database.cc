@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/incident_wave.h"
@@ -38,6 +39,26 @@ void check(const DatabaseSettings& settings) {
                        std::to_string(w) + " rad/s: frequencies must be positive and ascend");
     }
   }
+}
+
+/// The panels that the shortest wave reaches must be short against it.
+void check_panel_size(const PanelModel& model, double highest_frequency) {
+  const double length = 2.0 * std::numbers::pi / calc_wave_number(highest_frequency, model.water());
+  const Panel* widest = nullptr;
+  for (const Panel& panel : model.body_mesh().panels) {
+    double top = panel.vertices[0].z();
+    for (const Vector3& vertex : panel.vertices) top = std::max(top, vertex.z());
+    if (top < -0.25 * length) continue;
+    if (widest == nullptr || panel.diameter() > widest->diameter()) widest = &panel;
+  }
+  if (widest == nullptr || widest->diameter() <= length / 3.0) return;
+  std::ostringstream message;
+  message << "at " << highest_frequency << " rad/s waves are " << length
+          << " m long, but a panel near the surface, at (" << widest->centroid.transpose()
+          << ") m, is " << widest->diameter()
+          << " m across: at least three must go into a wave; leave out the highest frequencies, or "
+             "take more panels";
+  throw ModelError(message.str());
 }
 
 /// The share of one part in the database: its impulse run and what follows from it.
@@ -200,6 +221,7 @@ HydrodynamicDatabase make_empty(const PanelModel& model, const DatabaseSettings&
 HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSettings& settings,
                                       DatabaseReport* report) {
   check(settings);
+  check_panel_size(model, settings.frequencies.back());
   if (model.surface_mesh().size() == 0) {
     throw ModelError("no body reaches the surface: without a surface mesh there are no waves");
   }

@@ -72,8 +72,8 @@ struct DatabaseReport {
 /// march's own dispersion into account, w_d = (2/dt) asin(w dt/2), so that A, B and X carry no error
 /// of the time step but in the damping zone. Diffraction by Haskind's relation from the radiation
 /// potentials, so that any number of headings costs next to nothing.
-/// @throws ModelError if a frequency is not positive, or so high that the surface mesh cannot carry
-/// it; SimulationError if the memory does not suffice.
+/// @throws ModelError if a frequency is not positive, or its wave shorter than three panels;
+/// SimulationError if the memory does not suffice.
 HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSettings& settings,
                                       DatabaseReport* report = nullptr);
 

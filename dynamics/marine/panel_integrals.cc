@@ -165,7 +165,9 @@ template <int vertex_count, PanelIntegral integral>
   constexpr bool with_dipole = integral == PanelIntegral::dipole || integral == PanelIntegral::both;
   constexpr bool with_angle = integral != PanelIntegral::coplanar_source;
   const Matrix3& R = panel.R_PW;
+#ifndef __clang__
 #pragma GCC ivdep
+#endif
   for (std::size_t i = 0; i < count; ++i) {
     const double dx = point_x[i] - panel.origin.x();
     const double dy = point_y[i] - panel.origin.y();

@@ -303,6 +303,26 @@ TEST(FreeDecay, ConvolutionDoesNotDependOnTheStep) {
   EXPECT_LT(last, 1e-4);
 }
 
+// A state space in place of the convolution: the same decay to the tolerance of the fit.
+TEST(FreeDecay, StateSpaceAgreesWithTheConvolution) {
+  const Sphere sphere = make_sphere(5.0, {32, 12, 0.06}, {1000.0, 9.81}, -2.0);
+  DatabaseSettings settings;
+  settings.frequencies = {0.5, 2.5};
+  settings.damping_strength = 0.35;
+  settings.duration = 30.0;
+  const HydrodynamicDatabase database = compute_database(sphere.model, settings);
+  const MemoryStateSpace memory(database, 0.01);
+  std::printf("%d states for 6 modes, error %.2e\n", memory.state_count(), memory.error());
+  const LinearFloatation bodies = task_10();
+  const FloatingMotion convolved = march_with_database(bodies, database, 0.05, 10.0);
+  const FloatingMotion fitted =
+      march_with_state_space(bodies, database.infinite_added_mass, memory, 0.05, 10.0);
+  for (std::size_t k = 0; k < fitted.position.size(); ++k) {
+    EXPECT_NEAR(fitted.position[k][heave], convolved.position[k][heave], 0.01);
+  }
+  EXPECT_LT(memory.state_count(), 60);
+}
+
 // A regular wave on the moored sphere: direct march and database, after the start has died out.
 TEST(RegularWave, DirectMarchAndDatabaseAgree) {
   LinearFloatation bodies = task_10();

@@ -7,13 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/floating_motion.h"
 #include "dynamics/marine/frequency_domain.h"
+#include "dynamics/marine/hydrodynamic_database.h"
 #include "dynamics/marine/panel_shapes.h"
 
 namespace blocklift::dynamics {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -135,57 +136,13 @@ TEST(HydrodynamicDatabase, RefusesFrequenciesOutOfOrder) {
               ThrowsMessage<ModelError>(HasSubstr("must be positive and ascend")));
 }
 
-/// K(t) = exp(-t) cos 2t for one degree of freedom, finely sampled.
-HydrodynamicDatabase analytic_memory(double step) {
-  HydrodynamicDatabase database;
-  database.time_step = step;
-  for (int n = 0; n * step < 40.0; ++n) {
-    const double t = n * step;
-    database.retardation.push_back(
-        Eigen::MatrixXd::Constant(1, 1, std::exp(-t * t / 4) * std::cos(2 * t)));
-  }
-  return database;
-}
-
-// Motion v = sin t from rest: recorded at even and uneven instants, the force is the same to the
-// fourth order of the instants' distance.
-TEST(MemoryConvolution, DoesNotDependOnTheStep) {
-  const HydrodynamicDatabase database = analytic_memory(0.02);
-  const auto force_with = [&](double step, double unevenness) {
-    MemoryConvolution memory(database);
-    const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value).eval(); };
-    memory.start(0.0, one(0.0), one(1.0));
-    double t = 0.0;
-    for (int k = 0; t + 2.0 * step < 9.5; ++k) {
-      t += step * (1.0 + unevenness * std::sin(3.0 * k));
-      memory.record(t, one(std::sin(t)), one(std::cos(t)));
-    }
-    Eigen::VectorXd force(1);
-    memory.calc_force(9.5, one(std::sin(9.5)), force);
-    return force[0];
-  };
-  // Reference: Simpson's rule on the product.
-  double exact = 0.0;
-  constexpr int n = 20000;
-  for (int k = 0; k <= n; ++k) {
-    const double tau = 9.5 * k / n;
-    const double weight = k == 0 || k == n ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
-    exact -= weight * 9.5 / (3.0 * n) * std::exp(-tau * tau / 4) * std::cos(2 * tau) *
-             std::sin(9.5 - tau);
-  }
-  const double coarse = std::abs(force_with(0.4, 0.0) - exact),
-               fine = std::abs(force_with(0.1, 0.0) - exact);
-  EXPECT_LT(coarse, 5e-3);
-  EXPECT_LT(fine, 1e-3);
-  EXPECT_NEAR(force_with(0.1, 0.5), force_with(0.05, 0.0), 1e-4);
-}
-
-TEST(MemoryConvolution, RefusesToGoBack) {
-  MemoryConvolution memory(analytic_memory(0.05));
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(1);
-  memory.start(1.0, zero, zero);
-  EXPECT_THAT([&] { memory.record(0.5, zero, zero); },
-              ThrowsMessage<ModelError>(HasSubstr("does not follow")));
+TEST(HydrodynamicDatabase, RefusesWavesTooShortForThePanels) {
+  const PanelModel model = make_sphere_model({true, true});
+  DatabaseSettings settings = short_settings();
+  settings.frequencies = {0.6, 5.0};  // a wave of 2 pi/25 m
+  EXPECT_THAT([&] { compute_database(model, settings); },
+              ThrowsMessage<ModelError>(AllOf(HasSubstr("waves are 0.251327 m long"),
+                                              HasSubstr("at least three must go into a wave"))));
 }
 
 }  // namespace

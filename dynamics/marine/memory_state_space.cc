@@ -1,0 +1,239 @@
+#include "dynamics/marine/memory_state_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Rows of the Hankel matrix at most: its eigenvectors cost the cube of them.
+constexpr Eigen::Index most_rows = 1200;
+
+/// Modes weaker than this share of the strongest of their kind are not measured by their own peak.
+constexpr double least_share = 1e-3;
+
+/// Retardation functions with each mode divided by the root of its peak.
+struct ScaledSamples {
+  std::vector<MatrixXd> K;
+  VectorXd scale;  ///< root of the peak of K_ii, or of the least share of the strongest
+  double step;     ///< s
+};
+
+ScaledSamples scale_samples(const HydrodynamicDatabase& database) {
+  ScaledSamples samples;
+  samples.step = database.time_step;
+  const Eigen::Index modes = database.retardation[0].rows();
+  VectorXd peak = VectorXd::Zero(modes);
+  for (const MatrixXd& K : database.retardation) peak = peak.cwiseMax(K.diagonal().cwiseAbs());
+  // A mode that makes next to no waves (the yaw of a round body) is measured by the strongest mode of
+  // its kind: its memory is felt by nobody, and may be mere noise of the panels.
+  samples.scale.resize(modes);
+  for (Eigen::Index i = 0; i < modes; ++i) {
+    double strongest = 0.0;
+    for (Eigen::Index j = 0; j < modes; ++j) {
+      const bool same_kind = (i % modes_per_body < 3) == (j % modes_per_body < 3);
+      if (same_kind) strongest = std::max(strongest, peak[j]);
+    }
+    samples.scale[i] = std::sqrt(std::max(peak[i], least_share * strongest));
+  }
+  const VectorXd inverse = (samples.scale.array() > 0.0).select(samples.scale.cwiseInverse(), 0.0);
+  for (const MatrixXd& K : database.retardation) {
+    samples.K.push_back(inverse.asDiagonal() * K * inverse.asDiagonal());
+  }
+  return samples;
+}
+
+/// Largest difference between the samples and C exp(A t) B, stepping through the samples.
+double largest_error(const ScaledSamples& samples, const MatrixXd& A, const MatrixXd& B,
+                     const MatrixXd& C) {
+  // A is block-diagonal: its exponential over a step by blocks of one or two rows.
+  MatrixXd advance = MatrixXd::Zero(A.rows(), A.cols());
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const double decay = std::exp(A(i, i) * samples.step);
+    const bool pair = i + 1 < A.rows() && A(i, i + 1) != 0.0;
+    if (!pair) {
+      advance(i, i) = decay;
+      continue;
+    }
+    const double angle = A(i, i + 1) * samples.step;
+    advance.block<2, 2>(i, i) << decay * std::cos(angle), decay * std::sin(angle),
+        -decay * std::sin(angle), decay * std::cos(angle);
+    ++i;
+  }
+  double error = 0.0;
+  MatrixXd state = B;
+  for (const MatrixXd& K : samples.K) {
+    error = std::max(error, (K - C * state).cwiseAbs().maxCoeff());
+    state = (advance * state).eval();
+  }
+  return error;
+}
+
+}  // namespace
+
+/// Balanced discrete-time system of the leading states, all that the Hankel matrix gives.
+struct MemoryStateSpace::Realisation {
+  MatrixXd advance;  ///< V^T H1 V, before scaling
+  MatrixXd vectors;  ///< leading eigenvectors, columns by falling size of their eigenvalues
+  VectorXd values;   ///< eigenvalues
+  Eigen::Index modes = 0;
+};
+
+MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double tolerance,
+                                   int most_states) {
+  if (database.retardation.size() < 16) {
+    throw ModelError(
+        "a state space needs retardation functions at 16 instants at least; the "
+        "database holds " +
+        std::to_string(database.retardation.size()));
+  }
+  const ScaledSamples samples = scale_samples(database);
+  const Eigen::Index modes = samples.scale.size();
+  const auto count = static_cast<Eigen::Index>(samples.K.size());
+  // Every stride-th sample. K is taken as zero behind its end: with all of it in the matrix the leading
+  // states of a finite response form a stable system, however few are taken (Kung 1978).
+  const Eigen::Index stride =
+      std::max<Eigen::Index>(1, (count * modes + most_rows - 1) / most_rows);
+  const Eigen::Index rows = (count + stride - 1) / stride;
+  const MatrixXd nothing = MatrixXd::Zero(modes, modes);
+  const auto sample = [&](Eigen::Index k) -> const MatrixXd& {
+    return k * stride < count ? samples.K[static_cast<std::size_t>(k * stride)] : nothing;
+  };
+  MatrixXd hankel(rows * modes, rows * modes), shifted = hankel;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index j = 0; j < rows; ++j) {
+      hankel.block(i * modes, j * modes, modes, modes) = sample(i + j);
+      shifted.block(i * modes, j * modes, modes, modes) = sample(i + j + 1);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(hankel);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(hankel.rows()));
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
+  const VectorXd& values = eigen.eigenvalues();
+  std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return std::abs(values[a]) > std::abs(values[b]);
+  });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(most_states)));
+  Realisation realisation;
+  realisation.modes = modes;
+  realisation.vectors = eigen.eigenvectors()(Eigen::all, order);
+  realisation.values = values(order);
+  realisation.advance = realisation.vectors.transpose() * shifted * realisation.vectors;
+
+  const double step = samples.step * static_cast<double>(stride);
+  const VectorXd unscaled = VectorXd::Ones(modes);
+  double best = std::numeric_limits<double>::infinity();
+  const auto most = static_cast<Eigen::Index>(order.size());
+  for (Eigen::Index states = 2; states <= most; states += std::max<Eigen::Index>(1, states / 8)) {
+    take_modal_form(realisation, states, step, unscaled);
+    const double error = largest_error(samples, A_, B_, C_);
+    best = std::min(best, error);
+    if (!(error <= tolerance)) continue;
+    error_ = error;
+    C_ = (samples.scale.asDiagonal() * C_).eval();
+    B_ = (B_ * samples.scale.asDiagonal()).eval();
+    return;
+  }
+  throw ModelError("no state space of up to " + std::to_string(most_states) +
+                   " states meets the tolerance " + std::to_string(tolerance) +
+                   " of the retardation functions; the best came to " + std::to_string(best));
+}
+
+/// Continuous-time system of the leading states in real modal form.
+void MemoryStateSpace::take_modal_form(const Realisation& realisation, Eigen::Index states,
+                                       double step, const VectorXd& scale) {
+  const Eigen::Index modes = realisation.modes;
+  // H0 = V D V^T = (V |D|^1/2) (sign |D|^1/2 V^T): observability times controllability.
+  const VectorXd root = realisation.values.head(states).cwiseAbs().cwiseSqrt();
+  const VectorXd sign = realisation.values.head(states).array().sign();
+  const VectorXd inverse = root.cwiseInverse();
+  const MatrixXd discrete = inverse.asDiagonal() *
+                            realisation.advance.topLeftCorner(states, states) *
+                            (inverse.array() * sign.array()).matrix().asDiagonal();
+  const MatrixXd first = realisation.vectors.topLeftCorner(modes, states);
+  const MatrixXd output = scale.asDiagonal() * first * root.asDiagonal();
+  const MatrixXd input =
+      (sign.array() * root.array()).matrix().asDiagonal() * first.transpose() * scale.asDiagonal();
+
+  const Eigen::EigenSolver<MatrixXd> eigen(discrete);
+  const MatrixXcd vectors = eigen.eigenvectors();
+  const MatrixXcd modal_input = vectors.partialPivLu().solve(input.cast<Complex>());
+  const MatrixXcd modal_output = output.cast<Complex>() * vectors;
+  std::vector<Eigen::Index> kept;
+  Eigen::Index size = 0;
+  for (Eigen::Index k = 0; k < states; ++k) {
+    const Complex pole = eigen.eigenvalues()[k];
+    // One of each pair; poles that grow, or on the negative axis, belong to noise.
+    if (pole.imag() < 0.0 || std::abs(pole) >= 1.0 || std::abs(pole) < 1e-8) continue;
+    if (pole.imag() == 0.0 && pole.real() <= 0.0) continue;
+    kept.push_back(k);
+    size += pole.imag() > 0.0 ? 2 : 1;
+  }
+  A_ = MatrixXd::Zero(size, size);
+  B_ = MatrixXd::Zero(size, modes);
+  C_ = MatrixXd::Zero(modes, size);
+  Eigen::Index row = 0;
+  for (const Eigen::Index k : kept) {
+    const Complex rate = std::log(eigen.eigenvalues()[k]) / step;
+    if (rate.imag() == 0.0) {
+      A_(row, row) = rate.real();
+      B_.row(row) = modal_input.row(k).real();
+      C_.col(row) = modal_output.col(k).real();
+      ++row;
+      continue;
+    }
+    // c z + conj(c z) with z' = rate z + b v, z = x1 - i x2... in real numbers: x = (Re z, -Im z).
+    A_.block<2, 2>(row, row) << rate.real(), rate.imag(), -rate.imag(), rate.real();
+    B_.row(row) = modal_input.row(k).real();
+    B_.row(row + 1) = -modal_input.row(k).imag();
+    C_.col(row) = 2.0 * modal_output.col(k).real();
+    C_.col(row + 1) = 2.0 * modal_output.col(k).imag();
+    row += 2;
+  }
+}
+
+MatrixXd MemoryStateSpace::calc_retardation(double time) const {
+  MatrixXd state = B_;
+  for (Eigen::Index i = 0; i < A_.rows(); ++i) {
+    const double decay = std::exp(A_(i, i) * time);
+    const bool pair = i + 1 < A_.rows() && A_(i, i + 1) != 0.0;
+    if (!pair) {
+      state.row(i) *= decay;
+      continue;
+    }
+    const double c = decay * std::cos(A_(i, i + 1) * time);
+    const double s = decay * std::sin(A_(i, i + 1) * time);
+    const Eigen::RowVectorXd upper = c * state.row(i) + s * state.row(i + 1);
+    state.row(i + 1) = (-s * state.row(i) + c * state.row(i + 1)).eval();
+    state.row(i) = upper;
+    ++i;
+  }
+  return C_ * state;
+}
+
+void MemoryStateSpace::calc_rate(const VectorXd& x, const VectorXd& v, VectorXd& rate) const {
+  rate.noalias() = B_ * v;
+  for (Eigen::Index i = 0; i < A_.rows(); ++i) {
+    rate[i] += A_(i, i) * x[i];
+    const bool pair = i + 1 < A_.rows() && A_(i, i + 1) != 0.0;
+    if (!pair) continue;
+    rate[i] += A_(i, i + 1) * x[i + 1];
+    rate[i + 1] += A_(i + 1, i) * x[i] + A_(i + 1, i + 1) * x[i + 1];
+    ++i;
+  }
+}
+
+void MemoryStateSpace::calc_force(const VectorXd& x, VectorXd& force) const {
+  force.noalias() = -(C_ * x);
+}
+
+}  // namespace blocklift::dynamics
