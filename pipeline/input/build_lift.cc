@@ -203,24 +203,14 @@ class LiftBuilder {
     if (!case_.wind) return;
     const dynamics::Wind wind =
         dynamics::Wind::level(case_.wind->speed, case_.wind->towards, case_.wind->air_density);
-    auto& areas = std::get<std::vector<dynamics::WindArea>>(elements_);
     const auto add = [&](const std::string& body, const WindAreaModel& area) {
-      dynamics::WindArea::Definition definition;
-      definition.name = fmt::format("wind on {} {}", body, areas.size() + 1);
-      definition.centre_of_pressure = {body_of_.at(body), area.centre};
-      definition.area = area.area;
-      definition.coefficient = area.coefficient;
-      definition.normal_B = area.normal;
-      areas.emplace_back(wind, std::move(definition));
+      add_wind_area(body, body_of_.at(body), area, wind, elements_);
     };
-    for (const CraneInCase& crane : case_.cranes) {
-      const std::string prefix = crane.name.value + ".";
-      for (const BodyModel& body : crane.model->bodies) {
-        for (const WindAreaModel& area : body.wind_areas) add(prefix + body.name.value, area);
-      }
-      for (const HoistModel& hoist : crane.model->hoists) {
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) {
+      crane_parts_[i].add_wind_areas(wind, elements_);
+      for (const HoistModel& hoist : case_.cranes[i].model->hoists) {
         if (hoist.hook_block.wind_area == 0) continue;
-        add(prefix + hoist.name.value,
+        add(case_.cranes[i].name.value + "." + hoist.name.value,
             {hoist.hook_block.wind_area, hoist.hook_block.wind_coefficient, std::nullopt,
              Vector3::Zero()});
       }

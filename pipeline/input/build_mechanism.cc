@@ -107,6 +107,11 @@ class MechanismAssembler {
 
   void set_loads(const dynamics::Mechanism& mechanism) {
     parts_.add_springs(mechanism, elements_);
+    if (file_.wind) {
+      parts_.add_wind_areas(
+          dynamics::Wind::level(file_.wind->speed, file_.wind->towards, file_.wind->air_density),
+          elements_);
+    }
     for (const ForceModel& model : file_.forces) {
       LoadTable force = load_table(model.force, model.force_table);
       LoadTable moment = load_table(model.moment, model.moment_table);

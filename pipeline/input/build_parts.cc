@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "dynamics/errors.h"
 
 namespace blocklift::pipeline {
@@ -66,6 +68,27 @@ void PartsBuilder::add_body(dynamics::MechanismBuilder& builder, const JointMode
     freedom.body = index;
     driven_.push_back(freedom);
   }
+}
+
+void PartsBuilder::add_wind_areas(const dynamics::Wind& wind,
+                                  dynamics::ForceElements& elements) const {
+  for (const BodyModel& model : parts_.bodies) {
+    for (const WindAreaModel& area : model.wind_areas) {
+      add_wind_area(prefix_ + model.name.value, body(model.name.value), area, wind, elements);
+    }
+  }
+}
+
+void add_wind_area(const std::string& body_name, BodyIndex body, const WindAreaModel& area,
+                   const dynamics::Wind& wind, dynamics::ForceElements& elements) {
+  auto& areas = std::get<std::vector<dynamics::WindArea>>(elements);
+  dynamics::WindArea::Definition definition;
+  definition.name = fmt::format("wind on {} {}", body_name, areas.size() + 1);
+  definition.centre_of_pressure = {body, area.centre};
+  definition.area = area.area;
+  definition.coefficient = area.coefficient;
+  definition.normal_B = area.normal;
+  areas.emplace_back(wind, std::move(definition));
 }
 
 BodyIndex PartsBuilder::body(const std::string& name) const {

@@ -34,6 +34,9 @@ class PartsBuilder {
   /// Adds all springs. @throws dynamics::ModelError as the elements do.
   void add_springs(const dynamics::Mechanism& mechanism, dynamics::ForceElements& elements) const;
 
+  /// Adds the wind areas of all bodies.
+  void add_wind_areas(const dynamics::Wind& wind, dynamics::ForceElements& elements) const;
+
   /// A body of the parts, or the world.
   dynamics::BodyIndex body(const std::string& name) const;
   /// The body that a joint carries.
@@ -60,5 +63,10 @@ class PartsBuilder {
   std::vector<const BodyModel*> added_;
   std::vector<DrivenFreedom> driven_;
 };
+
+/// Adds a wind area of a body, which is named for messages.
+void add_wind_area(const std::string& body_name, dynamics::BodyIndex body,
+                   const WindAreaModel& area, const dynamics::Wind& wind,
+                   dynamics::ForceElements& elements);
 
 }  // namespace blocklift::pipeline

@@ -199,6 +199,9 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
 /// A stage of an operation; shared with mechanism files.
 Format<StageInCase> stage_format();
 
+/// Constant wind; shared with mechanism files.
+Format<WindInCase> wind_format();
+
 /// The format of a case file, without the look-up of models.
 Format<LiftCase> lift_case_format();
 

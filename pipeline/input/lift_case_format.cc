@@ -76,20 +76,6 @@ Format<SupportInCase> support_format() {
   return table.format();
 }
 
-Format<WindInCase> wind_format() {
-  Table<WindInCase> table("wind",
-                          "Wind that is the same everywhere and at all times; it acts on "
-                          "the wind areas of bodies.");
-  table
-      .required("speed", &WindInCase::speed, quantity(Dimension::speed, Range::not_negative()),
-                "of the air")
-      .required("towards", &WindInCase::towards, quantity(Dimension::angle),
-                "where it blows to, from +x towards +y")
-      .by_default("air_density", &WindInCase::air_density,
-                  quantity(Dimension::density, Range::positive()), "1.25 kg/m^3", "of the air");
-  return table.format();
-}
-
 Format<MoveInCase> move_format() {
   const auto limit = [](Dimension linear, Dimension angular) {
     return quantity_of({linear, angular}, Range::positive());
@@ -260,6 +246,20 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                 "of what the rope is fastened to, in series with it; rigid if left out")
       .optional("winch", &RopeInCase::winch, winch_format(),
                 "of its own: then the rope is moved by its name, like a hoist");
+  return table.format();
+}
+
+Format<WindInCase> wind_format() {
+  Table<WindInCase> table("wind",
+                          "Wind that is the same everywhere and at all times; it acts on "
+                          "the wind areas of bodies.");
+  table
+      .required("speed", &WindInCase::speed, quantity(Dimension::speed, Range::not_negative()),
+                "of the air")
+      .required("towards", &WindInCase::towards, quantity(Dimension::angle),
+                "where it blows to, from +x towards +y")
+      .by_default("air_density", &WindInCase::air_density,
+                  quantity(Dimension::density, Range::positive()), "1.25 kg/m^3", "of the air");
   return table.format();
 }
 

@@ -80,6 +80,7 @@ struct MechanismFile : MechanismParts {
   std::optional<Located<std::string>> urdf;
   std::vector<RopeInCase> ropes;
   std::vector<ForceModel> forces;
+  std::optional<WindInCase> wind;
   std::vector<StageInCase> operation;
   InitialState initial;
   SimulationSettings simulate;

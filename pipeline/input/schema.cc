@@ -219,7 +219,10 @@ std::string markdown_manual(const std::string& kind) {
       "# Input files\n\n"
       "All input files are YAML. A number that measures something is written with its unit "
       "(`860 t`, `12 m`, `3 m/min`, `45 deg`); units are those of UDUNITS-2, and `t` is the tonne "
-      "of 1000 kg. Names have letters, digits, `_` and `-`. Unknown keys are errors.\n\n";
+      "of 1000 kg. Names have letters, digits, `_` and `-`. Unknown keys are errors. "
+      "In place of a quantity or number an expression may stand behind an equals sign, of "
+      "parameters "
+      "where the file has them: `= 2 * arm + 30 cm`.\n\n";
   for (const FileKind& file_kind : chosen_kinds(kind)) describe_table(*file_kind.table, 2, manual);
   return manual;
 }

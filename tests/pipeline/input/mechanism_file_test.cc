@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/simulation/time_integration.h"
+#include "pipeline/input/build_lift.h"
 #include "pipeline/input/build_mechanism.h"
 #include "tests/pipeline/input/sample_lift.h"
 
@@ -26,7 +27,7 @@ parameters:
 bodies:
   crank: {mass: 2 kg, radii_of_gyration: [1 m, 1 m, 1 m]}
   rod: {mass: 3 kg, centre_of_mass: [= rod / 2, 0 m, 0 m], radii_of_gyration: [0.1 m, 1 m, 1 m]}
-  slider: {mass: 1 kg, radii_of_gyration: [1 m, 1 m, 1 m]}
+  slider: {mass: 1 kg, radii_of_gyration: [1 m, 1 m, 1 m], wind_areas: [{area: 2 m^2}]}
 joints:
   shaft: {kind: revolute, child: crank}
   pin: {kind: revolute, parent: crank, child: rod, position: [= crank, 0 m, 0 m]}
@@ -41,6 +42,7 @@ ropes:
 forces:
   push: {body: slider, force_table: [[0 s, [0 N, 0 N, 0 N]], [1 s, [5 N, 0 N, 0 N]]]}
   motor: {joint: shaft, moment: 4 N m}
+wind: {speed: 4 m/s, towards: 0 deg}
 initial:
   positions: {shaft: 30 deg, pin: -40 deg, guide: 3.8 m}
   velocities: {shaft: 1 rad/s}
@@ -90,6 +92,7 @@ TEST(MechanismFile, BuildsWhatTheFileSays) {
   EXPECT_EQ(system.ropes().size(), 1U);
   EXPECT_EQ(std::get<std::vector<dynamics::PointSpring>>(system.elements()).size(), 1U);
   EXPECT_EQ(std::get<std::vector<dynamics::JointSpring>>(system.elements()).size(), 1U);
+  EXPECT_EQ(std::get<std::vector<dynamics::WindArea>>(system.elements()).size(), 1U);
   EXPECT_EQ(std::get<std::vector<dynamics::AppliedLoad>>(system.elements()).size(), 1U);
   EXPECT_EQ(std::get<std::vector<dynamics::JointLoad>>(system.elements()).size(), 1U);
   // The rough start is closed: x = cos a + sqrt(9 - sin^2 a).
@@ -362,6 +365,46 @@ TEST(CraneParameters, ComeFromTheCase) {
                         "    its parameters are height, trolley_mass; did you mean \"height\"?"));
   EXPECT_THAT(complaints("{height: 11 t}"),
               HasSubstr("the parameter height is given as a mass, where the model has a length"));
+}
+
+TEST(CraneParts, MayHaveSpringsWhoseWorldIsTheCranesBase) {
+  test::SampleLift lift;
+  lift.crane = with(lift.crane, "drives:\n",
+                    "springs:\n  buffer: {kind: point, from: {body: trolley}, to: {body: world, "
+                    "position: [1 m, 0 m, 0 m]}, "
+                    "stiffness: 1 kN/m, free_length: 1 m}\ndrives:\n");
+  lift.lift_case = with(lift.lift_case, "    model: gantry\n",
+                        "    model: gantry\n    position: [7 m, 0 m, 0 m]\n");
+  const TemporaryFolder folder;
+  lift.write(folder);
+  const BuiltLift built = build_lift(
+      read_lift_case("."), {1e4, Vector3(2, 0, 0.5), Eigen::Vector3d(1e4, 1e4, 1e4).asDiagonal()});
+  const auto& springs = std::get<std::vector<dynamics::PointSpring>>(built.system.elements());
+  ASSERT_EQ(springs.size(), 1U);
+  EXPECT_EQ(springs[0].name(), "C1.buffer");
+  EXPECT_EQ(springs[0].definition().to.body, dynamics::world_index);
+  EXPECT_EQ(springs[0].definition().to.p_BoQ_B, Vector3(8, 0, 0));
+  EXPECT_EQ(built.system.mechanism().body(springs[0].definition().from.body).name, "C1.trolley");
+}
+
+TEST(CraneParts, LoopsAreReadAndRefusedInALift) {
+  test::SampleLift lift;
+  lift.crane = with(
+      lift.crane, "drives:\n",
+      "loops:\n  rod: {kind: distance, first: {body: trolley}, second: {body: wrld}}\ndrives:\n");
+  const auto complaints = [&] {
+    const TemporaryFolder folder;
+    lift.write(folder);
+    Diagnostics diagnostics;
+    ModelLibrary library({});
+    EXPECT_FALSE(read_lift_case("case.yaml", library, diagnostics));
+    return diagnostics.to_text();
+  };
+  EXPECT_THAT(complaints(),
+              HasSubstr("loop rod names body \"wrld\", which the crane does not have\n"
+                        "    its bodies are gantry, trolley, world; did you mean \"world\"?"));
+  lift.crane = with(lift.crane, "wrld", "world");
+  EXPECT_THAT(complaints(), HasSubstr("crane C1 has loops, and the equilibrium"));
 }
 
 }  // namespace
