@@ -47,7 +47,7 @@ std::vector<std::string> velocity_names(JointKind kind) {
 }
 
 std::vector<OutputColumn> coordinate_columns(JointKind kind) {
-  const std::vector<OutputColumn> quaternion = {{"w", "1"}, {"x", "1"}, {"y", "1"}, {"z", "1"}};
+  std::vector<OutputColumn> quaternion = {{"w", "1"}, {"x", "1"}, {"y", "1"}, {"z", "1"}};
   if (kind == JointKind::spherical) return quaternion;
   if (kind == JointKind::free) {
     std::vector<OutputColumn> columns = columns_of(xyz, "m");
@@ -75,7 +75,7 @@ std::vector<OutputColumn> velocity_columns(JointKind kind, const char* angular,
 }
 
 Eigen::VectorXd energy_series(const std::string& kind, const dynamics::EnergyHistory& e) {
-  const Eigen::VectorXd total = e.kinetic + e.gravity + e.elastic;
+  Eigen::VectorXd total = e.kinetic + e.gravity + e.elastic;
   if (kind == "total") return total;
   if (kind == "kinetic") return e.kinetic;
   if (kind == "gravity") return e.gravity;
