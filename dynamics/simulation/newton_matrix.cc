@@ -27,7 +27,8 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
     const Link& link = m.links()[i];
     const bool rates = velocities_are_rates(link.kind);
     for (int k = 0; rates && k < link.nv; ++k) {
-      if (m.driven()[static_cast<std::size_t>(link.v_offset + k)]) continue;
+      const int velocity = link.v_offset + k;
+      if (m.driven()[static_cast<std::size_t>(velocity)]) continue;
       plain_q_.push_back(place(m.free_coordinates(), link.q_offset + k));
       plain_v_.push_back(place(m.free_velocities(), link.v_offset + k));
     }

@@ -72,6 +72,27 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   }
 }
 
+/// The load's own slow motions at the start, and what the integration cost.
+void print_motion(const LiftRun& lift) {
+  if (!lift.natural_modes.empty()) {
+    fmt::print("\nnatural periods at the start:");
+    int listed = 0;
+    for (const dynamics::Mode& mode : lift.natural_modes.front().linearisation.modes) {
+      if (listed == 3) break;
+      if (mode.kind == dynamics::ModeKind::oscillating) {
+        fmt::print("{} {} {:.3g} s", listed++ > 0 ? "," : "", mode.name, mode.period());
+      } else {
+        fmt::print("{} {} ({})", listed++ > 0 ? "," : "", mode.name,
+                   dynamics::mode_kind_name(mode.kind));
+      }
+    }
+    fmt::print("\n");
+  }
+  const dynamics::IntegrationStatistics& cost = lift.dynamic_result.statistics;
+  fmt::print("time integration: {} steps, {} right-hand sides, {} Jacobians\n", cost.steps,
+             cost.right_hand_sides, cost.jacobians);
+}
+
 void print_block(const BlockAssessment& block, const HistoryAssessment* history) {
   const auto print_way = [](const char* name, const LoadComparison& way) {
     fmt::print("{:<28}{:>8.1f}{:>8.1f} MPa ({:+.1f} %){:>8.1f}{:>8.1f} mm ({:+.1f} %)\n", name,
@@ -133,7 +154,10 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   line.finish();
 
   fmt::print("{}\n", assessment.lift_case.title);
-  if (assessment.lift) print_loads(*assessment.lift, assessment.lift_case);
+  if (assessment.lift) {
+    print_loads(*assessment.lift, assessment.lift_case);
+    print_motion(*assessment.lift);
+  }
   print_block(assessment.block.assessment,
               assessment.block.history ? &*assessment.block.history : nullptr);
   print_checks(assessment);

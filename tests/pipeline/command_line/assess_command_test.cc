@@ -55,6 +55,8 @@ TEST_F(AssessCommand, WritesResultsAndSaysWhereTheReportIs) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");  // no progress bar where nobody watches
   EXPECT_THAT(outcome.out, HasSubstr("verdict: pass\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("natural periods at the start: load: pendulum along "));
+  EXPECT_THAT(outcome.out, HasSubstr(" Jacobians\n"));
   EXPECT_TRUE(outcome.out.ends_with("\nreport: results/small-lift/report.html\n")) << outcome.out;
   for (const char* file :
        {"results.h5", "summary.json", "report.html", "block-static.vtu", "block-dynamic.vtu"})
