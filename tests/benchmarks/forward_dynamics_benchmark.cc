@@ -1,94 +1,84 @@
-// Forward dynamics, kinematics included: one evaluation of vdot from q, v and tau.
-// Chains of 10 to 100 revolute joints and a floating base with five arms of six.
-#include <random>
+// Forward dynamics, kinematics included: one evaluation of the accelerations from q, v and tau, beside Simbody,
+// MuJoCo, DART and Orocos KDL where they are installed. Chains of 10 to 100 revolute joints and a floating base
+// with five arms of six. All must give the same accelerations before anything is timed.
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 
-#include <benchmark/benchmark.h>
+#include "tests/benchmarks/peers/models.h"
+#include "tests/benchmarks/peers/modules.h"
+#include "tests/benchmarks/peers/ratio_report.h"
 
-#include "dynamics/multibody/forward_dynamics.h"
+namespace blocklift::peers {
 
-namespace blocklift::dynamics {
 namespace {
 
-// Joints alternately about z and y, 1 kg, 1 m.
-BodyDefinition link(int number, const std::string& parent, const Vector3& place) {
-  BodyDefinition body;
-  body.name = parent + "." + std::to_string(number);
-  body.parent = parent;
-  body.joint = {JointKind::revolute, number % 2 == 0 ? Vector3::UnitZ() : Vector3::UnitY()};
-  body.X_PJ = Pose::translation(place);
-  body.mass = 1;
-  body.p_BoBcm_B = {0.5, 0.03, -0.02};
-  body.I_BBcm_B << 0.02, 0.002, -0.001,  //
-      0.002, 0.09, 0.003,                //
-      -0.001, 0.003, 0.085;
-  return body;
-}
-
-void add_chain(MechanismBuilder& builder, int count, std::string parent, Vector3 place) {
-  for (int i = 0; i < count; ++i) {
-    const BodyDefinition body = link(i, parent, place);
-    builder.add_body(body);
-    parent = body.name;
-    place = Vector3::UnitX();
+// Largest difference over the largest acceleration.
+double difference(const Accelerations& a, const Accelerations& b) {
+  double largest = 0, scale = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+    scale = std::max(scale, std::abs(a[i]));
   }
+  return a.size() == b.size() && std::isfinite(largest) ? largest / scale : INFINITY;
 }
 
-void evaluate(benchmark::State& state, const Mechanism& mechanism) {
-  std::mt19937 engine(1);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto values = [&](int n) {
-    return Eigen::VectorXd::NullaryExpr(n, [&] { return uniform(engine); }).eval();
-  };
-  Eigen::VectorXd q = values(mechanism.nq());
-  mechanism.normalise(q);
-  const Eigen::VectorXd v = values(mechanism.nv());
-  Eigen::VectorXd tau = values(mechanism.nv());
-  Eigen::VectorXd vdot(mechanism.nv());
-  Kinematics kinematics(mechanism);
-  ForwardDynamicsWorkspace workspace(mechanism);
-  const std::vector<ForceVector> none(static_cast<std::size_t>(mechanism.body_count()),
-                                      ForceVector::zero());
-  for (auto _ : state) {
-    compute_kinematics(mechanism, q, v, kinematics);
-    compute_forward_dynamics(mechanism, kinematics, v, none, workspace, tau, vdot);
-    benchmark::DoNotOptimize(vdot.data());
+struct Contest {
+  std::vector<const PeerModule*> modules = load_modules();
+  std::vector<std::unique_ptr<TreeDynamics>> entrants;
+
+  /// Registers a model with every library that can compute it. False if accelerations differ.
+  bool add(const TreeModel& model) {
+    const TreeState state = some_state(model);
+    Accelerations ours;
+    for (const PeerModule* module : modules) {
+      std::unique_ptr<TreeDynamics> tree = module->make_tree(model);
+      if (!tree) continue;
+      tree->set_state(state);
+      tree->evaluate();
+      if (ours.empty()) ours = tree->accelerations();
+      const double off = difference(ours, tree->accelerations());
+      if (off > 1e-9) {
+        std::cerr << "error: " << model.name << ": the accelerations of " << module->name
+                  << " differ from ours by " << off << " of the largest\n";
+        return false;
+      }
+      TreeDynamics* entrant = entrants.emplace_back(std::move(tree)).get();
+      benchmark::RegisterBenchmark((model.name + "/" + module->name).c_str(),
+                                   [entrant](benchmark::State& loop) {
+                                     for (auto _ : loop) {
+                                       entrant->evaluate();
+                                       benchmark::ClobberMemory();
+                                     }
+                                   })
+          ->Unit(benchmark::kMicrosecond);
+    }
+    return true;
   }
-}
-
-void forward_dynamics_chain(benchmark::State& state) {
-  MechanismBuilder builder;
-  add_chain(builder, static_cast<int>(state.range(0)), std::string(world_name), Vector3::Zero());
-  evaluate(state, builder.build());
-}
-BENCHMARK(forward_dynamics_chain)
-    ->Arg(10)
-    ->Arg(20)
-    ->Arg(50)
-    ->Arg(100)
-    ->Unit(benchmark::kMicrosecond);
-
-void forward_dynamics_floating_tree(benchmark::State& state) {
-  MechanismBuilder builder;
-  BodyDefinition base;
-  base.name = "base";
-  base.joint.kind = JointKind::free;
-  base.mass = 10;
-  base.I_BBcm_B = Vector3(1, 1, 1).asDiagonal();
-  builder.add_body(base);
-  for (int arm = 0; arm < 5; ++arm) {
-    BodyDefinition mount;
-    mount.name = "mount" + std::to_string(arm);
-    mount.parent = "base";
-    mount.mass = 0;
-    mount.X_PJ = {rotation_about(Vector3::UnitZ(), 2 * M_PI * arm / 5), Vector3::Zero()};
-    builder.add_body(mount);
-    add_chain(builder, 6, mount.name, 0.3 * Vector3::UnitX());
-  }
-  evaluate(state, builder.build());
-}
-BENCHMARK(forward_dynamics_floating_tree)->Unit(benchmark::kMicrosecond);
+};
 
 }  // namespace
-}  // namespace blocklift::dynamics
 
-BENCHMARK_MAIN();
+int run(int argc, char** argv) {
+  Contest contest;
+  std::cerr << describe(contest.modules);
+  for (const int count : {10, 20, 50, 100}) {
+    if (!contest.add(chain(count))) return 1;
+  }
+  if (!contest.add(floating_tree())) return 1;
+  std::vector<std::string> names;
+  for (const PeerModule* module : contest.modules) names.emplace_back(module->name);
+  RatioReport report(names, "us");
+  return run_side_by_side(argc, argv, report);
+}
+
+}  // namespace blocklift::peers
+
+int main(int argc, char** argv) {
+  try {
+    return blocklift::peers::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    return 1;
+  }
+}

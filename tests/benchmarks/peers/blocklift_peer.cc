@@ -1,0 +1,113 @@
+#include "tests/benchmarks/peers/blocklift_peer.h"
+
+#include "dynamics/multibody/forward_dynamics.h"
+#include "tests/dynamics/simulation/sample_lifts.h"
+
+namespace blocklift::peers {
+
+namespace {
+
+using namespace dynamics;
+
+Vector3 vector(const Triple& a) { return {a[0], a[1], a[2]}; }
+Matrix3 matrix(const Rotation& a) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(a.data());
+}
+
+Mechanism build(const TreeModel& model) {
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -gravity});
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const TreeBody& body = model.bodies[i];
+    builder.add_body({.name = std::to_string(i),
+                      .parent = body.parent < 0 ? "world" : std::to_string(body.parent),
+                      .joint = {.kind = body.free ? JointKind::free : JointKind::revolute,
+                                .axis = body.free ? Vector3::UnitZ() : vector(body.axis)},
+                      .X_PJ = {matrix(body.R_PB), vector(body.p_PB)},
+                      .mass = body.mass,
+                      .p_BoBcm_B = vector(body.p_BoBcm),
+                      .I_BBcm_B = matrix(body.I_BBcm)});
+  }
+  return builder.build();
+}
+
+class BlockliftTree : public TreeDynamics {
+ public:
+  explicit BlockliftTree(const TreeModel& model)
+      : floats_(model.floats()),
+        mechanism_(build(model)),
+        kinematics_(mechanism_),
+        workspace_(mechanism_),
+        forces_(static_cast<std::size_t>(mechanism_.body_count()), ForceVector::zero()),
+        q_(mechanism_.nq()),
+        v_(mechanism_.nv()),
+        tau_(Eigen::VectorXd::Zero(mechanism_.nv())),
+        vdot_(mechanism_.nv()) {}
+
+  void set_state(const TreeState& state) override {
+    const auto n = static_cast<Eigen::Index>(state.q.size());
+    q_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.q.data(), n);
+    v_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.v.data(), n);
+    tau_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.tau.data(), n);
+    if (!floats_) return;
+    const Matrix3 R = matrix(state.R_WB);
+    q_.head<3>() = vector(state.p_WB);
+    q_.segment<4>(3) = Eigen::Map<const Vector4>(state.quaternion.data());
+    v_.head<3>() = R.transpose() * vector(state.w_WB);
+    v_.segment<3>(3) = R.transpose() * vector(state.v_WB);
+  }
+
+  void evaluate() override {
+    compute_kinematics(mechanism_, q_, v_, kinematics_);
+    compute_forward_dynamics(mechanism_, kinematics_, v_, forces_, workspace_, tau_, vdot_);
+  }
+
+  Accelerations accelerations() const override {
+    Accelerations result(6, 0.0);
+    if (floats_) {
+      const MotionVector& A = workspace_.A_WB[1];
+      Eigen::Map<Vector3>(result.data(), 3) = A.angular;
+      Eigen::Map<Vector3>(result.data() + 3, 3) = A.linear;
+    }
+    result.insert(result.end(), vdot_.begin() + (floats_ ? 6 : 0), vdot_.end());
+    return result;
+  }
+
+ private:
+  bool floats_;
+  Mechanism mechanism_;
+  Kinematics kinematics_;
+  ForwardDynamicsWorkspace workspace_;
+  std::vector<ForceVector> forces_;
+  Eigen::VectorXd q_, v_, tau_, vdot_;
+};
+
+std::unique_ptr<TreeDynamics> make_tree(const TreeModel& model) {
+  return std::make_unique<BlockliftTree>(model);
+}
+
+SimulationRun simulate_block_on_six_ropes(double accuracy) {
+  static const LiftSystem lift = samples::block_on_six_ropes();
+  const double interval = BlockOnSixRopes::duration / BlockOnSixRopes::samples;
+  const IntegrationResult run =
+      integrate(lift, lift.q_start(), lift.v_start(),
+                {.relative_tolerance = accuracy, .sample_interval = interval, .works = false});
+  SimulationRun result;
+  for (int i = 1; i <= BlockOnSixRopes::samples; ++i) {
+    const auto p = run.history.bodies[0].pose.row(i);
+    result.values.insert(result.values.end(), {p[0], p[1], p[2]});
+  }
+  result.steps = run.statistics.steps;
+  result.evaluations = run.statistics.right_hand_sides;
+  return result;
+}
+
+}  // namespace
+
+const PeerModule& blocklift_module() {
+  static constexpr PeerModule module{"Blocklift", "this tree", make_tree,
+                                     simulate_block_on_six_ropes, nullptr};
+  return module;
+}
+
+}  // namespace blocklift::peers

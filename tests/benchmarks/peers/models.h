@@ -1,0 +1,16 @@
+#pragma once
+
+#include "tests/benchmarks/peers/peer.h"
+
+namespace blocklift::peers {
+
+/// Chain of revolute joints alternately about z and y: links of 1 m and 1 kg.
+TreeModel chain(int count);
+
+/// Free base of 10 kg with five arms of six such links: 36 degrees of freedom.
+TreeModel floating_tree();
+
+/// Coordinates, velocities and torques between -1 and 1, always the same ones.
+TreeState some_state(const TreeModel& model);
+
+}  // namespace blocklift::peers
