@@ -68,7 +68,7 @@ int run(int argc, char** argv) {
   if (!contest.add(floating_tree())) return 1;
   std::vector<std::string> names;
   for (const PeerModule* module : contest.modules) names.emplace_back(module->name);
-  RatioReport report(names, "us");
+  RatioReport report(names, "one evaluation, us");
   return run_side_by_side(argc, argv, report);
 }
 

@@ -1,7 +1,9 @@
 #include "tests/benchmarks/peers/blocklift_peer.h"
 
 #include "dynamics/multibody/forward_dynamics.h"
-#include "tests/dynamics/simulation/sample_lifts.h"
+#include "dynamics/simulation/time_integration.h"
+#include "pipeline/verification/models/rope_lifts.h"
+#include "tests/dynamics/multibody/sample_loops.h"
 
 namespace blocklift::peers {
 
@@ -102,11 +104,44 @@ SimulationRun simulate_block_on_six_ropes(double accuracy) {
   return result;
 }
 
+LiftSystem squeezer() {
+  Mechanism mechanism = samples::AndrewsSqueezer{LoopKind::point_on_line}.build();
+  ForceElements elements;
+  std::get<std::vector<PointSpring>>(elements).emplace_back(
+      PointSpring::Definition{.name = "spring",
+                              .from = {world_index, {Andrews::xc, Andrews::yc, 0}},
+                              .to = {mechanism.body_index("K3"), {Andrews::sd, -Andrews::sc, 0}},
+                              .stiffness = Andrews::stiffness,
+                              .free_length = Andrews::free_length});
+  // The constant moment: a spring wound up so far that one turn changes it by 2e-13 of its value.
+  constexpr double soft = 1e-15;  // N m/rad
+  std::get<std::vector<JointSpring>>(elements).emplace_back(
+      mechanism, JointSpring::Definition{.name = "drive",
+                                         .body = mechanism.body_index("K1"),
+                                         .stiffness = soft,
+                                         .free_coordinate = Andrews::moment / soft});
+  return LiftSystem({.mechanism = std::move(mechanism),
+                     .elements = std::move(elements),
+                     .operation = OperationBuilder().build(Andrews::duration),
+                     .q_start = samples::AndrewsSqueezer::q_start()});
+}
+
+SimulationRun simulate_andrews(double accuracy) {
+  static const LiftSystem system = squeezer();
+  const IntegrationResult run = integrate(
+      system, system.q_start(), system.v_start(),
+      {.relative_tolerance = accuracy, .sample_interval = Andrews::duration, .works = false});
+  const Eigen::VectorXd& q = run.q_end;  // in the order of the tree: K1 K2 K3 K5 K4 K7 K6
+  return {{q[0], q[1], q[2], q[4], q[3], q[6], q[5]},
+          run.statistics.steps,
+          run.statistics.right_hand_sides};
+}
+
 }  // namespace
 
 const PeerModule& blocklift_module() {
   static constexpr PeerModule module{"Blocklift", "this tree", make_tree,
-                                     simulate_block_on_six_ropes, nullptr};
+                                     simulate_block_on_six_ropes, simulate_andrews};
   return module;
 }
 

@@ -28,7 +28,7 @@ void RatioReport::ReportRuns(const std::vector<Run>& runs) {
 
 void RatioReport::Finalize() {
   std::ostream& out = GetOutputStream();
-  out << std::left << std::setw(24) << ("one evaluation, " + unit_) << std::right;
+  out << std::left << std::setw(24) << unit_ << std::right;
   for (const std::string& library : libraries_) out << std::setw(13) << library;
   out << std::setw(20) << "ours / best other"
       << "\n"

@@ -14,7 +14,7 @@ namespace blocklift::peers {
 class RatioReport : public benchmark::BenchmarkReporter {
  public:
   /// @param libraries columns of the table, ours first.
-  /// @param unit "us" or "ms".
+  /// @param unit what the numbers are, "one evaluation, us".
   RatioReport(std::vector<std::string> libraries, std::string unit)
       : libraries_(std::move(libraries)), unit_(std::move(unit)) {}
 
