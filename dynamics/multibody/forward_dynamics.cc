@@ -13,11 +13,31 @@ using Column = ForwardDynamicsWorkspace::Column;
 // A free velocity counts as unresisted below this part of the articulated body's own inertia.
 constexpr double singular = 1e-13;
 
-[[noreturn]] void report_singular(const Mechanism& mechanism, int k, double D) {
-  const std::string name = mechanism.velocity_name(k);
-  if (!std::isfinite(D)) {
-    throw SimulationError("body " + name + ": the state or a force is not finite");
+// Names the first body, counted from the world, whose motion or force is not finite.
+[[noreturn]] void report_not_finite(const Mechanism& mechanism, const Kinematics& kinematics,
+                                    const std::vector<ForceVector>& F_Bo_W) {
+  for (std::size_t b = 1; b < F_Bo_W.size(); ++b) {
+    const std::string start = "body \"" + mechanism.bodies()[b].name + "\": ";
+    if (!kinematics.X_WB[b].R.allFinite() || !kinematics.X_WB[b].p.allFinite()) {
+      throw SimulationError(start +
+                            "its pose is not finite, because its joint's coordinates are not "
+                            "(or its quaternion is zero)");
+    }
+    const MotionVector& V = kinematics.V_WB[b];
+    if (!V.angular.allFinite() || !V.linear.allFinite()) {
+      throw SimulationError(start + "its velocity is not finite");
+    }
+    if (!F_Bo_W[b].moment.allFinite() || !F_Bo_W[b].force.allFinite()) {
+      throw SimulationError(start + "the external force on it is not finite");
+    }
   }
+  throw SimulationError(
+      "a joint force, or a prescribed acceleration, is not finite, or the state is "
+      "so large that accelerations overflow");
+}
+
+[[noreturn]] void report_singular(const Mechanism& mechanism, int k) {
+  const std::string name = mechanism.velocity_name(k);
   throw SimulationError(
       "body " + name +
       ": nothing resists this motion in the present configuration (the articulated "
@@ -95,8 +115,8 @@ class Recursion {
     }
   }
 
-  // Towards the base (eq. 17, 18).
-  void inwards(const Link& link) {
+  // Towards the base (eq. 17, 18). False if the inertia is not finite.
+  bool inwards(const Link& link) {
     const std::size_t b = index(link.body);
     ArticulatedBody& body = workspace_.articulated[b];
     const MotionVector& c = kinematics_.A_bias_W[b];
@@ -109,17 +129,21 @@ class Recursion {
       Column& column = workspace_.columns[index(k)];
       const Vector3& direction = kinematics_.direction_W[index(k)];
       const double D = column_inertia(body.inertia, angular_[k], direction, column);
-      if (!(D > (angular_[k] ? angular_scale : linear_scale))) report_singular(mechanism_, k, D);
+      if (!(D > (angular_[k] ? angular_scale : linear_scale))) {
+        if (std::isfinite(D)) report_singular(mechanism_, k);
+        return false;
+      }
       column.inverse_D = 1.0 / D;
       column.u = tau_[k] - damping_[k] * v_[k] - along(angular_[k], direction, body.bias);
       give_way(column, body);
     }
-    if (link.carrier == world_index) return;
+    if (link.carrier == world_index) return true;
     ArticulatedBody& carrier = workspace_.articulated[index(link.carrier)];
     const Vector3& r = kinematics_.p_CB_W[b];
     add_shifted(body.inertia, r, carrier.inertia);
     carrier.bias.force += body.bias.force;
     carrier.bias.moment += body.bias.moment + r.cross(body.bias.force);
+    return true;
   }
 
   // Away from the base (eq. 15, 16).
@@ -209,9 +233,16 @@ void compute_forward_dynamics(const Mechanism& mechanism, const Kinematics& kine
   Recursion recursion(mechanism, kinematics, v.data(), workspace, tau.data(), vdot.data());
   recursion.start(F_Bo_W);
   const std::vector<Link>& links = mechanism.links();
-  for (auto link = links.rbegin(); link != links.rend(); ++link) recursion.inwards(*link);
-  for (const Link& link : links) recursion.outwards(link);
-  recursion.carry_fixed_bodies();
+  bool finite = true;
+  for (auto link = links.rbegin(); link != links.rend(); ++link) {
+    finite = finite && recursion.inwards(*link);
+  }
+  if (finite) {
+    for (const Link& link : links) recursion.outwards(link);
+    recursion.carry_fixed_bodies();
+  }
+  // One number that is not finite makes this sum so.
+  if (!finite || !std::isfinite(vdot.sum())) report_not_finite(mechanism, kinematics, F_Bo_W);
 }
 
 }  // namespace blocklift::dynamics

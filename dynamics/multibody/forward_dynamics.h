@@ -47,7 +47,7 @@ struct ForwardDynamicsWorkspace {
 /// elimination of the S^T I S of eq. 16.
 ///
 /// @throws SimulationError if nothing resists some free velocity (its S^T I S is singular), naming the
-/// body, or if the state is not finite.
+/// body, or if the state or a force is not finite, naming the body nearest to the world where it shows.
 void compute_forward_dynamics(const Mechanism& mechanism, const Kinematics& kinematics,
                               ConstVectorRef v, const std::vector<ForceVector>& F_Bo_W,
                               ForwardDynamicsWorkspace& workspace, VectorRef tau, VectorRef vdot);

@@ -32,6 +32,7 @@ struct EquilibriumSolver::Implementation {
   void make_kinsol(Eigen::Index n);
   void set_reference(const Eigen::VectorXd& q);
   void calc_scales();
+  [[noreturn]] void report_weightless(int velocity) const;
   void calc_residual(const Eigen::VectorXd& u, const Contacts* set, Eigen::VectorXd& residual);
   void calc_stiffness(const Eigen::VectorXd& u, const Contacts* set, Eigen::MatrixXd& stiffness);
   double scaled_norm(const Eigen::VectorXd& residual) const;
@@ -136,20 +137,29 @@ void EquilibriumSolver::Implementation::calc_scales() {
   compute_mass_matrix(mechanism, w.kinematics, workspace, whole);
   const auto n = static_cast<Eigen::Index>(free.size());
   const Eigen::MatrixXd free_mass = whole(free, free);
+  constexpr double nothing = 1e-13;  // of the inertia about or along all axes together
   const double g = std::max(1.0, mechanism.gravity().norm());
   for (Eigen::Index i = 0; i < n; ++i) {
     const int k = free[static_cast<std::size_t>(i)];
-    const double m =
-        workspace.composite[static_cast<std::size_t>(mechanism.body_of_velocity(k))].M.trace() /
-        3.0;
+    const SpatialInertia& carried =
+        workspace.composite[static_cast<std::size_t>(mechanism.body_of_velocity(k))];
     const bool turns = mechanism.angular()[static_cast<std::size_t>(k)] != 0;
     const double inertia = free_mass(i, i);
-    free_weight[i] = turns ? g * std::sqrt(inertia * m) : g * inertia;
+    const double whole_inertia = turns ? carried.J.trace() : carried.M.trace();
+    if (!(inertia > nothing * whole_inertia)) report_weightless(k);
+    free_weight[i] = turns ? g * std::sqrt(inertia * carried.M.trace() / 3.0) : g * inertia;
   }
   const Eigen::MatrixXd& Z = coordinates.basis();
   mass = Z.transpose() * free_mass * Z;
   weight = (Z.cwiseAbs2().transpose() * free_weight.cwiseAbs2()).cwiseSqrt();
   if (weight.size() > 0) sundials::view(force_scale.get()) = weight.cwiseInverse();
+}
+
+void EquilibriumSolver::Implementation::report_weightless(int velocity) const {
+  throw SimulationError("body " + mechanism.velocity_name(velocity) +
+                        ": nothing resists this motion in the present configuration, so that there "
+                        "is no weight to compare its forces with; give the body or what it carries "
+                        "mass or inertia about that axis, or drive the joint");
 }
 
 // Generalised force on each unknown with everything at rest at q(u).

@@ -183,7 +183,7 @@ TEST(ForwardDynamics, NamesTheBodyThatNothingResists) {
   };
   EXPECT_THAT(message(0.3), HasSubstr("body \"hook\" (revolute): nothing resists this motion"));
   EXPECT_THAT(message(not_a_number),
-              HasSubstr("body \"hook\" (revolute): the state or a force is not finite"));
+              HasSubstr("body \"hook\": its pose is not finite"));
 }
 
 }  // namespace
