@@ -113,13 +113,10 @@ LiftSystem squeezer() {
                               .to = {mechanism.body_index("K3"), {Andrews::sd, -Andrews::sc, 0}},
                               .stiffness = Andrews::stiffness,
                               .free_length = Andrews::free_length});
-  // The constant moment: a spring wound up so far that one turn changes it by 2e-13 of its value.
-  constexpr double soft = 1e-15;  // N m/rad
-  std::get<std::vector<JointSpring>>(elements).emplace_back(
-      mechanism, JointSpring::Definition{.name = "drive",
-                                         .body = mechanism.body_index("K1"),
-                                         .stiffness = soft,
-                                         .free_coordinate = Andrews::moment / soft});
+  std::get<std::vector<JointLoad>>(elements).emplace_back(
+      mechanism, JointLoad::Definition{.name = "drive",
+                                       .body = mechanism.body_index("K1"),
+                                       .load = LoadTable(Vector3(Andrews::moment, 0, 0))});
   return LiftSystem({.mechanism = std::move(mechanism),
                      .elements = std::move(elements),
                      .operation = OperationBuilder().build(Andrews::duration),
