@@ -112,6 +112,21 @@ ModelLibrary ModelLibrary::of_installation() {
   return ModelLibrary(folders);
 }
 
+std::vector<fs::path> ModelLibrary::files_of(const std::string& group,
+                                             const std::string& file_name) const {
+  std::map<std::string, fs::path> by_folder;
+  for (const fs::path& models : model_folders_) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(models / group, error)) {
+      const fs::path file = entry.path() / file_name;
+      if (is_file(file)) by_folder.emplace(entry.path().filename().string(), file);
+    }
+  }
+  std::vector<fs::path> files;
+  for (const auto& [folder, file] : by_folder) files.push_back(file.lexically_normal());
+  return files;
+}
+
 fs::path ModelLibrary::find(const Located<std::string>& name, const std::string& kind,
                             const fs::path& beside, Diagnostics& diagnostics) const {
   std::vector<fs::path> places = {beside};

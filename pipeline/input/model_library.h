@@ -30,6 +30,12 @@ class ModelLibrary {
 
   const std::vector<std::filesystem::path>& folders() const { return model_folders_; }
 
+  /// Files of one name in the folders right below `group`, in the order of those folders' names:
+  /// benchmarks/bricard/reference.yaml of the group benchmarks. Of folders of the same name in several
+  /// folders of models the first counts.
+  std::vector<std::filesystem::path> files_of(const std::string& group,
+                                              const std::string& file_name) const;
+
   /// Reads a model; complains at the place of the name if there is none, and returns null then and
   /// when the file cannot be read. A model with mistakes inside is returned, too: they have been
   /// complained about, and the checks pass over what is missing.
