@@ -5,12 +5,14 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 namespace blocklift::pipeline {
@@ -131,6 +133,49 @@ std::vector<std::string> hints_for(const YAML::Exception& exception, const std::
   return hints;
 }
 
+/// Notes where the second of several YAML documents begins.
+class SecondDocument : public YAML::EventHandler {
+ public:
+  const YAML::Mark& mark() const { return mark_; }  ///< null if there is none
+
+  void OnDocumentStart(const YAML::Mark&) override { ++count_; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { note(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { note(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    note(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    note(mark);
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void note(const YAML::Mark& mark) {
+    if (count_ == 2 && mark_.is_null()) mark_ = mark;
+  }
+  int count_ = 0;
+  YAML::Mark mark_ = YAML::Mark::null_mark();
+};
+
+/// Where a second document begins; null if there is none. YAML::LoadAll is not asked: a lone comma or
+/// bracket between documents, which the parser does not pass, gives it empty documents without end.
+YAML::Mark find_second_document(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  SecondDocument second;
+  for (int i = 0; i < 2 && parser.HandleNextDocument(second); ++i) {
+  }
+  return second.mark();
+}
+
 }  // namespace
 
 std::string shown_path(const fs::path& path) {
@@ -155,9 +200,10 @@ std::optional<Document> load_document(const fs::path& path, Diagnostics& diagnos
   if (!text || !is_text(*text, document.file, diagnostics)) return std::nullopt;
   document.text = std::move(*text);
 
-  std::vector<YAML::Node> documents;
+  YAML::Mark second = YAML::Mark::null_mark();
   try {
-    documents = YAML::LoadAll(document.text);
+    document.root = YAML::Load(document.text);
+    second = find_second_document(document.text);
   } catch (const YAML::DeepRecursion& exception) {
     diagnostics.error({document.file, exception.mark.line + 1, exception.mark.column + 1},
                       "lists and keys are nested too deeply");
@@ -167,17 +213,16 @@ std::optional<Document> load_document(const fs::path& path, Diagnostics& diagnos
                       "this is not YAML: " + exception.msg, hints_for(exception, document.text));
     return std::nullopt;
   }
-  if (documents.empty() || (documents.size() == 1 && documents[0].IsNull())) {
-    diagnostics.error({document.file, 0, 0}, "the file is empty; keys and values are due");
-    return std::nullopt;
-  }
-  if (documents.size() > 1) {
-    diagnostics.error(document.mark_of(documents[1]),
+  if (!second.is_null()) {
+    diagnostics.error({document.file, second.line + 1, second.column + 1},
                       "a second YAML document begins here; one file holds one",
                       {"is the line before indented like its neighbours, or a \"---\" too many?"});
     return std::nullopt;
   }
-  document.root = documents[0];
+  if (document.root.IsNull()) {
+    diagnostics.error({document.file, 0, 0}, "the file is empty; keys and values are due");
+    return std::nullopt;
+  }
   return document;
 }
 

@@ -117,6 +117,13 @@ TEST(DocumentTest, SurvivesDeepNesting) {
   EXPECT_NE(complaints_about(items).find(message), std::string::npos);
 }
 
+// The parser does not pass these between documents and would find empty ones without end.
+TEST(DocumentTest, LoneCommasAndBracketsEnd) {
+  for (const char* text : {",", "]", "}", "a: 1\n--- ,", ", a: 1"}) {
+    EXPECT_NE(complaints_about(text).find("error"), std::string::npos) << text;
+  }
+}
+
 RC_GTEST_PROP(DocumentProperty, NeverBreaksOnAnyBytes, (const std::string& bytes)) {
   complaints_about(bytes);
 }
