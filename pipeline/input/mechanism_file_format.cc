@@ -136,7 +136,7 @@ Format<SimulationSettings> simulation_format() {
       .required("duration", &SimulationSettings::duration,
                 quantity(Dimension::time, Range::positive()), "simulated time")
       .by_default("relative_tolerance", &SimulationSettings::relative_tolerance,
-                  number(Range::between(1e-13, 1e-2)), "1e-8", "of the time integration")
+                  number(Range::between(1e-14, 1e-2)), "1e-8", "of the time integration")
       .optional("sample_interval", &SimulationSettings::sample_interval,
                 quantity(Dimension::time, Range::positive()),
                 "between two recorded samples; a five hundredth of the duration if left out")
