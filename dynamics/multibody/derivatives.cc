@@ -205,11 +205,11 @@ void compute_inverse_dynamics_derivatives(const Mechanism& mechanism, const Kine
 ForwardDynamicsDerivatives::ForwardDynamicsDerivatives(const Mechanism& mechanism)
     : inverse(mechanism),
       by_q(mechanism.nv(), mechanism.nv()),
-      by_v(mechanism.nv(), mechanism.nv()) {
+      by_v(mechanism.nv(), mechanism.nv()),
+      factor_(static_cast<Eigen::Index>(mechanism.free_velocities().size())) {
   const auto n = static_cast<Eigen::Index>(mechanism.free_velocities().size());
   free_mass_.resize(n, n);
   right_.resize(n, 2 * mechanism.nv());
-  factor_ = Eigen::LLT<Eigen::MatrixXd>(n);
 }
 
 void compute_forward_dynamics_derivatives(const Mechanism& mechanism, const Kinematics& kinematics,

@@ -58,8 +58,7 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
              assessment.lift_case.yaml);
   if (assessment.lift) {
     const dynamics::LiftSystem& system = assessment.lift->model.system;
-    const Scene scene =
-        make_scene(assessment.lift->model, assessment.block.model->mesh().lugs);
+    const Scene scene = make_scene(assessment.lift->model, assessment.block.model->mesh().lugs);
     write_operation(file, system.operation());
     write_history(file, layout::static_history, system, assessment.lift->static_history, scene);
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);

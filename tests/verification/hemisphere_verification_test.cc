@@ -320,7 +320,8 @@ TEST(FreeDecay, StateSpaceAgreesWithTheConvolution) {
   for (std::size_t k = 0; k < fitted.position.size(); ++k) {
     EXPECT_NEAR(fitted.position[k][heave], convolved.position[k][heave], 0.01);
   }
-  EXPECT_LT(memory.state_count(), 60);
+  // 24 a mode, where the convolution keeps some hundred samples of each: what makes it worth while.
+  EXPECT_LT(memory.state_count(), 200);
 }
 
 // A regular wave on the moored sphere: direct march and database, after the start has died out.

@@ -182,8 +182,7 @@ TEST(ForwardDynamics, NamesTheBodyThatNothingResists) {
     return "";
   };
   EXPECT_THAT(message(0.3), HasSubstr("body \"hook\" (revolute): nothing resists this motion"));
-  EXPECT_THAT(message(not_a_number),
-              HasSubstr("body \"hook\": its pose is not finite"));
+  EXPECT_THAT(message(not_a_number), HasSubstr("body \"hook\": its pose is not finite"));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ TEST_F(AssessCommand, WritesNothingOnBadInput) {
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err, HasSubstr("lift/case.yaml:12:27: error: rope R3 ends at lug \"L9\""));
   EXPECT_THAT(outcome.err, HasSubstr("its lugs are L1, L2, L3, L4"));
-  EXPECT_THAT(outcome.err, HasSubstr("mass \"-6 t\" must be greater than 0"));
+  EXPECT_THAT(outcome.err, HasSubstr("mass \"-6 t\" must be at least 0"));
   EXPECT_THAT(outcome.err, HasSubstr("2 errors\n"));
   EXPECT_TRUE(written().empty());
   EXPECT_EQ(run("assess nowhere").exit_code, 2);
@@ -223,7 +223,8 @@ TEST_F(AssessCommand, TellsWrongUseByItsExitCode) {
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(unknown.err,
             "blocklift: error: there is no command \"asess\"\n"
-            "    the commands are assess, validate, report, schema; did you mean \"assess\"?\n");
+            "    the commands are assess, simulate, validate, stress, report, schema, verify; did "
+            "you mean \"assess\"?\n");
   const Outcome option = run("assess lift --fast");
   EXPECT_EQ(option.exit_code, 2);
   EXPECT_THAT(option.err, HasSubstr("--fast"));
