@@ -67,7 +67,7 @@ TEST(Hydrostatics, DryAndSunkenAndContinuousBetween) {
   const HullClusters ship = sample_ship();
   const double whole = ship.enclosed().volume;
   Poses poses;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 10; ++i) {
     Pose X = poses.pose(1);
     X.p.z() = 25;
     const Hydrostatics dry = calc_hydrostatics(ship, X);
@@ -81,11 +81,11 @@ TEST(Hydrostatics, DryAndSunkenAndContinuousBetween) {
     // Through the surface: the volume changes by no more than the area of the bounding sphere
     // times the step.
     double last = whole;
-    for (double z = -25; z <= 25; z += 0.01) {
+    for (double z = -25; z <= 25; z += 0.05) {
       X.p.z() = z;
       const double volume = calc_buoyancy(ship, X).F_Bo_W_over_rho_g.force.z();
       EXPECT_LE(volume, last + 1e-10);
-      EXPECT_GE(volume, last - 0.01 * std::numbers::pi * 11 * 11);
+      EXPECT_GE(volume, last - 0.05 * std::numbers::pi * 11 * 11);
       last = volume;
     }
   }
