@@ -74,9 +74,11 @@ void hold(const Discretisation& space, const std::function<bool(const Vector3&)>
     const Vector3 x = space.nodes.col(n);
     if (!selects(x)) continue;
     const Vector3 value = displacement(x);
-    for (int a = 0; a < 3; ++a)
-      if (axes[static_cast<std::size_t>(a)] && !held[static_cast<std::size_t>(3 * n + a)])
-        fixed.push_back({3 * n + a, value[a]});
+    for (int a = 0; a < 3; ++a) {
+      const int unknown = 3 * n + a;
+      if (axes[static_cast<std::size_t>(a)] && !held[static_cast<std::size_t>(unknown)])
+        fixed.push_back({unknown, value[a]});
+    }
   }
 }
 
