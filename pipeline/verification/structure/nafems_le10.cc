@@ -85,8 +85,10 @@ std::vector<FixedUnknown> supports(const HexMesh& mesh, const Discretisation& sp
   for (const FixedUnknown& known : fixed) held[static_cast<std::size_t>(known.unknown)] = 1;
   for (int n = 0; n < space.node_count(); ++n) {
     if (!outer[static_cast<std::size_t>(n)]) continue;
-    for (int a = 0; a < 2; ++a)
-      if (!held[static_cast<std::size_t>(3 * n + a)]) fixed.push_back({3 * n + a, 0});
+    for (int a = 0; a < 2; ++a) {
+      const int unknown = 3 * n + a;
+      if (!held[static_cast<std::size_t>(unknown)]) fixed.push_back({unknown, 0});
+    }
     if (std::abs(space.nodes(2, n) - 0.3) < 1e-9) fixed.push_back({3 * n + 2, 0});
   }
   return fixed;
