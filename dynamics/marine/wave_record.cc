@@ -65,8 +65,8 @@ WaveField realise(const WaveRecord& record, const Water& water) {
     throw ModelError(
         "no frequency of the record of the wave elevation is kept; its frequencies are multiples "
         "of " +
-        std::to_string(step) + " rad/s up to " + std::to_string(static_cast<double>(n / 2) * step) +
-        " rad/s");
+        std::to_string(step) + " rad/s up to " +
+        std::to_string(static_cast<double>(X.size() - 1) * step) + " rad/s");
   }
   return {water, components, record.ramp};
 }
