@@ -185,12 +185,12 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   const Preparation preparation(folder);
   Stopwatch watch;
   write_result_file(assessment, preparation.folder() / layout::results_file);
-  const LoadComparison& headline = assessment.block.assessment.simultaneous;
+  const LoadComparison& pictured = assessment.block.assessment.simultaneous;
   const structure::UnitResponses& responses = *assessment.block.responses;
   structure::write_vtu(preparation.folder() / "block-static.vtu", responses,
-                       headline.static_state.load);
+                       pictured.static_state.load);
   structure::write_vtu(preparation.folder() / "block-dynamic.vtu", responses,
-                       headline.dynamic_state.load);
+                       pictured.dynamic_state.load);
 
   nlohmann::ordered_json summary = make_summary(assessment);
   const fs::path summary_path = preparation.folder() / layout::summary_file;

@@ -59,24 +59,24 @@ LoadComparison compare(BlockState static_state, BlockState dynamic_state) {
   return comparison;
 }
 
-/// The headline: the state of the largest checked stress among all ropes' instants, the largest
-/// displacement likewise.
+/// The instants of the ropes' maxima as one: the state of the largest checked stress among them, the
+/// largest displacement likewise.
 LoadComparison largest_of(const std::vector<LoadComparison>& by_rope) {
   const auto largest = [&](const BlockState LoadComparison::*state) {
     return *std::max_element(by_rope.begin(), by_rope.end(), [&](const auto& a, const auto& b) {
       return (a.*state).result.checked_von_mises.value < (b.*state).result.checked_von_mises.value;
     });
   };
-  LoadComparison headline;
-  headline.static_state = largest(&LoadComparison::static_state).static_state;
-  headline.dynamic_state = largest(&LoadComparison::dynamic_state).dynamic_state;
+  LoadComparison result;
+  result.static_state = largest(&LoadComparison::static_state).static_state;
+  result.dynamic_state = largest(&LoadComparison::dynamic_state).dynamic_state;
   for (const LoadComparison& comparison : by_rope) {
-    headline.static_displacement =
-        std::max(headline.static_displacement, comparison.static_displacement);
-    headline.dynamic_displacement =
-        std::max(headline.dynamic_displacement, comparison.dynamic_displacement);
+    result.static_displacement =
+        std::max(result.static_displacement, comparison.static_displacement);
+    result.dynamic_displacement =
+        std::max(result.dynamic_displacement, comparison.dynamic_displacement);
   }
-  return headline;
+  return result;
 }
 
 }  // namespace

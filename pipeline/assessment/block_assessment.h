@@ -41,7 +41,7 @@ struct LoadComparison {
 struct BlockAssessment {
   LoadComparison per_rope_maxima;  ///< every rope at its own largest load, all at once
   std::vector<LoadComparison> simultaneous_by_rope;  ///< the instant of each rope's largest load
-  LoadComparison simultaneous;                       ///< headline: the larger over all ropes
+  LoadComparison simultaneous;                       ///< the larger over the instants of all ropes
   double first_elastic_period = 0;                   ///< of the free block, s
   double evaluation_s = 0;                           ///< wall-clock time
 };

@@ -126,7 +126,8 @@ export function structureSection(data: PageData): Section | null {
   return {
     id: "structure", title: "Block stress and deformation", short: "Block", content: [
       h("p", { class: "lead" }, "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
-        + "headline is the largest of these. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
+        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. "
+        + (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : ""), modelText(structure)),
       waysTable(data, structure), historyTables(structure), lugsTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
   };
 }

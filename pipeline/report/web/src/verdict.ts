@@ -1,5 +1,5 @@
 // The verdict, first on the page, and the checks it rests on.
-import { Check, known, LoadMaxima, PageData } from "./data";
+import { Check, known, LoadMaxima, PageData, Structure } from "./data";
 import { Child, h, table } from "./dom";
 import type { Section } from "./main";
 import { change, inReportUnit, kilonewtons, megapascals, millimetres, missing, ratio, seconds, share, tonnesForce } from "./numbers";
@@ -36,6 +36,16 @@ function figure(label: string, value: string, unit: string, detail: Child): Chil
     h("div", { class: "detail" }, detail));
 }
 
+/** The same increase by the ways of less knowledge than every instant, and as published. */
+function beside(structure: Structure, increase: "stress_increase_percent" | "deformation_increase_percent",
+  published: unknown): string {
+  const ways: [string, unknown, number][] = [
+    ["at the ropes' maxima", structure.history ? structure.simultaneous?.[increase] : undefined, 1],
+    ["per-rope maxima", structure.simultaneous ? structure.per_rope_maxima?.[increase] : undefined, 1],
+    ["published", published, 2]];
+  return ways.filter(([, value]) => known(value)).map(([name, value, digits]) => `${name} ${change(value, digits)}`).join(", ");
+}
+
 function keyFigures(data: PageData): Child[] {
   const ropes = data.summary.ropes ?? [];
   const figures: Child[] = [];
@@ -49,18 +59,15 @@ function keyFigures(data: PageData): Child[] {
     `${tonnesForce(moving.max_dynamic_tension_N)} t in ${moving.name}${when(moving.time_of_max_dynamic_s)}`));
   if (jump) figures.push(figure("Dynamic over static, worst rope", ratio(jump.dynamic_over_static), "", `rope ${jump.name}`));
   const structure = data.summary.structure;
-  const way = structure?.simultaneous ?? structure?.per_rope_maxima;
+  const way = structure?.history ?? structure?.simultaneous ?? structure?.per_rope_maxima;
   if (structure && way) {
     const published = data.summary.comparison;
-    const beside = (ours: unknown, theirs: unknown): string => (known(theirs)
-      ? `${structure.simultaneous && known(ours) ? `per-rope maxima ${change(ours)}, ` : ""}published ${change(theirs, 2)}` : "");
-    const both = (one: string, two: string, unit: string): string => `${one} to ${two} ${unit}`;
     figures.push(figure("Block stress increase", change(way.stress_increase_percent), "",
-      [both(megapascals(way.static?.checked_von_mises_Pa), megapascals(way.dynamic?.checked_von_mises_Pa), "MPa"),
-        h("br"), beside(structure.per_rope_maxima?.stress_increase_percent, published?.stress_increase_percent)]));
+      [`${megapascals(way.static?.checked_von_mises_Pa)} to ${megapascals(way.dynamic?.checked_von_mises_Pa)} MPa`, h("br"),
+        beside(structure, "stress_increase_percent", published?.stress_increase_percent)]));
     figures.push(figure("Block deformation increase", change(way.deformation_increase_percent), "",
-      [both(millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), "mm"),
-        h("br"), beside(structure.per_rope_maxima?.deformation_increase_percent, published?.deformation_increase_percent)]));
+      [`${millimetres(way.static?.max_displacement_m)} to ${millimetres(way.dynamic?.max_displacement_m)} mm`, h("br"),
+        beside(structure, "deformation_increase_percent", published?.deformation_increase_percent)]));
   }
   return figures;
 }
