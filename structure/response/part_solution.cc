@@ -47,19 +47,6 @@ void require_supported(const PartModel& model, const std::vector<FixedUnknown>& 
   throw ModelError(text);
 }
 
-// Nodes of no solid (middles of circles and the like) have no stiffness: they are held.
-std::vector<FixedUnknown> with_idle_nodes(const PartModel& model, std::vector<FixedUnknown> fixed) {
-  std::vector<char> held(at(static_cast<int>(3 * model.mesh.nodes.cols())), 0);
-  for (const FixedUnknown& unknown : fixed) held[at(unknown.unknown)] = 1;
-  const std::vector<int> body = connected_bodies(model.mesh);
-  for (std::size_t node = 0; node < body.size(); ++node)
-    for (int a = 0; a < 3; ++a) {
-      const int unknown = 3 * static_cast<int>(node) + a;
-      if (body[node] < 0 && !held[at(unknown)]) fixed.push_back({unknown, 0});
-    }
-  return fixed;
-}
-
 // Stresses of one solid at points whose gradients by local coordinates are given.
 StressColumns stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
                        const Eigen::VectorXd& displacement) {

@@ -1,0 +1,338 @@
+#include "structure/elasticity/natural_modes.h"
+
+#include <slepceps.h>
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "structure/elasticity/stiffness.h"
+#include "structure/error.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+void check(PetscErrorCode code) {
+  if (code != 0)
+    throw ModelError(
+        fmt::format("the search of natural modes failed (SLEPc, code {})", static_cast<int>(code)));
+}
+
+/// What MPI keeps until the end is none of ours: unseen by the sanitizers within a scope.
+struct UnseenByLeakSanitizer {
+#ifdef __SANITIZE_ADDRESS__
+  __lsan::ScopedDisabler disabler;
+#endif
+};
+
+/// SLEPc's library for the life of the program, on this process alone; signals and the user's own
+/// settings are left alone.
+class Library {
+ public:
+  Library() {
+    [[maybe_unused]] const UnseenByLeakSanitizer unseen;
+    // Open MPI by itself would start a helper process.
+    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);  // NOLINT(concurrency-mt-unsafe)
+    std::array<std::string, 3> words = {"blocklift", "-no_signal_handler", "-skip_petscrc"};
+    std::array<char*, 4> list = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+    int count = 3;
+    char** arguments = list.data();
+    check(SlepcInitialize(&count, &arguments, nullptr, nullptr));
+    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+  }
+  ~Library() {
+    [[maybe_unused]] const UnseenByLeakSanitizer unseen;
+    SlepcFinalize();
+  }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+};
+
+/// What the operators of the eigenproblem need.
+struct Pencil {
+  const SparseLower& stiffness;
+  const NodalMass& mass;
+  const ConstrainedSystem& shifted;  ///< K + s M
+};
+
+using Applied = Eigen::VectorXd (*)(const Pencil&, const Eigen::Map<const Eigen::VectorXd>&);
+
+PetscErrorCode apply(void* context, Vec from, Vec to, Applied function) {
+  const PetscScalar* source = nullptr;
+  PetscScalar* target = nullptr;
+  PetscInt size = 0;
+  if (const auto code = VecGetLocalSize(from, &size)) return code;
+  if (const auto code = VecGetArrayRead(from, &source)) return code;
+  if (const auto code = VecGetArray(to, &target)) return code;
+  Eigen::Map<Eigen::VectorXd>(target, size) = function(
+      *static_cast<const Pencil*>(context), Eigen::Map<const Eigen::VectorXd>(source, size));
+  if (const auto code = VecRestoreArray(to, &target)) return code;
+  return VecRestoreArrayRead(from, &source);
+}
+
+PetscErrorCode apply_stiffness(Mat matrix, Vec from, Vec to) {
+  void* context = nullptr;
+  if (const auto code = MatShellGetContext(matrix, static_cast<void*>(&context))) return code;
+  return apply(context, from, to, [](const Pencil& pencil, const auto& v) -> Eigen::VectorXd {
+    return pencil.stiffness.selfadjointView<Eigen::Lower>() * v;
+  });
+}
+
+PetscErrorCode apply_mass(Mat matrix, Vec from, Vec to) {
+  void* context = nullptr;
+  if (const auto code = MatShellGetContext(matrix, static_cast<void*>(&context))) return code;
+  return apply(context, from, to, [](const Pencil& pencil, const auto& v) -> Eigen::VectorXd {
+    return mass_times(pencil.mass, v);
+  });
+}
+
+PetscErrorCode apply_inverse(PC preconditioner, Vec from, Vec to) {
+  void* context = nullptr;
+  if (const auto code = PCShellGetContext(preconditioner, static_cast<void*>(&context)))
+    return code;
+  return apply(context, from, to, [](const Pencil& pencil, const auto& v) -> Eigen::VectorXd {
+    return pencil.shifted.solve(v);
+  });
+}
+
+/// Owns SLEPc's objects of one search.
+struct Search {
+  Mat stiffness = nullptr, mass = nullptr;
+  EPS solver = nullptr;
+  Vec start = nullptr;
+
+  Search() = default;
+  ~Search() {
+    EPSDestroy(&solver);
+    VecDestroy(&start);
+    MatDestroy(&stiffness);
+    MatDestroy(&mass);
+  }
+  Search(const Search&) = delete;
+  Search& operator=(const Search&) = delete;
+};
+
+void set_up(Search& search, Pencil& pencil, double shift, int sought) {
+  const auto size = static_cast<PetscInt>(pencil.stiffness.rows());
+  const auto shell = [&](Mat& matrix, PetscErrorCode (*product)(Mat, Vec, Vec)) {
+    check(MatCreateShell(PETSC_COMM_SELF, size, size, size, size, &pencil, &matrix));
+    check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(product)));
+    check(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE));
+  };
+  shell(search.stiffness, apply_stiffness);
+  shell(search.mass, apply_mass);
+  check(EPSCreate(PETSC_COMM_SELF, &search.solver));
+  check(EPSSetOperators(search.solver, search.stiffness, search.mass));
+  check(EPSSetProblemType(search.solver, EPS_GHEP));
+  check(EPSSetType(search.solver, EPSKRYLOVSCHUR));
+  check(EPSSetTarget(search.solver, -shift));
+  check(EPSSetWhichEigenpairs(search.solver, EPS_TARGET_MAGNITUDE));
+  check(EPSSetDimensions(search.solver, sought, std::min<PetscInt>(size, 2 * sought + 10),
+                         PETSC_DEFAULT));
+  check(EPSSetTolerances(search.solver, 1e-11, 500));
+  ST transform = nullptr;
+  KSP equations = nullptr;
+  PC inverse = nullptr;
+  check(EPSGetST(search.solver, &transform));
+  check(STSetType(transform, STSINVERT));
+  check(STSetMatMode(transform, ST_MATMODE_SHELL));
+  check(STGetKSP(transform, &equations));
+  check(KSPSetType(equations, KSPPREONLY));
+  check(KSPGetPC(equations, &inverse));
+  check(PCSetType(inverse, PCSHELL));
+  check(PCShellSetContext(inverse, &pencil));
+  check(PCShellSetApply(inverse, apply_inverse));
+}
+
+// Noise after one application of the operator, so that held unknowns are at rest.
+void set_start(Search& search, const Pencil& pencil) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd noise(pencil.stiffness.rows());
+  for (double& value : noise) value = normal(random);
+  const Eigen::VectorXd smooth = pencil.shifted.solve(mass_times(pencil.mass, noise));
+  check(MatCreateVecs(search.stiffness, &search.start, nullptr));
+  PetscScalar* values = nullptr;
+  check(VecGetArray(search.start, &values));
+  Eigen::Map<Eigen::VectorXd>(values, smooth.size()) = smooth;
+  check(VecRestoreArray(search.start, &values));
+  check(EPSSetInitialSpace(search.solver, 1, &search.start));
+}
+
+NaturalModes collect(const Search& search, int found) {
+  std::vector<std::pair<double, PetscInt>> order;
+  for (PetscInt i = 0; i < found; ++i) {
+    PetscScalar value = 0, unused = 0;
+    check(EPSGetEigenvalue(search.solver, i, &value, &unused));
+    order.emplace_back(value, i);
+  }
+  std::sort(order.begin(), order.end());
+  PetscInt size = 0;
+  check(VecGetLocalSize(search.start, &size));
+  NaturalModes modes;
+  modes.squared_frequencies.resize(found);
+  modes.shapes.resize(size, found);
+  for (Eigen::Index m = 0; m < found; ++m) {
+    const auto& [value, place] = order[static_cast<std::size_t>(m)];
+    modes.squared_frequencies[m] = value;
+    check(EPSGetEigenvector(search.solver, place, search.start, nullptr));
+    const PetscScalar* values = nullptr;
+    check(VecGetArrayRead(search.start, &values));
+    modes.shapes.col(m) = Eigen::Map<const Eigen::VectorXd>(values, size);
+    check(VecRestoreArrayRead(search.start, &values));
+  }
+  return modes;
+}
+
+using Shapes = Eigen::MatrixXd;
+
+// Rigid motions, uniform strains and pure bending and twisting about three planes: what a body does at
+// its lowest frequencies, whatever it looks like. Lengths in units of the body's.
+Shapes trial_shapes(const Eigen::Matrix3Xd& nodes, const NodalMass& mass) {
+  Vector3 lower = Vector3::Constant(1e300), upper = -lower;
+  const Eigen::VectorXd own = mass.diagonal();
+  for (Eigen::Index n = 0; n < nodes.cols(); ++n) {
+    if (!(own[n] > 0)) continue;
+    lower = lower.cwiseMin(nodes.col(n));
+    upper = upper.cwiseMax(nodes.col(n));
+  }
+  Shapes shapes = Shapes::Zero(3 * nodes.cols(), 21);
+  for (Eigen::Index n = 0; n < nodes.cols(); ++n) {
+    if (!(own[n] > 0)) continue;  // a point of no solid
+    const Vector3 x = (nodes.col(n) - (lower + upper) / 2) / (upper - lower).norm();
+    auto rows = shapes.middleRows<3>(3 * n);
+    rows.leftCols<3>().setIdentity();
+    for (int c = 0; c < 3; ++c) {
+      const int a = (c + 1) % 3, b = (c + 2) % 3;
+      rows(a, 3 + c) = -x[b];  // rotation about c
+      rows(b, 3 + c) = x[a];
+      rows(c, 6 + c) = x[c];  // stretch, shear
+      rows(a, 9 + c) = x[b];
+      rows(b, 9 + c) = x[a];
+      rows(c, 12 + c) = x[a] * x[a] / 2;  // bending of the plane normal to c
+      rows(a, 12 + c) = -x[a] * x[c];
+      rows(c, 15 + c) = x[b] * x[b] / 2;
+      rows(b, 15 + c) = -x[b] * x[c];
+      rows(c, 18 + c) = x[a] * x[b];  // its twist
+      rows(a, 18 + c) = -x[b] * x[c];
+      rows(b, 18 + c) = -x[a] * x[c];
+    }
+  }
+  return shapes;
+}
+
+// Rayleigh and Ritz: the first elastic omega^2 of the free body among the trial shapes, an upper bound.
+double estimate_first_elastic(const SparseLower& stiffness, const NodalMass& mass,
+                              const Eigen::Matrix3Xd& nodes) {
+  Shapes shapes = trial_shapes(nodes, mass);
+  const Eigen::VectorXd sizes =
+      shapes.cwiseProduct(mass_times(mass, shapes)).colwise().sum().transpose();
+  if (!(sizes[0] > 0)) throw ModelError("the body has no mass; give its materials a density");
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k)
+    if (sizes[k] > 0) shapes.col(k) /= std::sqrt(sizes[k]);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(shapes.transpose() *
+                                                            mass_times(mass, shapes));
+  const Eigen::Index independent = (gram.eigenvalues().array() > 1e-10).count();
+  shapes = (shapes * gram.eigenvectors().rightCols(independent) *
+            gram.eigenvalues().tail(independent).cwiseSqrt().cwiseInverse().asDiagonal())
+               .eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
+      shapes.transpose() * (stiffness.selfadjointView<Eigen::Lower>() * shapes));
+  return ritz.eigenvalues()[std::min<Eigen::Index>(6, independent - 1)];
+}
+
+void add_mass(const NodalMass& mass, double factor, SparseLower& stiffness) {
+  for (long column = 0; column < mass.cols(); ++column)
+    for (NodalMass::InnerIterator entry(mass, column); entry; ++entry)
+      for (int a = 0; a < 3; ++a)
+        stiffness.coeffRef(3 * entry.row() + a, 3 * column + a) += factor * entry.value();
+}
+
+void judge(const SparseLower& stiffness, const NodalMass& mass,
+           const std::vector<FixedUnknown>& fixed, double shift, NaturalModes& modes) {
+  Eigen::MatrixXd elastic = stiffness.selfadjointView<Eigen::Lower>() * modes.shapes;
+  Eigen::MatrixXd inertial = mass_times(mass, modes.shapes);
+  for (const FixedUnknown& unknown : fixed) {
+    elastic.row(unknown.unknown).setZero();
+    inertial.row(unknown.unknown).setZero();
+  }
+  for (Eigen::Index m = 0; m < modes.shapes.cols(); ++m) {
+    const double value = modes.squared_frequencies[m];
+    const double size = elastic.col(m).norm() + (std::abs(value) + shift) * inertial.col(m).norm();
+    modes.residual =
+        std::max(modes.residual, (elastic.col(m) - value * inertial.col(m)).norm() / size);
+  }
+}
+
+}  // namespace
+
+NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& mass,
+                                const Eigen::Matrix3Xd& nodes,
+                                const std::vector<FixedUnknown>& fixed, int count,
+                                EliminationOrder order) {
+  const auto free = stiffness.rows() - static_cast<long>(fixed.size());
+  if (count < 1 || count > free)
+    throw ModelError(
+        fmt::format("{} modes are asked for; there are {} unknowns that move", count, free));
+  const double shift = 0.1 * estimate_first_elastic(stiffness, mass, nodes);
+  SparseLower sum = stiffness;
+  add_mass(mass, shift, sum);
+  std::vector<FixedUnknown> at_rest = fixed;
+  for (FixedUnknown& unknown : at_rest) unknown.value = 0;
+  ConstrainedSystem shifted(std::move(sum), at_rest, order);
+  shifted.factorise();
+  static const Library library;
+  Pencil pencil{stiffness, mass, shifted};
+  Search search;
+  const int sought = static_cast<int>(std::min<long>(count + std::max(4, count / 4), free));
+  set_up(search, pencil, shift, sought);
+  set_start(search, pencil);
+  check(EPSSolve(search.solver));
+  PetscInt found = 0;
+  check(EPSGetConverged(search.solver, &found));
+  if (found < sought)
+    throw ModelError(
+        fmt::format("only {} of {} natural modes were found; ask for fewer", found, count));
+  NaturalModes modes = collect(search, found);
+  modes.squared_frequencies.conservativeResize(count);
+  modes.shapes.conservativeResize(Eigen::NoChange, count);
+  modes.frequencies = modes.squared_frequencies.cwiseMax(0).cwiseSqrt() / (2 * M_PI);
+  for (auto shape : modes.shapes.colwise()) {
+    Eigen::Index largest = 0;
+    shape.cwiseAbs().maxCoeff(&largest);
+    if (shape[largest] < 0) shape = -shape;
+  }
+  judge(stiffness, mass, fixed, shift, modes);
+  return modes;
+}
+
+NaturalModes find_part_modes(const PartModel& model, int count) {
+  check_part_mesh(model.mesh);
+  std::vector<int> support_of;
+  const std::vector<FixedUnknown> fixed = with_idle_nodes(model, part_supports(model, support_of));
+  return find_natural_modes(assemble_part_stiffness(model), part_mass_matrix(model),
+                            model.mesh.nodes, fixed, count, EliminationOrder::found);
+}
+
+NaturalModes find_block_modes(const ElasticModel& model, int count,
+                              const std::vector<FixedUnknown>& fixed) {
+  const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return find_natural_modes(assemble_stiffness(model.mesh(), model.space(), threads),
+                            block_mass_matrix(model), model.space().nodes, fixed, count,
+                            EliminationOrder::given);
+}
+
+}  // namespace blocklift::structure
