@@ -20,8 +20,13 @@ namespace blocklift::dynamics {
 struct HydrodynamicDatabase {
   Water water;
   std::vector<std::string> body_names;
-  std::vector<Vector3> reference_points;        ///< m, in W
-  std::vector<double> displaced_volumes;        ///< m3
+  std::vector<Vector3> reference_points;  ///< m, in W
+  std::vector<double> displaced_volumes;  ///< m3
+  /// What is known of the bodies besides the flow, of use to other programs; empty: unknown.
+  std::vector<Vector3> centres_of_buoyancy;  ///< m, in W
+  std::vector<Vector3> centres_of_mass;      ///< m, in W
+  /// C: restoring force -C xi, buoyancy and weight, 6N x 6N; N/m, N, N m.
+  Eigen::MatrixXd hydrostatic_stiffness;
   Eigen::MatrixXd infinite_added_mass;          ///< A_inf, 6N x 6N; kg, kg m, kg m2
   double time_step = not_a_number;              ///< of the retardation functions, s
   std::vector<Eigen::MatrixXd> retardation;     ///< K at 0, dt, 2 dt ...; kg/s2, kg m/s2, kg m2/s2
@@ -52,6 +57,12 @@ struct DatabaseSettings {
   double damping_strength = 0.0;
   RankineSettings rankine;
 };
+
+/// @throws ModelError naming everything that makes the database unusable, a line each: a number that
+/// is not finite (with body, mode and frequency), a size that does not fit the bodies, frequencies,
+/// or headings, no frequencies or frequencies that do not ascend, no retardation functions, bodies
+/// of the same name, a constant of the water out of range.
+void require_sound(const HydrodynamicDatabase& database);
 
 /// What a computation of a database came to.
 struct DatabaseReport {

@@ -290,6 +290,19 @@ void ResultsWriter::write_indices(std::string_view dataset, std::span<const std:
              values.data(), meaning);
 }
 
+void ResultsWriter::write_array(std::string_view dataset, std::span<const double> values,
+                                std::span<const std::size_t> shape, const Meaning& meaning) {
+  const QuietErrors quiet;
+  std::size_t count = 1;
+  for (const std::size_t extent : shape) count *= extent;
+  if (count != values.size())
+    fail(
+        file_->name(), dataset,
+        std::to_string(values.size()) + " numbers do not fill a shape of " + std::to_string(count));
+  file_->put(dataset, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, Shape(shape.begin(), shape.end()),
+             values.data(), meaning);
+}
+
 void ResultsWriter::write_number(std::string_view dataset, double value, const Meaning& meaning) {
   const QuietErrors quiet;
   file_->put(dataset, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &value, meaning);

@@ -69,6 +69,10 @@ class ResultsWriter {
   /// count.
   void write_indices(std::string_view dataset, std::span<const std::int32_t> values,
                      std::size_t columns, const Meaning& meaning);
+  /// Numbers of any shape, the last index running fastest. @throws ResultsError unless the shape
+  /// holds as many numbers as are given.
+  void write_array(std::string_view dataset, std::span<const double> values,
+                   std::span<const std::size_t> shape, const Meaning& meaning);
   /// One number without an index.
   void write_number(std::string_view dataset, double value, const Meaning& meaning);
   /// Texts in a row, [n], UTF-8.
