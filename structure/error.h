@@ -12,4 +12,10 @@ class ModelError : public std::runtime_error {
   explicit ModelError(const std::string& message) : std::runtime_error(message) {}
 };
 
+/// The model is sound but too large for the memory that is free.
+class NotEnoughMemory : public ModelError {
+ public:
+  using ModelError::ModelError;
+};
+
 }  // namespace blocklift::structure

@@ -18,6 +18,7 @@
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/assessment/stopwatch.h"
 #include "pipeline/assessment/summary.h"
+#include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/report.h"
 #include "structure/output/vtu.h"
@@ -71,42 +72,6 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
     write_block_history(file, surface, *assessment.block.responses, *assessment.block.history);
   file.finish();
 }
-
-/// A folder within that of the results in which they are prepared; gone with everything in it unless
-/// moved, and so are the folders that were made for it.
-class Preparation {
- public:
-  explicit Preparation(const fs::path& folder)
-      : folder_(folder), aside_(folder / ".in-preparation") {
-    for (fs::path above = fs::absolute(folder_).lexically_normal(); !fs::exists(above);
-         above = above.parent_path()) {
-      // "a/b/" has an empty name after its last slash
-      if (above.has_filename()) made_.push_back(above);
-    }
-    fs::create_directories(folder_);
-    fs::remove_all(aside_);
-    fs::create_directory(aside_);
-  }
-  ~Preparation() {
-    std::error_code ignored;
-    fs::remove_all(aside_, ignored);
-    // Only folders that are empty can be removed so.
-    for (const fs::path& made : made_) fs::remove(made, ignored);
-  }
-  Preparation(const Preparation&) = delete;
-  Preparation& operator=(const Preparation&) = delete;
-
-  const fs::path& folder() const { return aside_; }
-  void move_into_place() const {
-    for (const fs::directory_entry& entry : fs::directory_iterator(aside_))
-      fs::rename(entry.path(), folder_ / entry.path().filename());
-  }
-
- private:
-  fs::path folder_;
-  fs::path aside_;
-  std::vector<fs::path> made_;  ///< the innermost first
-};
 
 }  // namespace
 

@@ -224,6 +224,21 @@ std::vector<ProbeResult> find_probes(const PartFile& file, const PartModel& mode
   return results;
 }
 
+// Alone, this process iterates as a team of one.
+structure::PartDisplacement solve_alone(const PartModel& model,
+                                        const std::vector<structure::FixedUnknown>& fixed,
+                                        const Eigen::VectorXd& load,
+                                        const structure::SolverChoice& choice) {
+  using structure::SolverMethod;
+  try {
+    if (choice.method != SolverMethod::iterative) return solve_by_cholesky(model, fixed, load);
+  } catch (const structure::NotEnoughMemory&) {
+    if (choice.method == SolverMethod::direct) throw;
+  }
+  structure::PartTeam team(structure::ProcessGroup::of_this_run());
+  return team.solve(model, fixed, load, {SolverMethod::iterative, choice.tolerance});
+}
+
 }  // namespace
 
 double figure_of(const PartAssessment& assessment, const PartReference& reference) {
@@ -242,7 +257,7 @@ PartModel make_part_model(const PartFile& file, Diagnostics& diagnostics) {
   return ModelMaker(file, diagnostics).make();
 }
 
-PartAssessment assess_part(PartFile file) {
+PartAssessment assess_part(PartFile file, structure::PartTeam* team) {
   Stopwatch watch;
   Diagnostics diagnostics;
   PartAssessment assessment;
@@ -251,7 +266,12 @@ PartAssessment assess_part(PartFile file) {
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   assessment.mesh_s = watch.lap();
   try {
-    assessment.solution = structure::solve_part(assessment.model);
+    assessment.solution = structure::solve_part(
+        assessment.model, [&](const PartModel& model, const auto& fixed, const auto& load) {
+          const structure::SolverChoice& choice = assessment.file.solver;
+          return team ? team->solve(model, fixed, load, choice)
+                      : solve_alone(model, fixed, load, choice);
+        });
   } catch (const structure::ModelError& error) {
     diagnostics.error(assessment.file.mesh.file.mark, error.what());
     throw InputError(diagnostics);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/input/part_file.h"
+#include "structure/parallel/part_team.h"
 #include "structure/response/part_solution.h"
 
 namespace blocklift::pipeline {
@@ -34,13 +35,15 @@ structure::PartModel make_part_model(const PartFile& file, Diagnostics& diagnost
 
 /// Runs a part. @throws InputError if the model cannot be made or solved: inverted elements, rigid
 ///   motions that the supports leave, probes outside the part, memory that does not suffice.
-PartAssessment assess_part(PartFile file);
+/// @param team the processes that solve it together; null: this one alone.
+PartAssessment assess_part(PartFile file, structure::PartTeam* team = nullptr);
 
 /// The figure of a probe that a reference speaks of, Pa or m.
 double figure_of(const PartAssessment& assessment, const PartReference& reference);
 
-/// Writes summary.json, results.h5, part.vtu and, if asked for, part.inp (CalculiX) into a folder.
+/// Writes summary.json, results.h5, part.vtu (or part.pvtu and the pieces of a team) and, if asked
+/// for, part.inp (CalculiX) into a folder; all of them appear when all are written.
 void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
-                        bool calculix);
+                        bool calculix, const structure::PartTeam* team = nullptr);
 
 }  // namespace blocklift::pipeline

@@ -10,6 +10,7 @@
 #include "pipeline/assessment/part_assessment.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/version.h"
 #include "structure/output/part_files.h"
@@ -90,12 +91,16 @@ Json make_part_summary(const PartAssessment& assessment) {
                                        {"reference", figure.value.value.value},
                                        {"computed", figure_of(assessment, figure)},
                                        {"source", assessment.file.references->source}});
+  const structure::SolverAccount& solver = solution.solver;
+  summary["solver"] = {{"name", solver.name},
+                       {"processes", solver.processes},
+                       {"iterations", solver.iterations},
+                       {"factor_GB", solver.factor_bytes / 1e9}};
   summary["timing"] = {{"mesh_s", assessment.mesh_s},
-                       {"assembly_s", solution.assembly_s},
-                       {"factorisation_s", solution.factorisation_s},
-                       {"solve_s", solution.solve_s},
-                       {"recovery_s", solution.recovery_s},
-                       {"factor_GB", solution.factor_bytes / 1e9}};
+                       {"assembly_s", solver.assembly_s},
+                       {"factorisation_s", solver.factorisation_s},
+                       {"solve_s", solver.solve_s},
+                       {"recovery_s", solution.recovery_s}};
   return summary;
 }
 
@@ -119,12 +124,17 @@ void write_fields(const PartAssessment& assessment, const std::filesystem::path&
 }  // namespace
 
 void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
-                        bool calculix) {
-  std::filesystem::create_directories(folder);
-  structure::write_part_vtu((folder / "part.vtu").string(), assessment.model, assessment.solution);
-  if (calculix) structure::write_calculix((folder / "part.inp").string(), assessment.model);
-  write_fields(assessment, folder / "results.h5");
-  write_file(folder / "summary.json", make_part_summary(assessment).dump(2));
+                        bool calculix, const structure::PartTeam* team) {
+  const Preparation preparation(folder);
+  const std::filesystem::path& aside = preparation.folder();
+  if (team)
+    team->write_pieces((aside / "part").string());
+  else
+    structure::write_part_vtu((aside / "part.vtu").string(), assessment.model, assessment.solution);
+  if (calculix) structure::write_calculix((aside / "part.inp").string(), assessment.model);
+  write_fields(assessment, aside / "results.h5");
+  write_file(aside / "summary.json", make_part_summary(assessment).dump(2));
+  preparation.move_into_place();
 }
 
 }  // namespace blocklift::pipeline

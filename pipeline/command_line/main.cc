@@ -18,6 +18,7 @@
 #include "pipeline/input/diagnostics.h"
 #include "pipeline/input/schema.h"
 #include "pipeline/version.h"
+#include "structure/process_group.h"
 
 namespace {
 
@@ -111,7 +112,18 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
+/// Says so if several processes were started for a command that runs in one.
+bool is_launched_in_vain(int argc, char** argv) {
+  using blocklift::structure::ProcessGroup;
+  if (ProcessGroup::launched() == 1 || (argc > 1 && argv[1] == std::string("stress"))) return false;
+  if (ProcessGroup::place_among_launched() == 0)
+    std::cerr << "blocklift: error: only \"blocklift stress\" runs on several processes; "
+              << ProcessGroup::launched() << " were started\n";
+  return true;
+}
+
 int run(int argc, char** argv) {
+  if (is_launched_in_vain(argc, argv)) return exit_code::wrong_input;
   CLI::App app{"From a lift case to the stress report of a heavy lift"};
   app.name("blocklift");
   app.set_version_flag("--version", std::string("blocklift ") + std::string(program_version));

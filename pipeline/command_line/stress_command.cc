@@ -63,14 +63,21 @@ void print_table(const PartAssessment& assessment) {
                  name_of(figure.quantity), published, computed, 100 * (computed / published - 1));
     }
   }
-  fmt::print("\nestimated error of the stress field {:.1f} %; balance to {:.0e}\n",
+  const structure::SolverAccount& solver = solution.solver;
+  fmt::print("\n{}{}{}{}\n", solver.name,
+             solver.iterations > 0 ? fmt::format(", {} iterations", solver.iterations) : "",
+             solver.processes > 1 ? fmt::format(", {} processes", solver.processes) : "",
+             solver.iterations == 0 ? fmt::format(", {:.2g} GB", solver.factor_bytes / 1e9) : "");
+  fmt::print("estimated error of the stress field {:.1f} %; balance to {:.0e}\n",
              100 * solution.estimated_error,
              std::max(solution.force_residual, solution.moment_residual));
 }
 
 }  // namespace
 
-int stress(const StressOptions& options) {
+namespace {
+
+int stress_of(const StressOptions& options, structure::PartTeam* team) {
   Diagnostics diagnostics;
   std::optional<PartFile> file = read_part_file(options.part, diagnostics);
   if (!file) throw InputError(diagnostics);
@@ -78,11 +85,24 @@ int stress(const StressOptions& options) {
                                            ? std::filesystem::path(*options.output)
                                            : std::filesystem::path("results") / file->name;
   require_writable(folder);
-  const PartAssessment assessment = assess_part(std::move(*file));
-  write_part_results(assessment, folder, options.calculix);
+  const PartAssessment assessment = assess_part(std::move(*file), team);
+  write_part_results(assessment, folder, options.calculix, team);
   print_table(assessment);
   fmt::print("results: {}\n", folder.string());
   return exit_code::done;
+}
+
+}  // namespace
+
+int stress(const StressOptions& options) {
+  if (structure::ProcessGroup::launched() == 1) return stress_of(options, nullptr);
+  const structure::ProcessGroup& group = structure::ProcessGroup::of_this_run();
+  if (!group.leads()) {
+    structure::follow_part_team(group);
+    return exit_code::done;
+  }
+  structure::PartTeam team(group);
+  return stress_of(options, &team);
 }
 
 }  // namespace blocklift::pipeline

@@ -171,6 +171,23 @@ Format<PartReferences> references_format() {
   return table.format();
 }
 
+Format<structure::SolverChoice> solver_format() {
+  using Choice = structure::SolverChoice;
+  using Method = structure::SolverMethod;
+  Table<Choice> table("solver", "How the equations are solved.");
+  table
+      .by_default("method", &Choice::method,
+                  choice<Method>({{"automatic", Method::automatic},
+                                  {"direct", Method::direct},
+                                  {"iterative", Method::iterative}}),
+                  "automatic",
+                  "direct: Cholesky factorisation; iterative: conjugate gradients with algebraic "
+                  "multigrid, in a fraction of the memory; automatic: directly if that fits")
+      .by_default("tolerance", &Choice::tolerance, number(Range::between(1e-14, 1e-4)), "1e-12",
+                  "of the iteration: residual over load");
+  return table.format();
+}
+
 void check_references(const PartFile& part, Reading& reading, const Mark&) {
   if (!part.references) return;
   std::vector<std::string> names;
@@ -205,6 +222,7 @@ Format<PartFile> part_file_format() {
       .required("loads", &PartFile::loads, named_tables(load_format()),
                 "by name; they act together")
       .optional("probes", &PartFile::probes, named_tables(probe_format()), "by name")
+      .optional("solver", &PartFile::solver, solver_format(), "how the equations are solved")
       .optional("references", &PartFile::references, references_format(),
                 "published figures to hold against ours")
       .rule(check_references);

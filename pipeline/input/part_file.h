@@ -8,6 +8,7 @@
 
 #include "pipeline/input/format.h"
 #include "pipeline/input/geometry_format.h"
+#include "structure/elasticity/solver_choice.h"
 
 namespace blocklift::pipeline {
 
@@ -91,6 +92,7 @@ struct PartFile {
   std::vector<PartLoadInFile> loads;
   std::vector<PartProbeInFile> probes;
   std::optional<PartReferences> references;
+  structure::SolverChoice solver;
   std::string yaml;            ///< the file as it stands
   std::filesystem::path file;  ///< where it is
 

@@ -44,7 +44,7 @@ ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedU
     throw ModelError("the stiffness matrix could not be analysed for its factorisation");
   const double needed = 1.3 * factor_bytes(), available = available_memory();
   if (needed > available)
-    throw ModelError(fmt::format(
+    throw NotEnoughMemory(fmt::format(
         "factorising {} unknowns needs about {:.1f} GB and {:.1f} GB are free; use larger elements "
         "or a lower element degree",
         stiffness_.rows(), needed / 1e9, available / 1e9));

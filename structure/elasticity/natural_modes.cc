@@ -1,14 +1,10 @@
 #include "structure/elasticity/natural_modes.h"
 
 #include <slepceps.h>
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/lsan_interface.h>
-#endif
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <thread>
@@ -20,6 +16,7 @@
 
 #include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
+#include "structure/process_group.h"
 
 namespace blocklift::structure {
 
@@ -31,32 +28,14 @@ void check(PetscErrorCode code) {
         fmt::format("the search of natural modes failed (SLEPc, code {})", static_cast<int>(code)));
 }
 
-/// What MPI keeps until the end is none of ours: unseen by the sanitizers within a scope.
-struct UnseenByLeakSanitizer {
-#ifdef __SANITIZE_ADDRESS__
-  __lsan::ScopedDisabler disabler;
-#endif
-};
-
-/// SLEPc's library for the life of the program, on this process alone; signals and the user's own
-/// settings are left alone.
+/// SLEPc for the life of the program.
 class Library {
  public:
   Library() {
-    [[maybe_unused]] const UnseenByLeakSanitizer unseen;
-    // Open MPI by itself would start a helper process.
-    ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);  // NOLINT(concurrency-mt-unsafe)
-    std::array<std::string, 3> words = {"blocklift", "-no_signal_handler", "-skip_petscrc"};
-    std::array<char*, 4> list = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-    int count = 3;
-    char** arguments = list.data();
-    check(SlepcInitialize(&count, &arguments, nullptr, nullptr));
-    check(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+    ProcessGroup::of_this_run();  // PETSc is ready
+    check(SlepcInitializeNoArguments());
   }
-  ~Library() {
-    [[maybe_unused]] const UnseenByLeakSanitizer unseen;
-    SlepcFinalize();
-  }
+  ~Library() { SlepcFinalize(); }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 };

@@ -64,6 +64,9 @@ struct PartModel {
 ///   has the figures.
 SparseLower assemble_part_stiffness(const PartModel& model, int threads = 0);
 
+/// Stiffness of one solid, N/m: unknown 3 i + a of its node i along axis a.
+Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid);
+
 PartMass find_part_mass(const PartModel& model);
 
 /// Load vector of all loads, N. @throws ModelError if a pressure acts on faces that are on no solid.

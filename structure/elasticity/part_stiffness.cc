@@ -57,7 +57,7 @@ SparseLower empty_matrix(const Graph& graph) {
   const long entries = 9 * static_cast<long>(graph.nodes.size()) - 3 * nodes;
   if (const double bytes = 16.0 * static_cast<double>(entries), free = available_memory();
       bytes > free)
-    throw ModelError(fmt::format(
+    throw NotEnoughMemory(fmt::format(
         "the stiffness of {} unknowns needs {:.1f} GB and {:.1f} GB are free; use larger elements",
         3 * nodes, bytes / 1e9, free / 1e9));
   SparseLower matrix(3 * nodes, 3 * nodes);
@@ -79,7 +79,33 @@ SparseLower empty_matrix(const Graph& graph) {
   return matrix;
 }
 
-Eigen::MatrixXd element_stiffness(const PartModel& model, int solid) {
+// Adds an element's stiffness to the columns of those nodes that are this part's.
+void scatter(const PartMesh& mesh, const Graph& graph, int element,
+             const Eigen::MatrixXd& stiffness, SparseLower& matrix, int part, int parts) {
+  const int n = mesh.kind(element).nodes;
+  for (int j = 0; j < n; ++j) {
+    const int column = mesh.node(element, j);
+    if (column % parts != part) continue;
+    const auto first = graph.nodes.begin() + graph.start[at(column)];
+    const auto last = graph.nodes.begin() + graph.start[at(column) + 1];
+    for (int i = 0; i < n; ++i) {
+      const int row = mesh.node(element, i);
+      if (row < column) continue;
+      const long place = std::lower_bound(first, last, row) - first;
+      for (int b = 0; b < 3; ++b) {
+        // The node's own block holds its lower triangle only.
+        double* target =
+            matrix.valuePtr() + matrix.outerIndexPtr()[3L * column + b] + 3 * place - b;
+        for (int a = row == column ? b : 0; a < 3; ++a)
+          target[a] += stiffness(3 * i + a, 3 * j + b);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid) {
   const int element = model.mesh.solids[at(solid)];
   const ElementKind& kind = model.mesh.kind(element);
   const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
@@ -109,32 +135,6 @@ Eigen::MatrixXd element_stiffness(const PartModel& model, int solid) {
   return stiffness;
 }
 
-// Adds an element's stiffness to the columns of those nodes that are this part's.
-void scatter(const PartMesh& mesh, const Graph& graph, int element,
-             const Eigen::MatrixXd& stiffness, SparseLower& matrix, int part, int parts) {
-  const int n = mesh.kind(element).nodes;
-  for (int j = 0; j < n; ++j) {
-    const int column = mesh.node(element, j);
-    if (column % parts != part) continue;
-    const auto first = graph.nodes.begin() + graph.start[at(column)];
-    const auto last = graph.nodes.begin() + graph.start[at(column) + 1];
-    for (int i = 0; i < n; ++i) {
-      const int row = mesh.node(element, i);
-      if (row < column) continue;
-      const long place = std::lower_bound(first, last, row) - first;
-      for (int b = 0; b < 3; ++b) {
-        // The node's own block holds its lower triangle only.
-        double* target =
-            matrix.valuePtr() + matrix.outerIndexPtr()[3L * column + b] + 3 * place - b;
-        for (int a = row == column ? b : 0; a < 3; ++a)
-          target[a] += stiffness(3 * i + a, 3 * j + b);
-      }
-    }
-  }
-}
-
-}  // namespace
-
 SparseLower assemble_part_stiffness(const PartModel& model, int threads) {
   if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const Graph graph = node_graph(model.mesh);
@@ -146,7 +146,7 @@ SparseLower assemble_part_stiffness(const PartModel& model, int threads) {
     const int last = std::min(solids, first + batch);
     in_threads(threads, [&](int part) {
       for (int solid = first + part; solid < last; solid += threads)
-        stiffness[at(solid - first)] = element_stiffness(model, solid);
+        stiffness[at(solid - first)] = part_element_stiffness(model, solid);
     });
     in_threads(threads, [&](int part) {
       for (int solid = first; solid < last; ++solid)

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cctype>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -59,6 +60,12 @@ std::string name_of(std::string text) {
   return text;
 }
 
+void open_vtk_file(std::ofstream& file, const char* type) {
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\""
+       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
+       << "\" header_type=\"UInt64\">\n";
+}
+
 }  // namespace
 
 void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution) {
@@ -89,10 +96,8 @@ void write_part_vtu(const std::string& path, const PartModel& model, const PartS
   std::vector<std::string> materials;
   for (const Material& one : model.materials) materials.push_back(one.name);
   std::ofstream file(path, std::ios::binary);
-  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-          "byte_order=\""
-       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-       << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
+  open_vtk_file(file, "UnstructuredGrid");
+  file << "<UnstructuredGrid>\n<FieldData>\n";
   write_names(file, "material_names", materials);
   file << "</FieldData>\n<Piece NumberOfPoints=\"" << stress.node.size() << "\" NumberOfCells=\""
        << types.size() << "\">\n<Points>\n";
@@ -109,6 +114,26 @@ void write_part_vtu(const std::string& path, const PartModel& model, const PartS
   write_array(file, "Int32", "material", 1, material);
   write_array(file, "Int64", "element", 1, tags);
   file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  file.close();
+  if (!file) throw ModelError("cannot write \"" + path + "\"");
+}
+
+void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
+  std::ofstream file(path);
+  open_vtk_file(file, "PUnstructuredGrid");
+  file << "<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n"
+          "<PDataArray type=\"Float32\" NumberOfComponents=\"3\"/>\n</PPoints>\n"
+          "<PPointData Scalars=\"von_mises\" Vectors=\"displacement\">\n"
+          "<PDataArray type=\"Float32\" Name=\"displacement\" NumberOfComponents=\"3\"/>\n"
+          "<PDataArray type=\"Float32\" Name=\"von_mises\" NumberOfComponents=\"1\"/>\n"
+          "<PDataArray type=\"Float32\" Name=\"stress\" NumberOfComponents=\"6\"/>\n"
+          "</PPointData>\n<PCellData>\n"
+          "<PDataArray type=\"Int32\" Name=\"material\" NumberOfComponents=\"1\"/>\n"
+          "<PDataArray type=\"Int64\" Name=\"element\" NumberOfComponents=\"1\"/>\n"
+          "</PCellData>\n";
+  for (const std::string& piece : pieces)
+    file << "<Piece Source=\"" << std::filesystem::path(piece).filename().string() << "\"/>\n";
+  file << "</PUnstructuredGrid>\n</VTKFile>\n";
   file.close();
   if (!file) throw ModelError("cannot write \"" + path + "\"");
 }

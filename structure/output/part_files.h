@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "structure/response/part_solution.h"
 
@@ -11,6 +12,10 @@ namespace blocklift::structure {
 /// `element` (its number in the mesh file). Nodes inside elements and faces are left out.
 /// @throws ModelError if the file cannot be written.
 void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution);
+
+/// Writes the list of the pieces of a part (`.pvtu`) that several processes have written, each by
+/// write_part_vtu and in the same folder. @throws ModelError if the file cannot be written.
+void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces);
 
 /// Writes mesh, materials, supports and loads as input of CalculiX (`.inp`), in m, kg, s, N, Pa; the
 /// loads as nodal forces, just as they are solved here, so that a comparison compares elements.

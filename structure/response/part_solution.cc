@@ -1,7 +1,6 @@
 #include "structure/response/part_solution.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "structure/error.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/response/cell_stress.h"
+#include "structure/stopwatch.h"
 
 namespace blocklift::structure {
 
@@ -22,19 +22,6 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void require_supported(const PartModel& model, const std::vector<FixedUnknown>& fixed) {
   const std::vector<std::string> motions = remaining_rigid_motions(model, fixed);
@@ -65,6 +52,7 @@ StressColumns stresses(const PartModel& model, int solid, const Eigen::MatrixXd&
   return result;
 }
 
+// The averages as recover_part_stress; of_solids: what each solid says at its nodes.
 PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
                    std::vector<StressColumns>& of_solids) {
   PartStress stress;
@@ -210,31 +198,70 @@ void find_balance(const PartModel& model, const Eigen::VectorXd& load,
 
 }  // namespace
 
-PartSolution solve_part(const PartModel& model) {
+PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement) {
+  std::vector<StressColumns> of_solids;
+  return recover(model, displacement, of_solids);
+}
+
+PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<FixedUnknown>& fixed,
+                                   const Eigen::VectorXd& load) {
+  PartDisplacement result;
+  SolverAccount& account = result.account;
+  Stopwatch watch;
+  SparseLower stiffness = assemble_part_stiffness(model);
+  account.assembly_s = watch.lap();
+  ConstrainedSystem system(std::move(stiffness), fixed, EliminationOrder::found);
+  account.factor_bytes = system.factor_bytes();
+  system.factorise();
+  account.factorisation_s = watch.lap();
+  result.displacement = system.solve(load);
+  result.reactions = system.reactions(result.displacement, load);
+  account.solve_s = watch.lap();
+  account.name = "Cholesky factorisation by CHOLMOD";
+  return result;
+}
+
+PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
   check_part_mesh(model.mesh);
   std::vector<int> support_of;
   std::vector<FixedUnknown> fixed = part_supports(model, support_of);
   require_supported(model, fixed);
   fixed = with_idle_nodes(model, std::move(fixed));
   PartSolution solution;
-  Stopwatch watch;
   const Eigen::VectorXd load = part_load(model);
-  SparseLower stiffness = assemble_part_stiffness(model);
-  solution.assembly_s = watch.lap();
-  ConstrainedSystem system(std::move(stiffness), fixed, EliminationOrder::found);
-  solution.factor_bytes = system.factor_bytes();
-  system.factorise();
-  solution.factorisation_s = watch.lap();
-  solution.displacement = system.solve(load);
-  find_balance(model, load, fixed, support_of, system.reactions(solution.displacement, load),
-               solution);
-  solution.solve_s = watch.lap();
+  PartDisplacement solved = solver(model, fixed, load);
+  solution.displacement = std::move(solved.displacement);
+  solution.solver = std::move(solved.account);
+  find_balance(model, load, fixed, support_of, solved.reactions, solution);
+  Stopwatch watch;
   std::vector<StressColumns> of_solids;
   solution.stress = recover(model, solution.displacement, of_solids);
   find_maxima(model, of_solids, solution);
   estimate_error(model, solution);
   solution.recovery_s = watch.lap();
   return solution;
+}
+
+Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(displacement.size());
+  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
+    const int element = model.mesh.solids[at(solid)];
+    const ElementKind& kind = model.mesh.kind(element);
+    const StressColumns stress = stresses(model, solid, kind.gradients, displacement);
+    const Eigen::Matrix3Xd places = model.mesh.places(element);
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const auto by_unit = kind.gradients.middleRows<3>(3 * q);
+      const Eigen::Matrix3d jacobian = places * by_unit.transpose();
+      const Eigen::Matrix3Xd gradients = jacobian.inverse().transpose() * by_unit;
+      const auto s = stress.col(q);
+      Eigen::Matrix3d tensor;
+      tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+      const Eigen::Matrix3Xd shares = kind.weights[q] * jacobian.determinant() * tensor * gradients;
+      for (int i = 0; i < kind.nodes; ++i)
+        forces.segment<3>(3 * model.mesh.node(element, i)) += shares.col(i);
+    }
+  }
+  return forces;
 }
 
 PartProbe probe_part(const PartModel& model, const PartSolution& solution, const Vector3& point) {

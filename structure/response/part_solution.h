@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "structure/elasticity/load.h"
 #include "structure/elasticity/part_model.h"
+#include "structure/elasticity/solver_choice.h"
 
 namespace blocklift::structure {
 
@@ -29,6 +31,32 @@ struct PartGroupResult {
   double displacement = 0;  ///< m
 };
 
+/// How the equations of a part were solved. Times by the wall clock.
+struct SolverAccount {
+  std::string name;
+  int processes = 1;
+  int iterations = 0;       ///< 0: none, solved directly
+  double factor_bytes = 0;  ///< over all processes; 0 without a factor
+  double assembly_s = 0, factorisation_s = 0, solve_s = 0;
+};
+
+/// Displacement of a part under its loads.
+struct PartDisplacement {
+  Eigen::VectorXd displacement;  ///< 3 a node, m
+  Eigen::VectorXd reactions;     ///< of the supports, one a fixed unknown, N
+  SolverAccount account;
+};
+
+/// Finds the displacement for fixed unknowns and a load vector; throws ModelError if it cannot.
+using PartSolver = std::function<PartDisplacement(
+    const PartModel& model, const std::vector<FixedUnknown>& fixed, const Eigen::VectorXd& load)>;
+
+/// Sparse Cholesky in this process.
+/// @throws NotEnoughMemory if stiffness or factor would not fit, before the factorisation begins;
+///   ModelError if the stiffness is not positive definite.
+PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<FixedUnknown>& fixed,
+                                   const Eigen::VectorXd& load);
+
 /// Solution of a part.
 struct PartSolution {
   Eigen::VectorXd displacement;  ///< 3 a node, m
@@ -44,8 +72,8 @@ struct PartSolution {
   /// Zienkiewicz and Zhu's estimate of the error in the energy norm, as a share of the norm: by the
   /// difference between the averaged stress and that of each solid.
   double estimated_error = 0;
-  double factor_bytes = 0;
-  double assembly_s = 0, factorisation_s = 0, solve_s = 0, recovery_s = 0;  ///< wall-clock times
+  SolverAccount solver;
+  double recovery_s = 0;  ///< wall-clock time of the stresses
 };
 
 /// Displacement and stress at a place.
@@ -58,7 +86,14 @@ struct PartProbe {
 
 /// Solves a part. @throws ModelError if the supports leave a rigid motion (named), an element is
 /// inverted, a group is missing or empty, or memory does not suffice.
-PartSolution solve_part(const PartModel& model);
+PartSolution solve_part(const PartModel& model, const PartSolver& solver = solve_by_cholesky);
+
+/// Stresses at the nodes from the displacement, averaged over the solids of one material.
+PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement);
+
+/// Nodal forces of the stresses: int B^T sigma dV, 3 a node, N. In equilibrium they are the loads and
+/// the reactions.
+Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement);
 
 /// Displacement and averaged stress at a place, interpolated in the solid that holds it (to 1e-6 of
 /// its size).

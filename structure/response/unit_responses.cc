@@ -1,7 +1,6 @@
 #include "structure/response/unit_responses.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -17,6 +16,7 @@
 #include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
 #include "structure/response/support.h"
+#include "structure/stopwatch.h"
 
 namespace blocklift::structure {
 
@@ -27,20 +27,6 @@ struct UnitResponses::System {
 };
 
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 constexpr double standard_gravity = 9.80665;  // m/s^2
 

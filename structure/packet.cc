@@ -1,0 +1,21 @@
+#include "structure/packet.h"
+
+#include <cstring>
+#include <stdexcept>
+
+namespace blocklift::structure {
+
+void Packet::append(const void* data, std::size_t size) {
+  const std::size_t filled = bytes_.size();
+  bytes_.resize(filled + size);
+  if (size > 0) std::memcpy(bytes_.data() + filled, data, size);
+}
+
+void Packet::extract(void* data, std::size_t size) {
+  if (size > bytes_.size() - taken_)
+    throw std::logic_error("more is taken from a packet than was put");
+  if (size > 0) std::memcpy(data, bytes_.data() + taken_, size);
+  taken_ += size;
+}
+
+}  // namespace blocklift::structure
