@@ -13,6 +13,8 @@ namespace blocklift::structure {
 
 namespace {
 
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 enum class Order { solve, write, end };
 
 std::string piece_name(const std::string& stem, int process) {
@@ -32,8 +34,7 @@ void write_piece(const std::string& stem, const ProcessGroup& group, const PartS
   int points = 0;
   for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid)
     for (int i = 0; i < model.mesh.kind(model.mesh.solids[solid]).nodes; ++i)
-      points = std::max(points,
-                        1 + stress.point_of[static_cast<std::size_t>(stress.first_of[solid] + i)]);
+      points = std::max(points, 1 + stress.point_of[at(stress.first_of[solid] + i)]);
   stress.node.resize(static_cast<std::size_t>(points));
   write_part_vtu(piece_name(stem, group.rank()), model, solution);
 }
