@@ -10,6 +10,32 @@ constexpr double chosen_threshold = 1e-12;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+// Changes the solution (L vdot) by the least that meets the chosen rows; leaves their multipliers.
+void enforce_loops(const Mechanism& mechanism, const Kinematics& kinematics, ConstVectorRef q,
+                   ConstVectorRef v, ConstVectorRef vdot, const LoopRows* rows,
+                   ConstrainedDynamicsWorkspace& w) {
+  const LoopRows& chosen = rows ? *rows : w.all_rows;
+  const Eigen::Index m = chosen.count();
+  compute_loops(mechanism, kinematics, q, v, w.loops);
+  calc_loop_accelerations(mechanism, kinematics, w.loops, vdot, w.inverse.A_WB, w.accelerations);
+  auto G = w.jacobian.topRows(m);
+  calc_loop_jacobian(mechanism, kinematics, w.loops, chosen.slot, G);
+  auto B = w.free_jacobian.topRows(m);
+  Eigen::Index i = 0;
+  for (const int k : mechanism.free_velocities()) B.col(i++) = G.col(k);
+  w.factor.solve_rows(B);
+  w.qr.columns(m) = B.transpose();
+  for (Eigen::Index row = 0; row < m; ++row) {
+    const int which = chosen.rows[static_cast<std::size_t>(row)];
+    w.group[static_cast<std::size_t>(row)] = mechanism.loop_row_is_angle(which) ? 1 : 0;
+    w.right[row] = -w.accelerations[which];
+  }
+  w.qr.factorise(m, w.group, rows ? chosen_threshold : redundancy_threshold);
+  w.rank = w.qr.rank();
+  w.qr.correct(w.right.head(m), w.solution);
+  w.qr.multipliers(w.multipliers.head(m));
+}
+
 }  // namespace
 
 LoopRows LoopRows::none(const Mechanism& mechanism) {
@@ -42,12 +68,13 @@ void LoopRows::choose(const LoopRows& from, const std::vector<int>& chosen, Eige
   }
 }
 
-ConstrainedDynamicsWorkspace::ConstrainedDynamicsWorkspace(const Mechanism& mechanism)
+ConstrainedDynamicsWorkspace::ConstrainedDynamicsWorkspace(const Mechanism& mechanism,
+                                                           const AddedInertia* inertia)
     : loops(mechanism),
       lambda(Eigen::VectorXd::Zero(mechanism.loop_row_count())),
       inverse(mechanism),
       composite(mechanism),
-      factor(mechanism),
+      factor(mechanism, inertia ? inertia->bodies() : std::vector<BodyIndex>{}),
       all_rows(LoopRows::all(mechanism)),
       mass(Eigen::MatrixXd::Zero(mechanism.nv(), mechanism.nv())),
       jacobian(Eigen::MatrixXd::Zero(mechanism.loop_row_count(), mechanism.nv())),
@@ -58,12 +85,15 @@ ConstrainedDynamicsWorkspace::ConstrainedDynamicsWorkspace(const Mechanism& mech
       right(lambda),
       solution(Eigen::VectorXd::Zero(factor.size())),
       multipliers(lambda),
-      group(index(mechanism.loop_row_count())) {}
+      group(index(mechanism.loop_row_count())) {
+  if (inertia) added.emplace(mechanism, *inertia);
+}
 
 void compute_constrained_dynamics(const Mechanism& mechanism, const Kinematics& kinematics,
                                   ConstVectorRef q, ConstVectorRef v,
                                   const std::vector<ForceVector>& F_Bo_W, const LoopRows* rows,
-                                  ConstrainedDynamicsWorkspace& w, VectorRef tau, VectorRef vdot) {
+                                  ConstrainedDynamicsWorkspace& w, VectorRef tau, VectorRef vdot,
+                                  const AddedInertia* added) {
   const std::vector<int>& free = mechanism.free_velocities();
   const LoopRows& chosen = rows ? *rows : w.all_rows;
   const Eigen::Index m = chosen.count();
@@ -71,29 +101,18 @@ void compute_constrained_dynamics(const Mechanism& mechanism, const Kinematics& 
   for (const int k : free) vdot[k] = 0.0;
   compute_inverse_dynamics(mechanism, kinematics, v, vdot, F_Bo_W, w.inverse, w.bias);
   compute_mass_matrix(mechanism, kinematics, w.composite, w.mass);
+  if (added) {
+    w.added->add_mass(mechanism, kinematics, *added, w.mass);
+    w.added->add_force(kinematics, *added, w.inverse.A_WB, w.bias);
+  }
   w.factor.factorise(mechanism, w.mass);
   Eigen::Index i = 0;
   for (const int k : free) w.solution[i++] = tau[k] - w.bias[k];
   w.factor.solve_transposed(w.solution);
 
-  compute_loops(mechanism, kinematics, q, v, w.loops);
-  calc_loop_accelerations(mechanism, kinematics, w.loops, vdot, w.inverse.A_WB, w.accelerations);
-  auto G = w.jacobian.topRows(m);
-  calc_loop_jacobian(mechanism, kinematics, w.loops, chosen.slot, G);
-  auto B = w.free_jacobian.topRows(m);
-  i = 0;
-  for (const int k : free) B.col(i++) = G.col(k);
-  w.factor.solve_rows(B);
-  w.qr.columns(m) = B.transpose();
-  for (Eigen::Index row = 0; row < m; ++row) {
-    const int which = chosen.rows[static_cast<std::size_t>(row)];
-    w.group[static_cast<std::size_t>(row)] = mechanism.loop_row_is_angle(which) ? 1 : 0;
-    w.right[row] = -w.accelerations[which];
+  if (mechanism.loop_row_count() > 0) {
+    enforce_loops(mechanism, kinematics, q, v, vdot, rows, w);
   }
-  w.qr.factorise(m, w.group, rows ? chosen_threshold : redundancy_threshold);
-  w.rank = w.qr.rank();
-  w.qr.correct(w.right.head(m), w.solution);
-  w.qr.multipliers(w.multipliers.head(m));
   w.factor.solve(w.solution);
 
   w.lambda.setZero();
@@ -101,7 +120,7 @@ void compute_constrained_dynamics(const Mechanism& mechanism, const Kinematics& 
     w.lambda[chosen.rows[static_cast<std::size_t>(row)]] = w.multipliers[row];
   }
   for (const int k : mechanism.driven_velocities()) {
-    double force = w.bias[k] - G.col(k).dot(w.multipliers.head(m));
+    double force = w.bias[k] - w.jacobian.topRows(m).col(k).dot(w.multipliers.head(m));
     i = 0;
     for (const int j : free) force += w.mass(j, k) * w.solution[i++];
     tau[k] = force;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "dynamics/multibody/added_inertia.h"
 #include "dynamics/multibody/inverse_dynamics.h"
 #include "dynamics/multibody/loop_constraint.h"
 #include "dynamics/multibody/mass_factor.h"
@@ -24,7 +26,9 @@ struct LoopRows {
 
 /// Workspace and by-products of compute_constrained_dynamics.
 struct ConstrainedDynamicsWorkspace {
-  explicit ConstrainedDynamicsWorkspace(const Mechanism& mechanism);
+  /// @param added inertia besides that of the bodies; may be null.
+  explicit ConstrainedDynamicsWorkspace(const Mechanism& mechanism,
+                                        const AddedInertia* added = nullptr);
 
   LoopState loops;
   Eigen::VectorXd lambda;  ///< multipliers of all rows, N or N m; see LoopState
@@ -34,6 +38,7 @@ struct ConstrainedDynamicsWorkspace {
   InverseDynamicsWorkspace inverse;
   MassMatrixWorkspace composite;
   MassFactor factor;
+  std::optional<AddedInertiaWorkspace> added;
   LoopRows all_rows;
   Eigen::MatrixXd mass;           ///< nv x nv
   Eigen::MatrixXd jacobian;       ///< rows x nv; as many rows as were solved for
@@ -66,12 +71,15 @@ inline constexpr double redundancy_threshold = 1e-8;
 /// are zero. For use off the constraint, where rows that repeat others contradict them by rounding or by
 /// an integrator's trial step. Null: all rows, the rank being judged at this state.
 ///
+/// @param added inertia that joins that of the bodies on the left-hand side, M + J^T A J, whatever its
+/// size: the one with which the workspace was made, or null. There need not be any loops.
+///
 /// Does not allocate.
 /// @throws SimulationError as compute_forward_dynamics and compute_loops.
 void compute_constrained_dynamics(const Mechanism& mechanism, const Kinematics& kinematics,
                                   ConstVectorRef q, ConstVectorRef v,
                                   const std::vector<ForceVector>& F_Bo_W, const LoopRows* rows,
                                   ConstrainedDynamicsWorkspace& workspace, VectorRef tau,
-                                  VectorRef vdot);
+                                  VectorRef vdot, const AddedInertia* added = nullptr);
 
 }  // namespace blocklift::dynamics

@@ -1,6 +1,8 @@
 #include "dynamics/multibody/mass_factor.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "dynamics/errors.h"
 
@@ -21,25 +23,45 @@ constexpr double singular = 1e-13;
                         "it carries mass or inertia about that axis, or drive the joint");
 }
 
+// Indices of the free velocities from `last` (an index within v) of a body to the world.
+std::vector<int> path_to_world(const Mechanism& mechanism, const std::vector<int>& free_index,
+                               BodyIndex body, int last) {
+  std::vector<int> path;
+  for (BodyIndex i = body; i != world_index;) {
+    const Body& link = mechanism.body(i);
+    for (int j = std::min(last, link.v_offset + link.nv() - 1); j >= link.v_offset; --j) {
+      const int index = free_index[static_cast<std::size_t>(j)];
+      if (index >= 0) path.push_back(index);
+    }
+    last = mechanism.nv();
+    i = link.carrier;
+  }
+  return path;
+}
+
 }  // namespace
 
-MassFactor::MassFactor(const Mechanism& mechanism) {
+MassFactor::MassFactor(const Mechanism& mechanism, const std::vector<BodyIndex>& tied) {
   std::vector<int> free_index(static_cast<std::size_t>(mechanism.nv()), -1);
   int next = 0;
   for (const int k : mechanism.free_velocities()) free_index[static_cast<std::size_t>(k)] = next++;
+  std::vector<int> together;
+  for (const BodyIndex body : tied) {
+    const std::vector<int> path = path_to_world(mechanism, free_index, body, mechanism.nv());
+    together.insert(together.end(), path.begin(), path.end());
+  }
+  std::sort(together.begin(), together.end());
+  together.erase(std::unique(together.begin(), together.end()), together.end());
   for (const int k : mechanism.free_velocities()) {
-    // From k towards the world, then turned round.
-    std::vector<int> chain;
-    int last = k;
-    for (BodyIndex i = mechanism.body_of_velocity(k); i != world_index;) {
-      const Body& body = mechanism.body(i);
-      for (int j = std::min(last, body.v_offset + body.nv() - 1); j >= body.v_offset; --j) {
-        if (free_index[static_cast<std::size_t>(j)] >= 0) {
-          chain.push_back(free_index[static_cast<std::size_t>(j)]);
-        }
-      }
-      last = mechanism.nv();
-      i = body.carrier;
+    // From k towards the world, then turned round; from the first of those tied on, all of them.
+    std::vector<int> chain = path_to_world(mechanism, free_index, mechanism.body_of_velocity(k), k);
+    const auto first_tied = std::find_if(chain.begin(), chain.end(), [&](int i) {
+      return std::binary_search(together.begin(), together.end(), i);
+    });
+    if (first_tied != chain.end()) {
+      const auto end = std::upper_bound(together.begin(), together.end(), *first_tied);
+      chain.erase(first_tied, chain.end());
+      chain.insert(chain.end(), std::make_reverse_iterator(end), together.rend());
     }
     depth_.push_back(chain.size() - 1);
     offset_.push_back(ancestors_.size());

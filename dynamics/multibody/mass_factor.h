@@ -9,9 +9,14 @@ namespace blocklift::dynamics {
 /// Factor L of the mass matrix of the free velocities, M = L^T L, that has the sparsity of the tree: row
 /// i of the lower triangle L has entries at i and at the velocities between i and the world only.
 /// Driven velocities are left out. Source: Featherstone (2008), section 6.5 (LTL).
+///
+/// Bodies that an inertia ties together (AddedInertia) are made a chain for the purpose: the velocities
+/// that move any of them count as lying between the world and those of a higher index, and between the
+/// world and all that these bodies carry. The entries that the tie makes are then within the sparsity.
 class MassFactor {
  public:
-  explicit MassFactor(const Mechanism& mechanism);
+  /// @param tied bodies whose velocities are tied to one another by inertia besides the tree's.
+  explicit MassFactor(const Mechanism& mechanism, const std::vector<BodyIndex>& tied = {});
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(depth_.size()); }
 

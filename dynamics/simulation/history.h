@@ -17,7 +17,8 @@ struct BodyHistory {
   Rows6 velocity;      ///< angular velocity (rad/s), velocity of Bo (m/s), in W
   Rows6 acceleration;  ///< angular acceleration (rad/s2), acceleration of Bo (m/s2), in W
   Rows6
-      load;  ///< of ropes, supports, force elements and loops: moment about Bo (N m), force (N), in W
+      load;  ///< of ropes, supports, force elements, loops and the water's memory: moment about Bo (N m),
+             ///< force (N), in W; not what the water that moves along asks for
 
   Pose X_WB(Eigen::Index sample) const;
   MotionVector V_WB(Eigen::Index sample) const {
@@ -69,7 +70,8 @@ struct LoopHistory {
 /// E = kinetic + gravity + elastic (J).
 struct EnergyHistory {
   Eigen::VectorXd kinetic, gravity, elastic;
-  Eigen::VectorXd drive_work, winch_work, wind_work, dissipated;
+  Eigen::VectorXd drive_work, winch_work, wind_work,
+      dissipated;  ///< waves and radiation are in wind_work
 };
 
 /// Record of an operation at samples in time: static (a sweep of equilibria, rates zero) or

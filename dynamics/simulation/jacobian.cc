@@ -47,7 +47,10 @@ TangentMatrices::TangentMatrices(const LiftSystem& system)
       stiffness(system.nv_free(), system.nv_free()),
       inverse(system.mechanism()),
       forces(system.mechanism(), most_points(system)),
-      loads(system.mechanism()) {}
+      loads(system.mechanism()),
+      frame_jacobian(system.water() ? system.water()->inertia().size() : 0, system.nv_free()) {
+  if (system.water()) added.emplace(system.mechanism(), system.water()->inertia());
+}
 
 void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
                            TangentMatrices& tangent) {
@@ -58,6 +61,12 @@ void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
                                        tangent.loads.F_Bo_W, forces.arm_moments(), inverse);
   const std::vector<int>& free = system.mechanism().free_velocities();
   Eigen::Index column = 0;
+  if (tangent.added) {
+    tangent.added->add_mass(system.mechanism(), w.kinematics, system.water()->inertia(),
+                            inverse.mass);
+    for (const int k : free) tangent.frame_jacobian.col(column++) = tangent.added->jacobian.col(k);
+    column = 0;
+  }
   for (const int k : free) {
     Eigen::Index row = 0;
     for (const int l : free) {
@@ -90,6 +99,30 @@ JacobianWorkspace::JacobianWorkspace(const LiftSystem& system)
       rates_by_v(system.mechanism().nq(), system.mechanism().nv()),
       scaled(system.nv_free(), system.state_size()) {}
 
+namespace {
+
+// The rows of the water's memory, and what it does to the velocities (not yet divided by the mass).
+void add_memory(const LiftSystem& system, Eigen::Index nq, Eigen::Index nv,
+                JacobianWorkspace& workspace, Eigen::Ref<Eigen::MatrixXd> jacobian) {
+  const RadiatedWater& water = *system.water();
+  const Eigen::Index n = water.state_count();
+  const Eigen::MatrixXd& J = workspace.tangent.frame_jacobian;
+  workspace.scaled.rightCols(n) = -(J.transpose() * water.output());
+  jacobian.rightCols(n).topRows(nq).setZero();
+  jacobian.bottomRows(n).leftCols(nq).setZero();
+  jacobian.bottomRows(n).middleCols(nq, nv) = water.input() * J;
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(water.inertia().size());
+  Eigen::VectorXd unit = Eigen::VectorXd::Zero(n), rate(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    unit[k] = 1.0;
+    water.calc_rate(unit, still, rate);
+    jacobian.col(nq + nv + k).tail(n) = rate;
+    unit[k] = 0.0;
+  }
+}
+
+}  // namespace
+
 void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const Contacts* contacts,
                    LiftWorkspace& w, JacobianWorkspace& workspace,
                    Eigen::Ref<Eigen::MatrixXd> jacobian) {
@@ -105,7 +138,7 @@ void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const C
   const std::vector<int>& free_q = mechanism.free_coordinates();
   const std::vector<int>& free_v = mechanism.free_velocities();
   // -M^-1 (K E, C), and the kinematics above them.
-  workspace.scaled.rightCols(nv) = -tangent.damping;
+  workspace.scaled.middleCols(nq, nv) = -tangent.damping;
   for (Eigen::Index j = 0; j < nq; ++j) {
     const int q_column = free_q[static_cast<std::size_t>(j)];
     auto column = workspace.scaled.col(j);
@@ -124,9 +157,10 @@ void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const C
                                                  free_v[static_cast<std::size_t>(j)]);
     }
   }
+  if (system.water()) add_memory(system, nq, nv, workspace, jacobian);
   workspace.mass.compute(tangent.mass);
   workspace.mass.solveInPlace(workspace.scaled);
-  jacobian.bottomRows(nv) = workspace.scaled;
+  jacobian.middleRows(nq, nv) = workspace.scaled;
 }
 
 Eigen::MatrixXd difference_jacobian(const LiftSystem& system, double t, ConstVectorRef y,

@@ -17,9 +17,11 @@ struct TangentMatrices {
 
   Eigen::MatrixXd mass, damping, stiffness;
 
-  InverseDynamicsDerivatives inverse;  ///< of the whole mechanism, nv x nv
-  ForceDerivatives forces;             ///< of the whole mechanism, nv x nv
-  Loads loads;                         ///< with the forces of the loops
+  InverseDynamicsDerivatives inverse;          ///< of the whole mechanism, nv x nv
+  ForceDerivatives forces;                     ///< of the whole mechanism, nv x nv
+  Loads loads;                                 ///< with the forces of the loops
+  std::optional<AddedInertiaWorkspace> added;  ///< where water moves with floating bodies
+  Eigen::MatrixXd frame_jacobian;              ///< of RadiatedWater's frames, 6N x nv_free: u = J v
 };
 
 /// Tangent matrices at the instant that calc_right_hand_side has just left in the workspace; its v, vdot,
@@ -48,8 +50,10 @@ struct JacobianWorkspace {
 /// Jacobian d(dy/dt)/dy of the whole right-hand side (state_size x state_size) at the state y and time t,
 /// the quaternions' kinematics dq/dt = N(q) v included:
 ///   [ dN(q)v/dq       N       ]
-///   [ -M^-1 K E   -M^-1 C     ],   E the tangent increments of the coordinates.
-/// Evaluates the right-hand side once and leaves it in w.vdot, w.rates. Does not allocate.
+///   [ -M^-1 K E   -M^-1 C     ],   E the tangent increments of the coordinates;
+/// with the memory of radiated water -M^-1 J^T C_x and its own rows (0, B J, A) besides.
+/// Evaluates the right-hand side once and leaves it in w.vdot, w.rates. Does not allocate but for radiated
+/// water.
 /// @throws what calc_right_hand_side throws.
 void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const Contacts* contacts,
                    LiftWorkspace& w, JacobianWorkspace& workspace,

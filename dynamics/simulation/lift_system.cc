@@ -66,7 +66,14 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
       rope_loads(system.ropes().size()),
       support_loads(system.supports().size()),
       path(make_rope_path(system.ropes())) {
-  if (!system.mechanism().loops().empty()) loops.emplace(system.mechanism());
+  const AddedInertia* added = system.water() ? &system.water()->inertia() : nullptr;
+  if (!system.mechanism().loops().empty()) {
+    loops.emplace(system.mechanism(), added);
+  } else if (added) {
+    tied.emplace(system.mechanism(), added);
+  }
+  memory = memory_rate = Eigen::VectorXd::Zero(system.memory_count());
+  water_velocity = water_force = Eigen::VectorXd::Zero(added ? added->size() : 0);
   for (std::size_t i = 0; i < feeds.size(); ++i) {
     feeds[i] = {system.ropes()[i].definition().unstretched_length, 0.0};
   }
@@ -103,6 +110,7 @@ void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w) {
   Eigen::Index i = 0;
   for (const int k : system.mechanism().free_coordinates()) w.q[k] = y[i++];
   for (const int k : system.mechanism().free_velocities()) w.v[k] = y[i++];
+  w.memory = y.segment(i, w.memory.size());
 }
 
 void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, VectorRef y) {
@@ -110,6 +118,17 @@ void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, Vec
   for (const int k : system.mechanism().free_coordinates()) y[i++] = q[k];
   for (const int k : system.mechanism().free_velocities()) y[i++] = v[k];
 }
+
+namespace {
+
+// What the memory of the water that floating bodies radiate does to them now.
+void add_memory_forces(const RadiatedWater& water, LiftWorkspace& w) {
+  water.inertia().calc_velocity(w.kinematics, w.water_velocity);
+  water.calc_force(w.memory, w.water_force);
+  add_frame_forces(water.frames(), w.kinematics, w.water_force, w.loads.F_Bo_W);
+}
+
+}  // namespace
 
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w) {
   compute_kinematics(system.mechanism(), w.q, w.v, w.kinematics);
@@ -132,6 +151,7 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
   const MotionState state{t, w.q, w.v, w.kinematics};
   for_each_element(system.elements(),
                    [&](const auto& element) { element.add_forces(state, w.loads); });
+  if (system.water()) add_memory_forces(*system.water(), w);
 }
 
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
@@ -141,10 +161,11 @@ void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
   set_drives(system, t, true, w);
   calc_loads(system, t, contacts, w);
   w.joint_force = w.loads.tau;
-  if (w.loops) {
-    compute_constrained_dynamics(mechanism, w.kinematics, w.q, w.v, w.loads.F_Bo_W,
-                                 w.loop_rows ? &*w.loop_rows : nullptr, *w.loops, w.joint_force,
-                                 w.vdot);
+  const RadiatedWater* water = system.water();
+  if (w.loops || w.tied) {
+    compute_constrained_dynamics(
+        mechanism, w.kinematics, w.q, w.v, w.loads.F_Bo_W, w.loop_rows ? &*w.loop_rows : nullptr,
+        w.loops ? *w.loops : *w.tied, w.joint_force, w.vdot, water ? &water->inertia() : nullptr);
   } else {
     compute_forward_dynamics(mechanism, w.kinematics, w.v, w.loads.F_Bo_W, w.dynamics,
                              w.joint_force, w.vdot);
@@ -153,6 +174,9 @@ void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
   for (const int k : mechanism.driven_velocities()) w.joint_force[k] -= w.loads.tau[k];
   mechanism.calc_rates(w.q, w.v, w.rates);
   get_state(system, w.rates, w.vdot, ydot);
+  if (!water) return;
+  water->calc_rate(w.memory, w.water_velocity, w.memory_rate);
+  ydot.segment(system.nq_free() + system.nv_free(), w.memory.size()) = w.memory_rate;
 }
 
 void calc_contact_indicators(const LiftWorkspace& w, VectorRef indicators) {
@@ -218,12 +242,15 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
     rates.wind_power += account.supplied_power;
     rates.dissipated_power += account.dissipated_power;
   });
+  // The memory gives and takes: what the bodies lose to it is in the waves, or comes back.
+  if (system.water()) rates.wind_power += w.water_force.dot(w.water_velocity);
   return rates;
 }
 
 StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w) {
   StoredEnergy energy;
   energy.kinetic = calc_kinetic_energy(system.mechanism(), w.kinematics);
+  if (system.water()) energy.kinetic += system.water()->inertia().calc_energy(w.water_velocity);
   energy.gravity = calc_gravity_potential(system.mechanism(), w.kinematics);
   for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
     energy.elastic += system.ropes()[i].calc_energy(w.rope_loads[i]).stored_energy;

@@ -8,7 +8,9 @@
 #include "dynamics/force/support.h"
 #include "dynamics/force/wind.h"
 #include "dynamics/force/wind_load.h"
+#include "dynamics/marine/diffraction_force.h"
 #include "dynamics/marine/hull_force.h"
+#include "dynamics/marine/radiated_water.h"
 #include "dynamics/marine/viscous.h"
 #include "dynamics/multibody/constrained_dynamics.h"
 #include "dynamics/multibody/forward_dynamics.h"
@@ -21,9 +23,9 @@ namespace blocklift::dynamics {
 /// The kinds of force elements; a new kind is entered here and nowhere else.
 using ForceElements =
     std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>,
-               std::vector<WindLoad>, std::vector<HullForce>, std::vector<MorisonMember>,
-               std::vector<QuadraticDamping>, std::vector<MooringLine>, std::vector<TuggerLine>,
-               std::vector<AppliedLoad>, std::vector<JointLoad>>;
+               std::vector<WindLoad>, std::vector<HullForce>, std::vector<DiffractionForce>,
+               std::vector<MorisonMember>, std::vector<QuadraticDamping>, std::vector<MooringLine>,
+               std::vector<TuggerLine>, std::vector<AppliedLoad>, std::vector<JointLoad>>;
 
 /// Calls `function` with each element of every kind.
 template <class Function>
@@ -47,13 +49,16 @@ struct LiftDefinition {
   Operation operation;
   Eigen::VectorXd q_start;       ///< nq; driven coordinates are exact, the others may be a guess
   Eigen::VectorXd v_start = {};  ///< nv; empty: at rest
+  /// What floating bodies radiate; null: nothing.
+  std::shared_ptr<const RadiatedWater> water = {};
 };
 
 /// Mechanism, force elements, ropes and operation: an immutable model of a lift, and the layout of
 /// its state.
 ///
-/// State y = (q_free, v_free): the coordinates and velocities that no drive prescribes, in the
-/// order of the mechanism; y has nq_free + nv_free entries. The driven ones follow from the time.
+/// State y = (q_free, v_free, x): the coordinates and velocities that no drive prescribes, in the
+/// order of the mechanism, and the memory of the water that floating bodies radiate; y has nq_free +
+/// nv_free + memory_count entries. The driven ones follow from the time.
 /// Ropes and support pads are one-sided: each acts or does not act, and changes at an instant.
 /// `Contacts` says which act, ropes first, then pads.
 /// Loops of the mechanism tie the free coordinates together; the state keeps all of them, and whoever
@@ -75,7 +80,10 @@ class LiftSystem {
 
   int nq_free() const { return nq_free_; }
   int nv_free() const { return nv_free_; }
-  int state_size() const { return nq_free_ + nv_free_; }
+  /// What floating bodies radiate; null: nothing.
+  const RadiatedWater* water() const { return d_.water.get(); }
+  int memory_count() const { return d_.water ? static_cast<int>(d_.water->state_count()) : 0; }
+  int state_size() const { return nq_free_ + nv_free_ + memory_count(); }
   /// Number of one-sided elements: ropes, then support pads.
   int contact_count() const { return static_cast<int>(d_.ropes.size() + d_.supports.size()); }
   /// Winch of a rope, -1 if its length does not change.
@@ -98,13 +106,13 @@ using Contacts = std::vector<char>;
 struct EnergyRates {
   double drive_power = 0.0;       ///< of the driven joints on the mechanism
   double winch_power = 0.0;       ///< of the winches on their ropes
-  double wind_power = 0.0;        ///< of everything else from outside, wind above all
+  double wind_power = 0.0;        ///< of everything else from outside: wind, waves, radiated water
   double dissipated_power = 0.0;  ///< in ropes, springs, joints and supports
 };
 
 /// Energies stored at one instant, J.
 struct StoredEnergy {
-  double kinetic = 0.0;
+  double kinetic = 0.0;  ///< of the bodies and of the water that moves with floating ones
   double gravity = 0.0;  ///< potential; zero with all centres of mass at the height z = 0
   double elastic = 0.0;  ///< ropes, springs and supports
   double sum() const { return kinetic + gravity + elastic; }
@@ -121,6 +129,11 @@ struct LiftWorkspace {
   Loads loads;
   ForwardDynamicsWorkspace dynamics;
   std::optional<ConstrainedDynamicsWorkspace> loops;  ///< where the mechanism has loops
+  /// Where water ties floating bodies together and there are no loops.
+  std::optional<ConstrainedDynamicsWorkspace> tied;
+  Eigen::VectorXd memory;                       ///< x: states of the radiated water
+  Eigen::VectorXd memory_rate;                  ///< dx/dt
+  Eigen::VectorXd water_velocity, water_force;  ///< of RadiatedWater's frames, 6N each
   /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
   std::optional<LoopRows> loop_rows;
   std::vector<RopeFeed> feeds;  ///< for each rope
@@ -133,9 +146,9 @@ struct LiftWorkspace {
 /// @param moving false: positions only, all rates zero (static equilibrium).
 void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& w);
 
-/// Free coordinates and velocities of a state into the workspace.
+/// Free coordinates and velocities and the water's memory of a state into the workspace.
 void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w);
-/// Free coordinates and velocities of whole vectors q and v into a state.
+/// Free coordinates and velocities of whole vectors q and v into a state; its memory stays as it is.
 void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, VectorRef y);
 
 /// Kinematics and loads of the workspace's q, v and feeds. `contacts`: which one-sided elements

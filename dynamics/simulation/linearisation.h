@@ -56,6 +56,9 @@ struct Linearisation {
   std::vector<Mode> modes;  ///< slowest first; neutral and unstable ones before all others
 };
 
+/// Floating bodies swing with their infinite-frequency added mass; the memory of the water they radiate,
+/// which lengthens slow periods and damps, is not in the modes.
+///
 /// Linearises at the rest that an EquilibriumSolver has left in its workspace at time t: drives and
 /// winches held, one-sided elements acting as they do there. Loops leave the motions along them, an
 /// orthonormal basis of the null space of their Jacobian; what their forces do by turning is in K.

@@ -23,6 +23,13 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
       x_q_(system.nq_free()) {
   const Mechanism& m = system.mechanism();
   if (!m.loops().empty()) loops_.emplace(system);
+  if (system.water()) {
+    response_ = system.water()->input();
+    impedance_.resize(response_.cols(), response_.cols());
+    by_velocity_.resize(response_.cols(), system.nv_free());
+    memory_.resize(response_.rows(), 1);
+    frames_.resize(response_.cols());
+  }
   for (std::size_t i = 0; i < m.links().size(); ++i) {
     const Link& link = m.links()[i];
     const bool rates = velocities_are_rates(link.kind);
@@ -80,6 +87,16 @@ void NewtonMatrix::multiply_by_Z(double factor,
   }
 }
 
+// motion += gamma^2 J^T C R B J.
+void NewtonMatrix::eliminate_memory(const RadiatedWater& water, double gamma,
+                                    Eigen::Ref<Eigen::MatrixXd> motion) {
+  response_ = water.input();
+  water.solve(gamma, response_);
+  impedance_.noalias() = water.output() * response_;
+  by_velocity_.noalias() = impedance_ * tangent_.frame_jacobian;
+  motion.noalias() += (gamma * gamma) * (tangent_.frame_jacobian.transpose() * by_velocity_);
+}
+
 bool NewtonMatrix::factorise(const LiftSystem& system, double gamma) {
   gamma_ = gamma;
   for (Joint& joint : joints_) {
@@ -96,6 +113,7 @@ bool NewtonMatrix::factorise(const LiftSystem& system, double gamma) {
   auto motion = matrix_.topLeftCorner(n, n);
   motion = tangent_.mass + gamma * tangent_.damping;
   multiply_by_Z(gamma * gamma, tangent_.stiffness, motion);
+  if (system.water()) eliminate_memory(*system.water(), gamma, motion);
   if (loops_) {
     const Eigen::Index m = loops_->row_count();
     matrix_.topRightCorner(n, m) = -loops_->jacobian().transpose();
@@ -123,6 +141,13 @@ void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x
   }
   right_.head(nv).noalias() = tangent_.mass * b.segment(nq, nv);
   right_.head(nv).noalias() -= gamma_ * (tangent_.stiffness * moved_);
+  const RadiatedWater* water = system.water();
+  if (water) {
+    memory_.col(0) = b.segment(nq + nv, memory_.rows());
+    water->solve(gamma_, memory_);
+    frames_.noalias() = water->output() * memory_.col(0);
+    right_.head(nv).noalias() -= gamma_ * (tangent_.frame_jacobian.transpose() * frames_);
+  }
   if (loops_) {
     auto demand = right_.tail(loops_->row_count());
     demand.noalias() = loops_->jacobian() * b.segment(nq, nv);
@@ -143,6 +168,10 @@ void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x
         joint.inverse.topLeftCorner(joint.nq, joint.nq) * sum.head(joint.nq);
   }
   x.segment(nq, nv) = moved_;
+  if (!water) return;
+  frames_.noalias() = tangent_.frame_jacobian * moved_;
+  memory_.col(0).noalias() += gamma_ * (response_ * frames_);
+  x.segment(nq + nv, memory_.rows()) = memory_.col(0);
 }
 
 }  // namespace blocklift::dynamics

@@ -18,6 +18,10 @@ namespace blocklift::dynamics {
 /// (see LoopTangent):
 ///   [ M + gamma C + gamma^2 K Z             -G^T ] [ x_v ]   [ M b_v - gamma K Y b_q    ]
 ///   [ G + gamma by_v + gamma^2 by_q Z        0   ] [ mu  ] = [ G b_v - gamma by_q Y b_q ].
+/// The memory x of radiated water (RadiatedWater) is eliminated, too: with R = (1 - gamma A)^-1 and the
+/// frames' Jacobian J,
+///   x_x = R (b_x + gamma B J x_v),
+/// so that gamma^2 J^T C R B J joins the matrix and -gamma J^T C R b_x the right-hand side.
 /// Workspaces are made once.
 class NewtonMatrix {
  public:
@@ -45,6 +49,8 @@ class NewtonMatrix {
     Eigen::Matrix<double, 6, 6> Z;
   };
 
+  void eliminate_memory(const RadiatedWater& water, double gamma,
+                        Eigen::Ref<Eigen::MatrixXd> motion);
   void multiply_by_Z(double factor, const Eigen::Ref<const Eigen::MatrixXd>& by_increments,
                      Eigen::Ref<Eigen::MatrixXd> result) const;
 
@@ -56,6 +62,9 @@ class NewtonMatrix {
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
   Eigen::VectorXd right_, solution_, moved_, x_q_;
+  // Of radiated water: R B; C R B and that times J; R b_x; forces and velocities of the frames.
+  Eigen::MatrixXd response_, impedance_, by_velocity_, memory_;
+  Eigen::VectorXd frames_;
   double gamma_ = not_a_number;
 };
 

@@ -244,6 +244,9 @@ bool Integrator::project_onto_loops(double t, ConstVectorRef y, VectorRef projec
   if (!projector_->project_velocities(w_.v)) return false;
   *w_.loop_rows = projector_->independent_rows();
   get_state(system_, w_.q, w_.v, projected);
+  const Eigen::Index memory = system_.memory_count();
+  const Eigen::Index first = system_.nq_free() + system_.nv_free();
+  projected.segment(first, memory) = y.segment(first, memory);
   return true;
 }
 
