@@ -21,6 +21,10 @@ SupportPad::SupportPad(Definition definition) : definition_(std::move(definition
                        "must be finite and not negative");
     }
   }
+  if (!(d.reach > 0.0)) {
+    throw ModelError("support \"" + d.name + "\" reaches " + std::to_string(d.reach) +
+                     " m; a length above zero is due");
+  }
   if (!d.p_WG.allFinite()) {
     throw ModelError("support \"" + d.name + "\" needs the place on the ground where it stands");
   }
@@ -29,7 +33,8 @@ SupportPad::SupportPad(Definition definition) : definition_(std::move(definition
 SupportLoad SupportPad::calc_depth(const Kinematics& kinematics) const {
   const BodyPoint& point = definition_.point;
   SupportLoad load;
-  load.depth = definition_.p_WG.z() - point_position(kinematics, point.body, point.p_BoQ_B).z();
+  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - definition_.p_WG;
+  load.depth = std::min(-s.z(), definition_.reach - s.head<2>().norm());
   load.depth_rate = -point_velocity(kinematics, point.body, point.p_BoQ_B).z();
   load.elastic_force = definition_.stiffness * load.depth;
   load.damping_force = definition_.damping * load.depth_rate;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "dynamics/force/force_element.h"
 
 namespace blocklift::dynamics {
@@ -20,7 +22,8 @@ struct SupportLoad {
 
 /// A point of a body that may stand on level ground, and lift off it.
 ///
-///   N = max(0, k d + c dd/dt) where the depth d = z_ground - z > 0, else 0;
+///   N = max(0, k d + c dd/dt) where the depth d = z_ground - z > 0, else 0;  within `reach` of p_WG
+///   alone: beside the pad the load may go below its height (d = min(z_ground - z, reach - distance));
 ///   friction: with s the point's level displacement from where it stands at first and its rate,
 ///   f = -(k_t s + c_t ds/dt), shortened to mu N where longer (regularised Coulomb law).
 /// The elastic part holds a standing load in place, so that a static equilibrium is unique.
@@ -35,6 +38,7 @@ class SupportPad {
     double friction_coefficient = 0.0;               ///< mu
     double tangential_stiffness = 0.0;               ///< k_t, N/m
     double tangential_damping = 0.0;                 ///< c_t, N s/m
+    double reach = std::numeric_limits<double>::infinity();  ///< level, from p_WG, m
   };
 
   /// @throws ModelError if the stiffness is not positive or another number is negative.
