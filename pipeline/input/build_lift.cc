@@ -42,33 +42,64 @@ BoxShape drawn_box(const BlockModel& block) {
   return {high - low, 0.5 * (low + high), Vector3::Zero()};
 }
 
+/// The box around a hull, as the drawing shows a vessel.
+BoxShape hull_box(const Vessel& vessel) {
+  const auto [low, high] = vessel.hull.bounds();
+  return {high - low, 0.5 * (low + high), Vector3::Zero()};
+}
+
+/// Mass of the cranes that stand on a vessel, kg; hook blocks and what they carry not counted.
+double mass_on(const LiftCase& lift_case, const std::string& vessel) {
+  double mass = 0;
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.base || crane.base->value != vessel) continue;
+    for (const BodyModel& body : crane.model->bodies) mass += body.mass;
+  }
+  return mass;
+}
+
 /// Gathers the parts of a lift; the steps of `build` follow one another.
 class LiftBuilder {
  public:
-  LiftBuilder(const LiftCase& lift_case, const LoadMass& load) : case_(lift_case), load_(load) {}
+  LiftBuilder(const LiftCase& lift_case, const LoadMass& load,
+              const dynamics::HydrodynamicDatabase* database)
+      : case_(lift_case), load_(load), database_(database), marine_(lift_case, lift_case.gravity) {
+    marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
+  }
 
   BuiltLift build() {
     dynamics::MechanismBuilder builder;
     builder.set_gravity(Vector3(0, 0, -case_.gravity));
+    for (const VesselInCase& vessel : case_.vessels) {
+      register_body(builder, MarineBuilder::body(vessel), "vessel", {hull_box(*vessel.model)});
+    }
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) add_crane(builder, i);
     add_load(builder);
     const dynamics::Mechanism mechanism = builder.build();
     q_start_ = mechanism.zero_configuration();
     set_start(mechanism);
     add_ropes();
-    add_wind_areas();
-    for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements_);
     std::vector<dynamics::Rope> ropes;
     for (const dynamics::RopeDefinition& rope : rope_definitions_) {
       ropes.emplace_back(mechanism, rope);
     }
     Schedule schedule = make_schedule();
     dynamics::Operation operation = make_operation(mechanism, schedule);
-    dynamics::LiftSystem system({mechanism, std::move(ropes), make_supports(), std::move(elements_),
-                                 std::move(operation), q_start_,
-                                 Eigen::VectorXd::Zero(mechanism.nv())});
-    return {std::move(system),  body_of_.at("load"), std::move(bodies_),
-            std::move(hoists_), std::move(ropes_),   std::move(schedule)};
+    const auto water = marine_.make_water(place(), database_);
+    const auto system = [&](bool at_rest) {
+      return dynamics::LiftSystem({mechanism, ropes, make_supports(),
+                                   make_elements(mechanism, at_rest), operation, q_start_,
+                                   Eigen::VectorXd::Zero(mechanism.nv()), water});
+    };
+    const bool gusts = case_.wind && case_.wind->gusts != dynamics::GustSpectrum::none;
+    const bool moves = gusts || marine_.has_waves();
+    return {system(false),
+            body_of_.at("load"),
+            std::move(bodies_),
+            std::move(hoists_),
+            std::move(ropes_),
+            std::move(schedule),
+            moves ? std::optional(system(true)) : std::nullopt};
   }
 
  private:
@@ -87,7 +118,10 @@ class LiftBuilder {
   void add_crane(dynamics::MechanismBuilder& builder, std::size_t index) {
     const CraneInCase& crane = case_.cranes[index];
     const Pose X_WC{rotation_of(crane.attitude), crane.position};
-    PartsBuilder& parts = crane_parts_.emplace_back(*crane.model, crane.name.value + ".", X_WC);
+    BaseGround ground;
+    if (crane.base) ground = {crane.base->value, body_of_.at(crane.base->value)};
+    PartsBuilder& parts =
+        crane_parts_.emplace_back(*crane.model, crane.name.value + ".", X_WC, ground);
     parts.add_bodies(builder);
     parts.add_loops(builder);
     for (const BodyModel* body : parts.added()) {
@@ -132,7 +166,8 @@ class LiftBuilder {
     load.mass = load_.mass;
     load.p_BoBcm_B = load_.p_BoBcm_B;
     load.I_BBcm_B = load_.I_BBcm_B;
-    register_body(builder, load, "load", {drawn_box(*case_.load.model)});
+    register_body(builder, load, "load",
+                  {case_.load.model ? drawn_box(*case_.load.model) : hull_box(*case_.load.vessel)});
   }
 
   BodyIndex register_body(dynamics::MechanismBuilder& builder, const BodyDefinition& body,
@@ -161,10 +196,10 @@ class LiftBuilder {
     for (const DrivenJoint& drive : driven_joints_) {
       q_start_[mechanism.body(drive.body).q_offset + drive.degree_of_freedom] = drive.start;
     }
-    const Pose X_WB = load_pose();
-    const int load = mechanism.body(body_of_.at("load")).q_offset;
-    q_start_.segment<3>(load) = X_WB.p;
-    q_start_.segment<4>(load + 3) = dynamics::quaternion_from_rotation(X_WB.R);
+    set_free_start(mechanism, "load", load_pose());
+    for (const VesselInCase& vessel : case_.vessels) {
+      set_free_start(mechanism, vessel.name.value, marine_.start(vessel.name.value));
+    }
 
     dynamics::Kinematics kinematics(mechanism);
     dynamics::compute_kinematics(mechanism, q_start_, Eigen::VectorXd::Zero(mechanism.nv()),
@@ -174,6 +209,33 @@ class LiftBuilder {
       q_start_.segment<3>(mechanism.body(hook.hook).q_offset) =
           X_WT.apply(hook.sheave.p_BoQ_B) - Vector3(0, 0, hook.length);
     }
+  }
+
+  void set_free_start(const dynamics::Mechanism& mechanism, const std::string& body,
+                      const Pose& X_WB) {
+    const int offset = mechanism.body(body_of_.at(body)).q_offset;
+    q_start_.segment<3>(offset) = X_WB.p;
+    q_start_.segment<4>(offset + 3) = dynamics::quaternion_from_rotation(X_WB.R);
+  }
+
+  /// Where a point of a body is; for the lines of vessels.
+  MarineBuilder::BodyOf place() const {
+    return [this](const PointModel& point) {
+      const std::string& body = point.body.value;
+      return BodyPoint{body == "world" ? dynamics::world_index : body_of_.at(body), point.position};
+    };
+  }
+
+  dynamics::ForceElements make_elements(const dynamics::Mechanism& mechanism, bool at_rest) {
+    dynamics::ForceElements elements;
+    add_wind_areas(at_rest, elements);
+    for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements);
+    marine_.add_elements(place(), database_, at_rest, elements);
+    const LoadInCase& load = case_.load;
+    if (!load.vessel) return elements;
+    marine_.add_hull("load", body_of_.at("load"), *load.vessel, load.damping,
+                     load.quadratic_damping, load.vessel->model.mass, at_rest, elements);
+    return elements;
   }
 
   Pose load_pose() const { return {rotation_of(case_.load.attitude), case_.load.position}; }
@@ -199,15 +261,14 @@ class LiftBuilder {
     }
   }
 
-  void add_wind_areas() {
+  void add_wind_areas(bool at_rest, dynamics::ForceElements& elements) const {
     if (!case_.wind) return;
-    const dynamics::Wind wind =
-        dynamics::Wind::level(case_.wind->speed, case_.wind->towards, case_.wind->air_density);
+    const auto wind = case_.wind->make_field(at_rest);
     const auto add = [&](const std::string& body, const WindAreaModel& area) {
-      add_wind_area(body, body_of_.at(body), area, wind, elements_);
+      add_wind_area(body, body_of_.at(body), area, wind, elements);
     };
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) {
-      crane_parts_[i].add_wind_areas(wind, elements_);
+      crane_parts_[i].add_wind_areas(wind, elements);
       for (const HoistModel& hoist : case_.cranes[i].model->hoists) {
         if (hoist.hook_block.wind_area == 0) continue;
         add(case_.cranes[i].name.value + "." + hoist.name.value,
@@ -215,6 +276,7 @@ class LiftBuilder {
              Vector3::Zero()});
       }
     }
+    if (!case_.load.model) return;
     for (const WindAreaModel& area : case_.load.model->wind_areas) add("load", area);
   }
 
@@ -230,6 +292,7 @@ class LiftBuilder {
       pad.damping = support.damping;
       pad.friction_coefficient = support.friction_coefficient;
       pad.tangential_stiffness = support.tangential_stiffness;
+      if (support.reach) pad.reach = *support.reach;
       pads.emplace_back(std::move(pad));
     }
     return pads;
@@ -264,6 +327,8 @@ class LiftBuilder {
 
   const LiftCase& case_;
   const LoadMass& load_;
+  const dynamics::HydrodynamicDatabase* database_;
+  MarineBuilder marine_;
   std::map<std::string, BodyIndex> body_of_;
   std::deque<PartsBuilder> crane_parts_;
   std::vector<LiftBody> bodies_;
@@ -273,18 +338,29 @@ class LiftBuilder {
   std::vector<HookStart> hook_starts_;
   std::vector<WinchStart> winches_;
   std::vector<dynamics::RopeDefinition> rope_definitions_;
-  dynamics::ForceElements elements_;
   Eigen::VectorXd q_start_;
 };
 
 }  // namespace
 
-BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load) {
+LoadMass load_mass(const VesselModel& vessel) {
+  const Vector3 squares = vessel.radii_of_gyration.cwiseAbs2();
+  return {vessel.mass, vessel.centre_of_mass, (vessel.mass * squares).asDiagonal()};
+}
+
+RadiationProblem radiation_problem(const LiftCase& lift_case) {
+  MarineBuilder marine(lift_case, lift_case.gravity);
+  marine.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
+  return marine.radiation_problem();
+}
+
+BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
+                     const dynamics::HydrodynamicDatabase* database) {
   if (lift_case.load_table) {
     throw std::invalid_argument("case " + lift_case.name +
                                 " is a load table: it has no cranes whose motion could be built");
   }
-  return LiftBuilder(lift_case, load).build();
+  return LiftBuilder(lift_case, load, database).build();
 }
 
 }  // namespace blocklift::pipeline

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "dynamics/simulation/lift_system.h"
+#include "pipeline/input/build_marine.h"
 #include "pipeline/input/lift_case.h"
 #include "pipeline/input/operation_schedule.h"
 #include "structure/mesh/block_description.h"
@@ -43,7 +45,7 @@ struct LiftRope {
 /// A body of the lift for the drawing: which boxes stand for it.
 struct LiftBody {
   std::string name;  ///< "C1.gantry", "C1.upper_1", "load"
-  std::string kind;  ///< "crane", "hook block", "load"
+  std::string kind;  ///< "crane", "vessel", "hook block", "load"
   dynamics::BodyIndex body = -1;
   std::vector<BoxShape> boxes;
 };
@@ -56,7 +58,15 @@ struct BuiltLift {
   std::vector<LiftHoist> hoists;  ///< in the order of cranes and their hoists
   std::vector<LiftRope> ropes;    ///< in the order of the case
   Schedule schedule;
+  /// The same lift without waves and in mean wind, where there are waves or gusts.
+  std::optional<dynamics::LiftSystem> calm = {};
+
+  /// The lift whose static equilibria are asked.
+  const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }
 };
+
+/// What is to be computed for the case's vessels before it is built; no bodies: nothing.
+RadiationProblem radiation_problem(const LiftCase& lift_case);
 
 /// Builds the dynamics of a sound lift case.
 ///
@@ -65,10 +75,18 @@ struct BuiltLift {
 /// centre. The load is free; its start and that of the hook blocks (plumb below their sheaves, by
 /// the unstretched length) are guesses from which the equilibrium is found.
 ///
+/// A vessel that is the load floats by its hull where it reaches the water: buoyancy, wave pressure and
+/// damping, without radiation.
+///
+/// @param database of radiation_problem(); null: vessels make no waves.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.
 /// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
 ///   complaints does.
-BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load);
+BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
+                     const dynamics::HydrodynamicDatabase* database = nullptr);
+
+/// Mass, centre of mass and inertia of a load that is a vessel.
+LoadMass load_mass(const VesselModel& vessel);
 
 /// The block as the structure's mesh generator takes it.
 /// @param name of the block, for messages.

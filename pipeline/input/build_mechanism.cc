@@ -36,11 +36,26 @@ LoadTable load_table(const std::optional<Located<Components>>& constant,
   return {std::move(times), std::move(values)};
 }
 
+/// Mass of all that a vessel carries by joints, kg.
+double mass_on(const MechanismFile& file, const std::string& vessel) {
+  double mass = 0;
+  for (const JointModel& joint : file.joints) {
+    if (joint.parent.value != vessel) continue;
+    mass += file.find_body(joint.child.value)->mass + mass_on(file, joint.child.value);
+  }
+  return mass;
+}
+
 /// Gathers a mechanism; the steps of `build` follow one another.
 class MechanismAssembler {
  public:
-  explicit MechanismAssembler(const MechanismFile& file)
-      : file_(file), parts_(file, "", dynamics::Pose::identity()) {}
+  MechanismAssembler(const MechanismFile& file, const dynamics::HydrodynamicDatabase* database)
+      : file_(file),
+        database_(database),
+        marine_(file, -file.gravity.z()),
+        parts_(file, "", dynamics::Pose::identity()) {
+    marine_.place([&](const std::string& vessel) { return mass_on(file, vessel); });
+  }
 
   BuiltMechanism build() {
     const dynamics::Mechanism mechanism = make_mechanism(parts_, {});
@@ -48,7 +63,7 @@ class MechanismAssembler {
     v_ = Eigen::VectorXd::Zero(mechanism.nv());
     set_initial_state(mechanism);
     set_ropes(mechanism);
-    set_loads(mechanism);
+    add_breakpoints();
     dynamics::Operation operation = make_operation(mechanism);
     set_driven(operation);
     close_loops(mechanism);
@@ -56,10 +71,15 @@ class MechanismAssembler {
     for (const JointModel& joint : file_.joints) {
       carried_by[joint.name.value] = parts_.carried_by(joint.name.value);
     }
-    return {
-        dynamics::LiftSystem(
-            {mechanism, std::move(ropes_), {}, std::move(elements_), std::move(operation), q_, v_}),
-        std::move(carried_by)};
+    const auto water = marine_.make_water(place(), database_);
+    const auto system = [&](bool at_rest) {
+      return dynamics::LiftSystem(
+          {mechanism, ropes_, {}, make_elements(mechanism, at_rest), operation, q_, v_, water});
+    };
+    const bool gusts = file_.wind && file_.wind->gusts != dynamics::GustSpectrum::none;
+    const bool moves = gusts || marine_.has_waves();
+    return {system(false), std::move(carried_by),
+            moves ? std::optional(system(true)) : std::nullopt};
   }
 
  private:
@@ -72,7 +92,17 @@ class MechanismAssembler {
     return builder.build();
   }
 
+  MarineBuilder::BodyOf place() const {
+    return [this](const PointModel& at) { return parts_.point(at.body.value, at.position); };
+  }
+
   void set_initial_state(const dynamics::Mechanism& mechanism) {
+    for (const VesselInCase& vessel : file_.vessels) {
+      const dynamics::Pose& X_WB = marine_.start(vessel.name.value);
+      const int offset = mechanism.body(parts_.body(vessel.name.value)).q_offset;
+      q_.segment<3>(offset) = X_WB.p;
+      q_.segment<4>(offset + 3) = dynamics::quaternion_from_rotation(X_WB.R);
+    }
     for (const auto& position : file_.initial.positions) {
       const JointModel& joint = *file_.find_joint(position.name.value);
       const dynamics::Body& body = mechanism.body(parts_.carried_by(joint.name.value));
@@ -105,20 +135,30 @@ class MechanismAssembler {
     }
   }
 
-  void set_loads(const dynamics::Mechanism& mechanism) {
-    parts_.add_springs(mechanism, elements_);
-    if (file_.wind) {
-      parts_.add_wind_areas(
-          dynamics::Wind::level(file_.wind->speed, file_.wind->towards, file_.wind->air_density),
-          elements_);
+  /// Times at which a force changes its slope.
+  void add_breakpoints() {
+    for (const ForceModel& model : file_.forces) {
+      for (const LoadTable& table : {load_table(model.force, model.force_table),
+                                     load_table(model.moment, model.moment_table)}) {
+        breakpoints_.insert(breakpoints_.end(), table.breakpoints().begin(),
+                            table.breakpoints().end());
+      }
     }
+  }
+
+  dynamics::ForceElements make_elements(const dynamics::Mechanism& mechanism, bool at_rest) {
+    dynamics::ForceElements elements;
+    parts_.add_springs(mechanism, elements);
+    if (file_.wind) parts_.add_wind_areas(file_.wind->make_field(at_rest), elements);
+    marine_.add_elements(place(), database_, at_rest, elements);
+    add_forces(mechanism, elements);
+    return elements;
+  }
+
+  void add_forces(const dynamics::Mechanism& mechanism, dynamics::ForceElements& elements) const {
     for (const ForceModel& model : file_.forces) {
       LoadTable force = load_table(model.force, model.force_table);
       LoadTable moment = load_table(model.moment, model.moment_table);
-      for (const LoadTable* table : {&force, &moment}) {
-        breakpoints_.insert(breakpoints_.end(), table->breakpoints().begin(),
-                            table->breakpoints().end());
-      }
       if (model.body) {
         dynamics::AppliedLoad::Definition load;
         load.name = model.name.value;
@@ -129,7 +169,7 @@ class MechanismAssembler {
             turns_along ? dynamics::AppliedLoad::Axes::body : dynamics::AppliedLoad::Axes::world;
         load.force = std::move(force);
         load.moment = std::move(moment);
-        std::get<std::vector<dynamics::AppliedLoad>>(elements_).emplace_back(std::move(load));
+        std::get<std::vector<dynamics::AppliedLoad>>(elements).emplace_back(std::move(load));
         continue;
       }
       dynamics::JointLoad::Definition load;
@@ -137,8 +177,7 @@ class MechanismAssembler {
       load.body = parts_.carried_by(model.joint->value);
       load.degree_of_freedom = model.degree_of_freedom ? model.degree_of_freedom->value - 1 : 0;
       load.load = model.force || model.force_table ? std::move(force) : std::move(moment);
-      std::get<std::vector<dynamics::JointLoad>>(elements_).emplace_back(mechanism,
-                                                                         std::move(load));
+      std::get<std::vector<dynamics::JointLoad>>(elements).emplace_back(mechanism, std::move(load));
     }
   }
 
@@ -216,17 +255,25 @@ class MechanismAssembler {
   }
 
   const MechanismFile& file_;
+  const dynamics::HydrodynamicDatabase* database_;
+  MarineBuilder marine_;
   PartsBuilder parts_;
   Eigen::VectorXd q_, v_;
   std::vector<dynamics::Rope> ropes_;
-  dynamics::ForceElements elements_;
   std::vector<double> breakpoints_;
 };
 
 }  // namespace
 
-BuiltMechanism build_mechanism(const MechanismFile& file) {
-  return MechanismAssembler(file).build();
+RadiationProblem radiation_problem(const MechanismFile& file) {
+  MarineBuilder marine(file, -file.gravity.z());
+  marine.place([&](const std::string& vessel) { return mass_on(file, vessel); });
+  return marine.radiation_problem();
+}
+
+BuiltMechanism build_mechanism(const MechanismFile& file,
+                               const dynamics::HydrodynamicDatabase* database) {
+  return MechanismAssembler(file, database).build();
 }
 
 std::string try_to_build(const MechanismFile& file) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/simulation/lift_system.h"
+#include "pipeline/input/build_marine.h"
 #include "pipeline/input/mechanism_file.h"
 
 namespace blocklift::pipeline {
@@ -14,13 +16,23 @@ namespace blocklift::pipeline {
 struct BuiltMechanism {
   dynamics::LiftSystem system;
   std::map<std::string, dynamics::BodyIndex> carried_by;  ///< joint to the body that it carries
+  /// The same without waves and in mean wind, where there are waves or gusts.
+  std::optional<dynamics::LiftSystem> calm = {};
+
+  /// The mechanism whose static equilibrium is asked.
+  const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }
 };
+
+/// What is to be computed for the file's vessels before it is built; no bodies: nothing.
+RadiationProblem radiation_problem(const MechanismFile& file);
 
 /// Builds the dynamics of a sound mechanism file, with loops closed at the start as its initial state
 /// says.
+/// @param database of radiation_problem(); null: vessels make no waves.
 /// @throws dynamics::ModelError, dynamics::SimulationError if the parts do not make a mechanism, the loops
 ///   cannot be closed, or are open where they must not be; a file that was read without complaints does.
-BuiltMechanism build_mechanism(const MechanismFile& file);
+BuiltMechanism build_mechanism(const MechanismFile& file,
+                               const dynamics::HydrodynamicDatabase* database = nullptr);
 
 /// What build_mechanism says of a file that cannot be built; empty if it can.
 std::string try_to_build(const MechanismFile& file);

@@ -43,6 +43,7 @@ void PartsBuilder::add_body(dynamics::MechanismBuilder& builder, const JointMode
   body.X_PJ = {rotation_of(joint.attitude), joint.position};
   if (joint.parent.value == "world") {
     body.X_PJ = X_WBase_ * body.X_PJ;
+    body.parent = ground_.name;
   } else {
     body.parent = prefix_ + joint.parent.value;
   }
@@ -70,7 +71,7 @@ void PartsBuilder::add_body(dynamics::MechanismBuilder& builder, const JointMode
   }
 }
 
-void PartsBuilder::add_wind_areas(const dynamics::Wind& wind,
+void PartsBuilder::add_wind_areas(const std::shared_ptr<const dynamics::WindField>& wind,
                                   dynamics::ForceElements& elements) const {
   for (const BodyModel& model : parts_.bodies) {
     for (const WindAreaModel& area : model.wind_areas) {
@@ -80,7 +81,8 @@ void PartsBuilder::add_wind_areas(const dynamics::Wind& wind,
 }
 
 void add_wind_area(const std::string& body_name, BodyIndex body, const WindAreaModel& area,
-                   const dynamics::Wind& wind, dynamics::ForceElements& elements) {
+                   const std::shared_ptr<const dynamics::WindField>& wind,
+                   dynamics::ForceElements& elements) {
   auto& areas = std::get<std::vector<dynamics::WindArea>>(elements);
   dynamics::WindArea::Definition definition;
   definition.name = fmt::format("wind on {} {}", body_name, areas.size() + 1);
@@ -88,11 +90,11 @@ void add_wind_area(const std::string& body_name, BodyIndex body, const WindAreaM
   definition.area = area.area;
   definition.coefficient = area.coefficient;
   definition.normal_B = area.normal;
-  areas.emplace_back(wind, std::move(definition));
+  areas.emplace_back(wind, definition);
 }
 
 BodyIndex PartsBuilder::body(const std::string& name) const {
-  return name == "world" ? dynamics::world_index : body_of_.at(name);
+  return name == "world" ? ground_.body : body_of_.at(name);
 }
 
 BodyIndex PartsBuilder::carried_by(const std::string& joint) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,14 +17,22 @@ struct DrivenFreedom {
   int degree_of_freedom = 0;      ///< from 0
 };
 
+/// What the base of some parts stands on.
+struct BaseGround {
+  std::string name = "world";
+  dynamics::BodyIndex body = dynamics::world_index;
+};
+
 /// Makes bodies, loops and springs of the dynamics from the parts of one file.
 ///
-/// Names get the prefix ("C1."), and what the parts call the world is a base that stands in the world
-/// at X_WBase. The parts must outlive the builder.
+/// Names get the prefix ("C1."), and what the parts call the world is a base that stands in the world, or
+/// on a body that is there already (a vessel), at X_WBase. The parts must outlive the builder.
 class PartsBuilder {
  public:
-  PartsBuilder(const MechanismParts& parts, std::string prefix, const dynamics::Pose& X_WBase)
-      : parts_(parts), prefix_(std::move(prefix)), X_WBase_(X_WBase) {}
+  /// @param X_WBase pose of the base in the world, or in the frame of the ground's body.
+  PartsBuilder(const MechanismParts& parts, std::string prefix, const dynamics::Pose& X_WBase,
+               BaseGround ground = {})
+      : parts_(parts), prefix_(std::move(prefix)), X_WBase_(X_WBase), ground_(std::move(ground)) {}
 
   /// Adds all bodies, each after the one that carries it.
   /// @param held names of joints of which all velocities count as driven.
@@ -35,9 +44,10 @@ class PartsBuilder {
   void add_springs(const dynamics::Mechanism& mechanism, dynamics::ForceElements& elements) const;
 
   /// Adds the wind areas of all bodies.
-  void add_wind_areas(const dynamics::Wind& wind, dynamics::ForceElements& elements) const;
+  void add_wind_areas(const std::shared_ptr<const dynamics::WindField>& wind,
+                      dynamics::ForceElements& elements) const;
 
-  /// A body of the parts, or the world.
+  /// A body of the parts, or what their base stands on.
   dynamics::BodyIndex body(const std::string& name) const;
   /// The body that a joint carries.
   dynamics::BodyIndex carried_by(const std::string& joint) const;
@@ -53,12 +63,13 @@ class PartsBuilder {
   dynamics::Pose frame(const LoopSide& side) const;
   dynamics::LoopDefinition definition_of(const LoopModel& loop) const;
   std::string full_name(const std::string& body) const {
-    return body == "world" ? body : prefix_ + body;
+    return body == "world" ? ground_.name : prefix_ + body;
   }
 
   const MechanismParts& parts_;
   std::string prefix_;
   dynamics::Pose X_WBase_;
+  BaseGround ground_;
   std::map<std::string, dynamics::BodyIndex> body_of_;
   std::vector<const BodyModel*> added_;
   std::vector<DrivenFreedom> driven_;
@@ -66,7 +77,8 @@ class PartsBuilder {
 
 /// Adds a wind area of a body, which is named for messages.
 void add_wind_area(const std::string& body_name, dynamics::BodyIndex body,
-                   const WindAreaModel& area, const dynamics::Wind& wind,
+                   const WindAreaModel& area,
+                   const std::shared_ptr<const dynamics::WindField>& wind,
                    dynamics::ForceElements& elements);
 
 }  // namespace blocklift::pipeline

@@ -46,6 +46,10 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
   if (!lift_case.load.model_name.value.empty()) {
     lift_case.load.model = library.load_block(lift_case.load.model_name, folder, diagnostics);
   }
+  if (lift_case.load.vessel_name && !lift_case.load.vessel_name->value.empty()) {
+    lift_case.load.vessel = library.load_vessel(*lift_case.load.vessel_name, folder, diagnostics);
+  }
+  load_marine_models(lift_case, folder, library, diagnostics);
   for (RopeInCase& rope : lift_case.ropes) {
     rope.rope = library.resolve(rope.rope_choice, folder, diagnostics);
   }
@@ -64,11 +68,26 @@ std::string ResolvedPoint::body_name(const std::vector<CraneInCase>& cranes) con
       return "world";
     case Kind::load:
       return "load";
+    case Kind::vessel:
+      return part;
     case Kind::crane_body:
     case Kind::hook:
       return cranes.at(crane).name.value + "." + part;
   }
   return {};
+}
+
+std::shared_ptr<const dynamics::WindField> WindInCase::make_field(bool at_rest) const {
+  dynamics::WindField::Definition definition;
+  definition.speed = speed;
+  definition.heading = towards;
+  definition.air_density = air_density;
+  definition.profile = profile;
+  definition.gusts = gusts;
+  definition.gust_height = gust_height;
+  definition.seed = static_cast<std::uint64_t>(seed);
+  const dynamics::WindField field(definition);
+  return std::make_shared<const dynamics::WindField>(at_rest ? field.mean() : field);
 }
 
 Vector3 LoadTable::direction_at(const std::string& lug) const {

@@ -9,8 +9,10 @@
 #include <variant>
 #include <vector>
 
+#include "dynamics/force/wind_field.h"
 #include "pipeline/input/block_model.h"
 #include "pipeline/input/crane_model.h"
+#include "pipeline/input/marine_parts.h"
 #include "pipeline/input/model_library.h"
 
 namespace blocklift::pipeline {
@@ -19,22 +21,27 @@ namespace blocklift::pipeline {
 struct CraneInCase {
   Located<std::string> name;
   Located<std::string> model_name;
-  std::shared_ptr<const CraneModel> model;  ///< after the look-up; null if it failed
-  ParameterValues parameters;               ///< in place of the model's own
-  Vector3 position = Vector3::Zero();       ///< of the crane's base in the world, m
-  Vector3 attitude = Vector3::Zero();       ///< roll, pitch, yaw of the base, rad
+  std::shared_ptr<const CraneModel> model;   ///< after the look-up; null if it failed
+  ParameterValues parameters;                ///< in place of the model's own
+  std::optional<Located<std::string>> base;  ///< vessel that it stands on; none: the world
+  Vector3 position = Vector3::Zero();        ///< of the crane's base in the world or vessel, m
+  Vector3 attitude = Vector3::Zero();        ///< roll, pitch, yaw of the base, rad
   /// Drives: coordinate. Hoists: unstretched rope length. Ordered as in the file.
   std::vector<Named<Located<Quantity>>> start;
 
   const Located<Quantity>* find_start(const std::string& drive_or_hoist) const;
 };
 
-/// The block that is lifted.
+/// What is lifted: a block, whose stress is asked, or a vessel, which may float.
 struct LoadInCase {
-  Located<std::string> model_name;
+  Located<std::string> model_name;          ///< of the block; empty for a vessel
   std::shared_ptr<const BlockModel> model;  ///< after the look-up; null if it failed
-  Vector3 position = Vector3::Zero();       ///< of the block's frame at the start, a first guess, m
-  Vector3 attitude = Vector3::Zero();       ///< roll, pitch, yaw, rad; likewise
+  std::optional<Located<std::string>> vessel_name;
+  std::shared_ptr<const Vessel> vessel;      ///< after the look-up; null if it failed
+  std::vector<Named<Vector3>> lugs;          ///< of a vessel, in its frame, m
+  DampingInCase damping, quadratic_damping;  ///< of a vessel in the water
+  Vector3 position = Vector3::Zero();  ///< of the block's frame at the start, a first guess, m
+  Vector3 attitude = Vector3::Zero();  ///< roll, pitch, yaw, rad; likewise
 };
 
 /// Where a rope begins, turns or ends: a hook (`C1.upper_1`), a lug (`L1`), or any point of a body.
@@ -46,10 +53,10 @@ struct RopePoint {
 
 /// What a rope point is after its names have been looked up.
 struct ResolvedPoint {
-  enum class Kind { world, load, crane_body, hook } kind = Kind::world;
-  std::size_t crane = 0;            ///< index of the crane, for crane_body and hook
-  std::string part;                 ///< name of the body or hoist within the crane
-  std::string lug;                  ///< name of the lug, if the point is one
+  enum class Kind { world, load, crane_body, hook, vessel } kind = Kind::world;
+  std::size_t crane = 0;  ///< index of the crane, for crane_body and hook
+  std::string part;       ///< name of the body or hoist within the crane, or of the vessel
+  std::string lug;        ///< name of the lug, if the point is one
   Vector3 point = Vector3::Zero();  ///< in the body's frame, m
 
   /// Name of the body in the lift: "world", "load", "C1.gantry", "C1.upper_1".
@@ -73,11 +80,18 @@ struct RopeInCase {
   std::string lug() const { return path.empty() ? std::string() : path.back().lug; }
 };
 
-/// Constant wind.
+/// Wind, steady or with gusts.
 struct WindInCase {
-  double speed = 0;    ///< m/s
+  double speed = 0;    ///< at a height of 10 m, m/s
   double towards = 0;  ///< direction of travel from +x towards +y, rad
   double air_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m^3
+  dynamics::WindProfile profile = dynamics::WindProfile::uniform;
+  dynamics::GustSpectrum gusts = dynamics::GustSpectrum::none;
+  double gust_height = 10;  ///< at which the spectrum is taken, m
+  int seed = 1;
+
+  /// @param at_rest the mean alone: for static equilibrium.
+  std::shared_ptr<const dynamics::WindField> make_field(bool at_rest) const;
 };
 
 /// Moves of one or several drives or winches, alike.
@@ -112,6 +126,7 @@ struct SupportInCase {
   double damping = 0;                                           ///< N s/m
   double friction_coefficient = 0;
   double tangential_stiffness = 0;  ///< N/m
+  std::optional<double> reach;      ///< level, beyond which there is no pad, m
 };
 
 struct DynamicsSettings {
@@ -169,7 +184,7 @@ struct LoadTable {
 };
 
 /// A lift case: what is lifted, by what, how, and what is asked. SI units.
-struct LiftCase {
+struct LiftCase : MarineParts {
   std::string name;
   std::string title;
   double gravity = std::numeric_limits<double>::quiet_NaN();  ///< m/s^2
@@ -189,6 +204,8 @@ struct LiftCase {
   std::string yaml;            ///< the case file as it stands
   std::filesystem::path file;  ///< where it is
 
+  /// Is the load a block whose stress is asked?
+  bool has_structure() const { return load.model != nullptr; }
   const CraneInCase* find_crane(const std::string& name) const;
   const RopeInCase* find_rope(const std::string& name) const;
 };

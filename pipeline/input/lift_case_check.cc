@@ -59,9 +59,18 @@ class PointResolver {
       resolved.kind = ResolvedPoint::Kind::load;
       return resolved;
     }
+    if (case_.find_vessel(body.value)) {
+      resolved.kind = ResolvedPoint::Kind::vessel;
+      resolved.part = body.value;
+      return resolved;
+    }
     if (body.value.find('.') == std::string::npos) {
+      const char* kinds =
+          "a body is \"world\", \"load\", a vessel, or crane and body, for example C1.gantry";
       fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
-           "a body is \"world\", \"load\", or crane and body, for example C1.gantry");
+           case_.vessels.empty() ? kinds
+                                 : names_hint(std::string(kinds) + "; the vessels are",
+                                              names_of(case_.vessels), body.value));
       return std::nullopt;
     }
     return resolve_part(body, true, point);
@@ -107,6 +116,7 @@ class PointResolver {
   }
 
   std::optional<ResolvedPoint> resolve_lug(const Located<std::string>& name) {
+    if (case_.load.vessel_name) return resolve_vessel_lug(name);
     if (!case_.load.model) return std::nullopt;
     const LugModel* lug = case_.load.model->find_lug(name.value);
     if (!lug) {
@@ -121,6 +131,20 @@ class PointResolver {
     resolved.lug = name.value;
     resolved.point = lug->pin.value;
     return resolved;
+  }
+
+  std::optional<ResolvedPoint> resolve_vessel_lug(const Located<std::string>& name) {
+    for (const Named<Vector3>& lug : case_.load.lugs) {
+      if (lug.name.value != name.value) continue;
+      ResolvedPoint resolved;
+      resolved.kind = ResolvedPoint::Kind::load;
+      resolved.lug = name.value;
+      resolved.point = lug.value;
+      return resolved;
+    }
+    fail(name, fmt::format("{} lug \"{}\", which the load does not have", subject_, name.value),
+         names_hint("its lugs are", names_of(case_.load.lugs), name.value));
+    return std::nullopt;
   }
 
   void fail(const Located<std::string>& name, std::string message, std::string hint) {
@@ -169,8 +193,9 @@ void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
     }
   }
   if (all_known && !lift_case.ropes.empty() && !load_hangs) {
-    diagnostics.error(lift_case.load.model_name.mark, "no rope holds the load",
-                      {"a rope that ends at one of its lugs does"});
+    diagnostics.error(lift_case.load.vessel_name ? lift_case.load.vessel_name->mark
+                                                 : lift_case.load.model_name.mark,
+                      "no rope holds the load", {"a rope that ends at one of its lugs does"});
   }
 }
 
@@ -228,6 +253,17 @@ void check_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
     if (crane.name.value == "world" || crane.name.value == "load") {
       diagnostics.error(crane.name.mark,
                         fmt::format("a crane cannot be named \"{}\"", crane.name.value));
+    }
+    if (lift_case.find_vessel(crane.name.value)) {
+      diagnostics.error(crane.name.mark, fmt::format("a crane and a vessel are both named \"{}\"",
+                                                     crane.name.value));
+    }
+    if (crane.base && !crane.base->value.empty() && !lift_case.find_vessel(crane.base->value)) {
+      diagnostics.error(
+          crane.base->mark,
+          fmt::format("crane {} stands on vessel \"{}\", which the case does not have",
+                      crane.name.value, crane.base->value),
+          {names_hint("its vessels are", names_of(lift_case.vessels), crane.base->value)});
     }
   }
 }
@@ -293,6 +329,8 @@ void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
     refuse(!lift_case.ropes.empty(), "ropes");
     refuse(!lift_case.supports.empty(), "supports");
     refuse(lift_case.wind.has_value(), "wind");
+    refuse(lift_case.sea.has_value(), "a sea");
+    refuse(lift_case.load.vessel_name.has_value(), "a vessel as the load");
     refuse(!lift_case.operation.empty(), "an operation");
     return;
   }
@@ -329,6 +367,20 @@ void check_duration(const LiftCase& lift_case, const Schedule& schedule, Diagnos
   check("static_interval", lift_case.dynamics.static_interval);
 }
 
+/// Vessels, sea and lines, and the lugs and the water of a load that is a vessel.
+void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  std::vector<std::string> bodies = {"load"};
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.model) continue;
+    for (const std::string& part : parts_of(crane, true)) bodies.push_back(part);
+  }
+  check_marine_parts(lift_case, lift_case.gravity, bodies, diagnostics);
+  if (lift_case.load.vessel_name && !lift_case.sea) {
+    diagnostics.error(lift_case.load.vessel_name->mark, "the load is a vessel, and there is no sea",
+                      {"add sea: {} for calm deep sea water"});
+  }
+}
+
 }  // namespace
 
 void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics) {
@@ -362,6 +414,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
         {"model the crane as a tree: joints, springs, ropes"});
   }
   check_ropes(lift_case, diagnostics);
+  check_afloat(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_duration(lift_case, schedule_operation(lift_case, diagnostics), diagnostics);

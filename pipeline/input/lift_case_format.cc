@@ -15,8 +15,10 @@ Format<CraneInCase> crane_format() {
                 "name of the crane's model file")
       .optional("parameters", &CraneInCase::parameters, parameter_overrides_format(),
                 "values for parameters of the model, in place of its own")
+      .optional("base", &CraneInCase::base, located(reference()),
+                "vessel of the case that the crane stands on; the world if left out")
       .by_default("position", &CraneInCase::position, position_format(), zero_position,
-                  "of the crane's base in the world")
+                  "of the crane's base in the world, or in the frame of the vessel")
       .by_default("orientation", &CraneInCase::attitude, attitude_format(), zero_attitude,
                   "of the crane's base: roll, pitch, yaw")
       .required("start", &CraneInCase::start, names_to(located(quantity_of(travels))),
@@ -25,18 +27,41 @@ Format<CraneInCase> crane_format() {
   return table.format();
 }
 
+void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
+  const bool block = !load.model_name.value.empty();
+  if (block == load.vessel_name.has_value()) {
+    reading.error(mark, block ? "the load is a block and a vessel" : "the load is not described",
+                  {"give either model, a block, or vessel with its lugs"});
+  }
+  for (const Named<Vector3>& lug : load.lugs) check_name(lug.name.mark, lug.name.value, reading);
+  if (block && !load.lugs.empty()) {
+    reading.error(load.lugs.front().name.mark, "a block's lugs stand in its model file");
+  }
+}
+
 Format<LoadInCase> load_format() {
   Table<LoadInCase> table("load",
-                          "The block that is lifted: one model for its motion and its "
-                          "stress.");
+                          "What is lifted: a block, one model for its motion and its stress, or a "
+                          "vessel, which floats where it reaches the water and whose stress is not "
+                          "asked.");
   table
-      .required("model", &LoadInCase::model_name, located(reference()),
+      .optional("model", &LoadInCase::model_name, located(reference()),
                 "name of the block's model file")
+      .optional("vessel", &LoadInCase::vessel_name, located(reference()),
+                "in place of model: name of a vessel's model file")
+      .optional("lugs", &LoadInCase::lugs, names_to(position_format()),
+                "of a vessel: places of its lugs in its frame")
+      .by_default("damping", &LoadInCase::damping, vessel_damping_format(), "{}",
+                  "of a vessel in the water: linear, in proportion to the wet volume")
+      .by_default("quadratic_damping", &LoadInCase::quadratic_damping,
+                  vessel_quadratic_damping_format(), "{}",
+                  "with the square of the velocity; likewise")
       .by_default("position", &LoadInCase::position, position_format(), zero_position,
-                  "of the block's frame in the world at the start; a first guess, the run begins "
+                  "of the load's frame in the world at the start; a first guess, the run begins "
                   "from equilibrium")
       .by_default("orientation", &LoadInCase::attitude, attitude_format(), zero_attitude,
-                  "of the block at the start: roll, pitch, yaw; a first guess");
+                  "of the load at the start: roll, pitch, yaw; a first guess")
+      .rule(check_load);
   return table.format();
 }
 
@@ -44,7 +69,7 @@ Format<Located<RopePoint>> rope_point_format() {
   Table<RopePoint> table("point", "A point of a body of the lift.");
   table
       .required("body", &RopePoint::body, reference(),
-                "\"world\", \"load\", or crane and body (C1.gantry)")
+                "\"world\", \"load\", a vessel, or crane and body (C1.gantry)")
       .by_default("point", &RopePoint::point, position_format(), zero_position,
                   "in the body's frame");
   const auto by_name = converted<Located<std::string>, RopePoint>(located(reference()),
@@ -72,7 +97,11 @@ Format<SupportInCase> support_format() {
                   number(Range::between(0, 2)), "0.3", "level force over the load on the pad")
       .by_default("tangential_stiffness", &SupportInCase::tangential_stiffness,
                   quantity(Dimension::stiffness, Range::not_negative()), "1 MN/m",
-                  "against sliding, up to the friction");
+                  "against sliding, up to the friction")
+      .optional(
+          "reach", &SupportInCase::reach, quantity(Dimension::length, Range::positive()),
+          "level distance within which there is ground; everywhere if left out. A load that is "
+          "set down elsewhere, lower, needs it");
   return table.format();
 }
 
@@ -250,16 +279,33 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
 }
 
 Format<WindInCase> wind_format() {
-  Table<WindInCase> table("wind",
-                          "Wind that is the same everywhere and at all times; it acts on "
-                          "the wind areas of bodies.");
+  using dynamics::GustSpectrum;
+  using dynamics::WindProfile;
+  Table<WindInCase> table("wind", "Wind on the wind areas of bodies: steady, or with gusts.");
   table
       .required("speed", &WindInCase::speed, quantity(Dimension::speed, Range::not_negative()),
-                "of the air")
+                "mean of the air, 10 m above z = 0 where it grows with the height")
       .required("towards", &WindInCase::towards, quantity(Dimension::angle),
                 "where it blows to, from +x towards +y")
       .by_default("air_density", &WindInCase::air_density,
-                  quantity(Dimension::density, Range::positive()), "1.25 kg/m^3", "of the air");
+                  quantity(Dimension::density, Range::positive()), "1.25 kg/m^3", "of the air")
+      .by_default("profile", &WindInCase::profile,
+                  choice<WindProfile>({{"uniform", WindProfile::uniform},
+                                       {"power", WindProfile::power},
+                                       {"npd", WindProfile::npd}}),
+                  "uniform",
+                  "over the height: the same, to the power of 0.12, or by the NPD (ISO 19901-1)")
+      .by_default("gusts", &WindInCase::gusts,
+                  choice<GustSpectrum>({{"none", GustSpectrum::none},
+                                        {"npd", GustSpectrum::npd},
+                                        {"api", GustSpectrum::api},
+                                        {"davenport", GustSpectrum::davenport}}),
+                  "none", "spectrum of the gusts; static equilibrium is that of the mean wind")
+      .by_default("gust_height", &WindInCase::gust_height,
+                  quantity(Dimension::length, Range::positive()), "10 m",
+                  "at which the spectrum is taken")
+      .by_default("seed", &WindInCase::seed, integer(Range::not_negative()), "1",
+                  "of the gusts' random phases");
   return table.format();
 }
 
@@ -281,13 +327,15 @@ Format<LiftCase> lift_case_format() {
       .by_default("gravity", &LiftCase::gravity,
                   quantity(Dimension::acceleration, Range::between(1, 100)), "9.80665 m/s^2",
                   "acceleration of gravity; nothing hangs without")
-      .required("load", &LiftCase::load, load_format(), "the block that is lifted")
+      .required("load", &LiftCase::load, load_format(), "the block or vessel that is lifted")
       .optional("cranes", &LiftCase::cranes, named_tables(crane_format()), "by name")
       .optional("ropes", &LiftCase::ropes,
                 named_tables(rope_in_case_format(rope_point_format(), true)), "by name")
       .optional("supports", &LiftCase::supports, named_tables(support_format()),
                 "pads on which the load stands at the start")
-      .optional("wind", &LiftCase::wind, wind_format(), "none if left out")
+      .optional("wind", &LiftCase::wind, wind_format(), "none if left out");
+  add_marine_keys(table);
+  table
       .optional("operation", &LiftCase::operation, list_of(stage_format()),
                 "stages, one after another")
       .by_default("settle", &LiftCase::settle, quantity(Dimension::time, Range::not_negative()),

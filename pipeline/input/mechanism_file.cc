@@ -67,6 +67,48 @@ void add_robot(RobotImport robot, const Mark& mark, MechanismFile& mechanism,
   }
 }
 
+/// Each vessel is a body that moves freely, on a joint of its own name; its initial position may be given
+/// like that of any joint.
+void add_vessels(MechanismFile& mechanism, Diagnostics& diagnostics) {
+  std::vector<BodyModel> bodies;
+  std::vector<JointModel> joints;
+  for (const VesselInCase& vessel : mechanism.vessels) {
+    if (mechanism.find_body(vessel.name.value) || mechanism.find_joint(vessel.name.value)) {
+      diagnostics.error(vessel.name.mark, fmt::format("vessel {} has the name of a body or joint",
+                                                      vessel.name.value));
+      continue;
+    }
+    BodyModel& body = bodies.emplace_back();
+    body.name = vessel.name;
+    if (vessel.model) {
+      body.mass = vessel.model->model.mass;
+      body.centre_of_mass = vessel.model->model.centre_of_mass;
+      body.radii_of_gyration = {vessel.model->model.radii_of_gyration, vessel.name.mark};
+    }
+    JointModel& joint = joints.emplace_back();
+    joint.name = vessel.name;
+    joint.kind = dynamics::JointKind::free;
+    joint.parent = {"world", vessel.name.mark};
+    joint.child = vessel.name;
+  }
+  mechanism.bodies.insert(mechanism.bodies.begin(), bodies.begin(), bodies.end());
+  mechanism.joints.insert(mechanism.joints.begin(), joints.begin(), joints.end());
+}
+
+/// The sea wants gravity downwards.
+void check_afloat(const MechanismFile& mechanism, Diagnostics& diagnostics) {
+  if (!mechanism.sea && mechanism.vessels.empty() && mechanism.moorings.empty() &&
+      mechanism.tuggers.empty()) {
+    return;
+  }
+  const Vector3& g = mechanism.gravity;
+  if (mechanism.sea && !(g.z() < 0 && g.head<2>().isZero())) {
+    diagnostics.error(mechanism.sea->place, "a sea needs gravity that acts downwards, along -z");
+    return;
+  }
+  check_marine_parts(mechanism, -g.z(), names_of(mechanism.bodies), diagnostics);
+}
+
 /// A robot description alone, as a mechanism: at rest, with all joints at zero, for ten seconds.
 std::optional<MechanismFile> read_robot(const fs::path& path, Diagnostics& diagnostics) {
   constexpr double duration = 10;  // s
@@ -176,7 +218,10 @@ std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibr
   for (RopeInCase& rope : mechanism.ropes) {
     rope.rope = library.resolve(rope.rope_choice, file.parent_path(), diagnostics);
   }
+  load_marine_models(mechanism, file.parent_path(), library, diagnostics);
+  add_vessels(mechanism, diagnostics);
   check_mechanism_file(mechanism, reading);
+  check_afloat(mechanism, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   return if_buildable(std::move(mechanism), diagnostics);
 }

@@ -72,7 +72,7 @@ struct OutputModel {
 };
 
 /// A mechanism with what acts on it, how it starts, and what is asked. SI units.
-struct MechanismFile : MechanismParts {
+struct MechanismFile : MechanismParts, MarineParts {
   std::string name;
   std::string title;
   Vector3 gravity = Vector3::Zero();  ///< acceleration of gravity in the world, m/s^2

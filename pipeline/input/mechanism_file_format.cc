@@ -211,7 +211,9 @@ Format<MechanismFile> mechanism_file_format() {
       .optional("forces", &MechanismFile::forces, named_tables(force_format()),
                 "on bodies and at joints")
       .optional("wind", &MechanismFile::wind, wind_format(),
-                "on wind areas of bodies; none if left out")
+                "on wind areas of bodies; none if left out");
+  add_marine_keys(table);
+  table
       .optional("drives", &MechanismFile::drives, named_tables(drive_format()),
                 "that prescribe coordinates of joints")
       .optional("operation", &MechanismFile::operation, list_of(stage_format()),

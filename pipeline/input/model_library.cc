@@ -177,6 +177,17 @@ std::shared_ptr<const BlockModel> ModelLibrary::load_block(const Located<std::st
   return file.empty() ? nullptr : read_block(file, diagnostics);
 }
 
+std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::string>& name,
+                                                        const fs::path& beside,
+                                                        Diagnostics& diagnostics) {
+  const fs::path file = find(name, "vessel", beside, diagnostics);
+  if (file.empty()) return nullptr;
+  const auto known = vessels_.find(file);
+  if (known != vessels_.end()) return known->second;
+  std::optional<Vessel> vessel = read_vessel(file, diagnostics);
+  return vessels_[file] = vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
+}
+
 RopeModel ModelLibrary::resolve(const RopeChoice& choice, const fs::path& beside,
                                 Diagnostics& diagnostics) {
   if (choice.keys) return *choice.keys;

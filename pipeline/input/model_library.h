@@ -10,6 +10,7 @@
 #include "pipeline/input/crane_model.h"
 #include "pipeline/input/diagnostics.h"
 #include "pipeline/input/rope_model.h"
+#include "pipeline/input/vessel_model.h"
 
 namespace blocklift::pipeline {
 
@@ -47,6 +48,10 @@ class ModelLibrary {
   std::shared_ptr<const BlockModel> load_block(const Located<std::string>& name,
                                                const std::filesystem::path& beside,
                                                Diagnostics& diagnostics);
+  /// @returns null also if the vessel has mistakes inside: its hull cannot be made then.
+  std::shared_ptr<const Vessel> load_vessel(const Located<std::string>& name,
+                                            const std::filesystem::path& beside,
+                                            Diagnostics& diagnostics);
   /// The rope that is chosen by name or by its keys. @returns an empty rope if there is none.
   RopeModel resolve(const RopeChoice& choice, const std::filesystem::path& beside,
                     Diagnostics& diagnostics);
@@ -71,6 +76,7 @@ class ModelLibrary {
   std::map<std::string, std::shared_ptr<const CraneModel>> cranes_;  ///< by file and parameters
   std::map<std::filesystem::path, std::shared_ptr<const BlockModel>> blocks_;
   std::map<std::filesystem::path, std::shared_ptr<const RopeModel>> ropes_;
+  std::map<std::filesystem::path, std::shared_ptr<const Vessel>> vessels_;
 };
 
 }  // namespace blocklift::pipeline

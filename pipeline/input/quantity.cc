@@ -60,13 +60,17 @@ const DimensionEntry& entry_of(Dimension dimension) {
       {Dimension::mass_per_length, {{-1, 1, 0, 0}, {"a mass per length", "kg/m", "60 kg/m"}}},
       {Dimension::length_per_angle, {{1, 0, 0, -1}, {"a length per angle", "m/rad", "0.5 m/rad"}}},
       {Dimension::angle_per_length, {{-1, 0, 0, 1}, {"an angle per length", "rad/m", "2 rad/m"}}},
+      {Dimension::wave_spectrum,
+       {{2, 0, 1, -1}, {"a density of a wave spectrum", "m^2 s/rad", "0.8 m^2 s/rad"}}},
+      {Dimension::quadratic_rotational_damping,
+       {{2, 1, 0, -2}, {"a quadratic rotational damping", "N m s^2/rad^2", "5 MN m s^2/rad^2"}}},
   };
   return entries.at(dimension);
 }
 
 /// The noun for exponents that a file has where others are due; empty if nobody has a name for them.
 std::string noun_of(const Exponents& exponents) {
-  for (int i = 0; i <= static_cast<int>(Dimension::angle_per_length); ++i) {
+  for (int i = 0; i <= static_cast<int>(Dimension::quadratic_rotational_damping); ++i) {
     const DimensionEntry& entry = entry_of(static_cast<Dimension>(i));
     if (entry.exponents == exponents) return entry.text.noun;
   }

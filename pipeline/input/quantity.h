@@ -40,6 +40,8 @@ enum class Dimension {
   mass_per_length,
   length_per_angle,
   angle_per_length,
+  wave_spectrum,
+  quadratic_rotational_damping,
 };
 
 /// Exponents of metre, kilogram, second and radian: what a unit or the result of an expression measures.

@@ -1,0 +1,239 @@
+#include "pipeline/input/build_marine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/wetted_body.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::BodyIndex;
+using dynamics::Pose;
+
+constexpr int heading_count = 72;  // every 5 degrees
+
+dynamics::Water water_of(const SeaInCase& sea, double gravity) {
+  dynamics::Water water;
+  water.density = sea.density;
+  water.gravity = gravity;
+  if (sea.depth) water.depth = *sea.depth;
+  return water;
+}
+
+std::vector<double> radiation_frequencies(const SeaInCase& sea) {
+  const RadiationSettings& s = sea.radiation;
+  std::vector<double> frequencies;
+  for (int i = 0; i < s.frequencies; ++i) {
+    frequencies.push_back(s.lowest + i * (s.highest - s.lowest) / (s.frequencies - 1));
+  }
+  if (sea.waves && sea.waves->regular) {
+    for (const RegularWaveInCase& wave : *sea.waves->regular) frequencies.push_back(wave.omega());
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  const auto same = [](double a, double b) { return b - a < 1e-9 * b; };
+  frequencies.erase(std::unique(frequencies.begin(), frequencies.end(), same), frequencies.end());
+  return frequencies;
+}
+
+double wave_length(double frequency, const dynamics::Water& water) {
+  return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, water);
+}
+
+}  // namespace
+
+dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
+                                                 dynamics::DatabaseReport* report) {
+  std::vector<dynamics::WettedBody> bodies;
+  for (const RadiationProblem::Body& body : problem.bodies) {
+    bodies.push_back(make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B));
+    bodies.back().name = body.name;
+  }
+  const dynamics::Symmetry symmetry = find_symmetry(bodies);
+  const std::vector<dynamics::WaterLine> lines = find_water_lines(bodies);
+  const auto surface = make_surface_mesh(
+      lines,
+      dynamics::surface_settings(lines, wave_length(problem.frequencies.back(), problem.water),
+                                 wave_length(problem.frequencies.front(), problem.water)));
+  const dynamics::PanelModel model(std::move(bodies), surface, problem.water, symmetry);
+  dynamics::DatabaseSettings settings;
+  settings.frequencies = problem.frequencies;
+  settings.headings = problem.headings;
+  return compute_database(model, settings, report);
+}
+
+dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {
+  const VesselModel& model = vessel.model->model;
+  const Vector3 squares = model.radii_of_gyration.cwiseAbs2();
+  dynamics::BodyDefinition body;
+  body.name = vessel.name.value;
+  body.joint.kind = dynamics::JointKind::free;
+  body.mass = model.mass;
+  body.p_BoBcm_B = model.centre_of_mass;
+  body.I_BBcm_B = (model.mass * squares).asDiagonal();
+  return body;
+}
+
+void MarineBuilder::place(const std::function<double(const std::string&)>& carried) {
+  for (const VesselInCase& vessel : parts_.vessels) {
+    const std::string& name = vessel.name.value;
+    const double mass = vessel.model->model.mass + carried(name);
+    displaced_mass_[name] = mass;
+    const double height = vessel.draught
+                              ? -vessel.draught->value
+                              : dynamics::find_floating_height(*clusters(*vessel.model),
+                                                               dynamics::Matrix3::Identity(),
+                                                               mass / parts_.sea->density);
+    start_[name] = {dynamics::rotation_about(Vector3::UnitZ(), vessel.heading),
+                    {vessel.position[0], vessel.position[1], height}};
+  }
+}
+
+std::vector<const VesselInCase*> MarineBuilder::radiating() const {
+  std::vector<const VesselInCase*> vessels;
+  for (const VesselInCase& vessel : parts_.vessels) {
+    if (vessel.radiation == RadiationMethod::database) vessels.push_back(&vessel);
+  }
+  return vessels;
+}
+
+RadiationProblem MarineBuilder::radiation_problem() const {
+  RadiationProblem problem;
+  const std::vector<const VesselInCase*> vessels = radiating();
+  if (vessels.empty()) return problem;
+  Vector3 middle = Vector3::Zero();
+  for (const VesselInCase* vessel : vessels) {
+    const Vector3& p = start(vessel->name.value).p;
+    middle += Vector3(p.x(), p.y(), 0) / static_cast<double>(vessels.size());
+  }
+  for (const VesselInCase* vessel : vessels) {
+    const Pose& X_WB = start(vessel->name.value);
+    problem.bodies.push_back(
+        {vessel->name.value, vessel->model, {X_WB.R, X_WB.p - middle}, Vector3(0, 0, -X_WB.p.z())});
+  }
+  problem.water = water_of(*parts_.sea, gravity_);
+  problem.frequencies = radiation_frequencies(*parts_.sea);
+  for (int i = 0; i < heading_count; ++i) {
+    problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
+  }
+  return problem;
+}
+
+std::shared_ptr<const dynamics::Sea> MarineBuilder::sea(bool at_rest) {
+  auto& sea = seas_[at_rest];
+  if (!sea) {
+    sea = std::make_shared<const dynamics::Sea>(make_sea(*parts_.sea, gravity_, at_rest));
+  }
+  return sea;
+}
+
+std::shared_ptr<const dynamics::HullClusters> MarineBuilder::clusters(const Vessel& vessel) {
+  auto& made = clusters_[&vessel];
+  if (!made) made = std::make_shared<const dynamics::HullClusters>(vessel.hull);
+  return made;
+}
+
+dynamics::BodyFrame MarineBuilder::radiation_frame(const VesselInCase& vessel,
+                                                   BodyIndex body) const {
+  const Pose& X_WB = start(vessel.name.value);
+  return {body, {X_WB.R.transpose(), Vector3(0, 0, -X_WB.p.z())}};
+}
+
+void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vessel& vessel,
+                             const DampingInCase& linear, const DampingInCase& quadratic,
+                             double displaced_mass, bool at_rest,
+                             dynamics::ForceElements& elements) {
+  std::get<std::vector<dynamics::HullForce>>(elements).push_back(
+      dynamics::HullForce({"hull of " + name, body, clusters(vessel), sea(at_rest)}));
+  dynamics::QuadraticDamping::Definition damping;
+  damping.name = "damping of " + name;
+  damping.point = {body, vessel.model.centre_of_mass};
+  damping.linear = linear.vector();
+  damping.quadratic = quadratic.vector();
+  if (damping.linear.isZero() && damping.quadratic.isZero()) return;
+  damping.sea = sea(at_rest);
+  damping.hull = clusters(vessel);
+  damping.reference_volume = displaced_mass / parts_.sea->density;
+  std::get<std::vector<dynamics::QuadraticDamping>>(elements).emplace_back(damping);
+}
+
+void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool at_rest,
+                               dynamics::ForceElements& elements) {
+  const std::string& name = vessel.name.value;
+  add_hull(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
+           displaced_mass_.at(name), at_rest, elements);
+  for (const MemberInCase& model : vessel.members) {
+    dynamics::MorisonMember::Definition member;
+    member.name = "member of " + name;
+    member.body = body;
+    member.p_BoP_B = model.from;
+    member.p_BoQ_B = model.to;
+    member.diameter = model.diameter;
+    member.drag_coefficient = model.drag_coefficient;
+    member.sea = sea(at_rest);
+    std::get<std::vector<dynamics::MorisonMember>>(elements).emplace_back(member);
+  }
+}
+
+void MarineBuilder::add_lines(const BodyOf& point, dynamics::ForceElements& elements) const {
+  for (const MooringInCase& model : parts_.moorings) {
+    dynamics::MooringLine::Definition line;
+    line.name = model.name.value;
+    line.anchor = point(model.anchor);
+    line.fairlead = point(model.fairlead);
+    line.line = {model.length.value, model.submerged_mass * gravity_, model.axial_stiffness,
+                 model.on_seabed};
+    std::get<std::vector<dynamics::MooringLine>>(elements).emplace_back(line);
+  }
+  for (const TuggerInCase& model : parts_.tuggers) {
+    dynamics::TuggerLine::Definition line;
+    line.name = model.name.value;
+    line.from = point(model.from);
+    line.to = point(model.to);
+    line.stiffness = model.stiffness;
+    line.damping = model.damping;
+    line.unstretched_length = model.length.value;
+    std::get<std::vector<dynamics::TuggerLine>>(elements).emplace_back(line);
+  }
+}
+
+void MarineBuilder::add_elements(const BodyOf& point,
+                                 const dynamics::HydrodynamicDatabase* database, bool at_rest,
+                                 dynamics::ForceElements& elements) {
+  const auto body_of = [&](const VesselInCase& vessel) {
+    return point({vessel.name, Vector3::Zero(), {}}).body;
+  };
+  for (const VesselInCase& vessel : parts_.vessels) {
+    add_vessel(vessel, body_of(vessel), at_rest, elements);
+  }
+  add_lines(point, elements);
+  if (!database || at_rest || !has_waves()) return;
+  // The elements share one copy.
+  const auto shared = std::make_shared<const dynamics::HydrodynamicDatabase>(*database);
+  int index = 0;
+  for (const VesselInCase* vessel : radiating()) {
+    dynamics::DiffractionForce::Definition force;
+    force.name = "diffraction about " + vessel->name.value;
+    force.frame = radiation_frame(*vessel, body_of(*vessel));
+    force.database = shared;
+    force.database_body = index++;
+    force.sea = sea(at_rest);
+    std::get<std::vector<dynamics::DiffractionForce>>(elements).emplace_back(std::move(force));
+  }
+}
+
+std::shared_ptr<const dynamics::RadiatedWater> MarineBuilder::make_water(
+    const BodyOf& point, const dynamics::HydrodynamicDatabase* database) const {
+  if (!database) return nullptr;
+  dynamics::RadiatedWater::Definition water;
+  water.database = std::make_shared<const dynamics::HydrodynamicDatabase>(*database);
+  for (const VesselInCase* vessel : radiating()) {
+    water.frames.push_back(
+        radiation_frame(*vessel, point({vessel->name, Vector3::Zero(), {}}).body));
+  }
+  return std::make_shared<const dynamics::RadiatedWater>(water);
+}
+
+}  // namespace blocklift::pipeline

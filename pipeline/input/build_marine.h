@@ -1,0 +1,87 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/marine/hydrodynamic_database.h"
+#include "dynamics/simulation/lift_system.h"
+#include "pipeline/input/marine_parts.h"
+
+namespace blocklift::pipeline {
+
+/// Vessels whose radiation is to be computed, as they lie at the start: the input of the panel method.
+///
+/// The database's world D has its origin midway between the vessels in the calm surface and the axes of W,
+/// so that it does not depend on where the vessels lie together.
+struct RadiationProblem {
+  struct Body {
+    std::string name;
+    std::shared_ptr<const Vessel> vessel;
+    dynamics::Pose X_DB;                ///< at rest, upright
+    Vector3 p_BoR_B = Vector3::Zero();  ///< reference point: in the water line above Bo, m
+  };
+  std::vector<Body> bodies;
+  dynamics::Water water;
+  std::vector<double> frequencies;  ///< rad/s, ascending
+  std::vector<double> headings;     ///< rad, a whole turn
+};
+
+/// Computes the database of a problem by the panel method.
+/// @throws dynamics::ModelError, dynamics::SimulationError as compute_database and its meshes do.
+dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
+                                                 dynamics::DatabaseReport* report = nullptr);
+
+/// Makes of marine parts the bodies that float and what acts on them. The parts must outlive the builder
+/// and be sound.
+class MarineBuilder {
+ public:
+  MarineBuilder(const MarineParts& parts, double gravity) : parts_(parts), gravity_(gravity) {}
+
+  /// A vessel as a body on a free joint in the world; inertia of its model.
+  static dynamics::BodyDefinition body(const VesselInCase& vessel);
+
+  /// Where each vessel lies at the start, upright, by its draught or by its weight with what stands on it.
+  /// @param carried mass that stands on a vessel, kg.
+  void place(const std::function<double(const std::string&)>& carried);
+  const dynamics::Pose& start(const std::string& vessel) const { return start_.at(vessel); }
+
+  /// What is to be computed for the vessels that ask for radiation; no bodies: nothing. After place().
+  RadiationProblem radiation_problem() const;
+
+  /// Adds buoyancy and wave forces of hulls, damping, members, lines and, with a database, diffraction.
+  /// @param at_rest without waves: for static equilibrium.
+  using BodyOf = std::function<dynamics::BodyPoint(const PointModel&)>;
+  void add_elements(const BodyOf& point, const dynamics::HydrodynamicDatabase* database,
+                    bool at_rest, dynamics::ForceElements& elements);
+  /// Adds buoyancy, wave forces and damping of a hull, which need be no vessel of the parts.
+  /// @param displaced_mass afloat, kg: the damping is in proportion to the wet part of it.
+  void add_hull(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
+                const DampingInCase& linear, const DampingInCase& quadratic, double displaced_mass,
+                bool at_rest, dynamics::ForceElements& elements);
+  /// The radiated water of the vessels; null without a database.
+  std::shared_ptr<const dynamics::RadiatedWater> make_water(
+      const BodyOf& point, const dynamics::HydrodynamicDatabase* database) const;
+
+  bool has_waves() const { return parts_.sea && parts_.sea->waves; }
+
+ private:
+  std::shared_ptr<const dynamics::Sea> sea(bool at_rest);
+  std::shared_ptr<const dynamics::HullClusters> clusters(const Vessel& vessel);
+  void add_vessel(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
+                  dynamics::ForceElements& elements);
+  void add_lines(const BodyOf& point, dynamics::ForceElements& elements) const;
+  dynamics::BodyFrame radiation_frame(const VesselInCase& vessel, dynamics::BodyIndex body) const;
+  std::vector<const VesselInCase*> radiating() const;
+
+  const MarineParts& parts_;
+  double gravity_;
+  std::map<std::string, dynamics::Pose> start_;
+  std::map<std::string, double> displaced_mass_;  ///< kg
+  std::map<bool, std::shared_ptr<const dynamics::Sea>> seas_;
+  std::map<const Vessel*, std::shared_ptr<const dynamics::HullClusters>> clusters_;
+};
+
+}  // namespace blocklift::pipeline
