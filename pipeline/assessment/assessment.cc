@@ -53,23 +53,30 @@ HistorySettings history_settings(const StructureSettings& settings) {
   return result;
 }
 
+std::vector<structure::LugRegion> lugs_of(const Assessment& assessment) {
+  if (!assessment.block.model) return {};
+  return assessment.block.model->mesh().lugs;
+}
+
 void write_result_file(const Assessment& assessment, const fs::path& path) {
   ResultsWriter file(path);
   write_case(file, assessment.lift_case.name, assessment.lift_case.title,
              assessment.lift_case.yaml);
   if (assessment.lift) {
     const dynamics::LiftSystem& system = assessment.lift->model.system;
-    const Scene scene = make_scene(assessment.lift->model, assessment.block.model->mesh().lugs);
+    const Scene scene = make_scene(assessment.lift->model, lugs_of(assessment));
     write_operation(file, system.operation());
     write_history(file, layout::static_history, system, assessment.lift->static_history, scene);
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
     write_natural_modes(file, system.mechanism(), assessment.lift->natural_modes);
     write_scene(file, system, scene);
   }
-  const structure::Surface surface(*assessment.block.model);
-  write_block(file, surface, *assessment.block.responses, assessment.block.assessment);
-  if (assessment.block.history)
-    write_block_history(file, surface, *assessment.block.responses, *assessment.block.history);
+  if (assessment.block.model) {
+    const structure::Surface surface(*assessment.block.model);
+    write_block(file, surface, *assessment.block.responses, assessment.block.assessment);
+    if (assessment.block.history)
+      write_block_history(file, surface, *assessment.block.responses, *assessment.block.history);
+  }
   file.finish();
 }
 
@@ -80,6 +87,14 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
   Assessment assessment{std::move(lift_case), {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 
+  if (!the_case.has_structure()) {
+    assessment.lift =
+        run_lift(the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
+                 progress);
+    assessment.checks = check_lift(the_case, *assessment.lift);
+    assessment.total_s = total.lap();
+    return assessment;
+  }
   Stopwatch watch;
   BlockRun& block = assessment.block;
   Diagnostics diagnostics;
@@ -90,7 +105,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
   const auto& lugs = block.model->mesh().lugs;
 
   if (!the_case.load_table) {
-    BuiltLift model = build_lift(the_case, load_mass(block.model->mass_properties()));
+    BuiltLift model = prepare_lift(the_case, load_mass(block.model->mass_properties()), progress);
     assessment.lift = run_lift(the_case, std::move(model), progress);
     assessment.checks = check_lift(the_case, *assessment.lift);
   }
@@ -150,12 +165,14 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   const Preparation preparation(folder);
   Stopwatch watch;
   write_result_file(assessment, preparation.folder() / layout::results_file);
-  const LoadComparison& pictured = assessment.block.assessment.simultaneous;
-  const structure::UnitResponses& responses = *assessment.block.responses;
-  structure::write_vtu(preparation.folder() / "block-static.vtu", responses,
-                       pictured.static_state.load);
-  structure::write_vtu(preparation.folder() / "block-dynamic.vtu", responses,
-                       pictured.dynamic_state.load);
+  if (assessment.block.model) {
+    const LoadComparison& pictured = assessment.block.assessment.simultaneous;
+    const structure::UnitResponses& responses = *assessment.block.responses;
+    structure::write_vtu(preparation.folder() / "block-static.vtu", responses,
+                         pictured.static_state.load);
+    structure::write_vtu(preparation.folder() / "block-dynamic.vtu", responses,
+                         pictured.dynamic_state.load);
+  }
 
   nlohmann::ordered_json summary = make_summary(assessment);
   const fs::path summary_path = preparation.folder() / layout::summary_file;

@@ -1,5 +1,6 @@
 #include "pipeline/assessment/assumptions.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -24,18 +25,43 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
       "of samples every {:g} s.",
       lift_case.dynamics.static_interval, lift_case.dynamics.relative_tolerance,
       lift_case.dynamics.sample_interval));
-  list.emplace_back(
-      lift_case.supports.empty()
-          ? "Forces on the block other than at its lugs (wind) are spread over its mass."
-          : "Forces on the block other than at its lugs (wind, pads under it) are spread over its "
-            "mass: while it stands on pads, the stress is that of the ropes' pull alone.");
+  if (lift_case.has_structure()) {
+    list.emplace_back(
+        lift_case.supports.empty()
+            ? "Forces on the block other than at its lugs (wind) are spread over its mass."
+            : "Forces on the block other than at its lugs (wind, pads under it) are spread over "
+              "its mass: while it stands on pads, the stress is that of the ropes' pull alone.");
+  }
   if (lift_case.wind) {
-    list.push_back(fmt::format(
-        "Constant wind of {:g} m/s towards {:.0f} degrees from +x to +y, without gusts.",
-        lift_case.wind->speed, lift_case.wind->towards * 180 / std::numbers::pi));
+    const bool gusts = lift_case.wind->gusts != dynamics::GustSpectrum::none;
+    list.push_back(fmt::format("{} wind of {:g} m/s towards {:.0f} degrees from +x to +y, {}.",
+                               gusts ? "Mean" : "Constant", lift_case.wind->speed,
+                               lift_case.wind->towards * 180 / std::numbers::pi,
+                               gusts ? "with gusts that act everywhere at once" : "without gusts"));
   } else {
     list.push_back("No wind.");
   }
+}
+
+void add_sea_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
+  list.emplace_back(
+      "Buoyancy and the pressure of the undisturbed waves act on each hull as it lies at each "
+      "instant, exactly for its panels in still water. Waves are linear; there are no second-order "
+      "drift forces, slamming or water on deck. Static: the sea without its waves.");
+  if (lift_case.load.vessel) {
+    list.emplace_back(
+        "The load floats by its hull where it reaches the water; it makes no waves, and no added "
+        "mass of it is counted.");
+  }
+  const bool radiates = std::any_of(
+      lift_case.vessels.begin(), lift_case.vessels.end(),
+      [](const VesselInCase& vessel) { return vessel.radiation == RadiationMethod::database; });
+  if (!radiates) return;
+  list.emplace_back(
+      "Radiation and diffraction of the vessels, with their interaction: linear, by the Rankine "
+      "panel method about their upright rest in still water, carried along as they move; their "
+      "distance counts as unchanged. Natural periods hold the added mass of infinite frequency "
+      "alone.");
 }
 
 void add_block_assumptions(const Assessment& assessment, std::vector<std::string>& list) {
@@ -69,12 +95,19 @@ std::vector<std::string> list_assumptions(const Assessment& assessment) {
   std::vector<std::string> list;
   if (assessment.lift) {
     add_lift_assumptions(assessment.lift_case, list);
+    if (assessment.lift_case.sea) add_sea_assumptions(assessment.lift_case, list);
   } else {
     list.push_back(
         "The forces at the lugs are those of the case's load table, all at once, balanced by the "
         "rigid-body acceleration that they give the block.");
   }
-  add_block_assumptions(assessment, list);
+  if (assessment.block.model) {
+    add_block_assumptions(assessment, list);
+  } else {
+    list.emplace_back(
+        "The load is a vessel: its stress was not asked, its ropes, hoists and cranes alone are "
+        "checked.");
+  }
   return list;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/simulation/equilibrium.h"
+#include "pipeline/assessment/radiation_cache.h"
 #include "pipeline/assessment/stopwatch.h"
 
 namespace blocklift::pipeline {
@@ -17,14 +18,15 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
     };
   };
   const dynamics::LiftSystem& system = model.system;
+  const dynamics::LiftSystem& at_rest = model.at_rest();
   Stopwatch watch;
   const Eigen::VectorXd times =
       dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
   // Both histories begin at the same equilibrium.
   Eigen::VectorXd q = system.q_start();
-  dynamics::EquilibriumSolver(system).solve(0, q);
+  dynamics::EquilibriumSolver(at_rest).solve(0, q);
   dynamics::History static_history =
-      dynamics::static_sweep(system, times, q, {}, report("static sweep"));
+      dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"));
   std::vector<NaturalModes> natural_modes =
       find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
   const double static_s = watch.lap();
@@ -38,6 +40,14 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   const double dynamic_s = watch.lap();
   return {std::move(model), std::move(static_history), std::move(dynamic_result), static_s,
           dynamic_s,        std::move(natural_modes)};
+}
+
+BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress) {
+  const auto database =
+      find_radiation(radiation_problem(lift_case), [&](const std::string& what) {
+        progress("radiation of vessels", 0, what);
+      });
+  return build_lift(lift_case, load, database.get());
 }
 
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,

@@ -30,6 +30,10 @@ struct LiftRun {
 /// @throws dynamics::SimulationError when an equilibrium or the integration fails.
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
 
+/// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the rest.
+/// @throws dynamics::ModelError, dynamics::SimulationError as find_radiation and build_lift.
+BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress);
+
 /// Sum of the tackle tensions of a crane's hoists at each sample, N.
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,
                            std::size_t crane);

@@ -139,7 +139,7 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
   std::vector<double> times;
   for (const Instant& instant : instants) times.push_back(instant.time);
   std::vector<dynamics::Linearisation> results =
-      dynamics::linearise_sweep(model.system, times, q_start, interval);
+      dynamics::linearise_sweep(model.at_rest(), times, q_start, interval);
   std::vector<NaturalModes> all;
   for (std::size_t i = 0; i < instants.size(); ++i)
     all.push_back({instants[i].name, std::move(results[i])});

@@ -263,6 +263,17 @@ Json solver_json(const LiftRun& lift) {
           {"times_faster_than_real_time", number(lift.simulated_s() / lift.dynamic_s)}};
 }
 
+void add_structure_timing(const BlockRun& block, Json& timing) {
+  const structure::SolutionTiming& solution = block.responses->timing();
+  timing["mesh_s"] = block.mesh_s;
+  timing["assembly_s"] = solution.assembly_s;
+  timing["analysis_s"] = solution.analysis_s;
+  timing["factorisation_s"] = solution.factorisation_s;
+  timing["solve_s"] = solution.solve_s;
+  timing["evaluation_s"] = block.assessment.evaluation_s;
+  if (block.history) timing["history_s"] = block.history->evaluation_s;
+}
+
 Json timing_json(const Assessment& assessment) {
   Json timing = Json::object();
   if (assessment.lift) {
@@ -270,14 +281,7 @@ Json timing_json(const Assessment& assessment) {
     timing["dynamic_s"] = assessment.lift->dynamic_s;
     timing["simulated_s"] = assessment.lift->simulated_s();
   }
-  const structure::SolutionTiming& solution = assessment.block.responses->timing();
-  timing["mesh_s"] = assessment.block.mesh_s;
-  timing["assembly_s"] = solution.assembly_s;
-  timing["analysis_s"] = solution.analysis_s;
-  timing["factorisation_s"] = solution.factorisation_s;
-  timing["solve_s"] = solution.solve_s;
-  timing["evaluation_s"] = assessment.block.assessment.evaluation_s;
-  if (assessment.block.history) timing["history_s"] = assessment.block.history->evaluation_s;
+  if (assessment.block.model) add_structure_timing(assessment.block, timing);
   timing["total_s"] = assessment.total_s;
   return timing;
 }
@@ -313,7 +317,7 @@ Json make_summary(const Assessment& assessment) {
   }
   if (assessment.lift_case.compare)
     summary["comparison"] = comparison_json(assessment, *assessment.lift_case.compare);
-  summary["structure"] = structure_json(assessment);
+  if (assessment.block.model) summary["structure"] = structure_json(assessment);
   if (assessment.lift) {
     summary["natural_periods"] = natural_periods_json(assessment.lift->model.system.mechanism(),
                                                       assessment.lift->natural_modes);

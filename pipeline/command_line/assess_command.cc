@@ -158,8 +158,10 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
     print_loads(*assessment.lift, assessment.lift_case);
     print_motion(*assessment.lift);
   }
-  print_block(assessment.block.assessment,
-              assessment.block.history ? &*assessment.block.history : nullptr);
+  if (assessment.block.model) {
+    print_block(assessment.block.assessment,
+                assessment.block.history ? &*assessment.block.history : nullptr);
+  }
   print_checks(assessment);
   fmt::print("report: {}\n", report.string());
   return assessment.pass() ? exit_code::done : exit_code::lift_fails;

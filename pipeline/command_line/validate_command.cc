@@ -84,7 +84,9 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   }
   const std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
   if (!lift_case) return std::nullopt;
-  check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
+  if (lift_case->has_structure()) {
+    check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
+  }
   return if_sound(fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case)));
 }
 

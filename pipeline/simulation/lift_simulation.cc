@@ -37,11 +37,16 @@ std::vector<OutputSeries> table_of(const LiftSimulation& simulation) {
 }  // namespace
 
 LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
+  if (!lift_case.has_structure()) {
+    BuiltLift model = prepare_lift(lift_case, load_mass(lift_case.load.vessel->model), progress);
+    LiftRun run = run_lift(lift_case, std::move(model), progress);
+    return {std::move(lift_case), {}, std::move(run)};
+  }
   Diagnostics diagnostics;
   const auto block = make_block_model(*lift_case.load.model, lift_case.load.model_name.value,
                                       lift_case.structure, diagnostics);
   if (!block) throw InputError(diagnostics);
-  BuiltLift model = build_lift(lift_case, load_mass(block->mass_properties()));
+  BuiltLift model = prepare_lift(lift_case, load_mass(block->mass_properties()), progress);
   LiftRun run = run_lift(lift_case, std::move(model), progress);
   return {std::move(lift_case), block->mesh().lugs, std::move(run)};
 }

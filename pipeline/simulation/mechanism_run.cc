@@ -8,6 +8,7 @@
 
 #include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/simulation/equilibrium.h"
+#include "pipeline/assessment/radiation_cache.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/version.h"
@@ -24,11 +25,14 @@ constexpr auto statistics_group = "/statistics";
 MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const BuiltMechanism mechanism = build_mechanism(file);
+  const auto database = find_radiation(radiation_problem(file), {});
+  const BuiltMechanism mechanism = build_mechanism(file, database.get());
   const dynamics::LiftSystem& system = mechanism.system;
   MechanismRun run;
   Eigen::VectorXd q = system.q_start();
-  if (file.simulate.start == Start::equilibrium) dynamics::EquilibriumSolver(system).solve(0, q);
+  if (file.simulate.start == Start::equilibrium) {
+    dynamics::EquilibriumSolver(mechanism.at_rest()).solve(0, q);
+  }
   if (!system.mechanism().loops().empty()) {
     run.findings = dynamics::diagnose_loops(system.mechanism(), q).sentences(system.mechanism());
   }

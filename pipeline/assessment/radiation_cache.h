@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "pipeline/input/build_marine.h"
+
+namespace blocklift::pipeline {
+
+/// Where computed databases are kept: the folder that BLOCKLIFT_CACHE names, or `blocklift` in that of
+/// XDG_CACHE_HOME, or `.cache/blocklift` in the user's home. Empty if none of these is set: nothing is
+/// kept then.
+std::filesystem::path cache_folder();
+
+/// What tells databases apart: a hash of hulls, poses, water, frequencies and headings.
+std::string identity_of(const RadiationProblem& problem);
+
+/// The database of a problem: from the cache if it lies there, else computed and put there. A cache that
+/// cannot be written is no error: the database is computed again next time.
+/// @param report called with a sentence about what is done; may be empty.
+/// @returns null for a problem without bodies.
+/// @throws dynamics::ModelError, dynamics::SimulationError as compute_radiation.
+std::shared_ptr<const dynamics::HydrodynamicDatabase> find_radiation(
+    const RadiationProblem& problem, const std::function<void(const std::string&)>& report);
+
+}  // namespace blocklift::pipeline
