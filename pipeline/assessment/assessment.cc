@@ -54,8 +54,8 @@ HistorySettings history_settings(const StructureSettings& settings) {
 }
 
 std::vector<structure::LugRegion> lugs_of(const Assessment& assessment) {
-  if (!assessment.block.model) return {};
-  return assessment.block.model->mesh().lugs;
+  return assessment.block.model ? assessment.block.model->mesh().lugs
+                                : vessel_lugs(assessment.lift_case.load);
 }
 
 void write_result_file(const Assessment& assessment, const fs::path& path) {
@@ -70,6 +70,7 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
     write_natural_modes(file, system.mechanism(), assessment.lift->natural_modes);
     write_scene(file, system, scene);
+    if (assessment.lift_case.compare) write_measured(file, *assessment.lift_case.compare);
   }
   if (assessment.block.model) {
     const structure::Surface surface(*assessment.block.model);

@@ -6,6 +6,16 @@ LoadMass load_mass(const structure::MassProperties& mass) {
   return {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B};
 }
 
+std::vector<structure::LugRegion> vessel_lugs(const LoadInCase& load) {
+  std::vector<structure::LugRegion> lugs;
+  for (const Named<Vector3>& lug : load.lugs) {
+    structure::LugRegion& region = lugs.emplace_back();
+    region.name = lug.name.value;
+    region.p_BPin = lug.value;
+  }
+  return lugs;
+}
+
 Scene make_scene(const BuiltLift& model, const std::vector<structure::LugRegion>& lugs) {
   Scene scene;
   for (const LiftBody& body : model.bodies) {

@@ -10,6 +10,9 @@ namespace blocklift::pipeline {
 /// Mass, centre and inertia of the load as its mesh has them.
 LoadMass load_mass(const structure::MassProperties& mass);
 
+/// Lugs of a load that is a vessel: names and places.
+std::vector<structure::LugRegion> vessel_lugs(const LoadInCase& load);
+
 /// Names and roles of the parts of a lift, for results.h5.
 Scene make_scene(const BuiltLift& model, const std::vector<structure::LugRegion>& lugs);
 

@@ -185,6 +185,16 @@ void write_scene(ResultsWriter& file, const LiftSystem& system, const Scene& sce
   file.write_attribute(layout::scene_lugs, "body", scene.load_body);
 }
 
+void write_measured(ResultsWriter& file, const Comparison& compare) {
+  for (const Named<MeasuredSeries>& series : compare.series) {
+    const std::string group = layout::join(layout::measured_group, series.name.value);
+    file.write(layout::join(group, "time"), std::span<const double>(series.value.time),
+               {"s", "of the operation"});
+    file.write(layout::join(group, "tension"), std::span<const double>(series.value.tension),
+               {"N", "measured: " + compare.source});
+  }
+}
+
 void write_block(ResultsWriter& file, const structure::Surface& surface,
                  const structure::UnitResponses& responses, const BlockAssessment& assessment) {
   std::vector<std::int32_t> corners;

@@ -7,6 +7,7 @@
 #include "dynamics/simulation/history.h"
 #include "pipeline/assessment/block_assessment.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/input/lift_case.h"
 
 /// What of an assessment goes where in results.h5 (pipeline/formats/results_layout.h).
 namespace blocklift::pipeline {
@@ -40,6 +41,8 @@ void write_operation(ResultsWriter& file, const dynamics::Operation& operation);
 void write_history(ResultsWriter& file, std::string_view group, const dynamics::LiftSystem& system,
                    const dynamics::History& history, const Scene& scene);
 void write_scene(ResultsWriter& file, const dynamics::LiftSystem& system, const Scene& scene);
+/// Measured series beside the computed ones.
+void write_measured(ResultsWriter& file, const Comparison& compare);
 /// Surface of the block and the four states of both ways that the report shows.
 void write_block(ResultsWriter& file, const structure::Surface& surface,
                  const structure::UnitResponses& responses, const BlockAssessment& assessment);

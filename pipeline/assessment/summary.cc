@@ -126,7 +126,46 @@ class LoadTables {
     return rows;
   }
 
+  /// The computed tension in motion less the measured one, in per cent of the largest measured.
+  Json series(const Comparison& compare) const {
+    Json rows = Json::array();
+    for (const Named<MeasuredSeries>& named : compare.series) {
+      const dynamics::RopeHistory& rope = lift_.dynamic_history().rope(named.name.value);
+      const MeasuredSeries& measured = named.value;
+      const double largest = *std::max_element(measured.tension.begin(), measured.tension.end());
+      double sum = 0, most = 0, when = 0;
+      int points = 0;
+      for (std::size_t i = 0; i < measured.time.size(); ++i) {
+        const std::optional<double> computed =
+            value_at(lift_.dynamic_history().time, rope.tension, measured.time[i]);
+        if (!computed) continue;
+        const double difference = 100 * (*computed - measured.tension[i]) / largest;
+        ++points;
+        sum += std::abs(difference);
+        if (std::abs(difference) < std::abs(most)) continue;
+        most = difference;
+        when = measured.time[i];
+      }
+      rows.push_back({{"name", named.name.value},
+                      {"points", points},
+                      {"mean_difference_percent", number(points > 0 ? sum / points : NAN)},
+                      {"largest_difference_percent", number(points > 0 ? most : NAN)},
+                      {"time_of_largest_s", when}});
+    }
+    return rows;
+  }
+
  private:
+  /// Linear between the samples; none outside of them.
+  static std::optional<double> value_at(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
+                                        double t) {
+    if (time.size() < 2 || t < time[0] || t > time[time.size() - 1]) return std::nullopt;
+    const auto* end = std::lower_bound(time.data() + 1, time.data() + time.size() - 1, t);
+    const Eigen::Index i = end - time.data();
+    const double s = (t - time[i - 1]) / (time[i] - time[i - 1]);
+    return (1 - s) * values[i - 1] + s * values[i];
+  }
+
   Json rope_row(const std::string& name, int rope) const {
     const LinkedMaximum& at_rest = static_maxima_[static_cast<std::size_t>(rope)];
     const LinkedMaximum& in_motion = dynamic_maxima_[static_cast<std::size_t>(rope)];
@@ -291,6 +330,7 @@ Json comparison_json(const Assessment& assessment, const Comparison& compare) {
   if (assessment.lift) {
     const LoadTables tables(assessment.lift_case, *assessment.lift);
     json["ropes"] = tables.comparison(compare);
+    if (!compare.series.empty()) json["series"] = tables.series(compare);
   }
   if (compare.stress_increase) json["stress_increase_percent"] = 100 * *compare.stress_increase;
   if (compare.deformation_increase)

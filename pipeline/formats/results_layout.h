@@ -24,6 +24,7 @@
 ///     bodies/<body>/velocity       (o) rad/s, m/s [n x 6], angular then linear (acceleration alike)
 ///     drives/<drive>/position      (o) m or rad [n]                      force (o) N or N m [n]
 ///     energy/<term>                (o) J [n]; the term `balance` is what the others leave unexplained
+///   /measured/<rope>               (o) time s [p], tension N [p]: a measured series
 ///   /modes/<i>                     (o) natural modes at rest at one instant, i = 1, 2, ...; m modes
 ///                                      attributes instant (in words), time
 ///     names, kinds                     texts [m]  kind: oscillating, overdamped, neutral, unstable
@@ -66,6 +67,9 @@
 ///   cranes         (o) like ropes, max_static_load_N and max_dynamic_load_N instead of tensions, capacity_N
 ///   comparison     (o) {source, ropes: [{name, published_static_N, published_dynamic_N,
 ///                      static_difference_percent, dynamic_difference_percent}],
+///                      series (o): [{name, points, mean_difference_percent, largest_difference_percent,
+///                      time_of_largest_s}], the computed tension in motion less the measured one, of the
+///                      largest measured, mean of its size,
 ///                      stress_increase_percent (o), deformation_increase_percent (o)}: published figures
 ///   structure      (o) {unknowns, elements, element_degree, mesh_size_m, material (o), yield_Pa (o),
 ///                      per_rope_maxima: WAY, simultaneous: WAY,
@@ -110,6 +114,8 @@ inline constexpr std::string_view stage_end = "/operation/stage_end";
 
 inline constexpr std::string_view static_history = "/static";
 inline constexpr std::string_view dynamic_history = "/dynamic";
+
+inline constexpr std::string_view measured_group = "/measured";
 
 inline constexpr std::string_view modes_group = "/modes";
 

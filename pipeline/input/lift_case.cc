@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "pipeline/formats/series_file.h"
 #include "pipeline/input/document.h"
 #include "pipeline/input/lift_case_check.h"
 #include "pipeline/input/reading.h"
@@ -37,6 +38,29 @@ fs::path case_file(const fs::path& path, Diagnostics& diagnostics) {
   return {};
 }
 
+/// Reads the measured tensions of a case; complains at the file's name.
+void read_measured_series(LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (!lift_case.compare) return;
+  for (Named<MeasuredSeries>& named : lift_case.compare->series) {
+    MeasuredSeries& measured = named.value;
+    if (measured.file.value.empty()) continue;
+    try {
+      const SeriesFile file = read_series_file(lift_case.file.parent_path() / measured.file.value);
+      if (file.columns.size() != 2) {
+        throw SeriesFileError(measured.file.value + " has " + std::to_string(file.columns.size()) +
+                              " columns; time in s and the tension are due");
+      }
+      for (const double time : file.columns[0]) measured.time.push_back(time + measured.offset);
+      for (const double value : file.columns[1]) measured.tension.push_back(value * measured.unit);
+      if (!std::is_sorted(measured.time.begin(), measured.time.end())) {
+        throw SeriesFileError(measured.file.value + ": the times do not ascend");
+      }
+    } catch (const SeriesFileError& error) {
+      diagnostics.error(measured.file.mark, error.what());
+    }
+  }
+}
+
 void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagnostics) {
   const fs::path folder = lift_case.file.parent_path();
   for (CraneInCase& crane : lift_case.cranes) {
@@ -50,6 +74,7 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
     lift_case.load.vessel = library.load_vessel(*lift_case.load.vessel_name, folder, diagnostics);
   }
   load_marine_models(lift_case, folder, library, diagnostics);
+  read_measured_series(lift_case, diagnostics);
   for (RopeInCase& rope : lift_case.ropes) {
     rope.rope = library.resolve(rope.rope_choice, folder, diagnostics);
   }

@@ -163,10 +163,20 @@ struct PublishedLoads {
   std::optional<double> dynamic_load;
 };
 
-/// Published figures that are shown beside the computed ones.
+/// A measured tension over time.
+struct MeasuredSeries {
+  Located<std::string> file;         ///< CSV: time in s, tension
+  double unit = 0;                   ///< of the tension in the file, N
+  double offset = 0;                 ///< of the measurement's clock behind the operation's, s
+  std::vector<double> time = {};     ///< after the file has been read, s of the operation
+  std::vector<double> tension = {};  ///< N
+};
+
+/// Published or measured figures that are shown beside the computed ones.
 struct Comparison {
   std::string source;
   std::vector<Named<PublishedLoads>> ropes;
+  std::vector<Named<MeasuredSeries>> series;   ///< by rope
   std::optional<double> stress_increase;       ///< as a ratio
   std::optional<double> deformation_increase;  ///< as a ratio
 };

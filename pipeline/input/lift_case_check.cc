@@ -273,13 +273,19 @@ void check_comparison(const LiftCase& lift_case, Diagnostics& diagnostics) {
   std::vector<std::string> known = names_of(lift_case.ropes);
   const bool by_lug = lift_case.load_table.has_value();
   if (by_lug) known = names_of(lift_case.load_table->static_loads);
-  for (const auto& loads : lift_case.compare->ropes) {
-    if (std::find(known.begin(), known.end(), loads.name.value) != known.end()) continue;
-    diagnostics.error(loads.name.mark,
+  const auto check = [&](const Located<std::string>& name) {
+    if (std::find(known.begin(), known.end(), name.value) != known.end()) return;
+    diagnostics.error(name.mark,
                       fmt::format("compare names {} \"{}\", which the case does not have",
-                                  by_lug ? "lug" : "rope", loads.name.value),
+                                  by_lug ? "lug" : "rope", name.value),
                       {names_hint(by_lug ? "the lugs of its load table are" : "its ropes are",
-                                  known, loads.name.value)});
+                                  known, name.value)});
+  };
+  for (const auto& loads : lift_case.compare->ropes) check(loads.name);
+  for (const auto& series : lift_case.compare->series) check(series.name);
+  if (by_lug && !lift_case.compare->series.empty()) {
+    diagnostics.error(lift_case.compare->series.front().name.mark,
+                      "a load table has no history that a measured series could be drawn over");
   }
 }
 

@@ -225,9 +225,20 @@ Format<Comparison> comparison_format() {
                 quantity(Dimension::load, Range::positive()), "at rest")
       .optional("dynamic", &PublishedLoads::dynamic_load,
                 quantity(Dimension::load, Range::positive()), "in motion");
+  Table<MeasuredSeries> series("measured series", "A tension measured over time.");
+  series
+      .required("file", &MeasuredSeries::file, located(text()),
+                "beside this file: CSV of time in s and tension")
+      .by_default("unit", &MeasuredSeries::unit,
+                  choice<double>({{"N", 1.0}, {"kN", 1e3}, {"MN", 1e6}, {"t", 9806.65}}), "kN",
+                  "of the tension in the file; t is the weight of a tonne")
+      .by_default("offset", &MeasuredSeries::offset, quantity(Dimension::time), "0 s",
+                  "time of the operation at which the file's time is zero");
   Table<Comparison> table("comparison", "Published or measured figures, shown beside ours.");
   table.required("source", &Comparison::source, text(), "where they come from")
       .optional("ropes", &Comparison::ropes, names_to(loads.format()), "largest loads by rope")
+      .optional("series", &Comparison::series, names_to(series.format()),
+                "measured tensions by rope, drawn over the computed ones")
       .optional("stress_increase", &Comparison::stress_increase, quantity(Dimension::ratio),
                 "of the largest stress by the motion, as \"22.75 %\"")
       .optional("deformation_increase", &Comparison::deformation_increase,

@@ -149,6 +149,17 @@ json motion(const ResultsReader& results, const std::string& group) {
   return {{"time", floats(frame_time)}, {"bodies", std::move(bodies)}};
 }
 
+/// Measured tensions by rope.
+json measured(const ResultsReader& results) {
+  json list = json::array();
+  for (const std::string& rope : children_of(results, std::string(layout::measured_group))) {
+    const std::string group = join(layout::measured_group, rope);
+    const std::vector<double> time = results.read(join(group, "time")).values;
+    list.push_back(series(results, join(group, "tension"), rope, "tension", time, history_buckets));
+  }
+  return list;
+}
+
 /// Shapes of the natural modes, an instant each: 12 numbers a mode and body.
 json modes(const ResultsReader& results) {
   json list = json::array();
@@ -354,6 +365,7 @@ nlohmann::ordered_json make_page_data(const ResultsReader& results, const json& 
       {"stages", stages(results)},
       {"histories", {{"static", history(results, still)}, {"dynamic", history(results, moving)}}},
       {"motion", {{"static", motion(results, still)}, {"dynamic", motion(results, moving)}}},
+      {"measured", measured(results)},
       {"modes", modes(results)},
       {"scene", scene(results)},
       {"surface", surface(results)}};

@@ -40,7 +40,8 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   if (!lift_case.has_structure()) {
     BuiltLift model = prepare_lift(lift_case, load_mass(lift_case.load.vessel->model), progress);
     LiftRun run = run_lift(lift_case, std::move(model), progress);
-    return {std::move(lift_case), {}, std::move(run)};
+    std::vector<structure::LugRegion> lugs = vessel_lugs(lift_case.load);
+    return {std::move(lift_case), std::move(lugs), std::move(run)};
   }
   Diagnostics diagnostics;
   const auto block = make_block_model(*lift_case.load.model, lift_case.load.model_name.value,
@@ -62,6 +63,7 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   write_history(file, layout::static_history, system, simulation.run.static_history, scene);
   write_history(file, layout::dynamic_history, system, simulation.run.dynamic_history(), scene);
   write_scene(file, system, scene);
+  if (lift_case.compare) write_measured(file, *lift_case.compare);
   write_statistics(file, simulation.run.dynamic_result.statistics);
   file.finish();
   if (!with_csv) return;

@@ -129,5 +129,23 @@ TEST(SupportPad, CarriesRubsAndLetsGo) {
   EXPECT_EQ(pad.calc_load(body.kinematics).force_W.norm(), 0.0);
 }
 
+// Beside a pad that ends there is no ground: a load goes lower there.
+TEST(SupportPad, EndsAtItsReach) {
+  OneBody body;
+  const SupportPad pad({.name = "p",
+                        .point = {1, Vector3::Zero()},
+                        .p_WG = {1, 2, 0},
+                        .stiffness = 1000.0,
+                        .reach = 5.0});
+  const auto normal_force_at = [&](const Vector3& place) {
+    body.q.head<3>() = place;
+    body.update();
+    return pad.calc_load(body.kinematics).normal_force;
+  };
+  EXPECT_NEAR(normal_force_at({4, 2, -0.1}), 100.0, 1e-10);
+  EXPECT_EQ(normal_force_at({1, 7.5, -3}), 0.0);
+  EXPECT_EQ(normal_force_at({1, 7.5, 3}), 0.0);
+}
+
 }  // namespace
 }  // namespace blocklift::dynamics

@@ -71,12 +71,11 @@ TEST(LiftCaseTest, ReadsALoadTable) {
 }
 
 TEST(LiftCaseErrors, UnknownKey) {
-  EXPECT_EQ(
-      complaints_about_case("settle: 10 s", "setle: 10 s"),
-      "case.yaml:20:1: error: lift case has no key \"setle\"\n"
-      "    its keys are case, title, gravity, load, cranes, ropes, supports, wind, operation, "
-      "settle, dynamics, structure, ... (15 in all); did you mean \"settle\"?\n"
-      "1 error\n");
+  EXPECT_EQ(complaints_about_case("settle: 10 s", "setle: 10 s"),
+            "case.yaml:20:1: error: lift case has no key \"setle\"\n"
+            "    its keys are case, title, gravity, load, cranes, ropes, supports, wind, sea, "
+            "vessels, moorings, tuggers, ... (19 in all); did you mean \"settle\"?\n"
+            "1 error\n");
 }
 
 TEST(LiftCaseErrors, WrongUnit) {
@@ -330,7 +329,7 @@ TEST(LiftCaseErrors, CaseWithoutAnything) {
             "case.yaml:1:1: error: lift case lacks the key \"case\"\n"
             "    it is a name: its name\n"
             "case.yaml:1:1: error: lift case lacks the key \"load\"\n"
-            "    it is the keys of a load: the block that is lifted\n"
+            "    it is the keys of a load: the block or vessel that is lifted\n"
             "case.yaml:1:1: error: the lift case lacks the key \"cranes\"\n"
             "    a case has cranes, ropes and operation, or a load_table\n"
             "case.yaml:1:1: error: the lift case lacks the key \"ropes\"\n"
@@ -412,6 +411,35 @@ TEST(LiftCaseTest, SamplesAreCloserThanTheBounceOfALoad) {
   EXPECT_EQ(complaints_about_case("settle: 10 s", "settle: 10 s\ndynamics: {sample_interval: 1 s}"),
             "case.yaml:21:29: error: sample_interval \"1 s\" must be from 0.0001 s to 0.2 s\n"
             "1 error\n");
+}
+
+TEST(LiftCaseTest, ReadsMeasuredTensions) {
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "  source: a yard\n",
+                        "  source: a yard\n  series: {R2: {file: r2.csv, unit: t, offset: 5 s}}\n");
+  const auto read = [&](const std::string& csv, std::optional<LiftCase>& lift_case) {
+    const TemporaryFolder folder;
+    lift.write(folder);
+    folder.write("r2.csv", csv);
+    Diagnostics diagnostics;
+    ModelLibrary library({});
+    lift_case = read_lift_case("case.yaml", library, diagnostics);
+    return diagnostics.to_text();
+  };
+  std::optional<LiftCase> lift_case;
+  ASSERT_EQ(read("# measured\ntime [s]; tension [t]\n0;5\n2.5;5.5\n", lift_case), "");
+  const MeasuredSeries& series = lift_case->compare->series.at(0).value;
+  EXPECT_EQ(series.time, (std::vector<double>{5, 7.5}));
+  EXPECT_DOUBLE_EQ(series.tension[1], 5.5 * 9806.65);
+  const auto says = [&](const std::string& csv, const std::string& part) {
+    const std::string text = read(csv, lift_case);
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  says("0,5\n1,x\n", "r2.csv:2: \"x\" is not a finite number");
+  says("0,5\n1,5,6\n", "3 values; 2 are due");
+  says("2,5\n1,5\n", "the times do not ascend");
+  says("", "the file has no rows");
+  says("1\n2\n", "has 1 columns; time in s and the tension are due");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Colours of the report. Static is blue and dynamic is orange everywhere: they differ for colour-blind eyes too.
 
 export const stateColour = { static: "#2f6396", dynamic: "#d2601a" };
+export const measuredColour = "#1d2329";
 export const stateName = { static: "static", dynamic: "dynamic" };
 
 // The stress scale: lightness rises evenly from dark blue to pale yellow while the hue turns through green,

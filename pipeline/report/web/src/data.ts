@@ -89,6 +89,10 @@ export interface Comparison {
     name: string; published_static_N?: Maybe<number>; published_dynamic_N?: Maybe<number>;
     static_difference_percent?: Maybe<number>; dynamic_difference_percent?: Maybe<number>;
   }[];
+  series?: {
+    name: string; points?: number; mean_difference_percent?: Maybe<number>; largest_difference_percent?: Maybe<number>;
+    time_of_largest_s?: Maybe<number>;
+  }[];
 }
 export interface NaturalMode {
   name: string; kind: string; period_s?: Maybe<number>; frequency_Hz?: Maybe<number>; damping_ratio?: Maybe<number>;
@@ -110,6 +114,7 @@ export interface PageData {
   stages: Stage[];
   histories: Record<State, History | null>;
   motion: Record<State, Motion | null>;
+  measured?: PackedSeries[];
   modes: ModeShapes[];
   scene: Scene | null;
   surface: Surface | null;

@@ -2,15 +2,24 @@
 import uPlot from "uplot";
 
 import { Clock } from "./clock";
-import { stateColour } from "./colours";
+import { measuredColour, stateColour } from "./colours";
 import { History, known, PackedSeries, PageData, Series, Stage, stageAt, State, states } from "./data";
 import { h } from "./dom";
 import type { Section } from "./main";
 import { change, fixed, kilonewtons, seconds, tonnesForce } from "./numbers";
 
 interface Peak { time: number; value: number }
-/** One curve pair: what is plotted as static and as dynamic, and the largest of each. */
-interface Curve { name: string; kind: string; series: Partial<Record<State, Series>>; peaks: Partial<Record<State, Peak>> }
+/** Measured values: they stand for their own instants alone. */
+class Points extends Series {
+  override at(time: number): number {
+    const index = this.time.indexOf(time);
+    return index < 0 ? NaN : this.values[index];
+  }
+}
+/** One curve pair: what is plotted as static and as dynamic, the largest of each, and what was measured. */
+interface Curve {
+  name: string; kind: string; series: Partial<Record<State, Series>>; peaks: Partial<Record<State, Peak>>; measured?: Points;
+}
 
 function curvesOf(data: PageData): Curve[] {
   const curves: Curve[] = [];
@@ -26,7 +35,20 @@ function curvesOf(data: PageData): Curve[] {
           : [summary?.time_of_max_dynamic_s, summary?.max_dynamic_tension_N];
         curve.peaks[state] = known(time) && known(value) ? { time, value } : largestOf(curve.series[state]);
       }
+  for (const packed of data.measured ?? []) {
+    const curve = curves.find((one) => one.kind === "rope" && one.name === packed.name);
+    if (curve) curve.measured = new Points(packed);
+  }
   return curves;
+}
+
+/** How far the computed tensions are from the measured ones, a sentence a rope. */
+function measuredText(data: PageData): string {
+  const rows = data.summary.comparison?.series ?? [];
+  if (rows.length === 0) return "";
+  const one = rows.map((row) => `${row.name}: ${fixed(row.mean_difference_percent, 1)} % in the mean, at most ${change(row.largest_difference_percent)} at `
+    + `${seconds(row.time_of_largest_s)} s, at ${row.points ?? 0} points`);
+  return `Measured tensions (${data.summary.comparison?.source ?? "source not given"}) are drawn as dots. In motion less measured, of the largest measured: ${one.join("; ")}.`;
 }
 
 /** Both series on the union of their instants, in the given unit. */
@@ -55,7 +77,7 @@ function largestOf(series: Series | undefined): Peak | undefined {
 /** Smallest and largest value of a curve pair. */
 function extent(curve: Curve): { low: number; high: number } {
   let [low, high] = [Infinity, -Infinity];
-  for (const state of states) for (const value of curve.series[state]?.values ?? []) {
+  for (const series of [...states.map((state) => curve.series[state]), curve.measured]) for (const value of series?.values ?? []) {
     low = Math.min(low, value);
     high = Math.max(high, value);
   }
@@ -221,9 +243,11 @@ function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
 
 /** Static is drawn over dynamic, which would hide it. */
 const drawingOrder: State[] = ["dynamic", "static"];
+const drawn = (curve: Curve): (Series | undefined)[] => [...drawingOrder.map((state) => curve.series[state]), curve.measured];
 const pairSeries = (small: boolean): uPlot.Series[] => [
   { label: "dynamic", stroke: stateColour.dynamic, width: small ? 0.9 : 1.1, spanGaps: true, points: { show: false } },
   { label: "static", stroke: stateColour.static, width: small ? 1.3 : 2, spanGaps: true, points: { show: false } },
+  { label: "measured", stroke: measuredColour, width: 0, paths: () => null, points: { show: true, size: small ? 3 : 6, fill: measuredColour } },
 ];
 
 /** The names of stages as buttons that zoom to them. */
@@ -285,7 +309,7 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
     for (const one of tiles) one.tile.setAttribute("aria-pressed", String(one.curve === curve));
     if (large) {
       const { min, max } = large.scales.x;
-      large.setData(aligned(drawingOrder.map((state) => curve.series[state]), factor), false);
+      large.setData(aligned(drawn(curve), factor), false);
       large.setScale("x", { min: min!, max: max! });
     }
     heading.textContent = `${curve.kind === "rope" ? "Rope" : "Hoist"} ${curve.name}`;
@@ -311,13 +335,13 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
       host, height: 340, group, clock, unit: "tension, kN", small: false, series: pairSeries(false), cursor: read,
       plugins: [stageBands(data.stages, true), marks(() => shown, clock, factor, true)],
       range: (_, min, max) => { const room = 0.12 * Math.max(max - min, 1); return [min >= 0 ? Math.max(min - room, 0) : min - room, max + room]; },
-    }, aligned(drawingOrder.map((state) => shown.series[state]), factor));
+    }, aligned(drawn(shown), factor));
     for (const { curve, plotHost } of tiles) {
       makePlot({
         host: plotHost, height: 130, group, clock, unit: "kN", small: true, series: pairSeries(true),
         plugins: [stageBands(data.stages, false), marks(() => curve, clock, factor, false)],
         range: sameSpan(curve),
-      }, aligned(drawingOrder.map((state) => curve.series[state]), factor));
+      }, aligned(drawn(curve), factor));
     }
     choose(shown);
     clock.listen(() => { group.redraw(); read(null); });
@@ -331,6 +355,7 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
       stageButtons(data, group), host, readout,
       h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's instant (dashed). Rings mark the largest values. "
         + "The small plots all span the same number of kN; choose one by its name."),
+      measuredText(data) && h("p", {}, measuredText(data)),
       grid("rope"),
       tiles.some((one) => one.curve.kind === "hoist") && h("details", {}, h("summary", {}, "Hoists"), grid("hoist"))],
   };
