@@ -43,10 +43,9 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 }
 
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress) {
-  const auto database =
-      find_radiation(radiation_problem(lift_case), [&](const std::string& what) {
-        progress("radiation of vessels", 0, what);
-      });
+  const auto database = find_radiation(radiation_problem(lift_case), [&](const std::string& what) {
+    progress("radiation of vessels", 0, what);
+  });
   return build_lift(lift_case, load, database.get());
 }
 

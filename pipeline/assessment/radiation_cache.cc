@@ -18,9 +18,7 @@ namespace fs = std::filesystem;
 /// Grows when the panel method changes what it computes.
 constexpr std::int64_t method_version = 1;
 
-void add(ContentHash& hash, const Vector3& v) {
-  hash.add(std::span<const double>(v.data(), 3));
-}
+void add(ContentHash& hash, const Vector3& v) { hash.add(std::span<const double>(v.data(), 3)); }
 
 void add(ContentHash& hash, const dynamics::Hull& hull) {
   for (const Vector3& vertex : hull.vertices()) add(hash, vertex);

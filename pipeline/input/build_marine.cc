@@ -14,6 +14,9 @@ using dynamics::BodyIndex;
 using dynamics::Pose;
 
 constexpr int heading_count = 72;  // every 5 degrees
+// Errors of the fitted memory over its peak, and the states that may be spent on them.
+constexpr double close_fit = 0.02, loose_fit = 0.1;
+constexpr int states_of_close_fit = 160, states_of_loose_fit = 400;
 
 dynamics::Water water_of(const SeaInCase& sea, double gravity) {
   dynamics::Water water;
@@ -233,7 +236,16 @@ std::shared_ptr<const dynamics::RadiatedWater> MarineBuilder::make_water(
     water.frames.push_back(
         radiation_frame(*vessel, point({vessel->name, Vector3::Zero(), {}}).body));
   }
-  return std::make_shared<const dynamics::RadiatedWater>(water);
+  try {
+    water.memory_tolerance = close_fit;
+    water.most_states = states_of_close_fit;
+    return std::make_shared<const dynamics::RadiatedWater>(water);
+  } catch (const dynamics::ModelError&) {
+    // Water that swings long between two hulls takes more states.
+    water.memory_tolerance = loose_fit;
+    water.most_states = states_of_loose_fit;
+    return std::make_shared<const dynamics::RadiatedWater>(water);
+  }
 }
 
 }  // namespace blocklift::pipeline

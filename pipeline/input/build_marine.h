@@ -61,7 +61,9 @@ class MarineBuilder {
   void add_hull(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
                 const DampingInCase& linear, const DampingInCase& quadratic, double displaced_mass,
                 bool at_rest, dynamics::ForceElements& elements);
-  /// The radiated water of the vessels; null without a database.
+  /// The radiated water of the vessels; null without a database. Its memory is fitted to 2 % of its peak, or
+  /// to 10 % where water that swings between hulls would take too many states.
+  /// @throws dynamics::ModelError if even that is not reached.
   std::shared_ptr<const dynamics::RadiatedWater> make_water(
       const BodyOf& point, const dynamics::HydrodynamicDatabase* database) const;
 

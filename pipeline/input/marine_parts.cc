@@ -132,7 +132,6 @@ void check_panels(const VesselInCase& vessel, const WaveField& waves, const Mark
   demands.largest_warp = 0.5;
   demands.water_level = water_level;
   demands.shortest_wave_length = waves.shortest_wave_length();
-  demands.panels_per_wave_length = 3.0;
   demands.most_of_a_kind = 1;
   for (const dynamics::HullDefect& defect : diagnose(vessel.model->hull, demands)) {
     diagnostics.error(mark, fmt::format("vessel {}: {}", vessel.name.value, defect.message),

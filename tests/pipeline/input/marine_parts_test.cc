@@ -261,8 +261,9 @@ settle: 2 s
 
 std::string lift_complaints(const std::string& text, std::optional<LiftCase>& lift_case) {
   const TemporaryFolder folder;
-  for (const auto& [name, content] :
-       {std::pair{"vessels/barge.yaml", barge}, {"crane.yaml", crane}, {"vessels/boat.yaml", boat}}) {
+  for (const auto& [name, content] : {std::pair{"vessels/barge.yaml", barge},
+                                      {"crane.yaml", crane},
+                                      {"vessels/boat.yaml", boat}}) {
     folder.write(name, content);
   }
   folder.write("case.yaml", text);
