@@ -41,27 +41,18 @@ class BlockliftTree : public TreeDynamics {
         kinematics_(mechanism_),
         workspace_(mechanism_),
         forces_(static_cast<std::size_t>(mechanism_.body_count()), ForceVector::zero()),
-        q_(mechanism_.nq()),
-        v_(mechanism_.nv()),
-        tau_(Eigen::VectorXd::Zero(mechanism_.nv())),
         vdot_(mechanism_.nv()) {}
 
-  void set_state(const TreeState& state) override {
-    const auto n = static_cast<Eigen::Index>(state.q.size());
-    q_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.q.data(), n);
-    v_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.v.data(), n);
-    tau_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.tau.data(), n);
-    if (!floats_) return;
-    const Matrix3 R = matrix(state.R_WB);
-    q_.head<3>() = vector(state.p_WB);
-    q_.segment<4>(3) = Eigen::Map<const Vector4>(state.quaternion.data());
-    v_.head<3>() = R.transpose() * vector(state.w_WB);
-    v_.segment<3>(3) = R.transpose() * vector(state.v_WB);
+  void set_states(const std::vector<TreeState>& states) override {
+    states_.clear();
+    for (const TreeState& state : states) states_.push_back(own(state));
   }
 
-  void evaluate() override {
-    compute_kinematics(mechanism_, q_, v_, kinematics_);
-    compute_forward_dynamics(mechanism_, kinematics_, v_, forces_, workspace_, tau_, vdot_);
+  void evaluate(std::size_t which) override {
+    State& state = states_[which];
+    compute_kinematics(mechanism_, state.q, state.v, kinematics_);
+    compute_forward_dynamics(mechanism_, kinematics_, state.v, forces_, workspace_, state.tau,
+                             vdot_);
   }
 
   Accelerations accelerations() const override {
@@ -76,12 +67,34 @@ class BlockliftTree : public TreeDynamics {
   }
 
  private:
+  struct State {
+    Eigen::VectorXd q, v, tau;
+  };
+
+  State own(const TreeState& state) const {
+    State result{Eigen::VectorXd(mechanism_.nq()), Eigen::VectorXd(mechanism_.nv()),
+                 Eigen::VectorXd::Zero(mechanism_.nv())};
+    const auto n = static_cast<Eigen::Index>(state.q.size());
+    result.q.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.q.data(), n);
+    result.v.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.v.data(), n);
+    result.tau.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.tau.data(), n);
+    if (floats_) {
+      const Matrix3 R = matrix(state.R_WB);
+      result.q.head<3>() = vector(state.p_WB);
+      result.q.segment<4>(3) = Eigen::Map<const Vector4>(state.quaternion.data());
+      result.v.head<3>() = R.transpose() * vector(state.w_WB);
+      result.v.segment<3>(3) = R.transpose() * vector(state.v_WB);
+    }
+    return result;
+  }
+
   bool floats_;
   Mechanism mechanism_;
   Kinematics kinematics_;
   ForwardDynamicsWorkspace workspace_;
   std::vector<ForceVector> forces_;
-  Eigen::VectorXd q_, v_, tau_, vdot_;
+  std::vector<State> states_;
+  Eigen::VectorXd vdot_;
 };
 
 std::unique_ptr<TreeDynamics> make_tree(const TreeModel& model) {

@@ -48,30 +48,16 @@ class DartTree : public TreeDynamics {
     }
   }
 
-  void set_state(const TreeState& state) override {
-    const auto n = static_cast<Eigen::Index>(state.q.size());
-    const auto dofs = static_cast<Eigen::Index>(skeleton_->getNumDofs());
-    q_.setZero(dofs), v_.setZero(dofs), tau_.setZero(dofs);
-    if (floats_) {
-      auto* joint = static_cast<FreeJoint*>(skeleton_->getJoint(0));
-      joint->setRelativeTransform(pose(state.R_WB, state.p_WB));
-      Eigen::Vector6d V;
-      V << vector(state.w_WB), vector(state.v_WB);
-      joint->setSpatialVelocity(V, Frame::World(), Frame::World());
-      // A spatial velocity given in W counts at Bo when set by its two halves.
-      joint->setLinearVelocity(vector(state.v_WB), Frame::World(), Frame::World());
-      q_.head<6>() = joint->getPositions();
-      v_.head<6>() = joint->getVelocities();
-    }
-    q_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.q.data(), n);
-    v_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.v.data(), n);
-    tau_.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.tau.data(), n);
+  void set_states(const std::vector<TreeState>& states) override {
+    states_.clear();
+    for (const TreeState& state : states) states_.push_back(own(state));
   }
 
-  void evaluate() override {
-    skeleton_->setPositions(q_);
-    skeleton_->setVelocities(v_);
-    skeleton_->setForces(tau_);
+  void evaluate(std::size_t which) override {
+    const State& state = states_[which];
+    skeleton_->setPositions(state.q);
+    skeleton_->setVelocities(state.v);
+    skeleton_->setForces(state.tau);
     skeleton_->computeForwardDynamics();
   }
 
@@ -88,9 +74,35 @@ class DartTree : public TreeDynamics {
   }
 
  private:
+  struct State {
+    Eigen::VectorXd q, v, tau;
+  };
+
+  State own(const TreeState& state) {
+    const auto n = static_cast<Eigen::Index>(state.q.size());
+    const auto dofs = static_cast<Eigen::Index>(skeleton_->getNumDofs());
+    State result{Eigen::VectorXd::Zero(dofs), Eigen::VectorXd::Zero(dofs),
+                 Eigen::VectorXd::Zero(dofs)};
+    if (floats_) {
+      auto* joint = static_cast<FreeJoint*>(skeleton_->getJoint(0));
+      joint->setRelativeTransform(pose(state.R_WB, state.p_WB));
+      Eigen::Vector6d V;
+      V << vector(state.w_WB), vector(state.v_WB);
+      joint->setSpatialVelocity(V, Frame::World(), Frame::World());
+      // A spatial velocity given in W counts at Bo when set by its two halves.
+      joint->setLinearVelocity(vector(state.v_WB), Frame::World(), Frame::World());
+      result.q.head<6>() = joint->getPositions();
+      result.v.head<6>() = joint->getVelocities();
+    }
+    result.q.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.q.data(), n);
+    result.v.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.v.data(), n);
+    result.tau.tail(n) = Eigen::Map<const Eigen::VectorXd>(state.tau.data(), n);
+    return result;
+  }
+
   bool floats_;
   SkeletonPtr skeleton_;
-  Eigen::VectorXd q_, v_, tau_;
+  std::vector<State> states_;
 };
 
 std::unique_ptr<TreeDynamics> make_tree(const TreeModel& model) {

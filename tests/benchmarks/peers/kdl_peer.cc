@@ -31,21 +31,20 @@ class KdlChain : public TreeDynamics {
   explicit KdlChain(const TreeModel& model)
       : chain_(build(model)),
         solver_(chain_, KDL::Vector(0, 0, -gravity)),
-        q_(chain_.getNrOfJoints()),
-        v_(q_.rows()),
-        tau_(q_.rows()),
-        vdot_(q_.rows()),
+        vdot_(chain_.getNrOfJoints()),
         forces_(chain_.getNrOfSegments(), KDL::Wrench::Zero()) {}
 
-  void set_state(const TreeState& state) override {
-    for (unsigned i = 0; i < q_.rows(); ++i) {
-      q_(i) = state.q[i];
-      v_(i) = state.v[i];
-      tau_(i) = state.tau[i];
+  void set_states(const std::vector<TreeState>& states) override {
+    states_.clear();
+    for (const TreeState& state : states) {
+      states_.push_back({array(state.q), array(state.v), array(state.tau)});
     }
   }
 
-  void evaluate() override { solver_.CartToJnt(q_, v_, tau_, forces_, vdot_); }
+  void evaluate(std::size_t which) override {
+    const State& state = states_[which];
+    solver_.CartToJnt(state.q, state.v, state.tau, forces_, vdot_);
+  }
 
   Accelerations accelerations() const override {
     Accelerations result(6, 0.0);
@@ -54,9 +53,20 @@ class KdlChain : public TreeDynamics {
   }
 
  private:
+  struct State {
+    KDL::JntArray q, v, tau;
+  };
+
+  static KDL::JntArray array(const std::vector<double>& values) {
+    KDL::JntArray result(static_cast<unsigned>(values.size()));
+    for (unsigned i = 0; i < result.rows(); ++i) result(i) = values[i];
+    return result;
+  }
+
   KDL::Chain chain_;
   KDL::ChainFdSolver_RNE solver_;
-  KDL::JntArray q_, v_, tau_, vdot_;
+  std::vector<State> states_;
+  KDL::JntArray vdot_;
   KDL::Wrenches forces_;
 };
 

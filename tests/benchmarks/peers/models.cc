@@ -67,8 +67,8 @@ TreeModel floating_tree() {
   return model;
 }
 
-TreeState some_state(const TreeModel& model) {
-  std::mt19937 engine(1);
+TreeState some_state(const TreeModel& model, unsigned number) {
+  std::mt19937 engine(number);
   std::uniform_real_distribution<double> uniform(-1, 1);
   TreeState state;
   for (auto* values : {&state.q, &state.v, &state.tau}) {

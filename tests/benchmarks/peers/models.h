@@ -10,7 +10,7 @@ TreeModel chain(int count);
 /// Free base of 10 kg with five arms of six such links: 36 degrees of freedom.
 TreeModel floating_tree();
 
-/// Coordinates, velocities and torques between -1 and 1, always the same ones.
-TreeState some_state(const TreeModel& model);
+/// Coordinates, velocities and torques between -1 and 1; the same number gives the same state.
+TreeState some_state(const TreeModel& model, unsigned number);
 
 }  // namespace blocklift::peers

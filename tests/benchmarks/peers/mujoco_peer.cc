@@ -115,24 +115,15 @@ class MujocoTree : public TreeDynamics {
   MujocoTree(const MujocoTree&) = delete;
   MujocoTree& operator=(const MujocoTree&) = delete;
 
-  void set_state(const TreeState& state) override {
-    const int base_q = floats_ ? 7 : 0;
-    const int base_v = floats_ ? 6 : 0;
-    if (floats_) {
-      std::copy(state.p_WB.begin(), state.p_WB.end(), data_->qpos);
-      std::copy(state.quaternion.begin(), state.quaternion.end(), data_->qpos + 3);
-      std::copy(state.v_WB.begin(), state.v_WB.end(), data_->qvel);
-      const RowMatrix3 R = Eigen::Map<const RowMatrix3>(state.R_WB.data());
-      const Eigen::Vector3d w_B =
-          R.transpose() * Eigen::Map<const Eigen::Vector3d>(state.w_WB.data());
-      std::copy(w_B.begin(), w_B.end(), data_->qvel + 3);
-    }
-    std::copy(state.q.begin(), state.q.end(), data_->qpos + base_q);
-    std::copy(state.v.begin(), state.v.end(), data_->qvel + base_v);
-    std::copy(state.tau.begin(), state.tau.end(), data_->qfrc_applied + base_v);
+  void set_states(const std::vector<TreeState>& states) override {
+    states_.clear();
+    for (const TreeState& state : states) states_.push_back(own(state));
   }
 
-  void evaluate() override {
+  void evaluate(std::size_t which) override {
+    const State& state = states_[which];
+    std::copy(state.q.begin(), state.q.end(), data_->qpos);
+    std::copy(state.v.begin(), state.v.end(), data_->qvel);
     mj_kinematics(model_, data_);
     mj_comPos(model_, data_);
     mj_crb(model_, data_);
@@ -140,7 +131,7 @@ class MujocoTree : public TreeDynamics {
     mj_comVel(model_, data_);
     mj_rne(model_, data_, 0, data_->qfrc_bias);
     for (int i = 0; i < model_->nv; ++i) {
-      data_->qfrc_smooth[i] = data_->qfrc_applied[i] - data_->qfrc_bias[i];
+      data_->qfrc_smooth[i] = state.tau[static_cast<std::size_t>(i)] - data_->qfrc_bias[i];
     }
     mj_solveM(model_, data_, data_->qacc, data_->qfrc_smooth, 1);
   }
@@ -158,9 +149,32 @@ class MujocoTree : public TreeDynamics {
   }
 
  private:
+  struct State {
+    std::vector<double> q, v, tau;
+  };
+
+  State own(const TreeState& state) const {
+    State result;
+    if (floats_) {
+      result.q.assign(state.p_WB.begin(), state.p_WB.end());
+      result.q.insert(result.q.end(), state.quaternion.begin(), state.quaternion.end());
+      result.v.assign(state.v_WB.begin(), state.v_WB.end());
+      const RowMatrix3 R = Eigen::Map<const RowMatrix3>(state.R_WB.data());
+      const Eigen::Vector3d w_B =
+          R.transpose() * Eigen::Map<const Eigen::Vector3d>(state.w_WB.data());
+      result.v.insert(result.v.end(), w_B.begin(), w_B.end());
+      result.tau.assign(6, 0.0);
+    }
+    result.q.insert(result.q.end(), state.q.begin(), state.q.end());
+    result.v.insert(result.v.end(), state.v.begin(), state.v.end());
+    result.tau.insert(result.tau.end(), state.tau.begin(), state.tau.end());
+    return result;
+  }
+
   bool floats_;
   mjModel* model_;
   mjData* data_;
+  std::vector<State> states_;
 };
 
 std::unique_ptr<TreeDynamics> make_tree(const TreeModel& model) {

@@ -56,11 +56,12 @@ using Accelerations = std::vector<double>;
 class TreeDynamics {
  public:
   virtual ~TreeDynamics() = default;
-  /// Keeps the state in the library's own coordinates.
-  virtual void set_state(const TreeState& state) = 0;
-  /// From the kept state to accelerations, kinematics included, as one evaluation of a right-hand side
-  /// asks for it: nothing is kept from the evaluation before.
-  virtual void evaluate() = 0;
+  /// Keeps the states in the library's own coordinates.
+  virtual void set_states(const std::vector<TreeState>& states) = 0;
+  /// From the kept state `which` to accelerations, kinematics included, as one evaluation of a
+  /// right-hand side asks for it. To be called with another state than the time before, as an integrator
+  /// does: a library may keep what it computed of a state that it is given again (DART does).
+  virtual void evaluate(std::size_t which) = 0;
   /// Of the last evaluation.
   virtual Accelerations accelerations() const = 0;
 };

@@ -51,31 +51,16 @@ class SimbodyTree : public TreeDynamics {
     system_.realizeModel(state_);
   }
 
-  void set_state(const TreeState& state) override {
-    const int n = static_cast<int>(state.q.size());
-    q_.resize(state_.getNQ()), v_.resize(state_.getNU());
-    Vector tau(state_.getNU(), 0.0);
-    if (floats_) {
-      for (int i = 0; i < 4; ++i) q_[i] = state.quaternion[static_cast<std::size_t>(i)];
-      for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        q_[4 + i] = state.p_WB[k];
-        v_[i] = state.w_WB[k];
-        v_[3 + i] = state.v_WB[k];
-      }
-    }
-    for (int i = 0; i < n; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      q_[(floats_ ? 7 : 0) + i] = state.q[k];
-      v_[(floats_ ? 6 : 0) + i] = state.v[k];
-      tau[(floats_ ? 6 : 0) + i] = state.tau[k];
-    }
-    applied_.setAllMobilityForces(state_, tau);
+  void set_states(const std::vector<TreeState>& states) override {
+    states_.clear();
+    for (const TreeState& state : states) states_.push_back(own(state));
   }
 
-  void evaluate() override {
-    state_.updQ() = q_;
-    state_.updU() = v_;
+  void evaluate(std::size_t which) override {
+    const OwnState& state = states_[which];
+    state_.updQ() = state.q;
+    state_.updU() = state.v;
+    applied_.setAllMobilityForces(state_, state.tau);
     system_.realize(state_, Stage::Acceleration);
   }
 
@@ -95,6 +80,31 @@ class SimbodyTree : public TreeDynamics {
   }
 
  private:
+  struct OwnState {
+    Vector q, v, tau;
+  };
+
+  OwnState own(const TreeState& state) const {
+    const int n = static_cast<int>(state.q.size());
+    OwnState result{Vector(state_.getNQ()), Vector(state_.getNU()), Vector(state_.getNU(), 0.0)};
+    if (floats_) {
+      for (int i = 0; i < 4; ++i) result.q[i] = state.quaternion[static_cast<std::size_t>(i)];
+      for (int i = 0; i < 3; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        result.q[4 + i] = state.p_WB[k];
+        result.v[i] = state.w_WB[k];
+        result.v[3 + i] = state.v_WB[k];
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      result.q[(floats_ ? 7 : 0) + i] = state.q[k];
+      result.v[(floats_ ? 6 : 0) + i] = state.v[k];
+      result.tau[(floats_ ? 6 : 0) + i] = state.tau[k];
+    }
+    return result;
+  }
+
   bool floats_;
   MultibodySystem system_;
   SimbodyMatterSubsystem matter_;
@@ -102,7 +112,7 @@ class SimbodyTree : public TreeDynamics {
   Force::UniformGravity gravity_;
   Force::DiscreteForces applied_;
   State state_;
-  Vector q_, v_;
+  std::vector<OwnState> states_;
 };
 
 std::unique_ptr<TreeDynamics> make_tree(const TreeModel& model) {
