@@ -68,9 +68,9 @@ inline LinearSolver make_direct_solver(void* owner,
   return solver;
 }
 
-inline Vector make_vector(Eigen::Index size, const Context& context) {
-  return Vector(N_VNew_Serial(size, context.get()));
-}
+/// Serial vector whose operations are quick at the few dozen entries of a lift's state.
+/// @throws SimulationError if there is no memory.
+Vector make_vector(Eigen::Index size, const Context& context);
 
 inline Eigen::Map<Eigen::VectorXd> view(N_Vector vector) {
   return {N_VGetArrayPointer(vector), N_VGetLength(vector)};
