@@ -26,6 +26,10 @@ namespace {
 // as one.
 constexpr double beside = 2e-6;
 
+// Where loops pass a singular position, rounding (1e-16) is divided by what is left of the row that they lose,
+// down to 1e-5 (LoopProjector): no smaller local error can be met there.
+constexpr double least_tolerance_through_singular_positions = 1e-11;
+
 /// One run of CVODES over an operation.
 class Integrator {
  public:
@@ -86,6 +90,9 @@ class Integrator {
   Eigen::VectorXd indicators_;    ///< at the end of the last step, where no root was found
   double from_ = 0.0, to_ = 0.0;  ///< times between which motions are evaluated now
   double time_ = 0.0;
+  // Where the workspace holds the loads of an instant that may be asked for again: time and state.
+  double loaded_time_ = not_a_number;
+  Eigen::VectorXd loaded_state_;
 
   sundials::Context context_;
   sundials::Vector y_, rates_, sample_, work_, sampled_work_;
@@ -124,6 +131,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   work_ = sundials::make_vector(4, context_);
   sampled_work_ = sundials::make_vector(4, context_);
   indicators_.setZero(system.contact_count());
+  loaded_state_.setZero(size);
   sundials::view(work_.get()).setZero();
   if (!system.mechanism().loops().empty()) {
     set_drives(system, 0.0, true, w_);
@@ -176,6 +184,7 @@ int Integrator::guarded(Function&& function) {
 
 int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data) {
   auto& self = *static_cast<Integrator*>(data);
+  self.loaded_time_ = not_a_number;
   return self.guarded([&] {
     calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y), &self.contacts_,
                          self.w_, sundials::view(ydot));
@@ -191,6 +200,7 @@ int Integrator::newton_matrix(double t, N_Vector y, N_Vector, SUNMatrix, int kee
   int singular = 0;
   const int flag = self.guarded([&] {
     if (!keep_point) {
+      self.loaded_time_ = not_a_number;
       const double at = self.within_interval(t);
       calc_right_hand_side(self.system_, at, sundials::view(y), &self.contacts_, self.w_,
                            sundials::view(self.rates_.get()));
@@ -217,9 +227,14 @@ int Integrator::solve_newton(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Ve
 int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
   auto& self = *static_cast<Integrator*>(data);
   return self.guarded([&] {
-    set_state(self.system_, sundials::view(y), self.w_);
-    set_drives(self.system_, self.within_interval(t), true, self.w_);
-    calc_loads(self.system_, t, &self.contacts_, self.w_);
+    const auto state = sundials::view(y);
+    // At the end of a step the works have just been evaluated.
+    if (t != self.loaded_time_ || state != self.loaded_state_) {
+      self.loaded_time_ = not_a_number;
+      set_state(self.system_, state, self.w_);
+      set_drives(self.system_, self.within_interval(t), true, self.w_);
+      calc_loads(self.system_, self.within_interval(t), &self.contacts_, self.w_);
+    }
     calc_contact_indicators(self.w_, self.indicators_);
     Eigen::Map<Eigen::VectorXd>(g, self.system_.contact_count()) = self.indicators_;
   });
@@ -233,11 +248,14 @@ int Integrator::works(double t, N_Vector y, N_Vector rates, void* data) {
     const EnergyRates powers = calc_energy_rates(self.system_, t, self.w_);
     sundials::view(rates) << powers.drive_power, powers.winch_power, powers.wind_power,
         powers.dissipated_power;
+    self.loaded_state_ = sundials::view(y);
+    self.loaded_time_ = t;
   });
 }
 
 // The state that belongs to `y` on the loops, and which rows are independent there. False: none near by.
 bool Integrator::project_onto_loops(double t, ConstVectorRef y, VectorRef projected) {
+  loaded_time_ = not_a_number;
   set_state(system_, y, w_);
   set_drives(system_, within_interval(t), true, w_);
   if (!projector_->project_positions(w_.q)) return false;
@@ -416,6 +434,7 @@ void Integrator::count_before_restart() {
 // Begins anew at (t, y_): the method's memory of the past does not hold any more.
 void Integrator::restart(double t) {
   count_before_restart();
+  loaded_time_ = not_a_number;  // other contacts act
   project_state(t, sundials::view(y_.get()));
   sundials::check(CVodeReInit(cvode_, t, y_.get()), "CVodeReInit");
   if (settings_.works) sundials::check(CVodeQuadReInit(cvode_, work_.get()), "CVodeQuadReInit");
@@ -424,6 +443,7 @@ void Integrator::restart(double t) {
 
 void Integrator::record_samples(double up_to) {
   while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
+    loaded_time_ = not_a_number;
     const double t = sample_times_[next_sample_];
     if (t > 0.0) {
       sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");
@@ -498,6 +518,7 @@ void Integrator::step(double end) {
 
 void Integrator::integrate_interval(double start, double end) {
   // Behind a jump the motion counts as it is then, from the first step on.
+  loaded_time_ = not_a_number;
   const bool jumps = motion_jumps(start);
   from_ = jumps ? std::min(start + beside, end) : start;
   to_ = end;
@@ -551,6 +572,12 @@ void Integrator::fail(const char* what) {
     }
   } catch (const std::exception& error) {
     text << "; " << error.what();
+  }
+  if (projector_ && settings_.relative_tolerance < least_tolerance_through_singular_positions) {
+    text << "; where loops pass a singular position, rounding keeps the state from being known "
+            "better than "
+         << least_tolerance_through_singular_positions
+         << ": ask for no smaller relative tolerance there";
   }
   text << "; try gentler motions, more rope damping (damping_time) or a smaller tolerance, and see "
           "whether a rope is hoisted into its sheave";
