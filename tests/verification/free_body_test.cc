@@ -80,7 +80,7 @@ Difference compare(const Mechanism& mechanism, const std::vector<LoopDefinition>
       {.mechanism = mechanism, .operation = operation.build(duration), .q_start = q, .v_start = v});
   const dynamics::History kernel =
       dynamics::integrate(system, q, v,
-                          {.relative_tolerance = 1e-12, .sample_interval = duration / 10})
+                          {.relative_tolerance = 1e-13, .sample_interval = duration / 10})
           .history;
 
   const free_bodies::State start = state_of(mechanism, kernel, 0);

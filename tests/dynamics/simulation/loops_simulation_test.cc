@@ -151,6 +151,22 @@ TEST(LoopSimulation, StepsAllocateNothing) {
   EXPECT_EQ(fine.first, coarse.first);
 }
 
+TEST(LoopSimulation, NothingIsAllocatedBetweenTheFirstSampleAndTheLast) {
+  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not in this build";
+  for (const LoopKind kind : {LoopKind::revolute, LoopKind::point_on_line}) {
+    const LiftSystem system = samples::andrews(kind);
+    long at_first = 0, at_last = 0;
+    const auto observe = [&](Eigen::Index sample, double, const LiftWorkspace&) {
+      (sample <= 1 ? at_first : at_last) = blocklift::testing::allocations();
+    };
+    const IntegrationResult run =
+        integrate(system, system.q_start(), system.v_start(),
+                  {.relative_tolerance = 1e-7, .sample_interval = 1e-3, .observe = observe});
+    EXPECT_GT(run.statistics.steps, 300);
+    EXPECT_EQ(at_last, at_first);
+  }
+}
+
 // ---- at rest -----------------------------------------------------------------------------------
 
 double potential(const Mechanism& m, const Eigen::VectorXd& q) {
