@@ -14,6 +14,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "structure/elasticity/rigid_freedom.h"
 #include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
 #include "structure/process_group.h"
@@ -260,8 +261,8 @@ void judge(const SparseLower& stiffness, const NodalMass& mass,
 
 NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& mass,
                                 const Eigen::Matrix3Xd& nodes,
-                                const std::vector<FixedUnknown>& fixed, int count,
-                                EliminationOrder order) {
+                                const std::vector<FixedUnknown>& fixed, int rigid_motions,
+                                int count, EliminationOrder order) {
   const auto free = stiffness.rows() - static_cast<long>(fixed.size());
   if (count < 1 || count > free)
     throw ModelError(
@@ -289,6 +290,8 @@ NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& m
   modes.squared_frequencies.conservativeResize(count);
   modes.shapes.conservativeResize(Eigen::NoChange, count);
   modes.frequencies = modes.squared_frequencies.cwiseMax(0).cwiseSqrt() / (2 * M_PI);
+  modes.rigid_motions = rigid_motions;
+  modes.frequencies.head(std::min(count, rigid_motions)).setZero();
   for (auto shape : modes.shapes.colwise()) {
     Eigen::Index largest = 0;
     shape.cwiseAbs().maxCoeff(&largest);
@@ -301,17 +304,19 @@ NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& m
 NaturalModes find_part_modes(const PartModel& model, int count) {
   check_part_mesh(model.mesh);
   std::vector<int> support_of;
-  const std::vector<FixedUnknown> fixed = with_idle_nodes(model, part_supports(model, support_of));
+  const std::vector<FixedUnknown> held = part_supports(model, support_of);
+  const int rigid = find_rigid_freedom(model, held).count;
+  const std::vector<FixedUnknown> fixed = with_idle_nodes(model, held);
   return find_natural_modes(assemble_part_stiffness(model), part_mass_matrix(model),
-                            model.mesh.nodes, fixed, count, EliminationOrder::found);
+                            model.mesh.nodes, fixed, rigid, count, EliminationOrder::found);
 }
 
 NaturalModes find_block_modes(const ElasticModel& model, int count,
                               const std::vector<FixedUnknown>& fixed) {
   const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   return find_natural_modes(assemble_stiffness(model.mesh(), model.space(), threads),
-                            block_mass_matrix(model), model.space().nodes, fixed, count,
-                            EliminationOrder::given);
+                            block_mass_matrix(model), model.space().nodes, fixed,
+                            fixed.empty() ? 6 : 0, count, EliminationOrder::given);
 }
 
 }  // namespace blocklift::structure

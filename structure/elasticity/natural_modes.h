@@ -14,8 +14,10 @@ struct NaturalModes {
   /// Eigenvalues omega^2, ascending, rad^2/s^2. Those of rigid motions are zero but for rounding (of
   /// either sign).
   Eigen::VectorXd squared_frequencies;
-  /// omega / 2 pi, Hz; zero for a negative eigenvalue.
+  /// omega / 2 pi, Hz; zero for rigid motions.
   Eigen::VectorXd frequencies;
+  /// Rigid motions that the held unknowns leave to each connected body, all together: the first modes.
+  int rigid_motions = 0;
   /// One column a mode, 3 rows a node, m/sqrt(kg): phi_i' M phi_j = 1 if i = j, else 0. The component
   /// of largest magnitude is positive.
   Eigen::MatrixXd shapes;
@@ -35,21 +37,22 @@ struct NaturalModes {
 /// @param mass by nodes, kg; at nodes without mass the unknowns must be fixed.
 /// @param nodes places of the nodes, m.
 /// @param fixed unknowns that do not move (their values are not looked at).
+/// @param rigid_motions how many of them `fixed` leaves.
 /// @param count of modes, at least 1.
 /// @param order of elimination, as for ConstrainedSystem.
 /// @throws ModelError if there are fewer unknowns than modes, the mass is zero, memory does not suffice,
 ///   or the iteration does not converge.
 NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& mass,
                                 const Eigen::Matrix3Xd& nodes,
-                                const std::vector<FixedUnknown>& fixed, int count,
-                                EliminationOrder order);
+                                const std::vector<FixedUnknown>& fixed, int rigid_motions,
+                                int count, EliminationOrder order);
 
 /// Modes of a part that its supports hold (at zero displacement); without supports, of the free part,
 /// whose first six are rigid. @throws ModelError as above, or if an element is inverted.
 NaturalModes find_part_modes(const PartModel& model, int count);
 
 /// Modes of a free block; the first six are rigid. @throws ModelError as above.
-/// @param fixed unknowns that do not move: none for the free block.
+/// @param fixed unknowns that do not move: none for the free block, or enough to leave no rigid motion.
 NaturalModes find_block_modes(const ElasticModel& model, int count,
                               const std::vector<FixedUnknown>& fixed = {});
 

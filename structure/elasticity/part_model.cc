@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "structure/error.h"
@@ -214,93 +213,6 @@ std::vector<FixedUnknown> with_idle_nodes(const PartModel& model, std::vector<Fi
       if (body[node] < 0 && !held[at(unknown)]) fixed.push_back({unknown, 0});
     }
   return fixed;
-}
-
-namespace {
-
-using Twist = Eigen::Matrix<double, 6, 1>;  // rotation times length, translation
-
-std::string vector_text(const Vector3& v) {
-  const auto clean = [](double x) { return std::abs(x) < 1e-6 ? 0.0 : x; };
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", clean(v.x()), clean(v.y()), clean(v.z()));
-}
-
-// Of the two unit vectors along an axis the one that points forwards.
-Vector3 direction(const Vector3& v) {
-  Eigen::Index largest = 0;
-  v.cwiseAbs().maxCoeff(&largest);
-  return (v[largest] < 0 ? -v : v).normalized();
-}
-
-std::string motion_text(const Twist& twist, const Vector3& centre, double length) {
-  const Vector3 omega = twist.head<3>() / length, velocity = twist.tail<3>();
-  if (omega.norm() * length < 1e-6 * velocity.norm())
-    return "translation along " + vector_text(direction(velocity));
-  const Vector3 point = centre + omega.cross(velocity) / omega.squaredNorm();
-  return "rotation about the axis along " + vector_text(direction(omega)) + " through " +
-         vector_text(point) + " m";
-}
-
-// What is left of the rigid motions of one body, in as plain words as there are.
-std::vector<std::string> motions_left(const Eigen::Matrix<double, 6, 6>& held,
-                                      const Vector3& centre, double length) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(held);
-  std::vector<Twist> free;
-  for (int i = 0; i < 6; ++i)
-    if (solver.eigenvalues()[i] <= 1e-10 * std::max(1.0, solver.eigenvalues()[5]))
-      free.push_back(solver.eigenvectors().col(i));
-  std::vector<std::string> plain;
-  for (const int i : {3, 4, 5, 0, 1, 2}) {
-    double within = 0;
-    for (const Twist& twist : free) within += twist[i] * twist[i];
-    if (within < 1 - 1e-9) continue;
-    plain.push_back(
-        i >= 3 ? fmt::format("translation along {}", "xyz"[i - 3])
-               : fmt::format("rotation about {} through {} m", "xyz"[i], vector_text(centre)));
-  }
-  if (plain.size() == free.size()) return plain;
-  std::vector<std::string> general;
-  for (const Twist& twist : free) general.push_back(motion_text(twist, centre, length));
-  return general;
-}
-
-}  // namespace
-
-std::vector<std::string> remaining_rigid_motions(const PartModel& model,
-                                                 const std::vector<FixedUnknown>& fixed) {
-  const std::vector<int> body_of_node = connected_bodies(model.mesh);
-  const int bodies = 1 + *std::max_element(body_of_node.begin(), body_of_node.end());
-  std::vector<Vector3> lower(at(bodies), Vector3::Constant(1e300)), upper(lower);
-  for (Vector3& corner : upper) corner = -corner;
-  for (Eigen::Index node = 0; node < model.mesh.nodes.cols(); ++node) {
-    const int body = body_of_node[static_cast<std::size_t>(node)];
-    if (body < 0) continue;
-    lower[at(body)] = lower[at(body)].cwiseMin(model.mesh.nodes.col(node));
-    upper[at(body)] = upper[at(body)].cwiseMax(model.mesh.nodes.col(node));
-  }
-  std::vector<Eigen::Matrix<double, 6, 6>> held(at(bodies), Eigen::Matrix<double, 6, 6>::Zero());
-  for (const FixedUnknown& unknown : fixed) {
-    const int node = unknown.unknown / 3, axis = unknown.unknown % 3;
-    const int body = body_of_node[at(node)];
-    if (body < 0) continue;
-    const Vector3 centre = (lower[at(body)] + upper[at(body)]) / 2;
-    const double length = (upper[at(body)] - lower[at(body)]).norm() / 2;
-    Twist row;
-    row.head<3>() = (model.mesh.nodes.col(node) - centre).cross(Vector3::Unit(axis)) / length;
-    row.tail<3>() = Vector3::Unit(axis);
-    held[at(body)] += row * row.transpose();
-  }
-  std::vector<std::string> motions;
-  for (int body = 0; body < bodies; ++body) {
-    const Vector3 centre = (lower[at(body)] + upper[at(body)]) / 2;
-    const double length = (upper[at(body)] - lower[at(body)]).norm() / 2;
-    for (const std::string& motion : motions_left(held[at(body)], centre, length))
-      motions.push_back(bodies == 1 ? motion
-                                    : fmt::format("{} of the body about {} m, which no other part "
-                                                  "of the mesh touches",
-                                                  motion, vector_text(centre)));
-  }
-  return motions;
 }
 
 }  // namespace blocklift::structure

@@ -80,9 +80,4 @@ std::vector<FixedUnknown> part_supports(const PartModel& model, std::vector<int>
 /// `fixed` and, behind it, the unknowns of nodes that are on no solid (middles of circles and the like).
 std::vector<FixedUnknown> with_idle_nodes(const PartModel& model, std::vector<FixedUnknown> fixed);
 
-/// The rigid motions that the supports leave each body of the mesh, in words: "translation along x",
-/// "rotation about the axis along (0, 0, 1) through (1, 2, 0) m". Empty if none.
-std::vector<std::string> remaining_rigid_motions(const PartModel& model,
-                                                 const std::vector<FixedUnknown>& fixed);
-
 }  // namespace blocklift::structure

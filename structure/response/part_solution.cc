@@ -10,9 +10,11 @@
 
 #include <Eigen/Dense>
 
+#include "structure/elasticity/rigid_freedom.h"
 #include "structure/error.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/response/cell_stress.h"
+#include "structure/response/part_error.h"
 #include "structure/stopwatch.h"
 
 namespace blocklift::structure {
@@ -24,7 +26,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 void require_supported(const PartModel& model, const std::vector<FixedUnknown>& fixed) {
-  const std::vector<std::string> motions = remaining_rigid_motions(model, fixed);
+  const std::vector<std::string> motions = find_rigid_freedom(model, fixed).motions;
   if (motions.empty()) return;
   constexpr std::size_t most_named = 12;
   std::string text = "the supports leave the part free to move:";
@@ -32,24 +34,6 @@ void require_supported(const PartModel& model, const std::vector<FixedUnknown>& 
     text += "\n    " + motions[i];
   if (motions.size() > most_named) text += "\n    ...";
   throw ModelError(text);
-}
-
-// Stresses of one solid at points whose gradients by local coordinates are given.
-StressColumns stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
-                       const Eigen::VectorXd& displacement) {
-  const int element = model.mesh.solids[at(solid)];
-  const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
-  const Eigen::Matrix3Xd places = model.mesh.places(element);
-  Eigen::Matrix3Xd moved(3, places.cols());
-  for (int i = 0; i < places.cols(); ++i)
-    moved.col(i) = displacement.segment<3>(3 * model.mesh.node(element, i));
-  StressColumns result(6, gradients.rows() / 3);
-  for (Eigen::Index q = 0; q < result.cols(); ++q) {
-    const auto by_unit = gradients.middleRows<3>(3 * q);
-    const Eigen::Matrix3d inverse = (places * by_unit.transpose()).inverse();
-    result.col(q) = stress_of_gradient(material, (moved * by_unit.transpose()) * inverse);
-  }
-  return result;
 }
 
 // The averages as recover_part_stress; of_solids: what each solid says at its nodes.
@@ -62,7 +46,7 @@ PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
   for (int solid = 0; solid < solids; ++solid) {
     const int element = model.mesh.solids[at(solid)];
     const ElementKind& kind = model.mesh.kind(element);
-    of_solids.push_back(stresses(model, solid, kind.gradients_at_nodes, displacement));
+    of_solids.push_back(part_stresses(model, solid, kind.gradients_at_nodes, displacement));
     stress.first_of.push_back(static_cast<int>(stress.point_of.size()));
     for (int i = 0; i < kind.nodes; ++i) {
       const int node = model.mesh.node(element, i);
@@ -93,40 +77,9 @@ StressColumns averaged_at(const PartStress& stress, int solid, int nodes) {
   return result;
 }
 
-// s : C^-1 : s, twice the energy of a stress, J/m^3.
-double complementary(const Material& material, const Eigen::Matrix<double, 6, 1>& s) {
-  const double trace = s.head<3>().sum();
-  return ((1 + material.poisson_ratio) *
-              (s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm()) -
-          material.poisson_ratio * trace * trace) /
-         material.youngs_modulus;
-}
-
-void estimate_error(const PartModel& model, PartSolution& solution) {
-  double error = 0, whole = 0;
-  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
-    const int element = model.mesh.solids[at(solid)];
-    const ElementKind& kind = model.mesh.kind(element);
-    const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
-    const StressColumns own = stresses(model, solid, kind.gradients, solution.displacement);
-    const StressColumns smooth =
-        averaged_at(solution.stress, solid, kind.nodes) * kind.values.transpose();
-    const Eigen::Matrix3Xd places = model.mesh.places(element);
-    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
-      const double volume =
-          kind.weights[q] *
-          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
-      error += volume * complementary(material, smooth.col(q) - own.col(q));
-      whole += volume * complementary(material, own.col(q));
-    }
-  }
-  solution.strain_energy = whole / 2;
-  solution.estimated_error = whole > 0 ? std::sqrt(error / (whole + error)) : 0;
-}
-
 PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
-                           const std::vector<StressColumns>& of_solids, std::string name,
-                           const std::vector<int>& solids) {
+                           const std::vector<StressColumns>& of_solids, const PartError& error,
+                           std::string name, const std::vector<int>& solids) {
   PartGroupResult result;
   result.group = std::move(name);
   for (const int solid : solids) {
@@ -148,23 +101,38 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
           std::max(result.displacement, solution.displacement.segment<3>(3 * node).norm());
     }
   }
+  result.estimated_error = error.relative(solids);
+  for (const int solid : solids)
+    for (int i = 0; i < model.mesh.kind(model.mesh.solids[at(solid)]).nodes; ++i) {
+      const auto averaged = solution.stress.averaged.col(
+          solution.stress.point_of[at(solution.stress.first_of[at(solid)] + i)]);
+      if (von_mises(averaged) == result.von_mises)
+        result.von_mises_error =
+            std::max(result.von_mises_error, von_mises(of_solids[at(solid)].col(i) - averaged));
+    }
   return result;
 }
 
 void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_solids,
                  PartSolution& solution) {
+  const PartError error = estimate_part_error(model, solution.stress, solution.displacement);
+  solution.strain_energy = error.squared_norm.sum() / 2;
   std::map<int, int> solid_of_element;
   std::vector<int> all;
   for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
     solid_of_element[model.mesh.solids[at(solid)]] = solid;
     all.push_back(solid);
   }
-  solution.all = largest_of(model, solution, of_solids, "all", all);
+  solution.all = largest_of(model, solution, of_solids, error, "all", all);
+  solution.estimated_error = solution.all.estimated_error;
+  Eigen::Index worst = 0;
+  error.squared_error.maxCoeff(&worst);
+  solution.worst_point = model.mesh.centre(model.mesh.solids[static_cast<std::size_t>(worst)]);
   for (const PartGroup& group : model.mesh.groups) {
     if (group.dimension != 3) continue;
     std::vector<int> solids;
     for (const int element : group.elements) solids.push_back(solid_of_element.at(element));
-    solution.groups.push_back(largest_of(model, solution, of_solids, group.name, solids));
+    solution.groups.push_back(largest_of(model, solution, of_solids, error, group.name, solids));
   }
 }
 
@@ -180,6 +148,7 @@ void find_balance(const PartModel& model, const Eigen::VectorXd& load,
   };
   for (Eigen::Index node = 0; node < model.mesh.nodes.cols(); ++node)
     add_magnitude(model.mesh.nodes.col(node), load.segment<3>(3 * node));
+  solution.load_magnitude = force_sum;
   Vector3 force = solution.applied.force, moment = solution.applied.moment;
   for (std::size_t i = 0; i < support_of.size(); ++i) {  // idle nodes come after and bear nothing
     const Vector3 place = model.mesh.nodes.col(fixed[i].unknown / 3);
@@ -197,6 +166,23 @@ void find_balance(const PartModel& model, const Eigen::VectorXd& load,
 }
 
 }  // namespace
+
+StressColumns part_stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
+                            const Eigen::VectorXd& displacement) {
+  const int element = model.mesh.solids[at(solid)];
+  const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
+  const Eigen::Matrix3Xd places = model.mesh.places(element);
+  Eigen::Matrix3Xd moved(3, places.cols());
+  for (int i = 0; i < places.cols(); ++i)
+    moved.col(i) = displacement.segment<3>(3 * model.mesh.node(element, i));
+  StressColumns result(6, gradients.rows() / 3);
+  for (Eigen::Index q = 0; q < result.cols(); ++q) {
+    const auto by_unit = gradients.middleRows<3>(3 * q);
+    const Eigen::Matrix3d inverse = (places * by_unit.transpose()).inverse();
+    result.col(q) = stress_of_gradient(material, (moved * by_unit.transpose()) * inverse);
+  }
+  return result;
+}
 
 PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement) {
   std::vector<StressColumns> of_solids;
@@ -237,7 +223,6 @@ PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
   std::vector<StressColumns> of_solids;
   solution.stress = recover(model, solution.displacement, of_solids);
   find_maxima(model, of_solids, solution);
-  estimate_error(model, solution);
   solution.recovery_s = watch.lap();
   return solution;
 }
@@ -247,7 +232,7 @@ Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::Vector
   for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
     const int element = model.mesh.solids[at(solid)];
     const ElementKind& kind = model.mesh.kind(element);
-    const StressColumns stress = stresses(model, solid, kind.gradients, displacement);
+    const StressColumns stress = part_stresses(model, solid, kind.gradients, displacement);
     const Eigen::Matrix3Xd places = model.mesh.places(element);
     for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
       const auto by_unit = kind.gradients.middleRows<3>(3 * q);

@@ -29,6 +29,11 @@ struct PartGroupResult {
   double raw_von_mises = 0;  ///< largest of any solid at any of its nodes, nothing averaged, Pa
   Vector3 raw_point = Vector3::Zero();
   double displacement = 0;  ///< m
+  /// By superconvergent patch recovery, in the energy norm, as a share of the norm (see PartError).
+  double estimated_error = 0;
+  /// Of the largest averaged stress: by how much (as a von Mises stress) the stresses of the solids
+  /// that meet there differ from it, Pa. It falls as the mesh gets finer, unless the stress is singular.
+  double von_mises_error = 0;
 };
 
 /// How the equations of a part were solved. Times by the wall clock.
@@ -62,16 +67,16 @@ struct PartSolution {
   Eigen::VectorXd displacement;  ///< 3 a node, m
   PartStress stress;
   Wrench applied;                 ///< all loads about the origin
+  double load_magnitude = 0;      ///< sum of the nodal loads' magnitudes, N
   std::vector<Wrench> reactions;  ///< of each support on the part, about the origin
   /// |loads + reactions| over the sum of the magnitudes of both.
   double force_residual = 0;
   double moment_residual = 0;           ///< likewise, moments about the origin
   std::vector<PartGroupResult> groups;  ///< of solids
   PartGroupResult all;
-  double strain_energy = 0;  ///< J
-  /// Zienkiewicz and Zhu's estimate of the error in the energy norm, as a share of the norm: by the
-  /// difference between the averaged stress and that of each solid.
-  double estimated_error = 0;
+  double strain_energy = 0;               ///< J
+  double estimated_error = 0;             ///< of the whole part, as for a group
+  Vector3 worst_point = Vector3::Zero();  ///< centre of the solid with the largest error, m
   SolverAccount solver;
   double recovery_s = 0;  ///< wall-clock time of the stresses
 };
@@ -94,6 +99,12 @@ PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& di
 /// Nodal forces of the stresses: int B^T sigma dV, 3 a node, N. In equilibrium they are the loads and
 /// the reactions.
 Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement);
+
+/// Stresses of one solid (6 x points, Pa) at points whose gradients by the local coordinates are given:
+/// row 3 q + a holds d/dxi_a of the shape functions at point q.
+Eigen::Matrix<double, 6, Eigen::Dynamic> part_stresses(const PartModel& model, int solid,
+                                                       const Eigen::MatrixXd& gradients,
+                                                       const Eigen::VectorXd& displacement);
 
 /// Displacement and averaged stress at a place, interpolated in the solid that holds it (to 1e-6 of
 /// its size).

@@ -273,6 +273,28 @@ TEST(Part, RigidMotionsThatAreLeftAreNamed) {
               ::testing::AllOf(HasSubstr("rotation about the axis along"), HasSubstr("(1, 0, 0)")));
 }
 
+// Two boxes that share one edge: the one that is held by it alone turns about it.
+TEST(Part, ElementsThatHangOnAnEdgeAreNamed) {
+  PartModel model = part(box(Shape::hexahedra, 1, Vector3(2, 1, 1), {2, 1, 1}));
+  // The second element's face is taken off the first one's but for its lower edge, y along.
+  PartMesh& mesh = model.mesh;
+  const int moved = mesh.centre(mesh.solids[0]).x() > 1 ? mesh.solids[0] : mesh.solids[1];
+  const auto first = static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(moved)].first);
+  for (int i = 0; i < 8; ++i) {
+    const Vector3 x = mesh.nodes.col(mesh.node(moved, i));
+    if (x.x() > 1.5 || x.z() < 0.5) continue;
+    mesh.nodes.conservativeResize(Eigen::NoChange, mesh.nodes.cols() + 1);
+    mesh.nodes.rightCols<1>() = x + Vector3(0.2, 0, 0);
+    mesh.element_nodes[first + static_cast<std::size_t>(i)] =
+        static_cast<int>(mesh.nodes.cols()) - 1;
+  }
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  EXPECT_THAT(error_of(model),
+              ::testing::AllOf(HasSubstr("free to move"),
+                               HasSubstr("axis along (0, 1, 0) through (1, 0.5, 0) m"),
+                               HasSubstr("1 elements about"), HasSubstr("by an edge or a point")));
+}
+
 TEST(Part, InvertedElementsAreNamed) {
   PartModel model = part(box(Shape::tetrahedra, 2, Vector3(1, 1, 1), {2, 2, 2}));
   model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
