@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -14,7 +15,9 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
+#include "structure/mesh/abaqus_model.h"
 #include "structure/mesh/gmsh_session.h"
+#include "structure/mesh/plate_collector.h"
 
 namespace blocklift::structure {
 
@@ -139,11 +142,13 @@ class Collector {
  public:
   explicit Collector(double length_unit) : length_unit_(length_unit) {}
 
-  PartMesh collect() {
+  /// @param point_sets nodes that become groups of points.
+  PartMesh collect(const std::map<std::string, std::vector<std::size_t>>& point_sets) {
     read_nodes();
     gmsh::vectorpair entities;
     gmsh::model::getEntities(entities);
     for (const auto& [dimension, entity] : entities) read_entity(dimension, entity);
+    for (const auto& [name, tags] : point_sets) add_points(name, tags);
     read_physical_groups();
     if (mesh_.solids.empty()) throw ModelError("it holds no solid elements");
     return std::move(mesh_);
@@ -192,6 +197,18 @@ class Collector {
     }
     if (group.elements.empty()) return;
     elements_of_entity_[{dimension, entity}] = group.elements;
+    mesh_.groups.push_back(std::move(group));
+  }
+
+  void add_points(const std::string& name, const std::vector<std::size_t>& tags) {
+    constexpr int point_type = 15;
+    PartGroup group{name, 0, {}};
+    for (const std::size_t tag : tags) {
+      group.elements.push_back(static_cast<int>(mesh_.elements.size()));
+      mesh_.elements.push_back(
+          {kind_of(point_type), static_cast<int>(mesh_.element_nodes.size()), tag});
+      mesh_.element_nodes.push_back(node_of(tag));
+    }
     mesh_.groups.push_back(std::move(group));
   }
 
@@ -248,21 +265,81 @@ int largest_order() {
   return largest;
 }
 
-void open_and_mesh(const std::string& path, const PartReading& reading) {
+// Quadratic tetrahedra, the lightest elements, have some 4 unknowns each, coupled with half of 80 others.
+void require_memory(double elements, double memory, const std::string& cause) {
+  const double bytes = 2e3 * elements;
+  if (memory <= 0 || bytes <= memory) return;
+  throw ModelError(
+      fmt::format("{} makes about {:.2g} elements, whose stiffness needs more than {:.3g} GB; "
+                  "{:.3g} GB are free",
+                  cause, elements, bytes / 1e9, memory / 1e9));
+}
+
+// Tetrahedra of an edge h fill h^3 / (6 sqrt 2) each. Volumes are known of OpenCASCADE's solids.
+void require_memory_for_size(const PartReading& reading) {
+  gmsh::vectorpair solids;
+  gmsh::model::occ::getEntities(solids, 3);
+  double volume = 0;
+  for (const auto& [dimension, solid] : solids) {
+    double own = 0;
+    gmsh::model::occ::getMass(dimension, solid, own);
+    volume += own;
+  }
+  const double size = reading.element_size / reading.length_unit;
+  require_memory(6 * std::sqrt(2.0) * volume / std::pow(size, 3), reading.memory,
+                 fmt::format("an element size of {:.3g} m", reading.element_size));
+}
+
+std::size_t solid_count() {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, 3);
+  std::size_t count = 0;
+  for (const auto& of_type : tags) count += of_type.size();
+  return count;
+}
+
+bool is_abaqus(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".inp";
+}
+
+/// @returns sets of nodes that are groups of points.
+std::map<std::string, std::vector<std::size_t>> open_and_mesh(const std::string& path,
+                                                              const PartReading& reading) {
+  std::map<std::string, std::vector<std::size_t>> points;
   gmsh::option::setNumber("Mesh.SaveAll", 1);
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
   // Geometries come with the unit of the file, never converted.
   gmsh::option::setString("Geometry.OCCTargetUnit", "");
-  gmsh::open(path);
+  if (is_abaqus(path))
+    points = add_to_gmsh(read_abaqus(path));
+  else
+    gmsh::open(path);
   if (reading.element_size > 0)
     gmsh::option::setNumber("Mesh.MeshSizeMax", reading.element_size / reading.length_unit);
+  if (!reading.plates.empty()) {
+    std::map<std::string, double> thickness;
+    for (const auto& [name, value] : reading.plates) thickness[name] = value / reading.length_unit;
+    const AbaqusMesh solid = thicken(collect_plates(thickness));
+    gmsh::model::add("thickened");
+    points = add_to_gmsh(solid);
+  }
   int order = largest_order();
   if (order == 0) {
+    if (reading.element_size > 0) require_memory_for_size(reading);
     gmsh::model::mesh::generate(3);
     order = largest_order();
   }
+  if (reading.refinements > 0)
+    require_memory(static_cast<double>(solid_count()) * std::pow(8, reading.refinements),
+                   reading.memory, fmt::format("halving the mesh {} times", reading.refinements));
+  for (int i = 0; i < reading.refinements; ++i) gmsh::model::mesh::refine();
+  if (reading.refinements > 0) order = largest_order();
   if (order > 0 && order < reading.element_order)
     gmsh::model::mesh::setOrder(reading.element_order);
+  return points;
 }
 
 }  // namespace
@@ -272,8 +349,8 @@ PartMesh read_part_mesh(const std::string& path, const PartReading& reading) {
     throw ModelError("there is no file \"" + path + "\"");
   const GmshSession session;
   try {
-    open_and_mesh(path, reading);
-    return Collector(reading.length_unit).collect();
+    const auto points = open_and_mesh(path, reading);
+    return Collector(reading.length_unit).collect(points);
   } catch (const ModelError& error) {
     throw ModelError("mesh \"" + path + "\": " + error.what());
   } catch (const std::string& error) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "structure/mesh/part_mesh.h"
@@ -12,15 +13,21 @@ struct PartReading {
   /// Polynomial order that the elements are raised to, 1 or 2; elements of a higher order stay.
   int element_order = 2;
   double element_size = 0;  ///< largest edge where the file is a geometry, m; 0: as the file says
+  int refinements = 0;      ///< halvings of all elements along their edges
+  double memory = 0;        ///< that the stiffness may take at most, bytes; 0: not looked at
+  /// Thicknesses of plates, m, by groups of surfaces: where there are any, the file holds mid-surfaces,
+  /// which are thickened (see thicken).
+  std::map<std::string, double> plates;
 };
 
-/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .bdf, .unv, ...; .inp not as of its version 4.8): a mesh as it is, a
-/// geometry after meshing it.
+/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .bdf, .unv, ...), and Abaqus' .inp by
+/// read_abaqus: a mesh as it is, a geometry after meshing it.
 ///
 /// Groups are the physical groups by their names, or "volume group 3" and so on where they have none;
 /// besides them each geometric entity is a group of its own: "volume 1", "surface 4", "curve 2",
 /// "point 7". Gmsh's session is opened and closed again here.
-/// @throws ModelError if the file cannot be read or meshed, or holds no solid elements, or kinds
+/// @throws ModelError if the file cannot be read or meshed, asks for so many elements that their stiffness
+///   would exceed the memory (before they are made), or holds no solid elements, or kinds
 ///   other than hexahedra, tetrahedra and wedges (pyramids among them).
 PartMesh read_part_mesh(const std::string& path, const PartReading& reading);
 

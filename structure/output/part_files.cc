@@ -66,56 +66,115 @@ void open_vtk_file(std::ofstream& file, const char* type) {
        << "\" header_type=\"UInt64\">\n";
 }
 
+/// The solids of a part on points of which each is at a node.
+struct Grid {
+  std::vector<int> node;  ///< of each point
+  std::vector<std::int32_t> connectivity, offsets;
+};
+
+// Points for each node and material, as the stress has them.
+Grid grid_of_stress(const PartModel& model, const PartStress& stress) {
+  Grid grid{stress.node, {}, {}};
+  for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid) {
+    for (const int i : shared_order(model.mesh.kind(model.mesh.solids[solid])))
+      grid.connectivity.push_back(stress.point_of[at(stress.first_of[solid] + i)]);
+    grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
+  }
+  return grid;
+}
+
+// A point for each node that an element's drawing needs.
+Grid grid_of_nodes(const PartMesh& mesh) {
+  Grid grid;
+  std::vector<int> point_of(static_cast<std::size_t>(mesh.nodes.cols()), -1);
+  for (const int element : mesh.solids) {
+    for (const int i : shared_order(mesh.kind(element))) {
+      int& point = point_of[at(mesh.node(element, i))];
+      if (point < 0) {
+        point = static_cast<int>(grid.node.size());
+        grid.node.push_back(mesh.node(element, i));
+      }
+      grid.connectivity.push_back(point);
+    }
+    grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
+  }
+  return grid;
+}
+
+// Values of a displacement (3 a node) at the points.
+std::vector<float> at_points(const Grid& grid, const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::vector<float> result;
+  for (const int node : grid.node)
+    for (int a = 0; a < 3; ++a) result.push_back(static_cast<float>(values[3 * node + a]));
+  return result;
+}
+
+// Everything up to the point data.
+void write_grid(std::ofstream& file, const PartModel& model, const Grid& grid) {
+  std::vector<std::uint8_t> types;
+  std::vector<std::string> materials;
+  for (const int element : model.mesh.solids) types.push_back(vtk_type(model.mesh.kind(element)));
+  for (const Material& one : model.materials) materials.push_back(one.name);
+  const Eigen::Map<const Eigen::VectorXd> places(model.mesh.nodes.data(), model.mesh.nodes.size());
+  open_vtk_file(file, "UnstructuredGrid");
+  file << "<UnstructuredGrid>\n<FieldData>\n";
+  write_names(file, "material_names", materials);
+  file << "</FieldData>\n<Piece NumberOfPoints=\"" << grid.node.size() << "\" NumberOfCells=\""
+       << types.size() << "\">\n<Points>\n";
+  write_array(file, "Float32", "points", 3, at_points(grid, places));
+  file << "</Points>\n<Cells>\n";
+  write_array(file, "Int32", "connectivity", 1, grid.connectivity);
+  write_array(file, "Int32", "offsets", 1, grid.offsets);
+  write_array(file, "UInt8", "types", 1, types);
+  file << "</Cells>\n";
+}
+
+// The data of the solids and the end of the file.
+void write_cells(std::ofstream& file, const PartModel& model, const std::string& path) {
+  std::vector<std::int64_t> tags;
+  for (const int element : model.mesh.solids)
+    tags.push_back(static_cast<std::int64_t>(model.mesh.elements[at(element)].tag));
+  file << "<CellData>\n";
+  write_array(
+      file, "Int32", "material", 1,
+      std::vector<std::int32_t>(model.material_of_solid.begin(), model.material_of_solid.end()));
+  write_array(file, "Int64", "element", 1, tags);
+  file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  file.flush();
+  if (!file) throw ModelError("cannot write \"" + path + "\"");
+}
+
 }  // namespace
 
 void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution) {
   const PartStress& stress = solution.stress;
-  std::vector<float> points, displacement, components, equivalent;
-  for (std::size_t p = 0; p < stress.node.size(); ++p) {
-    const int node = stress.node[p];
-    const auto s = stress.averaged.col(static_cast<Eigen::Index>(p));
-    for (int a = 0; a < 3; ++a) {
-      points.push_back(static_cast<float>(model.mesh.nodes(a, node)));
-      displacement.push_back(static_cast<float>(solution.displacement[3 * node + a]));
-    }
+  const Grid grid = grid_of_stress(model, stress);
+  std::vector<float> components, equivalent;
+  for (const auto& s : stress.averaged.colwise()) {
     for (int c = 0; c < 6; ++c) components.push_back(static_cast<float>(s[c]));
     equivalent.push_back(static_cast<float>(von_mises(s)));
   }
-  std::vector<std::int32_t> connectivity, offsets, material;
-  std::vector<std::int64_t> tags;
-  std::vector<std::uint8_t> types;
-  for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid) {
-    const int element = model.mesh.solids[solid];
-    for (const int i : shared_order(model.mesh.kind(element)))
-      connectivity.push_back(stress.point_of[at(stress.first_of[solid] + i)]);
-    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-    types.push_back(vtk_type(model.mesh.kind(element)));
-    material.push_back(model.material_of_solid[solid]);
-    tags.push_back(static_cast<std::int64_t>(model.mesh.elements[at(element)].tag));
-  }
-  std::vector<std::string> materials;
-  for (const Material& one : model.materials) materials.push_back(one.name);
   std::ofstream file(path, std::ios::binary);
-  open_vtk_file(file, "UnstructuredGrid");
-  file << "<UnstructuredGrid>\n<FieldData>\n";
-  write_names(file, "material_names", materials);
-  file << "</FieldData>\n<Piece NumberOfPoints=\"" << stress.node.size() << "\" NumberOfCells=\""
-       << types.size() << "\">\n<Points>\n";
-  write_array(file, "Float32", "points", 3, points);
-  file << "</Points>\n<Cells>\n";
-  write_array(file, "Int32", "connectivity", 1, connectivity);
-  write_array(file, "Int32", "offsets", 1, offsets);
-  write_array(file, "UInt8", "types", 1, types);
-  file << "</Cells>\n<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n";
-  write_array(file, "Float32", "displacement", 3, displacement);
+  write_grid(file, model, grid);
+  file << "<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n";
+  write_array(file, "Float32", "displacement", 3, at_points(grid, solution.displacement));
   write_array(file, "Float32", "von_mises", 1, equivalent);
   write_array(file, "Float32", "stress", 6, components);
-  file << "</PointData>\n<CellData>\n";
-  write_array(file, "Int32", "material", 1, material);
-  write_array(file, "Int64", "element", 1, tags);
-  file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  file.close();
-  if (!file) throw ModelError("cannot write \"" + path + "\"");
+  file << "</PointData>\n";
+  write_cells(file, model, path);
+}
+
+void write_part_modes_vtu(const std::string& path, const PartModel& model,
+                          const NaturalModes& modes) {
+  const Grid grid = grid_of_nodes(model.mesh);
+  std::ofstream file(path, std::ios::binary);
+  write_grid(file, model, grid);
+  file << "<PointData Vectors=\"mode_1\">\n";
+  for (Eigen::Index m = 0; m < modes.shapes.cols(); ++m)
+    write_array(file, "Float32", fmt::format("mode_{}", m + 1), 3,
+                at_points(grid, modes.shapes.col(m)));
+  file << "</PointData>\n";
+  write_cells(file, model, path);
 }
 
 void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces) {

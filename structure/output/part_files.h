@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "structure/elasticity/natural_modes.h"
 #include "structure/response/part_solution.h"
 
 namespace blocklift::structure {
@@ -16,6 +17,11 @@ void write_part_vtu(const std::string& path, const PartModel& model, const PartS
 /// Writes the list of the pieces of a part (`.pvtu`) that several processes have written, each by
 /// write_part_vtu and in the same folder. @throws ModelError if the file cannot be written.
 void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces);
+
+/// Writes the shapes of natural modes for ParaView (`.vtu`): point data `mode_1`, `mode_2` and so on
+/// (m/sqrt(kg)); cell data as above. @throws ModelError if the file cannot be written.
+void write_part_modes_vtu(const std::string& path, const PartModel& model,
+                          const NaturalModes& modes);
 
 /// Writes mesh, materials, supports and loads as input of CalculiX (`.inp`), in m, kg, s, N, Pa; the
 /// loads as nodal forces, just as they are solved here, so that a comparison compares elements.
