@@ -30,6 +30,10 @@ class ModelMaker {
     reading.length_unit = file_.mesh.length_unit.value_or(1);
     reading.element_order = file_.mesh.element_order;
     reading.element_size = file_.mesh.element_size.value_or(0);
+    reading.refinements = file_.mesh.refinements;
+    reading.memory = structure::available_memory();
+    for (const PartPlate& plate : file_.mesh.plates)
+      reading.plates[plate.name.value] = plate.thickness;
     try {
       model_.mesh = structure::read_part_mesh(file_.mesh_path().string(), reading);
     } catch (const structure::ModelError& error) {
@@ -242,41 +246,113 @@ structure::PartDisplacement solve_alone(const PartModel& model,
 }  // namespace
 
 double figure_of(const PartAssessment& assessment, const PartReference& reference) {
-  const auto probe =
-      std::find_if(assessment.probes.begin(), assessment.probes.end(),
-                   [&](const ProbeResult& result) { return result.name == reference.probe.value; });
+  if (reference.mode) return assessment.modes->frequencies[*reference.mode - 1];
+  const auto probe = std::find_if(
+      assessment.probes.begin(), assessment.probes.end(),
+      [&](const ProbeResult& result) { return result.name == reference.probe->value; });
   const structure::PartProbe& point = probe->points.at(0);
-  if (reference.quantity == PartQuantity::von_mises) return structure::von_mises(point.stress);
-  const int place = static_cast<int>(reference.quantity);
-  return reference.quantity >= PartQuantity::u_x
+  const PartQuantity quantity = *reference.quantity;
+  if (quantity == PartQuantity::von_mises) return structure::von_mises(point.stress);
+  const int place = static_cast<int>(quantity);
+  return quantity >= PartQuantity::u_x
              ? point.displacement[place - static_cast<int>(PartQuantity::u_x)]
              : point.stress[place];
+}
+
+std::string name_of(const PartReference& reference) {
+  return reference.mode
+             ? fmt::format("frequency of mode {}", *reference.mode)
+             : fmt::format("{} at {}", name_of(*reference.quantity), reference.probe->value);
 }
 
 PartModel make_part_model(const PartFile& file, Diagnostics& diagnostics) {
   return ModelMaker(file, diagnostics).make();
 }
 
-PartAssessment assess_part(PartFile file, structure::PartTeam* team) {
+namespace {
+
+RefinementStep step_of(const PartAssessment& assessment) {
+  const structure::PartSolution& solution = assessment.solution;
+  return {assessment.file.mesh.element_order,
+          assessment.model.mesh.solids.size(),
+          static_cast<int>(3 * assessment.model.mesh.nodes.cols()),
+          solution.estimated_error,
+          solution.all.von_mises,
+          solution.all.von_mises_error};
+}
+
+// The next better mesh: quadratic elements first, then halved ones.
+void refine(PartMeshInFile& mesh) {
+  if (mesh.element_order < 2)
+    mesh.element_order = 2;
+  else
+    ++mesh.refinements;
+}
+
+// Meshes and solves, with better meshes until the accuracy is met.
+void solve(PartAssessment& assessment, structure::PartTeam* team, Diagnostics& diagnostics) {
+  constexpr std::size_t most_steps = 6;
   Stopwatch watch;
+  const std::optional<double> accuracy = assessment.file.accuracy;
+  for (;;) {
+    try {
+      watch.lap();
+      assessment.model = make_part_model(assessment.file, diagnostics);
+      if (diagnostics.has_errors()) throw InputError(diagnostics);
+      assessment.mesh_s = watch.lap();
+      if (assessment.file.loads.empty()) return;
+      assessment.solution = structure::solve_part(
+          assessment.model, [&](const PartModel& model, const auto& fixed, const auto& load) {
+            const structure::SolverChoice& choice = assessment.file.solver;
+            return team ? team->solve(model, fixed, load, choice)
+                        : solve_alone(model, fixed, load, choice);
+          });
+    } catch (const structure::ModelError& error) {
+      std::string message = error.what();
+      if (!assessment.refinement.empty())
+        message += fmt::format(
+            "; the accuracy of {:.3g} % is not reached: {} elements have an error of {:.3g} %",
+            100 * *accuracy, assessment.refinement.back().elements,
+            100 * assessment.refinement.back().estimated_error);
+      diagnostics.error(assessment.file.mesh.file.mark, message);
+      throw InputError(diagnostics);
+    }
+    assessment.refinement.push_back(step_of(assessment));
+    const RefinementStep& last = assessment.refinement.back();
+    if (!accuracy || last.estimated_error <= *accuracy) return;
+    if (assessment.refinement.size() == most_steps) {
+      const Vector3& worst = assessment.solution.worst_point;
+      diagnostics.error(
+          assessment.file.mesh.file.mark,
+          fmt::format("the accuracy of {:.3g} % is not reached: {} elements have an error of "
+                      "{:.3g} %, most of it at ({:.4g}, {:.4g}, {:.4g}) m",
+                      100 * *accuracy, last.elements, 100 * last.estimated_error, worst.x(),
+                      worst.y(), worst.z()),
+          {"make the mesh finer there, round off a sharp corner, or ask for less"});
+      throw InputError(diagnostics);
+    }
+    refine(assessment.file.mesh);
+  }
+}
+
+}  // namespace
+
+PartAssessment assess_part(PartFile file, structure::PartTeam* team) {
   Diagnostics diagnostics;
   PartAssessment assessment;
   assessment.file = std::move(file);
-  assessment.model = make_part_model(assessment.file, diagnostics);
-  if (diagnostics.has_errors()) throw InputError(diagnostics);
-  assessment.mesh_s = watch.lap();
+  solve(assessment, team, diagnostics);
+  Stopwatch watch;
   try {
-    assessment.solution = structure::solve_part(
-        assessment.model, [&](const PartModel& model, const auto& fixed, const auto& load) {
-          const structure::SolverChoice& choice = assessment.file.solver;
-          return team ? team->solve(model, fixed, load, choice)
-                      : solve_alone(model, fixed, load, choice);
-        });
+    if (assessment.file.modes)
+      assessment.modes = structure::find_part_modes(assessment.model, *assessment.file.modes);
   } catch (const structure::ModelError& error) {
     diagnostics.error(assessment.file.mesh.file.mark, error.what());
     throw InputError(diagnostics);
   }
+  assessment.modes_s = watch.lap();
   assessment.mass = structure::find_part_mass(assessment.model);
+  if (assessment.file.loads.empty()) return assessment;
   assessment.probes =
       find_probes(assessment.file, assessment.model, assessment.solution, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipeline/input/part_file.h"
+#include "structure/elasticity/natural_modes.h"
 #include "structure/parallel/part_team.h"
 #include "structure/response/part_solution.h"
 
@@ -17,14 +19,27 @@ struct ProbeResult {
   std::vector<structure::PartProbe> points;
 };
 
+/// One mesh on the way to the accuracy that is asked for.
+struct RefinementStep {
+  int element_order = 2;
+  std::size_t elements = 0;
+  int unknowns = 0;
+  double estimated_error = 0;  ///< in the energy norm, as a share of it
+  double von_mises = 0;        ///< largest averaged, Pa
+  double von_mises_error = 0;  ///< of that, Pa
+};
+
 /// A part with its solution.
 struct PartAssessment {
   PartFile file;
   structure::PartModel model;
   structure::PartMass mass;
-  structure::PartSolution solution;
+  structure::PartSolution solution;  ///< empty without loads
+  std::optional<structure::NaturalModes> modes;
+  std::vector<RefinementStep> refinement;  ///< the last is the mesh of the solution
   std::vector<ProbeResult> probes;
-  double mesh_s = 0;  ///< wall-clock time of reading or making the mesh
+  double mesh_s = 0;   ///< wall-clock time of reading or making the mesh
+  double modes_s = 0;  ///< of finding the modes
 };
 
 /// Reads the mesh and puts the model together.
@@ -34,15 +49,20 @@ struct PartAssessment {
 structure::PartModel make_part_model(const PartFile& file, Diagnostics& diagnostics);
 
 /// Runs a part. @throws InputError if the model cannot be made or solved: inverted elements, rigid
-///   motions that the supports leave, probes outside the part, memory that does not suffice.
+///   motions that the supports leave, probes outside the part, memory that does not suffice, an
+///   accuracy that is not reached (the message says how near it came and where the error is).
 /// @param team the processes that solve it together; null: this one alone.
 PartAssessment assess_part(PartFile file, structure::PartTeam* team = nullptr);
 
-/// The figure of a probe that a reference speaks of, Pa or m.
+/// The figure that a reference speaks of, Pa, m or Hz.
 double figure_of(const PartAssessment& assessment, const PartReference& reference);
 
-/// Writes summary.json, results.h5, part.vtu (or part.pvtu and the pieces of a team) and, if asked
-/// for, part.inp (CalculiX) into a folder; all of them appear when all are written.
+/// What a figure is called: "yy at D", "mode 7".
+std::string name_of(const PartReference& reference);
+
+/// Writes summary.json, results.h5, part.vtu (or part.pvtu and the pieces of a team), modes.vtu (if there
+/// are modes) and, if asked for, part.inp (CalculiX) into a folder; all of them appear when all are
+/// written.
 void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
                         bool calculix, const structure::PartTeam* team = nullptr);
 

@@ -29,6 +29,8 @@ Json group_json(const structure::PartGroupResult& group) {
           {"point_m", vector(group.point)},
           {"raw_von_mises_Pa", group.raw_von_mises},
           {"raw_point_m", vector(group.raw_point)},
+          {"von_mises_error_Pa", group.von_mises_error},
+          {"estimated_error", group.estimated_error},
           {"max_displacement_m", group.displacement}};
 }
 
@@ -43,35 +45,30 @@ Json probe_json(const structure::PartProbe& probe) {
   return json;
 }
 
-Json make_part_summary(const PartAssessment& assessment) {
+// What the loads do.
+void add_solution(const PartAssessment& assessment, Json& summary) {
   const structure::PartSolution& solution = assessment.solution;
-  const structure::PartModel& model = assessment.model;
-  std::map<std::string, int> kinds;
-  for (const int element : model.mesh.solids) ++kinds[model.mesh.kind(element).name];
+  summary["applied"] = {{"force_N", vector(solution.applied.force)},
+                        {"moment_about_origin_N_m", vector(solution.applied.moment)}};
   std::map<std::string, structure::Wrench> reactions;
-  for (std::size_t s = 0; s < model.supports.size(); ++s) {
-    reactions[model.supports[s].name].force += solution.reactions[s].force;
-    reactions[model.supports[s].name].moment += solution.reactions[s].moment;
+  for (std::size_t s = 0; s < assessment.model.supports.size(); ++s) {
+    structure::Wrench& sum = reactions[assessment.model.supports[s].name];
+    sum.force += solution.reactions[s].force;
+    sum.moment += solution.reactions[s].moment;
   }
-  Json summary{{"part", assessment.file.name},
-               {"title", assessment.file.title},
-               {"program_version", program_version},
-               {"created", creation_time()},
-               {"nodes", model.mesh.nodes.cols()},
-               {"elements", kinds},
-               {"unknowns", 3 * model.mesh.nodes.cols()},
-               {"mass_kg", assessment.mass.mass},
-               {"volume_m3", assessment.mass.volume},
-               {"centre_of_mass_m", vector(assessment.mass.centre)},
-               {"applied",
-                {{"force_N", vector(solution.applied.force)},
-                 {"moment_about_origin_N_m", vector(solution.applied.moment)}}}};
   for (const auto& [name, wrench] : reactions)
     summary["reactions"][name] = {{"force_N", vector(wrench.force)},
                                   {"moment_about_origin_N_m", vector(wrench.moment)}};
   summary["force_residual"] = solution.force_residual;
   summary["moment_residual"] = solution.moment_residual;
   summary["estimated_error"] = solution.estimated_error;
+  for (const RefinementStep& step : assessment.refinement)
+    summary["refinement"].push_back({{"element_order", step.element_order},
+                                     {"elements", step.elements},
+                                     {"unknowns", step.unknowns},
+                                     {"estimated_error", step.estimated_error},
+                                     {"von_mises_Pa", step.von_mises},
+                                     {"von_mises_error_Pa", step.von_mises_error}});
   summary["strain_energy_J"] = solution.strain_energy;
   summary["all"] = group_json(solution.all);
   for (const structure::PartGroupResult& group : solution.groups)
@@ -84,23 +81,48 @@ Json make_part_summary(const PartAssessment& assessment) {
     for (const structure::PartProbe& point : probe.points)
       summary["probes"][probe.name].push_back(probe_json(point));
   }
+}
+
+Json make_part_summary(const PartAssessment& assessment) {
+  const structure::PartSolution& solution = assessment.solution;
+  const structure::PartModel& model = assessment.model;
+  std::map<std::string, int> kinds;
+  for (const int element : model.mesh.solids) ++kinds[model.mesh.kind(element).name];
+  Json summary{{"part", assessment.file.name},
+               {"title", assessment.file.title},
+               {"program_version", program_version},
+               {"created", creation_time()},
+               {"nodes", model.mesh.nodes.cols()},
+               {"elements", kinds},
+               {"unknowns", 3 * model.mesh.nodes.cols()},
+               {"mass_kg", assessment.mass.mass},
+               {"volume_m3", assessment.mass.volume},
+               {"centre_of_mass_m", vector(assessment.mass.centre)}};
+  if (!assessment.file.loads.empty()) add_solution(assessment, summary);
+  if (assessment.modes) {
+    for (const double frequency : assessment.modes->frequencies)
+      summary["natural_frequencies_Hz"].push_back(frequency);
+    summary["rigid_motions"] = assessment.modes->rigid_motions;
+    summary["modes_residual"] = assessment.modes->residual;
+  }
   if (assessment.file.references)
     for (const PartReference& figure : assessment.file.references->figures)
-      summary["references"].push_back({{"probe", figure.probe.value},
-                                       {"quantity", name_of(figure.quantity)},
+      summary["references"].push_back({{"figure", name_of(figure)},
                                        {"reference", figure.value.value.value},
                                        {"computed", figure_of(assessment, figure)},
                                        {"source", assessment.file.references->source}});
   const structure::SolverAccount& solver = solution.solver;
-  summary["solver"] = {{"name", solver.name},
-                       {"processes", solver.processes},
-                       {"iterations", solver.iterations},
-                       {"factor_GB", solver.factor_bytes / 1e9}};
+  if (!assessment.file.loads.empty())
+    summary["solver"] = {{"name", solver.name},
+                         {"processes", solver.processes},
+                         {"iterations", solver.iterations},
+                         {"factor_GB", solver.factor_bytes / 1e9}};
   summary["timing"] = {{"mesh_s", assessment.mesh_s},
                        {"assembly_s", solver.assembly_s},
                        {"factorisation_s", solver.factorisation_s},
                        {"solve_s", solver.solve_s},
-                       {"recovery_s", solution.recovery_s}};
+                       {"recovery_s", solution.recovery_s},
+                       {"modes_s", assessment.modes_s}};
   return summary;
 }
 
@@ -110,14 +132,23 @@ void write_fields(const PartAssessment& assessment, const std::filesystem::path&
   ResultsWriter file(path);
   file.write_text("/part/yaml", assessment.file.yaml, "the part's file");
   file.write_matrix("/nodes/position", model.mesh.nodes.transpose(), {"m", "places of the nodes"});
-  file.write_matrix("/nodes/displacement",
-                    Eigen::Map<const RowMajorMatrix>(assessment.solution.displacement.data(),
-                                                     model.mesh.nodes.cols(), 3),
-                    {"m", "displacement of the nodes"});
-  file.write("/stress/node", std::vector<std::int32_t>(stress.node.begin(), stress.node.end()),
-             {"1", "node of each point of stress; a node has one for each material that meets it"});
-  file.write_matrix("/stress/components", stress.averaged.transpose(),
-                    {"Pa", "xx, yy, zz, xy, yz, zx, averaged over the solids of one material"});
+  if (!assessment.file.loads.empty()) {
+    file.write_matrix("/nodes/displacement",
+                      Eigen::Map<const RowMajorMatrix>(assessment.solution.displacement.data(),
+                                                       model.mesh.nodes.cols(), 3),
+                      {"m", "displacement of the nodes"});
+    file.write(
+        "/stress/node", std::vector<std::int32_t>(stress.node.begin(), stress.node.end()),
+        {"1", "node of each point of stress; a node has one for each material that meets it"});
+    file.write_matrix("/stress/components", stress.averaged.transpose(),
+                      {"Pa", "xx, yy, zz, xy, yz, zx, averaged over the solids of one material"});
+  }
+  if (assessment.modes) {
+    file.write_matrix("/modes/frequency", assessment.modes->frequencies,
+                      {"Hz", "natural frequencies, those of rigid motion zero"});
+    file.write_matrix("/modes/shape", assessment.modes->shapes.transpose(),
+                      {"m/kg^0.5", "a row a mode: x, y, z of each node, of unit modal mass"});
+  }
   file.finish();
 }
 
@@ -127,10 +158,13 @@ void write_part_results(const PartAssessment& assessment, const std::filesystem:
                         bool calculix, const structure::PartTeam* team) {
   const Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
-  if (team)
+  if (!assessment.file.loads.empty() && team)
     team->write_pieces((aside / "part").string());
-  else
+  else if (!assessment.file.loads.empty())
     structure::write_part_vtu((aside / "part.vtu").string(), assessment.model, assessment.solution);
+  if (assessment.modes)
+    structure::write_part_modes_vtu((aside / "modes.vtu").string(), assessment.model,
+                                    *assessment.modes);
   if (calculix) structure::write_calculix((aside / "part.inp").string(), assessment.model);
   write_fields(assessment, aside / "results.h5");
   write_file(aside / "summary.json", make_part_summary(assessment).dump(2));

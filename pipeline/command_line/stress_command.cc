@@ -27,19 +27,14 @@ void print_probe(const std::string& name, const structure::PartProbe& probe) {
   fmt::print("{:>10.4g}\n", structure::von_mises(probe.stress) / 1e6);
 }
 
-void print_table(const PartAssessment& assessment) {
+void print_solution(const PartAssessment& assessment) {
   const structure::PartSolution& solution = assessment.solution;
-  fmt::print("{}\n", assessment.file.title.empty() ? assessment.file.name : assessment.file.title);
-  fmt::print("{} solid elements, {} unknowns, {:.6g} kg\n\n", assessment.model.mesh.solids.size(),
-             3 * assessment.model.mesh.nodes.cols(), assessment.mass.mass);
-  fmt::print("{:<18}{:>14}{:>14}   {}\n", "group", "von Mises MPa", "displaced mm",
+  fmt::print("\n{:<18}{:>14}{:>14}   {}\n", "group", "von Mises MPa", "displaced mm",
              "at x, y, z, m");
-  const auto print_group = [](const structure::PartGroupResult& group) {
+  for (const structure::PartGroupResult& group : solution.groups)
     fmt::print("{:<18}{:>14.4g}{:>14.4g}   {:.4g}, {:.4g}, {:.4g}\n", group.group,
                group.von_mises / 1e6, 1e3 * group.displacement, group.point.x(), group.point.y(),
                group.point.z());
-  };
-  for (const structure::PartGroupResult& group : solution.groups) print_group(group);
   if (!assessment.probes.empty())
     fmt::print(
         "\n{:<18}{:>9}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n",
@@ -54,23 +49,54 @@ void print_table(const PartAssessment& assessment) {
   print_force("loads", solution.applied.force);
   for (std::size_t s = 0; s < assessment.model.supports.size(); ++s)
     print_force(assessment.model.supports[s].name, solution.reactions[s].force);
-  if (assessment.file.references) {
-    fmt::print("\n{:<18}{:>10}{:>14}{:>14}{:>10}   {}\n", "reference", "quantity", "published",
-               "computed", "off", assessment.file.references->source);
-    for (const PartReference& figure : assessment.file.references->figures) {
-      const double computed = figure_of(assessment, figure), published = figure.value.value.value;
-      fmt::print("{:<18}{:>10}{:>14.6g}{:>14.6g}{:>8.2f} %\n", figure.probe.value,
-                 name_of(figure.quantity), published, computed, 100 * (computed / published - 1));
-    }
+  if (assessment.file.accuracy) {
+    fmt::print("\n{:<12}{:>12}{:>12}{:>12}{:>15}{:>12}\n", "elements", "order", "unknowns",
+               "error %", "v. Mises MPa", "+- MPa");
+    for (const RefinementStep& step : assessment.refinement)
+      fmt::print("{:<12}{:>12}{:>12}{:>12.3g}{:>15.5g}{:>12.3g}\n", step.elements,
+                 step.element_order, step.unknowns, 100 * step.estimated_error,
+                 step.von_mises / 1e6, step.von_mises_error / 1e6);
   }
   const structure::SolverAccount& solver = solution.solver;
   fmt::print("\n{}{}{}{}\n", solver.name,
              solver.iterations > 0 ? fmt::format(", {} iterations", solver.iterations) : "",
              solver.processes > 1 ? fmt::format(", {} processes", solver.processes) : "",
              solver.iterations == 0 ? fmt::format(", {:.2g} GB", solver.factor_bytes / 1e9) : "");
-  fmt::print("estimated error of the stress field {:.1f} %; balance to {:.0e}\n",
-             100 * solution.estimated_error,
-             std::max(solution.force_residual, solution.moment_residual));
+  fmt::print(
+      "estimated error of the stress field {:.1f} %, of the largest stress {:.4g} MPa; "
+      "balance to {:.0e}\n",
+      100 * solution.estimated_error, solution.all.von_mises_error / 1e6,
+      std::max(solution.force_residual, solution.moment_residual));
+}
+
+void print_modes(const structure::NaturalModes& modes) {
+  fmt::print("\n{:<18}{:>14}{:>14}\n", "natural mode", "frequency Hz", "period s");
+  for (Eigen::Index m = 0; m < modes.frequencies.size(); ++m) {
+    const double frequency = modes.frequencies[m];
+    if (m < modes.rigid_motions)
+      fmt::print("{:<18}{:>14}{:>14}   rigid motion\n", m + 1, 0, "-");
+    else
+      fmt::print("{:<18}{:>14.6g}{:>14.4g}\n", m + 1, frequency, 1 / frequency);
+  }
+}
+
+void print_references(const PartAssessment& assessment, const PartReferences& references) {
+  fmt::print("\n{:<28}{:>14}{:>14}{:>10}   {}\n", "reference", "published", "computed", "off",
+             references.source);
+  for (const PartReference& figure : references.figures) {
+    const double computed = figure_of(assessment, figure), published = figure.value.value.value;
+    fmt::print("{:<28}{:>14.6g}{:>14.6g}{:>8.2f} %\n", name_of(figure), published, computed,
+               100 * (computed / published - 1));
+  }
+}
+
+void print_table(const PartAssessment& assessment) {
+  fmt::print("{}\n", assessment.file.title.empty() ? assessment.file.name : assessment.file.title);
+  fmt::print("{} solid elements, {} unknowns, {:.6g} kg\n", assessment.model.mesh.solids.size(),
+             3 * assessment.model.mesh.nodes.cols(), assessment.mass.mass);
+  if (!assessment.file.loads.empty()) print_solution(assessment);
+  if (assessment.modes) print_modes(*assessment.modes);
+  if (assessment.file.references) print_references(assessment, *assessment.file.references);
 }
 
 }  // namespace

@@ -48,8 +48,27 @@ std::string positions_text(const PlateModel& plate) {
   return list_of_names(positions);
 }
 
+// The largest floating structures are some 500 m long, the thickest steel plates 0.3 m thick: what is
+// far beyond was written in another unit.
+void doubt_units(const PlateModel& plate, Reading& reading) {
+  constexpr double longest = 1000, thickest = 1;  // m
+  for (const auto& extent : plate.extent) {
+    if (!extent || !(extent->value[1] - extent->value[0] > longest)) continue;
+    reading.error(extent->mark,
+                  fmt::format("plate {} is {:.4g} m long: is its unit mistaken?", plate.name.value,
+                              extent->value[1] - extent->value[0]),
+                  {"plates are up to 1 km long; millimetres are written as 1200 mm"});
+  }
+  if (plate.thickness > thickest)
+    reading.error(plate.name.mark,
+                  fmt::format("plate {} is {:.4g} m thick: is its unit mistaken?", plate.name.value,
+                              plate.thickness),
+                  {"plates are up to 1 m thick; millimetres are written as 20 mm"});
+}
+
 void check_plates(const BlockModel& block, Reading& reading) {
   for (const PlateModel& plate : block.plates) {
+    doubt_units(plate, reading);
     if (!plate.material.value.empty()) {
       look_up(plate.material, block.materials, "plate " + plate.name.value, "material", reading);
     } else if (block.materials.size() > 1) {

@@ -20,13 +20,22 @@ Format<Vector3> vector_of(Dimension dimension) {
 
 const auto origin = "[0 m, 0 m, 0 m]";
 
+Format<PartPlate> plate_format() {
+  Table<PartPlate> table("plate", "A plate whose mid-surface is meshed.");
+  table.required("thickness", &PartPlate::thickness, quantity(Dimension::length, Range::positive()),
+                 "half of it is laid on each side of the mid-surface");
+  return table.format();
+}
+
 Format<PartMeshInFile> mesh_format() {
   const std::vector<std::pair<std::string, double>> units = {
       {"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
   Table<PartMeshInFile> table("mesh", "The part's mesh, or a geometry that is meshed.");
   table
-      .required("file", &PartMeshInFile::file, located(text()),
-                "what Gmsh opens: .msh, .geo, .step, .brep, .bdf, .unv; relative to this file")
+      .required(
+          "file", &PartMeshInFile::file, located(text()),
+          "what Gmsh opens (.msh, .geo, .step, .brep, .bdf, .unv), or .inp of Abaqus or CalculiX; "
+          "relative to this file")
       .optional("length_unit", &PartMeshInFile::length_unit, choice<double>(units),
                 "of the file's coordinates; m if left out, and then doubted where the part comes "
                 "out too large or too small")
@@ -35,7 +44,13 @@ Format<PartMeshInFile> mesh_format() {
                   "that linear elements are raised to; linear ones are far too stiff in bending")
       .optional("element_size", &PartMeshInFile::element_size,
                 quantity(Dimension::length, Range::positive()),
-                "largest edge where the file is a geometry");
+                "largest edge where the file is a geometry")
+      .by_default("refinements", &PartMeshInFile::refinements, integer(Range::between(0, 6)), "0",
+                  "how often every element is halved along each of its edges")
+      .optional(
+          "plates", &PartMeshInFile::plates, named_tables(plate_format()),
+          "by group of surfaces: the file holds mid-surfaces of quadrangles, which are "
+          "thickened into solids; each plate's sides are the groups \"NAME +\" and \"NAME -\"");
   return table.format();
 }
 
@@ -145,27 +160,45 @@ const std::vector<std::pair<std::string, PartQuantity>>& quantity_words() {
   return words;
 }
 
+void check_figure(const PartReference& figure, Reading& reading, const Mark& mark) {
+  const bool of_probe = figure.probe && figure.quantity && !figure.mode;
+  if (!of_probe && !(figure.mode && !figure.probe && !figure.quantity)) {
+    reading.error(mark, "the figure is neither of a probe nor of a mode",
+                  {"of a probe: probe and quantity", "of a natural mode: mode"});
+    return;
+  }
+  const Dimension due = figure.mode                             ? Dimension::frequency
+                        : *figure.quantity >= PartQuantity::u_x ? Dimension::length
+                                                                : Dimension::stress;
+  if (figure.value.value.dimension == due) return;
+  const DimensionText& text = text_of(due);
+  reading.error(figure.value.mark,
+                fmt::format("{} is due, for example \"{}\"", text.noun, text.example));
+}
+
 Format<PartReference> reference_figure_format() {
-  Table<PartReference> table("figure", "A published figure of a point probe.");
-  table.required("probe", &PartReference::probe, located(reference()), "one of the point probes")
-      .required("quantity", &PartReference::quantity, choice<PartQuantity>(quantity_words()),
-                "stress component, von Mises stress or displacement")
+  Table<PartReference> table("figure",
+                             "A published figure of a point probe, or a natural frequency.");
+  table.optional("probe", &PartReference::probe, located(reference()), "one of the point probes")
+      .optional("quantity", &PartReference::quantity, choice<PartQuantity>(quantity_words()),
+                "of the probe: stress component, von Mises stress or displacement")
+      .optional("mode", &PartReference::mode, integer(Range::between(1, 1000)),
+                "number of a natural mode, rigid ones counted")
       .required("value", &PartReference::value,
-                located(quantity_of({Dimension::stress, Dimension::length})), "as published")
+                located(quantity_of({Dimension::stress, Dimension::length, Dimension::frequency})),
+                "as published")
       .required("tolerance", &PartReference::tolerance,
                 quantity(Dimension::ratio, Range::positive()), "of the value, as \"1 %\"")
-      .rule([](const PartReference& figure, Reading& reading, const Mark&) {
-        const bool is_displacement = figure.quantity >= PartQuantity::u_x;
-        if ((figure.value.value.dimension == Dimension::length) == is_displacement) return;
-        reading.error(figure.value.mark, is_displacement ? "a displacement is a length"
-                                                         : "a stress is due, such as \"90 MPa\"");
-      });
+      .rule(check_figure);
   return table.format();
 }
 
 Format<PartReferences> references_format() {
   Table<PartReferences> table("references", "Published figures, held by `blocklift verify`.");
   table.required("source", &PartReferences::source, text(), "where they stand")
+      .by_default("refinements", &PartReferences::refinements, integer(Range::between(0, 4)), "0",
+                  "they are also held after so many halvings of the mesh; the bound of a coarser "
+                  "mesh is four times that of the next, the tolerance that of the finest")
       .required("figures", &PartReferences::figures, list_of(reference_figure_format(), 1),
                 "one for each figure");
   return table.format();
@@ -193,11 +226,40 @@ void check_references(const PartFile& part, Reading& reading, const Mark&) {
   std::vector<std::string> names;
   for (const PartProbeInFile& probe : part.probes)
     if (probe.at) names.push_back(probe.name.value);
-  for (const PartReference& figure : part.references->figures)
-    if (std::find(names.begin(), names.end(), figure.probe.value) == names.end())
-      reading.error(figure.probe.mark,
-                    fmt::format("there is no point probe \"{}\"", figure.probe.value),
-                    {names_hint("the point probes are", names, figure.probe.value)});
+  for (const PartReference& figure : part.references->figures) {
+    if (figure.mode && *figure.mode > part.modes.value_or(0))
+      reading.error(figure.value.mark, fmt::format("mode {} is not asked for", *figure.mode),
+                    {fmt::format("ask for it: modes: {}", *figure.mode)});
+    if (!figure.probe) continue;
+    const std::string& wanted = figure.probe->value;
+    if (std::find(names.begin(), names.end(), wanted) == names.end())
+      reading.error(figure.probe->mark, fmt::format("there is no point probe \"{}\"", wanted),
+                    {names_hint("the point probes are", names, wanted)});
+    else if (part.loads.empty())
+      reading.error(figure.probe->mark, "a part without loads has no stresses");
+  }
+}
+
+void check_part(const PartFile& part, Reading& reading, const Mark& mark) {
+  if (part.loads.empty() && !part.modes)
+    reading.error(mark, "the part has neither loads nor modes: there is nothing to compute",
+                  {"give it loads, or ask for natural frequencies: modes: 10"});
+  if (!part.loads.empty() && part.supports.empty())
+    reading.error(mark, "the part has loads but no supports",
+                  {"hold it: supports: {root: {groups: [...]}}; loads in balance need six held "
+                   "components"});
+  if (part.accuracy && part.loads.empty())
+    reading.error(mark, "an accuracy is asked for, but without loads there is no stress");
+  for (const PartProbeInFile& probe : part.probes)
+    if (part.loads.empty())
+      reading.error(probe.name.mark, "a part without loads has nothing to probe");
+  if (part.modes)
+    for (const PartMaterial& material : part.materials)
+      if (!(material.density > 0))
+        reading.error(
+            material.name.mark,
+            fmt::format("material {} has no density, but modes are asked for", material.name.value),
+            {"for steel: density: 7850 kg/m^3"});
 }
 
 }  // namespace
@@ -218,13 +280,21 @@ Format<PartFile> part_file_format() {
       .optional("title", &PartFile::title, text(), "for people")
       .required("mesh", &PartFile::mesh, mesh_format(), "the part's mesh")
       .required("materials", &PartFile::materials, named_tables(material_format()), "by name")
-      .required("supports", &PartFile::supports, named_tables(support_format()), "by name")
-      .required("loads", &PartFile::loads, named_tables(load_format()),
+      .optional("supports", &PartFile::supports, named_tables(support_format()),
+                "by name; loads need them, natural modes do not")
+      .optional("loads", &PartFile::loads, named_tables(load_format()),
                 "by name; they act together")
       .optional("probes", &PartFile::probes, named_tables(probe_format()), "by name")
       .optional("solver", &PartFile::solver, solver_format(), "how the equations are solved")
+      .optional("modes", &PartFile::modes, integer(Range::between(1, 1000)),
+                "natural modes to find, the lowest, those of rigid motion counted")
+      .optional("accuracy", &PartFile::accuracy,
+                quantity(Dimension::ratio, Range::between(1e-6, 1)),
+                "largest estimated error of the stress field, such as 5 %; elements are raised to "
+                "quadratic ones and halved until it is met")
       .optional("references", &PartFile::references, references_format(),
                 "published figures to hold against ours")
+      .rule(check_part)
       .rule(check_references);
   return table.format();
 }

@@ -12,12 +12,20 @@
 
 namespace blocklift::pipeline {
 
+/// A plate of a mesh of mid-surfaces.
+struct PartPlate {
+  Located<std::string> name;  ///< its group of surfaces
+  double thickness = 0;       ///< m
+};
+
 /// Where a part's mesh comes from.
 struct PartMeshInFile {
   Located<std::string> file;
   std::optional<double> length_unit;  ///< of the file's coordinates, m; absent: m, and doubted
   int element_order = 2;
   std::optional<double> element_size;  ///< m
+  int refinements = 0;                 ///< halvings of all elements
+  std::vector<PartPlate> plates;       ///< none: the mesh is one of solids
 };
 
 /// A material of a part with the groups of solids that are of it.
@@ -68,17 +76,20 @@ struct PartProbeInFile {
 /// What is looked at in a probe.
 enum class PartQuantity { xx, yy, zz, xy, yz, zx, von_mises, u_x, u_y, u_z };
 
-/// A published figure of a point probe.
+/// A published figure: of a point probe, or the frequency of a natural mode.
 struct PartReference {
-  Located<std::string> probe;
-  PartQuantity quantity = PartQuantity::von_mises;
-  Located<Quantity> value;  ///< Pa, or m for displacements
-  double tolerance = 0;     ///< as a ratio of the value
+  std::optional<Located<std::string>> probe;
+  std::optional<PartQuantity> quantity;  ///< of the probe
+  std::optional<int> mode;               ///< from 1
+  Located<Quantity> value;               ///< Pa, m for displacements, Hz for modes
+  double tolerance = 0;                  ///< as a ratio of the value
 };
 
 /// Published figures and where they stand.
 struct PartReferences {
   std::string source;
+  /// The figures are held on the mesh as it is and after so many halvings of its elements.
+  int refinements = 0;
   std::vector<PartReference> figures;
 };
 
@@ -91,6 +102,9 @@ struct PartFile {
   std::vector<PartSupportInFile> supports;
   std::vector<PartLoadInFile> loads;
   std::vector<PartProbeInFile> probes;
+  std::optional<int> modes;  ///< natural modes asked for
+  /// Largest estimated error of the stress field in the energy norm, as a share of the norm.
+  std::optional<double> accuracy;
   std::optional<PartReferences> references;
   structure::SolverChoice solver;
   std::string yaml;            ///< the file as it stands

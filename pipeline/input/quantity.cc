@@ -36,6 +36,7 @@ const DimensionEntry& entry_of(Dimension dimension) {
       {Dimension::area, {{2, 0, 0, 0}, {"an area", "m^2", "30 m^2"}}},
       {Dimension::mass, {{0, 1, 0, 0}, {"a mass", "kg", "860 t"}}},
       {Dimension::time, {{0, 0, 1, 0}, {"a time", "s", "10 s"}}},
+      {Dimension::frequency, {{0, 0, -1, 0}, {"a frequency", "Hz", "2.5 Hz"}}},
       {Dimension::angle, {{0, 0, 0, 1}, {"an angle", "rad", "45 deg"}}},
       {Dimension::speed, {{1, 0, -1, 0}, {"a speed", "m/s", "3 m/min"}}},
       {Dimension::angular_speed, {{0, 0, -1, 1}, {"an angular speed", "rad/s", "0.5 deg/s"}}},

@@ -19,6 +19,7 @@ enum class Dimension {
   area,
   mass,
   time,
+  frequency,
   angle,
   speed,
   angular_speed,

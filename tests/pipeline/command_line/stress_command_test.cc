@@ -90,6 +90,54 @@ TEST_F(StressCommand, SolvesAndWritesResults) {
   EXPECT_LT(summary["force_residual"], 1e-8);
 }
 
+// Neither held nor loaded: six rigid motions, then f = 22.373 / (2 pi) sqrt(E I / (rho A L^4)) = 213 Hz for
+// bending of a slender bar about its weak axis; this one is 10 times as long as high, and shear softens
+// it by some per cent. Supports at the root raise no rigid motion.
+TEST_F(StressCommand, FindsNaturalModes) {
+  std::string text = bar_part;
+  text.erase(text.find("supports:"));
+  folder_.write("bar.yaml", text + "modes: 8\n");
+  const Outcome outcome = run("stress bar.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("natural mode"), HasSubstr("rigid motion")));
+  EXPECT_TRUE(fs::is_regular_file("results/bar/modes.vtu"));
+  EXPECT_FALSE(fs::exists("results/bar/part.vtu"));
+  const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
+  EXPECT_EQ(summary["rigid_motions"], 6);
+  EXPECT_EQ(summary["natural_frequencies_Hz"].size(), 8u);
+  EXPECT_EQ(summary["natural_frequencies_Hz"][5], 0);
+  const double slender = 22.373 / (2 * M_PI) * std::sqrt(206e9 / 7850 / 12) * 0.2 / 4;
+  EXPECT_NEAR(summary["natural_frequencies_Hz"][6], 0.95 * slender, 0.05 * slender);
+}
+
+// Bending under its own weight: linear tetrahedra are raised, then halved, until 3 % are met.
+TEST_F(StressCommand, RefinesUntilTheAccuracyIsMet) {
+  change("mesh: {file: bar.geo, length_unit: mm}",
+         "accuracy: 3 %\nmesh: {file: bar.geo, length_unit: mm, element_order: 1}");
+  std::string text = text_of_file("bar.yaml");
+  text.replace(text.find("groups: [end], force: [600 kN, 0 kN, 0 kN]"), 42,
+               "gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]");
+  folder_.write("bar.yaml", text);
+  const Outcome outcome = run("stress bar.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
+  const auto& steps = summary["refinement"];
+  ASSERT_GE(steps.size(), 2u);
+  EXPECT_EQ(steps[0]["element_order"], 1);
+  EXPECT_EQ(steps[1]["element_order"], 2);
+  EXPECT_GT(steps[0]["estimated_error"], 0.2);
+  EXPECT_LT(steps.back()["estimated_error"], 0.03);
+  EXPECT_EQ(summary["estimated_error"], steps.back()["estimated_error"]);
+  EXPECT_THAT(outcome.out, HasSubstr("elements"));
+}
+
+TEST_F(StressCommand, APartWithNothingToComputeIsRefused) {
+  std::string text = bar_part;
+  text.erase(text.find("loads:"), text.find("probes:") - text.find("loads:"));
+  folder_.write("bar.yaml", text);
+  expect_refused(AllOf(HasSubstr("neither loads nor modes"), HasSubstr("modes: 10")));
+}
+
 TEST_F(StressCommand, MeshesThatGmshCannotReadAreRefused) {
   folder_.write("bar.msh", "$MeshFormat\n4.1 0 8\n$Nonsense\n");
   change("bar.geo", "bar.msh");

@@ -1,0 +1,21 @@
+// Bar 2 x 0.2 x 0.1 m, its middle plane divided so that the centre is a node.
+Point(1) = {-1, -0.1, 0};
+Point(2) = {1, -0.1, 0};
+Point(3) = {1, 0.1, 0};
+Point(4) = {-1, 0.1, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Transfinite Curve{1, 3} = 9;
+Transfinite Curve{2, 4} = 2;
+Transfinite Surface{1};
+Recombine Surface{1};
+out[] = Extrude{0, 0, 0.1}{ Surface{1}; Layers{1}; Recombine; };
+Physical Volume("bar") = {out[1]};
+Physical Surface("right end") = {out[3]};
+Physical Point("A") = {1};
+Physical Point("B") = {2};
+Physical Point("C") = {4};

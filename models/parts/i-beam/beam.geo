@@ -1,0 +1,23 @@
+// Mid-surfaces of an I-beam, 3 m long: web 0.3 m high, flanges 0.2 m wide. Quadrangles, thickened by Blocklift.
+h = 0.15; b = 0.1; l = 3;
+Point(1) = {0, -b, -h};
+Point(2) = {0, 0, -h};
+Point(3) = {0, b, -h};
+Point(4) = {0, -b, h};
+Point(5) = {0, 0, h};
+Point(6) = {0, b, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {4, 5};
+Line(4) = {5, 6};
+Line(5) = {2, 5};
+Transfinite Curve{1, 2, 3, 4} = 2;
+Transfinite Curve{5} = 4;
+lower[] = Extrude{l, 0, 0}{ Curve{1, 2}; Layers{20}; Recombine; };
+upper[] = Extrude{l, 0, 0}{ Curve{3, 4}; Layers{20}; Recombine; };
+web[] = Extrude{l, 0, 0}{ Curve{5}; Layers{20}; Recombine; };
+Physical Surface("lower") = {lower[1], lower[5]};
+Physical Surface("upper") = {upper[1], upper[5]};
+Physical Surface("web") = {web[1]};
+Physical Curve("root") = {1, 2, 3, 4, 5};
+Physical Curve("tip") = {lower[0], lower[4], upper[0], upper[4], web[0]};
