@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -144,7 +143,8 @@ class Thickening {
            std::sin(angle);
   }
 
-  // Cuts go on straight through the plates' mesh: to the plate's edge, or to another cut.
+  // Cuts go on straight through the plates' mesh, to the plate's edge or to another cut, and into the
+  // plates that stand across their way.
   void run_cuts_on() {
     std::map<int, std::vector<Edge>> edges_of;
     std::vector<Edge> waiting;
@@ -156,50 +156,55 @@ class Thickening {
     while (!waiting.empty()) {
       const Edge edge = waiting.back();
       waiting.pop_back();
-      for (const int end : {edge.first, edge.second}) {
-        const Joint joint = joints_.at(edge);
+      const Joint joint = joints_.at(edge);
+      for (const int end : {edge.first, edge.second})
         for (std::size_t i = 0; i < joint.leaves.size(); ++i)
           if (joint.open[i])
-            if (const auto further = run_on(edge, joint, i, end, edges_of[end]))
-              waiting.push_back(*further);
-      }
+            for (const Edge& further : run_on(edge, joint, i, end, edges_of[end]))
+              waiting.push_back(further);
     }
   }
 
-  // The edge behind `end` in the plate of an open gap, newly cut; none if it was or there is none.
-  std::optional<Edge> run_on(const Edge& edge, const Joint& joint, std::size_t leaf, int end,
-                             const std::vector<Edge>& around) {
-    const Leaf &left = joint.leaves[leaf], &right = joint.leaves[joint.next(leaf)];
+  // The edges behind `end`, in the plate of an open gap and in those that stand on it, newly cut.
+  std::vector<Edge> run_on(const Edge& edge, const Joint& joint, std::size_t leaf, int end,
+                           const std::vector<Edge>& around) {
+    const Leaf& left = joint.leaves[leaf];
     const Vector3 onward =
         (node(end) - node(edge.first == end ? edge.second : edge.first)).normalized();
-    const Vector3& normal = normals_[at(left.quadrangle)];
+    const Vector3 normal = left.ahead * normals_[at(left.quadrangle)];
+    std::vector<Edge> further;
     int in_plate = 0;
-    const Edge* straight = nullptr;
+    bool runs_on = false;
     for (const Edge& other : around) {
-      const Vector3 away = node(other.first == end ? other.second : other.first) - node(end);
-      if (std::abs(away.normalized().dot(normal)) > std::sin(flat)) continue;
+      const Vector3 away =
+          (node(other.first == end ? other.second : other.first) - node(end)).normalized();
+      if (away.dot(normal) > std::cos(2 * flat) && cut(other, onward, joint, leaf))
+        further.push_back(other);
+      if (std::abs(away.dot(normal)) > std::sin(flat)) continue;
       ++in_plate;
-      if (other != edge && away.normalized().dot(onward) > std::cos(2 * flat)) straight = &other;
+      if (other == edge || away.dot(onward) < std::cos(2 * flat)) continue;
+      runs_on = true;
+      if (cut(other, normal, joint, leaf)) further.push_back(other);
     }
-    if (!straight) {
-      if (in_plate > 3)
-        problem(node(end), "a joint ends within a plate whose mesh does not run on straight");
-      return std::nullopt;
-    }
-    Joint& further = joints_.at(*straight);
-    for (std::size_t i = 0; i < further.leaves.size(); ++i) {
-      const Leaf &a = further.leaves[i], &b = further.leaves[further.next(i)];
-      if (further.leaves.size() < 2 || std::abs(gap(further, i) - M_PI) > flat) continue;
-      if (std::abs(normals_[at(a.quadrangle)].dot(normal)) < std::cos(flat)) continue;
-      if (further.open[i]) return std::nullopt;
-      if (further.leaves.size() > 2) continue;  // the gap on the other side of a cut plate
-      further.open.assign(2, 1);
-      for (const Leaf* one : {&a, &b})
-        further.distance[one->quadrangle] = joint.distance.at(
-            one->inward.dot(left.inward) > 0 ? left.quadrangle : right.quadrangle);
-      return *straight;
-    }
-    return std::nullopt;
+    constexpr int edges_at_a_border = 3;
+    if (!runs_on && in_plate > edges_at_a_border)
+      problem(node(end), "a joint ends within a plate whose mesh does not run on straight");
+    return further;
+  }
+
+  // Cuts a plate of this normal open at an edge, on both sides, as wide as an open gap of a joint.
+  bool cut(const Edge& edge, const Vector3& normal, const Joint& joint, std::size_t leaf) {
+    const Leaf &left = joint.leaves[leaf], &right = joint.leaves[joint.next(leaf)];
+    Joint& further = joints_.at(edge);
+    if (further.leaves.size() != 2 || further.is_cut()) return false;  // a joint is cut as it needs
+    if (std::abs(gap(further, 0) - M_PI) > flat) return false;
+    for (const Leaf& one : further.leaves)
+      if (std::abs(normals_[at(one.quadrangle)].dot(normal)) < std::cos(2 * flat)) return false;
+    further.open.assign(2, 1);
+    for (const Leaf& one : further.leaves)
+      further.distance[one.quadrangle] =
+          joint.distance.at(one.inward.dot(left.inward) > 0 ? left.quadrangle : right.quadrangle);
+    return true;
   }
 
   // Corners of sides: a number for each (quadrangle, corner, side), united with others.

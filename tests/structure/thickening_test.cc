@@ -179,6 +179,20 @@ TEST(Thickening, JointsThatEndRunOnThroughThePlate) {
   expect_volume(builder.mesh, 16 * 0.1 + 1.95 * (4 * 0.06 + 1.97 * 0.08) + 0.95 * 2 * 0.05);
 }
 
+// A cut that runs on below a second frame and down the side of the deck goes into both.
+TEST(Thickening, CutsGoIntoPlatesAcrossTheirWay) {
+  Builder builder;
+  builder.add("deck", 0.1, Vector3::Zero(), x, 4, y, 4);
+  builder.add("side", 0.1, Vector3::Zero(), y, 4, -z, 2);
+  builder.add("frame", 0.06, Vector3(3, 0, 0), y, 4, -z, 2);
+  builder.add("second", 0.06, Vector3(1, 0, 0), y, 4, -z, 2);
+  builder.add("girder", 0.08, Vector3(3, 2, 0), x, 1, -z, 2);
+  builder.add("bracket", 0.05, Vector3(2, 1, 0), y, 2, z, 1);
+  const double deck = (4 * 4 + 4 * 0.05) * 0.1, below = 1.95;
+  expect_volume(builder.mesh,
+                deck + below * (4 * 0.1 + 2 * 4 * 0.06 + 0.97 * 0.08) + 0.95 * 2 * 0.05);
+}
+
 // A closed box with a bulkhead: mitres, tees and their corners.
 TEST(Thickening, BoxWithABulkhead) {
   Builder builder;
