@@ -61,7 +61,7 @@ std::optional<std::size_t> nodes_of_type(const std::string& type) {
   for (std::size_t i = end; i < type.size(); ++i)
     if (endings.find(type[i]) == std::string_view::npos) return std::nullopt;
   const std::string count = type.substr(stem.size(), end - stem.size());
-  for (const std::size_t known : {4, 6, 8, 10, 15, 20})
+  for (const std::size_t known : {4U, 6U, 8U, 10U, 15U, 20U})
     if (count == std::to_string(known)) return known;
   return std::nullopt;
 }
