@@ -414,7 +414,7 @@ class Thickening {
 
   void check_shapes() {
     for (const AbaqusElement& element : solid_.elements)
-      if (!(smallest_corner(element.nodes) > 0))
+      if (!(smallest_corner(element.nodes) > 1e-9))
         problem(place(element.nodes[0]),
                 "plates meet at too sharp an angle, or elements are smaller than the thickness");
   }

@@ -93,8 +93,8 @@ VerificationCase error_estimate(const ModelLibrary& library) {
           .source = "the exact stress; Zienkiewicz and Zhu (1992), Int. J. Numer. Methods Eng. 33",
           .compute = [bar = find_part(library, "rotating-bar"), ring = find_part(library, "lame")] {
             std::vector<VerificationRow> rows;
-            add_rows(bar, rotating_bar, 0.1, 0.002, rows);
-            add_rows(ring, lame_ring, 0.35, 0.01, rows);
+            add_rows(bar, rotating_bar, 0.2, 0.002, rows);
+            add_rows(ring, lame_ring, 0.5, 0.01, rows);
             return rows;
           }};
 }
