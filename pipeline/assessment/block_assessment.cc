@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/assessment/stopwatch.h"
+#include "structure/response/batches.h"
 
 namespace blocklift::pipeline {
 
@@ -29,26 +30,25 @@ void require_balance(const BlockState& state) {
       balance.reaction_over_weight, largest_reaction));
 }
 
-/// Evaluates states by the responses of one block.
-class StateEvaluator {
- public:
-  StateEvaluator(const structure::StressRecovery& recovery) : recovery_(recovery) {}
+/// A state that is yet to be evaluated.
+BlockState make_state(structure::LoadCase load, std::string name, std::string rope = {},
+                      std::optional<double> time = {}) {
+  BlockState state;
+  load.name = std::move(name);
+  state.load = std::move(load);
+  state.rope = std::move(rope);
+  state.time = time;
+  return state;
+}
 
-  BlockState evaluate(structure::LoadCase load, std::string name, std::string rope = {},
-                      std::optional<double> time = {}) const {
-    BlockState state;
-    load.name = std::move(name);
-    state.result = recovery_.evaluate(load);
-    state.load = std::move(load);
-    state.rope = std::move(rope);
-    state.time = time;
+/// Evaluates states by the responses of one block, several at once.
+void evaluate(const structure::StressRecovery& recovery, std::vector<BlockState>& states) {
+  structure::in_batches(static_cast<int>(states.size()), 1, 0, [&](int i, int) {
+    BlockState& state = states[static_cast<std::size_t>(i)];
+    state.result = recovery.evaluate(state.load);
     require_balance(state);
-    return state;
-  }
-
- private:
-  const structure::StressRecovery& recovery_;
-};
+  });
+}
 
 LoadComparison compare(BlockState static_state, BlockState dynamic_state) {
   LoadComparison comparison;
@@ -97,30 +97,33 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
                              const dynamics::History& dynamic_history) {
   Stopwatch watch;
   const structure::MassProperties& mass = responses.model().mass_properties();
-  const StateEvaluator evaluator(recovery);
   const auto static_maxima = dynamics::find_largest_tensions(static_history);
   const auto dynamic_maxima = dynamics::find_largest_tensions(dynamic_history);
 
-  BlockAssessment assessment;
-  assessment.per_rope_maxima =
-      compare(evaluator.evaluate(map_rope_maxima(static_history, static_maxima, attachment, mass),
-                                 "every rope at its own largest static load"),
-              evaluator.evaluate(map_rope_maxima(dynamic_history, dynamic_maxima, attachment, mass),
-                                 "every rope at its own largest dynamic load"));
-
+  // Pairs of a static and a dynamic state: the ropes' maxima at once, then rope after rope.
+  std::vector<BlockState> states;
+  states.push_back(make_state(map_rope_maxima(static_history, static_maxima, attachment, mass),
+                              "every rope at its own largest static load"));
+  states.push_back(make_state(map_rope_maxima(dynamic_history, dynamic_maxima, attachment, mass),
+                              "every rope at its own largest dynamic load"));
   const auto at_maximum = [&](const dynamics::History& history,
                               const dynamics::LinkedMaximum& maximum, const char* state) {
     const std::string& rope = history.ropes[static_cast<std::size_t>(maximum.rope)].name;
-    return evaluator.evaluate(map_instant(history, maximum.sample, attachment, mass),
-                              fmt::format("largest {} load of rope {}", state, rope), rope,
-                              maximum.time);
+    return make_state(map_instant(history, maximum.sample, attachment, mass),
+                      fmt::format("largest {} load of rope {}", state, rope), rope, maximum.time);
   };
   for (const LugRope& end : attachment.ropes) {
     const auto rope = static_cast<std::size_t>(end.rope);
-    assessment.simultaneous_by_rope.push_back(
-        compare(at_maximum(static_history, static_maxima[rope], "static"),
-                at_maximum(dynamic_history, dynamic_maxima[rope], "dynamic")));
+    states.push_back(at_maximum(static_history, static_maxima[rope], "static"));
+    states.push_back(at_maximum(dynamic_history, dynamic_maxima[rope], "dynamic"));
   }
+  evaluate(recovery, states);
+
+  BlockAssessment assessment;
+  assessment.per_rope_maxima = compare(std::move(states[0]), std::move(states[1]));
+  for (std::size_t i = 2; i < states.size(); i += 2)
+    assessment.simultaneous_by_rope.push_back(
+        compare(std::move(states[i]), std::move(states[i + 1])));
   assessment.simultaneous = largest_of(assessment.simultaneous_by_rope);
   assessment.first_elastic_period = responses.first_elastic_period();
   assessment.evaluation_s = watch.lap();
@@ -133,14 +136,14 @@ BlockAssessment assess_load_table(const structure::UnitResponses& responses,
                                   const std::vector<structure::Vector3>& dynamic_forces_B) {
   Stopwatch watch;
   const structure::ElasticModel& model = responses.model();
-  const StateEvaluator evaluator(recovery);
-  const auto evaluate = [&](const std::vector<structure::Vector3>& forces_B, const char* name) {
-    return evaluator.evaluate(map_load_table(forces_B, model.mesh().lugs, model.mass_properties()),
-                              name);
+  const auto state_of = [&](const std::vector<structure::Vector3>& forces_B, const char* name) {
+    return make_state(map_load_table(forces_B, model.mesh().lugs, model.mass_properties()), name);
   };
+  std::vector<BlockState> states{state_of(static_forces_B, "static loads of the table"),
+                                 state_of(dynamic_forces_B, "dynamic loads of the table")};
+  evaluate(recovery, states);
   BlockAssessment assessment;
-  assessment.per_rope_maxima = compare(evaluate(static_forces_B, "static loads of the table"),
-                                       evaluate(dynamic_forces_B, "dynamic loads of the table"));
+  assessment.per_rope_maxima = compare(std::move(states[0]), std::move(states[1]));
   assessment.simultaneous = assessment.per_rope_maxima;
   assessment.first_elastic_period = responses.first_elastic_period();
   assessment.evaluation_s = watch.lap();

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/assessment/stopwatch.h"
+#include "structure/response/batches.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::pipeline {
@@ -50,7 +51,7 @@ class StateMaker {
           {group.group, group.material, group.yield_stress, named(group.checked_von_mises)});
     for (const structure::LugEnvelope& lug : envelope.lugs)
       state_.lugs.push_back({lug.lug, {}, 0, named(lug.checked_von_mises)});
-    take_patches(recovery.membrane(), envelope.patches.von_mises);
+    take_patches(recovery.membrane(), envelope.patches);
     state_.governing =
         map_instant(history_, state_.checked_von_mises.at.instant, attachment_, mass_);
     state_.governing.name = fmt::format("largest {} checked stress of the lift", name_);
@@ -120,11 +121,15 @@ class StateMaker {
     state_.patch_von_mises = von_mises.value;
     state_.patch_time.resize(von_mises.value.size());
     state_.patch_rope.resize(von_mises.value.size());
-    for (int p = 0; p < von_mises.value.size(); ++p) {
-      state_.patch_time[p] = history_.time(von_mises.instant[p]);
-      state_.patch_rope[p] =
-          governing_rope(structure::unit_stress_of_patch(membrane, p), von_mises.instant[p]).first;
-    }
+    const auto take = [&](int first, int count) {
+      for (int p = first; p < first + count; ++p) {
+        state_.patch_time[p] = history_.time(von_mises.instant[p]);
+        state_.patch_rope[p] =
+            governing_rope(structure::unit_stress_of_patch(membrane, p), von_mises.instant[p])
+                .first;
+      }
+    };
+    structure::in_batches(static_cast<int>(von_mises.value.size()), 256, 0, take);
   }
 
   const UnitResponses& responses_;
@@ -144,8 +149,9 @@ PracticeComparison compare_practice(const structure::BlockMesh& mesh,
   comparison.largest_percent = percent_above(practice.maxCoeff(), envelope.maxCoeff());
   comparison.worst_percent = std::numeric_limits<double>::infinity();
   int looked_at = 0, short_of = 0;
+  const double half_of_largest = 0.5 * envelope.maxCoeff();
   for (Eigen::Index p = 0; p < envelope.size(); ++p) {
-    if (envelope[p] < 0.5 * envelope.maxCoeff()) continue;
+    if (envelope[p] < half_of_largest) continue;
     ++looked_at;
     const double percent = percent_above(practice[p], envelope[p]);
     if (percent < -1) ++short_of;

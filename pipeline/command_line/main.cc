@@ -11,6 +11,7 @@
 
 #include "pipeline/command_line/assess_command.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/simulate_command.h"
 #include "pipeline/command_line/stress_command.h"
 #include "pipeline/command_line/validate_command.h"
@@ -148,6 +149,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  use_all_of_the_processor(argc, argv);
   try {
     return run(argc, argv);
   } catch (const InputError& error) {

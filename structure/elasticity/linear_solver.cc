@@ -1,5 +1,6 @@
 #include "structure/elasticity/linear_solver.h"
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -59,17 +60,36 @@ void ConstrainedSystem::separate_fixed() {
   std::vector<int> place(static_cast<std::size_t>(stiffness_.rows()), -1);
   for (std::size_t i = 0; i < fixed_.size(); ++i)
     place[static_cast<std::size_t>(fixed_[i].unknown)] = static_cast<int>(i);
+  std::vector<long> ascending;
+  for (const FixedUnknown& fixed : fixed_) ascending.push_back(fixed.unknown);
+  std::sort(ascending.begin(), ascending.end());
   std::vector<Eigen::Triplet<double, long>> rows;
-  for (long column = 0; column < stiffness_.cols(); ++column)
-    for (SparseLower::InnerIterator entry(stiffness_, column); entry; ++entry) {
-      const int of_row = place[static_cast<std::size_t>(entry.row())];
-      const int of_column = place[static_cast<std::size_t>(column)];
-      if (of_row < 0 && of_column < 0) continue;
-      if (of_row >= 0) rows.emplace_back(of_row, column, entry.value());
-      if (entry.row() == column) continue;
-      if (of_column >= 0) rows.emplace_back(of_column, entry.row(), entry.value());
-      entry.valueRef() = 0;
+  const auto take = [&](long column, long entry) {
+    const long row = stiffness_.innerIndexPtr()[entry];
+    double& value = stiffness_.valuePtr()[entry];
+    const int of_row = place[static_cast<std::size_t>(row)];
+    const int of_column = place[static_cast<std::size_t>(column)];
+    if (of_row >= 0) rows.emplace_back(of_row, column, value);
+    if (row == column) return;
+    if (of_column >= 0) rows.emplace_back(of_column, row, value);
+    value = 0;
+  };
+  for (long column = 0; column < stiffness_.cols(); ++column) {
+    const long *start = stiffness_.innerIndexPtr() + stiffness_.outerIndexPtr()[column],
+               *end = stiffness_.innerIndexPtr() + stiffness_.outerIndexPtr()[column + 1];
+    if (start == end) continue;
+    if (place[static_cast<std::size_t>(column)] >= 0) {
+      for (const long* row = start; row != end; ++row)
+        take(column, row - stiffness_.innerIndexPtr());
+      continue;
     }
+    // Rows ascend: those of fixed unknowns are looked up, most columns have none.
+    auto fixed = std::lower_bound(ascending.begin(), ascending.end(), *start);
+    for (const long* row = start; fixed != ascending.end() && *fixed <= *(end - 1); ++fixed) {
+      row = std::lower_bound(row, end, *fixed);
+      if (*row == *fixed) take(column, row - stiffness_.innerIndexPtr());
+    }
+  }
   fixed_rows_.resize(static_cast<long>(fixed_.size()), stiffness_.cols());
   fixed_rows_.setFromTriplets(rows.begin(), rows.end());
 }

@@ -115,12 +115,12 @@ std::vector<double> Surface::envelope(const UnitResponses& responses,
     }
     return result;
   };
-  const StressEnvelope of_samples = find_stress_envelope(history, first_sample.back(), stress);
+  const PointExtremes of_samples = find_von_mises_envelope(history, first_sample.back(), stress);
   std::vector<double> largest(points_.size(), 0);
   Eigen::Index sample = 0;
   for (const FacePatch& face : faces_)
     for (const int point : face.points)
-      largest[at(point)] = std::max(largest[at(point)], of_samples.von_mises.value[sample++]);
+      largest[at(point)] = std::max(largest[at(point)], of_samples.value[sample++]);
   return largest;
 }
 

@@ -162,7 +162,7 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
 
   BlockEnvelope envelope;
   envelope.instants = history.instants();
-  envelope.patches = find_stress_envelope(
+  envelope.patches = find_von_mises_envelope(
       history, patches,
       [&](int first, int count) {
         Eigen::MatrixXd stress(6 * count, responses.count());
@@ -171,9 +171,9 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
         return stress;
       },
       threads);
-  const PatchMaxima checked = patch_maxima(mesh, recovery, envelope.patches.von_mises);
+  const PatchMaxima checked = patch_maxima(mesh, recovery, envelope.patches);
   const auto named = [&](const Running& found) {
-    return of_patch(mesh, membrane, envelope.patches.von_mises, found);
+    return of_patch(mesh, membrane, envelope.patches, found);
   };
   envelope.checked_von_mises = named(checked.all);
   for (std::size_t lug = 0; lug < mesh.lugs.size(); ++lug)

@@ -41,8 +41,8 @@ struct BlockEnvelope {
   TimedExtreme displacement;        ///< relative to the mean rigid motion, m
   std::vector<GroupEnvelope> groups;
   std::vector<LugEnvelope> lugs;
-  StressEnvelope patches;  ///< of the membrane stress, at each of MembraneStress::patches()
-  int places = 0;          ///< patches, and nodes of cells
+  PointExtremes patches;  ///< von Mises of the membrane stress at each of MembraneStress::patches()
+  int places = 0;         ///< patches, and nodes of cells
   int instants = 0;
 };
 

@@ -1,18 +1,16 @@
 #include "structure/response/envelope.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "structure/error.h"
+#include "structure/response/batches.h"
 #include "structure/response/envelope_search.h"
 
 namespace blocklift::structure {
@@ -22,30 +20,6 @@ namespace {
 constexpr int batch_size = 64;  // points: their unit responses stay in the cache
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// Deals batches of points out to threads; an exception of any ends all.
-void in_batches(int points, int threads, const std::function<void(int first, int count)>& work) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  std::atomic<int> next{0};
-  std::exception_ptr failure;
-  std::mutex failing;
-  const auto run = [&] {
-    try {
-      for (int first = next.fetch_add(batch_size); first < points;
-           first = next.fetch_add(batch_size))
-        work(first, std::min(batch_size, points - first));
-    } catch (...) {
-      const std::lock_guard lock(failing);
-      failure = std::current_exception();
-      next = points;
-    }
-  };
-  std::vector<std::thread> others;
-  for (int t = 1; t < threads; ++t) others.emplace_back(run);
-  run();
-  for (std::thread& other : others) other.join();
-  if (failure) std::rethrow_exception(failure);
-}
 
 // Responses of a batch to the history's coordinates, `rows` rows a point.
 Rows responses_of(const LoadHistory& history, const UnitResponsesAt& responses, int first,
@@ -75,7 +49,7 @@ void keep(PointExtremes& extremes, int point, const Found& found, double sign = 
 StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
                                     const UnitResponsesAt& stress, int threads) {
   StressEnvelope envelope{sized(points), sized(points), sized(points)};
-  in_batches(points, threads, [&](int first, int count) {
+  in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);
     SearchWorkspace workspace(history);
     for (int i = 0; i < count; ++i) {
@@ -87,6 +61,23 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
     }
   });
   return envelope;
+}
+
+PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
+                                      const UnitResponsesAt& stress, int threads) {
+  // No principal stress reaches infinity: none is looked for.
+  StressFound floor;
+  floor.largest_principal.value = std::numeric_limits<double>::infinity();
+  floor.minus_smallest_principal.value = std::numeric_limits<double>::infinity();
+  PointExtremes extremes = sized(points);
+  in_batches(points, batch_size, threads, [&](int first, int count) {
+    const Rows rows = responses_of(history, stress, first, count, 6);
+    SearchWorkspace workspace(history);
+    for (int i = 0; i < count; ++i)
+      keep(extremes, first + i,
+           search_stress(history, rows.data() + 6L * i * rows.cols(), workspace, floor).von_mises);
+  });
+  return extremes;
 }
 
 namespace {
@@ -113,7 +104,7 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
   LargestStresses all;
   all.von_mises.resize(static_cast<std::size_t>(sets));
   std::mutex updating;
-  in_batches(points, threads, [&](int first, int count) {
+  in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);
     SearchWorkspace workspace(history);
     LargestStresses known;
@@ -150,7 +141,7 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
 PointExtremes find_displacement_envelope(const LoadHistory& history, int points,
                                          const UnitResponsesAt& displacement, int threads) {
   PointExtremes extremes = sized(points);
-  in_batches(points, threads, [&](int first, int count) {
+  in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, displacement, first, count, 3);
     SearchWorkspace workspace(history);
     for (int i = 0; i < count; ++i)

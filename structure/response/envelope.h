@@ -43,6 +43,10 @@ using UnitResponsesAt = std::function<Eigen::MatrixXd(int first, int count)>;
 StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
                                     const UnitResponsesAt& stress, int threads = 0);
 
+/// The von Mises stress of find_stress_envelope alone, at a fraction of its cost.
+PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
+                                      const UnitResponsesAt& stress, int threads = 0);
+
 /// The largest of one quantity over points and instants.
 struct LargestStress {
   double value = 0;  ///< Pa

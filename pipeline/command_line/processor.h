@@ -1,0 +1,15 @@
+#pragma once
+
+namespace blocklift::pipeline {
+
+/// Starts the program anew (same process, same arguments) with an environment that suits the machine,
+/// unless the user has set these variables:
+/// - OPENBLAS_CORETYPE: OpenBLAS chooses its kernels by the processor's family when it is loaded, and
+///   takes those without AVX-512 for families that are younger than itself, at half the speed.
+/// - GLIBC_TUNABLES, glibc.malloc.hugetlb: the matrices' gigabytes come in pages of 2 MB in place of
+///   4 kB, of which the kernel would hand over each one singly.
+/// Only for commands that solve structures; the others would wait for the second start in vain.
+/// Returns where there is nothing to gain or the system cannot do it.
+void use_all_of_the_processor(int count, char** arguments);
+
+}  // namespace blocklift::pipeline
