@@ -41,25 +41,23 @@ void check(const DatabaseSettings& settings) {
   }
 }
 
-/// The panels that the shortest wave reaches must be short against it.
-void check_panel_size(const PanelModel& model, double highest_frequency) {
-  const double length = 2.0 * std::numbers::pi / calc_wave_number(highest_frequency, model.water());
-  const Panel* widest = nullptr;
-  for (const Panel& panel : model.body_mesh().panels) {
-    double top = panel.vertices[0].z();
-    for (const Vector3& vertex : panel.vertices) top = std::max(top, vertex.z());
-    if (top < -0.25 * length) continue;
-    if (widest == nullptr || panel.diameter() > widest->diameter()) widest = &panel;
+/// Tells the progress of the parts: a third of each for its solution, the rest for its march.
+class Progress {
+ public:
+  Progress(const DatabaseSettings& settings, std::size_t parts)
+      : tell_(settings.progress), parts_(static_cast<double>(parts)) {}
+  void part(std::size_t index) { done_ = static_cast<double>(index); }
+  void solve() const { show(0.0, "influence of the panels"); }
+  void march(double fraction) const { show(0.35 + 0.6 * fraction, "impulse responses"); }
+  void excite() const { show(0.95, "waves of all headings"); }
+
+ private:
+  void show(double fraction, const char* what) const {
+    if (tell_) tell_((done_ + fraction) / parts_, what);
   }
-  if (widest == nullptr || widest->diameter() <= length / 3.0) return;
-  std::ostringstream message;
-  message << "at " << highest_frequency << " rad/s waves are " << length
-          << " m long, but a panel near the surface, at (" << widest->centroid.transpose()
-          << ") m, is " << widest->diameter()
-          << " m across: at least three must go into a wave; leave out the highest frequencies, or "
-             "take more panels";
-  throw ModelError(message.str());
-}
+  const std::function<void(double, const char*)>& tell_;
+  double parts_, done_ = 0.0;
+};
 
 /// The share of one part in the database: its impulse run and what follows from it.
 class PartComputation {
@@ -76,7 +74,7 @@ class PartComputation {
   const RankinePart& part() const { return part_; }
   double step_limit() const { return march_.step_limit(); }
   double added_mass_asymmetry(MatrixXd& infinite_added_mass) const;
-  long run(double step, std::vector<MatrixXd>& retardation);
+  long run(double step, std::vector<MatrixXd>& retardation, const Progress& progress);
   void add_frequencies(HydrodynamicDatabase& database) const;
   void add_excitation(HydrodynamicDatabase& database) const;
 
@@ -118,7 +116,8 @@ void PartComputation::accumulate(long step, double weight) {
   }
 }
 
-long PartComputation::run(double step, std::vector<MatrixXd>& retardation) {
+long PartComputation::run(double step, std::vector<MatrixXd>& retardation,
+                          const Progress& progress) {
   step_ = step;
   const auto steps = static_cast<long>(std::ceil(duration_ / step));
   const MatrixXd& q = part_.surface_columns();
@@ -135,6 +134,7 @@ long PartComputation::run(double step, std::vector<MatrixXd>& retardation) {
     retardation[static_cast<std::size_t>(k)](modes, modes) += 0.5 * (share + share.transpose());
     accumulate(k, (k == 0 ? 0.5 : 1.0) * step * reduction);
     if (k == steps) break;
+    if (k % 16 == 0) progress.march(static_cast<double>(k) / static_cast<double>(steps));
     march_.advance();
   }
   return steps;
@@ -218,10 +218,39 @@ HydrodynamicDatabase make_empty(const PanelModel& model, const DatabaseSettings&
 
 }  // namespace
 
+void require_panels_for_waves(const PanelModel& model, double frequency) {
+  const double length = 2.0 * std::numbers::pi / calc_wave_number(frequency, model.water());
+  const Panel* widest = nullptr;
+  for (const Panel& panel : model.body_mesh().panels) {
+    double top = panel.vertices[0].z();
+    for (const Vector3& vertex : panel.vertices) top = std::max(top, vertex.z());
+    if (top < -0.25 * length) continue;
+    if (widest == nullptr || panel.diameter() > widest->diameter()) widest = &panel;
+  }
+  if (widest == nullptr || widest->diameter() <= length / 3.0) return;
+  std::ostringstream message;
+  message << "at " << frequency << " rad/s waves are " << length
+          << " m long, but a panel near the surface, at (" << widest->centroid.transpose()
+          << ") m, is " << widest->diameter()
+          << " m across: at least three must go into a wave; leave out the highest frequencies, or "
+             "take more panels";
+  throw ModelError(message.str());
+}
+
+double database_bytes(const PanelModel& model, const DatabaseSettings& settings) {
+  const int surface = model.surface_mesh().size();
+  const auto n = static_cast<double>(surface);
+  // The march's operator in single precision, and two Fourier integrals for each frequency.
+  const double integrals = 16.0 * static_cast<double>(settings.frequencies.size()) *
+                           static_cast<double>(model.mode_count());
+  return rankine_part_bytes(model.body_mesh().size(), surface, !is_deep(model.water())) +
+         n * (4.0 * n + integrals);
+}
+
 HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSettings& settings,
                                       DatabaseReport* report) {
   check(settings);
-  check_panel_size(model, settings.frequencies.back());
+  require_panels_for_waves(model, settings.frequencies.back());
   if (model.surface_mesh().size() == 0) {
     throw ModelError("no body reaches the surface: without a surface mesh there are no waves");
   }
@@ -236,11 +265,15 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   account = {};
   account.body_panels = model.body_mesh().size();
   account.surface_panels = model.surface_mesh().size();
-  account.peak_bytes =
-      rankine_part_bytes(account.body_panels, account.surface_panels, !is_deep(model.water()));
+  account.peak_bytes = database_bytes(model, settings);
   double step = settings.time_step;
-  for (const Parity& parity : model.parities()) {
+  const std::vector<Parity> parities = model.parities();
+  Progress progress(settings, parities.size());
+  for (std::size_t p = 0; p < parities.size(); ++p) {
+    const Parity& parity = parities[p];
     if (model.normal_velocities(parity).isZero(0.0)) continue;
+    progress.part(p);
+    progress.solve();
     PartComputation computation(model, parity, settings, duration, strength);
     if (!(step > 0.0)) step = std::min(0.8 * computation.step_limit(), 0.25 / highest);
     if (!(0.5 * highest * step < 1.0)) {
@@ -251,10 +284,11 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     auto start = std::chrono::steady_clock::now();
     account.asymmetry =
         std::max(account.asymmetry, computation.added_mass_asymmetry(database.infinite_added_mass));
-    account.steps += computation.run(step, database.retardation);
+    account.steps += computation.run(step, database.retardation, progress);
     computation.add_frequencies(database);
     account.march_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
+    progress.excite();
     computation.add_excitation(database);
     account.excitation_s += seconds_since(start);
     const RankineTiming& timing = computation.part().timing();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <functional>
 
 #include "dynamics/marine/free_surface.h"
 
@@ -56,7 +57,16 @@ struct DatabaseSettings {
   /// 0: of damping_zone() for the lowest frequency, rad/s.
   double damping_strength = 0.0;
   RankineSettings rankine;
+  /// Called as the computation goes on, with the share done (0 to 1) and what is being done.
+  std::function<void(double, const char*)> progress;
 };
+
+/// @throws ModelError unless at least three panels go into the wave of a frequency (rad/s) wherever it
+/// reaches them, a quarter of its length down; the message has the widest panel's place and size.
+void require_panels_for_waves(const PanelModel& model, double frequency);
+
+/// Memory (bytes) that compute_database takes at its peak, at most.
+double database_bytes(const PanelModel& model, const DatabaseSettings& settings);
 
 /// @throws ModelError naming everything that makes the database unusable, a line each: a number that
 /// is not finite (with body, mode and frequency), a size that does not fit the bodies, frequencies,
@@ -69,7 +79,7 @@ struct DatabaseReport {
   int body_panels = 0, surface_panels = 0;  ///< computed with, after symmetry
   int parts = 0;                            ///< even and odd parts
   long steps = 0;                           ///< of the impulse runs, all parts
-  double peak_bytes = 0.0;                  ///< of one part, as computed beforehand
+  double peak_bytes = 0.0;                  ///< database_bytes()
   double step_limit = not_a_number;         ///< smallest of the parts, s
   RankineTiming solution;                   ///< sums over the parts
   double march_s = 0.0;

@@ -80,12 +80,8 @@ void make_symmetric(const VectorXd& root_weights, MatrixXd& A) {
   }
 }
 
-double machine_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-}
-
 void refuse_if_too_large(const PanelModel& model, const RankineSettings& settings) {
-  const double limit = settings.memory_limit > 0.0 ? settings.memory_limit : 0.8 * machine_memory();
+  const double limit = settings.memory_limit > 0.0 ? settings.memory_limit : usable_memory();
   const int bodies = model.body_mesh().size(), surface = model.surface_mesh().size();
   const double needed = rankine_part_bytes(bodies, surface, !is_deep(model.water()));
   if (needed <= limit) return;
@@ -98,6 +94,11 @@ void refuse_if_too_large(const PanelModel& model, const RankineSettings& setting
 }
 
 }  // namespace
+
+double usable_memory() {
+  return 0.8 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
 
 struct RankinePart::Influence {
   MatrixXd S_BB, D_BB;  ///< bodies on bodies, with the images in z = 0

@@ -11,9 +11,12 @@ namespace blocklift::dynamics {
 /// bodies and surface that it is computed with.
 double rankine_part_bytes(int body_panels, int surface_panels, bool finite_depth);
 
+/// Four fifths of the machine's memory, bytes: what may be used where no limit is set.
+double usable_memory();
+
 struct RankineSettings {
   int threads = 0;  ///< 0: one a core
-  /// What may be used, bytes; 0: four fifths of the machine's memory.
+  /// What may be used, bytes; 0: usable_memory().
   double memory_limit = 0.0;
   /// Keep the factors with which any normal velocity on the bodies can be solved for.
   bool keep_factors = false;
