@@ -11,6 +11,7 @@
 
 #include "pipeline/command_line/assess_command.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/hydro_command.h"
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/simulate_command.h"
 #include "pipeline/command_line/stress_command.h"
@@ -46,6 +47,40 @@ void add_stress(CLI::App& app, int& code) {
   command->add_flag("--calculix", options->calculix,
                     "write part.inp as well: the same model for CalculiX");
   command->callback([options, &code] { code = stress(*options); });
+}
+
+void add_hydro(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "hydro", "Compute the hydrodynamics of floating hulls once, into a database");
+  auto options = std::make_shared<HydroOptions>();
+  command->add_option("VESSEL", options->vessel,
+                      "file of a vessel, or of several with their places");
+  command->add_option(
+      "-o,--output", options->output,
+      "the database (results/<name of the vessel>.h5 if not given); its report lies "
+      "beside it");
+  command
+      ->add_option("--memory-limit", options->memory_limit,
+                   "memory that may be used, GB (four fifths of the machine's if not given)")
+      ->check(CLI::PositiveNumber);
+  command->add_option(
+      "--import", options->import,
+      "take over a database: BEMIO .h5, WAMIT .1 (with .3 and .hst), Capytaine .nc, "
+      "or one of blocklift's own for --export");
+  command
+      ->add_option("--export", options->export_format, "write what is imported as bemio or wamit")
+      ->check(CLI::IsMember({"bemio", "wamit"}));
+  command->add_option("--wamit-length", options->wamit_length, "WAMIT's ULEN, m")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--water-density", options->water_density, "for WAMIT's files, kg/m3")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--gravity", options->gravity, "for WAMIT's files, m/s2")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--water-depth", options->water_depth,
+                   "for WAMIT's files, m (deep if not given)")
+      ->check(CLI::PositiveNumber);
+  command->callback([options, &code] { code = hydro(*options); });
 }
 
 void add_report(CLI::App& app, int& code) {
@@ -134,6 +169,7 @@ int run(int argc, char** argv) {
   add_simulate(app, code);
   add_validate(app, code);
   add_stress(app, code);
+  add_hydro(app, code);
   add_report(app, code);
   add_schema(app);
   add_verify(app, code);

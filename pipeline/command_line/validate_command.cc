@@ -9,6 +9,7 @@
 
 #include "pipeline/assessment/block_preparation.h"
 #include "pipeline/assessment/part_assessment.h"
+#include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/input/document.h"
 #include "pipeline/input/file_kind.h"
 #include "pipeline/input/lift_case.h"
@@ -81,6 +82,16 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
     const structure::PartModel model = make_part_model(*part, diagnostics);
     return if_sound(fmt::format("part {} with {}", part->name,
                                 count(model.mesh.solids.size(), "solid element")));
+  }
+  if (kind == FileKind::vessel || kind == FileKind::vessels) {
+    const auto problem = read_hydrodynamic_problem(path, library, diagnostics);
+    if (!problem) return std::nullopt;
+    std::size_t panels = 0;
+    for (const HydrodynamicBody& body : problem->bodies) {
+      panels += static_cast<std::size_t>(body.hull.panel_count());
+    }
+    return if_sound(
+        fmt::format("{} with {}", count(problem->bodies.size(), "vessel"), count(panels, "panel")));
   }
   const std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
   if (!lift_case) return std::nullopt;

@@ -43,6 +43,8 @@ FileKind kind_of_file(const fs::path& path) {
   if (kind == "crane") return FileKind::crane;
   if (kind == "block") return FileKind::block;
   if (kind == "rope") return FileKind::rope;
+  if (kind == "vessel") return FileKind::vessel;
+  if (kind == "vessels") return FileKind::vessels;
   return FileKind::lift_case;
 }
 

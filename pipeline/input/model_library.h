@@ -56,6 +56,13 @@ class ModelLibrary {
   RopeModel resolve(const RopeChoice& choice, const std::filesystem::path& beside,
                     Diagnostics& diagnostics);
 
+  /// The file of a vessel: vessel.yaml in its folder. Empty after a complaint.
+  std::filesystem::path find_vessel(const Located<std::string>& name,
+                                    const std::filesystem::path& beside,
+                                    Diagnostics& diagnostics) const {
+    return find(name, "vessel", beside, diagnostics);
+  }
+
   /// Reads a crane's file itself, with the ropes that it names.
   std::shared_ptr<const CraneModel> read_crane(const std::filesystem::path& file,
                                                Diagnostics& diagnostics,

@@ -13,6 +13,8 @@
 #include "pipeline/input/mechanism_file.h"
 #include "pipeline/input/part_file.h"
 #include "pipeline/input/rope_model.h"
+#include "pipeline/input/vessel_group.h"
+#include "pipeline/input/vessel_model.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -33,7 +35,9 @@ std::vector<FileKind> file_kinds() {
           {"crane", crane_model_format().description->table},
           {"block", block_model_format().description->table},
           {"rope", rope_model_format().description->table},
-          {"part", part_file_format().description->table}};
+          {"part", part_file_format().description->table},
+          {"vessel", vessel_model_format().description->table},
+          {"vessels", vessel_group_format().description->table}};
 }
 
 std::vector<FileKind> chosen_kinds(const std::string& kind) {

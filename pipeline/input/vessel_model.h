@@ -8,6 +8,7 @@
 #include "dynamics/marine/hull_shapes.h"
 #include "pipeline/formats/hull_file.h"
 #include "pipeline/input/geometry_format.h"
+#include "pipeline/input/hydrodynamic_settings.h"
 
 namespace blocklift::pipeline {
 
@@ -34,11 +35,18 @@ struct VesselModel {
   double mass = std::numeric_limits<double>::quiet_NaN();        ///< kg
   Vector3 centre_of_mass = Vector3::Zero();                      ///< m
   Vector3 radii_of_gyration = Vector3::Zero();                   ///< about it, m
+  HydrodynamicSettings hydrodynamics;                            ///< of `blocklift hydro`
   Mark place;
 };
 
 /// The format of a vessel's model file.
 Format<VesselModel> vessel_model_format();
+
+/// The hull of a vessel with panels of a size (m); a mesh from a file keeps its own.
+/// @param folder of the vessel's file.
+/// @throws dynamics::ModelError if the shape cannot be, HullFileError if a mesh cannot be read.
+dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem::path& folder,
+                                double panel_size);
 
 /// Reads a vessel's model file; complains about everything that is wrong with it, the hull included
 /// (shape, mesh, diagnosis), each with its place. Null if nothing could be read.

@@ -1,0 +1,147 @@
+#include "pipeline/command_line/hydro_command.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/progress_bar.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/foreign_hydrodynamics.h"
+#include "pipeline/hydrodynamics/hydrodynamic_problem.h"
+#include "pipeline/hydrodynamics/hydrodynamic_report.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beside the database, with its name and another ending.
+fs::path page_of(fs::path database) { return database.replace_extension(".html"); }
+
+fs::path output_of(const HydroOptions& options, const HydrodynamicProblem& problem) {
+  if (options.output) return *options.output;
+  return fs::path("results") / (problem.bodies[0].hull.name() + ".h5");
+}
+
+void print_panels(const HydrodynamicState& state) {
+  const dynamics::Symmetry& symmetry = state.model->symmetry();
+  fmt::print(
+      "draught {:.3f} m: {} panels on the bodies, {} on the surface{}; {:.2f} GB of memory\n",
+      state.draught, state.model->body_mesh().size(), state.model->surface_mesh().size(),
+      symmetry.x && symmetry.y   ? ", a quarter of all"
+      : symmetry.x || symmetry.y ? ", a half of all"
+                                 : "",
+      state.bytes / 1e9);
+  std::fflush(stdout);
+}
+
+/// Meshes all draughts; what is wrong is wrong input.
+std::vector<HydrodynamicState> prepare(const HydrodynamicProblem& problem) {
+  std::vector<HydrodynamicState> states;
+  try {
+    for (std::size_t k = 0; k < problem.state_count(); ++k) {
+      states.push_back(prepare_state(problem, k));
+    }
+  } catch (const std::runtime_error& error) {
+    Diagnostics diagnostics;
+    diagnostics.error(problem.place, error.what());
+    throw InputError(diagnostics);
+  }
+  return states;
+}
+
+HydrodynamicFile compute(const HydrodynamicProblem& problem,
+                         const std::vector<HydrodynamicState>& states) {
+  for (const HydrodynamicState& state : states) print_panels(state);
+  ProgressBar bar("hydrodynamics");
+  return compute_hydrodynamics(
+      problem, states, [&](double fraction, const std::string& what) { bar.show(fraction, what); });
+}
+
+int compute_vessel(const HydroOptions& options) {
+  Diagnostics diagnostics;
+  std::optional<HydrodynamicProblem> problem =
+      read_hydrodynamic_problem(*options.vessel, ModelLibrary::of_installation(), diagnostics);
+  if (!problem) throw InputError(diagnostics);
+  if (options.memory_limit) problem->memory_limit = 1e9 * *options.memory_limit;
+  const fs::path output = output_of(options, *problem);
+  const std::vector<HydrodynamicState> states = prepare(*problem);
+  std::vector<Eigen::MatrixXd> masses;
+  for (const HydrodynamicState& state : states) masses.push_back(state.mass);
+  HydrodynamicFile file;
+  const bool known = read_identity(output) == identity_of(*problem);
+  if (known) {
+    file = read_hydrodynamic_file(output);
+  } else {
+    file = compute(*problem, states);
+    write_hydrodynamic_file(output, file);
+  }
+  if (!known || !fs::exists(page_of(output))) {
+    write_file(page_of(output), hydrodynamic_page(file, problem->title, masses));
+  }
+  fmt::print("{}\n{}\n", problem->title, hydrodynamic_table(file, masses));
+  fmt::print("{}: {}\n{}\n", known ? "already computed" : "database", output.string(),
+             page_of(output).string());
+  return exit_code::done;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& what,
+                         const std::vector<std::string>& hints) {
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(file), 0, 0}, what, hints);
+  throw InputError(diagnostics);
+}
+
+/// Takes a file over and writes it as our own, or as that of another program.
+int convert(const HydroOptions& options) {
+  WamitScales scales;
+  scales.length = options.wamit_length;
+  scales.water.density = options.water_density;
+  scales.water.gravity = options.gravity;
+  if (options.water_depth) scales.water.depth = *options.water_depth;
+  HydrodynamicFile file;
+  try {
+    file = import_hydrodynamics(*options.import, scales);
+  } catch (const HydrodynamicFileError& error) {
+    refuse(*options.import, error.what(), {});
+  }
+  if (!options.output) {
+    refuse(*options.import, "the file that is to be made has no name", {"give it by -o FILE"});
+  }
+  const fs::path output = *options.output;
+  if (!options.export_format) {
+    write_hydrodynamic_file(output, file);
+    write_file(page_of(output), hydrodynamic_page(file, file.origin, {}));
+    fmt::print("{}\ndatabase: {}\n{}\n", hydrodynamic_table(file, {}), output.string(),
+               page_of(output).string());
+    return exit_code::done;
+  }
+  if (file.series.databases.size() > 1) {
+    refuse(*options.import, fmt::format("holds {} draughts", file.series.databases.size()),
+           {"files of other programs hold one: compute a database of one draught"});
+  }
+  const dynamics::HydrodynamicDatabase& database = file.series.databases.front();
+  if (*options.export_format == "bemio") {
+    write_bemio(output, database);
+    fmt::print("{}\n", output.string());
+  } else {
+    fs::path name = output;
+    if (name.extension() == ".1") name.replace_extension();
+    write_wamit(name, database);
+    fmt::print("{0}.1, {0}.3, {0}.hst (ULEN 1 m)\n", name.string());
+  }
+  return exit_code::done;
+}
+
+}  // namespace
+
+int hydro(const HydroOptions& options) {
+  if (options.import) return convert(options);
+  if (options.vessel && !options.export_format) return compute_vessel(options);
+  refuse(options.vessel.value_or("blocklift hydro"), "nothing is to be computed or converted",
+         {"give the file of a vessel, or --import FILE; --export goes with --import"});
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace blocklift::pipeline {
+
+/// What `blocklift hydro` was asked for.
+struct HydroOptions {
+  std::optional<std::string> vessel;         ///< file of a vessel or of several
+  std::optional<std::string> import;         ///< file of another program, or a database to export
+  std::optional<std::string> export_format;  ///< bemio, wamit
+  std::optional<std::string> output;
+  std::optional<double> memory_limit;  ///< GB
+  double wamit_length = 1.0;           ///< WAMIT's ULEN, m
+  double water_density = 1025.0;       ///< that WAMIT's files do not tell, kg/m3
+  double gravity = 9.80665;            ///< likewise, m/s2
+  std::optional<double> water_depth;   ///< likewise, m; none: deep
+};
+
+/// Computes, imports or exports a hydrodynamic database. @returns an exit code.
+/// @throws InputError if a file cannot be used.
+int hydro(const HydroOptions& options);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,196 @@
+#include "pipeline/hydrodynamics/hydrodynamic_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/response_amplitude.h"
+#include "dynamics/marine/wetted_body.h"
+#include "pipeline/formats/content_hash.h"
+#include "pipeline/hydrodynamics/mirrored_bodies.h"
+#include "pipeline/version.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::Matrix3;
+using dynamics::Pose;
+
+/// Changes whenever the same problem gives other figures than before.
+constexpr std::int64_t method_version = 1;
+
+Matrix3 turn_about_z(double angle) {
+  return Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+}
+
+double lowest_point(const dynamics::Hull& hull, const Pose& X_WB) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vector3& vertex : hull.vertices()) {
+    lowest = std::min(lowest, X_WB.apply(vertex).z());
+  }
+  return lowest;
+}
+
+Pose pose_at_rest(const HydrodynamicBody& body, std::size_t index) {
+  const Matrix3 R_WB = turn_about_z(body.heading);
+  Pose X_WB{R_WB, {body.position.x(), body.position.y(), 0.0}};
+  if (body.as_meshed) return X_WB;
+  if (!body.draughts.empty()) {
+    const double draught = body.draughts[std::min(index, body.draughts.size() - 1)];
+    X_WB.p.z() = -draught - body.hull.bounds()[0].z();
+    return X_WB;
+  }
+  const dynamics::FloatingPosition floating =
+      find_floating_position(dynamics::HullClusters(body.hull), body.body, R_WB);
+  X_WB.R = floating.X_WB.R;
+  X_WB.p.z() = floating.X_WB.p.z();
+  // What is left of the iteration must not hide a plane of symmetry: turns below 1e-8 are none.
+  if ((X_WB.R - R_WB).cwiseAbs().maxCoeff() < 1e-8) X_WB.R = R_WB;
+  return X_WB;
+}
+
+std::vector<dynamics::WettedBody> wetted_bodies(const HydrodynamicProblem& problem,
+                                                const std::vector<Pose>& poses) {
+  std::vector<dynamics::WettedBody> bodies;
+  std::vector<std::vector<Vector3>> vertices_W;
+  for (std::size_t b = 0; b < poses.size(); ++b) {
+    const HydrodynamicBody& body = problem.bodies[b];
+    bodies.push_back(make_wetted_body(body.hull, poses[b], body.body.p_BoBcm_B));
+    bodies.back().name = body.name;
+    std::vector<Vector3>& vertices = vertices_W.emplace_back();
+    for (const Vector3& vertex : body.hull.vertices()) vertices.push_back(poses[b].apply(vertex));
+  }
+  if (problem.symmetry) mirror_bodies(vertices_W, bodies);
+  return bodies;
+}
+
+void refuse_if_too_large(const HydrodynamicState& state, double limit) {
+  if (state.bytes <= limit) return;
+  throw dynamics::SimulationError(
+      fmt::format("{} panels on the bodies and {} on the surface need {:.2f} GB of memory, but "
+                  "{:.2f} GB may be used: take larger panels, fewer frequencies or a higher lowest "
+                  "frequency",
+                  state.model->body_mesh().size(), state.model->surface_mesh().size(),
+                  state.bytes / 1e9, limit / 1e9));
+}
+
+}  // namespace
+
+int HydrodynamicProblem::lowered_body() const {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].draughts.size() > 1) return static_cast<int>(b);
+  }
+  return 0;
+}
+
+std::size_t HydrodynamicProblem::state_count() const {
+  return std::max<std::size_t>(1, bodies[static_cast<std::size_t>(lowered_body())].draughts.size());
+}
+
+HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t index) {
+  HydrodynamicState state;
+  const auto modes = static_cast<Eigen::Index>(dynamics::modes_per_body * problem.bodies.size());
+  state.mass = Eigen::MatrixXd::Zero(modes, modes);
+  for (const HydrodynamicBody& body : problem.bodies) {
+    const Pose X_WB = pose_at_rest(body, index);
+    const Eigen::Index first =
+        dynamics::modes_per_body * static_cast<Eigen::Index>(state.poses.size());
+    state.mass.block<6, 6>(first, first) =
+        dynamics::make_mass_matrix(body.body.mass, body.radii_of_gyration, X_WB.R);
+    state.poses.push_back(X_WB);
+  }
+  const auto lowered = static_cast<std::size_t>(problem.lowered_body());
+  state.draught = -lowest_point(problem.bodies[lowered].hull, state.poses[lowered]);
+  std::vector<dynamics::WettedBody> bodies = wetted_bodies(problem, state.poses);
+  const auto lines = find_water_lines(bodies);
+  const auto length = [&](double frequency) {
+    return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, problem.water);
+  };
+  const dynamics::SurfaceMesh surface =
+      make_surface_mesh(lines, dynamics::surface_settings(lines, length(problem.frequencies.back()),
+                                                          length(problem.frequencies.front())));
+  const dynamics::Symmetry symmetry =
+      problem.symmetry ? find_symmetry(bodies) : dynamics::Symmetry{};
+  state.model = std::make_shared<const dynamics::PanelModel>(std::move(bodies), surface,
+                                                             problem.water, symmetry);
+  state.settings.frequencies = problem.frequencies;
+  state.settings.headings = problem.headings;
+  state.settings.rankine.memory_limit = problem.memory_limit;
+  require_panels_for_waves(*state.model, problem.frequencies.back());
+  state.bytes = database_bytes(*state.model, state.settings);
+  refuse_if_too_large(
+      state, problem.memory_limit > 0.0 ? problem.memory_limit : dynamics::usable_memory());
+  return state;
+}
+
+std::string identity_of(const HydrodynamicProblem& problem) {
+  ContentHash hash;
+  hash.add(method_version);
+  hash.add(std::string_view(program_version));
+  hash.add(problem.water.density);
+  hash.add(problem.water.gravity);
+  hash.add(problem.water.depth);
+  hash.add(problem.frequencies);
+  hash.add(problem.headings);
+  hash.add(static_cast<std::int64_t>(problem.symmetry));
+  for (const HydrodynamicBody& body : problem.bodies) {
+    hash.add(std::string_view(body.name));
+    hash.add(body.body.mass);
+    for (const Vector3& v : {body.body.p_BoBcm_B, body.radii_of_gyration})
+      hash.add(std::span(v.data(), 3));
+    hash.add(std::span(body.position.data(), 2));
+    hash.add(body.heading);
+    hash.add(body.draughts);
+    hash.add(static_cast<std::int64_t>(body.as_meshed));
+    for (const Vector3& vertex : body.hull.vertices()) hash.add(std::span(vertex.data(), 3));
+    for (int k = 0; k < body.hull.panel_count(); ++k) {
+      hash.add(static_cast<std::int64_t>(body.hull.panel(k).size()));
+      for (const int vertex : body.hull.panel(k)) hash.add(static_cast<std::int64_t>(vertex));
+    }
+  }
+  return hash.digits();
+}
+
+dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
+                                             const HydrodynamicState& state,
+                                             dynamics::DatabaseReport* report) {
+  dynamics::HydrodynamicDatabase database = compute_database(*state.model, state.settings, report);
+  const Eigen::Index modes = database.mode_count();
+  database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(modes, modes);
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+    const HydrodynamicBody& body = problem.bodies[b];
+    const Pose& X_WB = state.poses[b];
+    const dynamics::Hydrostatics rest = calc_hydrostatics(dynamics::HullClusters(body.hull), X_WB);
+    const Vector3 p_BoBcm_W = X_WB.R * body.body.p_BoBcm_B;
+    database.displaced_volumes[b] = rest.volume;
+    database.centres_of_buoyancy.push_back(X_WB.p + rest.p_BoC_W());
+    database.centres_of_mass.push_back(X_WB.p + p_BoBcm_W);
+    const Eigen::Index first = dynamics::modes_per_body * static_cast<Eigen::Index>(b);
+    database.hydrostatic_stiffness.block<6, 6>(first, first) =
+        problem.water.density * problem.water.gravity *
+        calc_floating_stiffness_over_rho_g(rest, p_BoBcm_W);
+  }
+  return database;
+}
+
+HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
+                                       const std::vector<HydrodynamicState>& states,
+                                       const HydrodynamicProgress& progress) {
+  std::vector<double> draughts;
+  std::vector<dynamics::HydrodynamicDatabase> databases;
+  for (HydrodynamicState state : states) {
+    state.settings.progress = [&](double fraction, const char* what) {
+      const auto done = static_cast<double>(databases.size());
+      if (progress) progress((done + fraction) / static_cast<double>(states.size()), what);
+    };
+    draughts.push_back(state.draught);
+    databases.push_back(compute_state(problem, state));
+  }
+  return {identity_of(problem), fmt::format("computed by blocklift {}", program_version),
+          dynamics::make_series(problem.lowered_body(), std::move(draughts), std::move(databases))};
+}
+
+}  // namespace blocklift::pipeline

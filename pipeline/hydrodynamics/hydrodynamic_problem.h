@@ -1,0 +1,84 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/marine/hydrodynamic_database.h"
+#include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/input/model_library.h"
+#include "pipeline/input/vessel_model.h"
+
+namespace blocklift::pipeline {
+
+/// A body whose hydrodynamics are to be computed.
+struct HydrodynamicBody {
+  std::string name;
+  dynamics::Hull hull;          ///< with the panels to compute with, in its own frame
+  dynamics::FloatingBody body;  ///< mass and its centre; the water's density
+  Vector3 radii_of_gyration = Vector3::Zero();         ///< about the centre of mass, m
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of Bo in the world, m
+  double heading = 0.0;                                ///< of its x axis, rad
+  std::vector<double> draughts;  ///< upright, from the lowest point, m; empty: afloat by its weight
+  bool as_meshed = false;        ///< z = 0 of its own frame is the water
+};
+
+/// All that a database follows from.
+struct HydrodynamicProblem {
+  std::string title;
+  std::vector<HydrodynamicBody> bodies;
+  dynamics::Water water;
+  std::vector<double> frequencies;  ///< rad/s
+  std::vector<double> headings;     ///< rad
+  bool symmetry = true;             ///< use what planes of symmetry there are
+  double memory_limit = 0.0;        ///< bytes; 0: dynamics::usable_memory()
+  Mark place;
+
+  /// The body with several draughts, or the first.
+  int lowered_body() const;
+  /// How many draughts of it are to be computed: at least one.
+  std::size_t state_count() const;
+};
+
+/// Reads a vessel file, or one of several vessels. Complains about everything that is wrong with it:
+/// keys and values, hulls that are open, inverted or out of the water. Null after a complaint.
+std::optional<HydrodynamicProblem> read_hydrodynamic_problem(const std::filesystem::path& file,
+                                                             const ModelLibrary& library,
+                                                             Diagnostics& diagnostics);
+
+/// One draught of a problem, meshed and ready.
+struct HydrodynamicState {
+  double draught = 0.0;               ///< of the lowered body, m
+  std::vector<dynamics::Pose> poses;  ///< X_WB of the bodies at rest
+  Eigen::MatrixXd mass;               ///< 6N x 6N about the centres of mass
+  std::shared_ptr<const dynamics::PanelModel> model;
+  dynamics::DatabaseSettings settings;
+  double bytes = 0.0;  ///< of memory that the computation takes, at most
+};
+
+/// Finds the position of rest, cuts the hulls at the water, meshes the surface.
+/// @throws dynamics::ModelError if a body cannot float or is wholly above the water, bodies intersect,
+///   the surface cannot be meshed, or a wave is too short for the panels; dynamics::SimulationError
+///   if the memory does not suffice, with the figures.
+HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t index);
+
+/// Fingerprint of a problem: equal if and only if nothing that the database follows from differs.
+std::string identity_of(const HydrodynamicProblem& problem);
+
+/// Computes the database of a state, hydrostatics included.
+dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
+                                             const HydrodynamicState& state,
+                                             dynamics::DatabaseReport* report = nullptr);
+
+/// Share done (0 to 1) and what is being done.
+using HydrodynamicProgress = std::function<void(double, const std::string&)>;
+
+/// Computes all draughts.
+HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
+                                       const std::vector<HydrodynamicState>& states,
+                                       const HydrodynamicProgress& progress = {});
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,227 @@
+#include "pipeline/hydrodynamics/hydrodynamic_report.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "dynamics/marine/response_amplitude.h"
+#include "pipeline/hydrodynamics/line_chart.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::HydrodynamicDatabase;
+using dynamics::modes_per_body;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+constexpr std::array<const char*, 6> mode_names = {"surge", "sway",  "heave",
+                                                   "roll",  "pitch", "yaw"};
+constexpr double degree = std::numbers::pi / 180.0;
+
+bool is_rotation(Eigen::Index mode) { return mode % modes_per_body >= 3; }
+
+// ----------------------------------------------------------------------------------------- tables
+
+/// Rows of the table: at most twelve frequencies, evenly chosen.
+std::vector<std::size_t> chosen_frequencies(const HydrodynamicDatabase& database) {
+  const std::size_t count = database.frequencies.size();
+  std::vector<std::size_t> chosen;
+  const std::size_t rows = std::min<std::size_t>(count, 12);
+  for (std::size_t r = 0; r < rows; ++r) {
+    chosen.push_back(rows == 1 ? 0 : r * (count - 1) / (rows - 1));
+  }
+  return chosen;
+}
+
+std::string head(const std::string& what) {
+  std::string line = fmt::format("  {:<28}", what);
+  for (const char* const name : mode_names) line += fmt::format("{:>11}", name);
+  return line + "\n";
+}
+
+template <class Value>
+std::string row(const std::string& label, Eigen::Index first, const Value& value) {
+  std::string line = fmt::format("  {:<28}", label);
+  for (Eigen::Index m = first; m < first + modes_per_body; ++m) {
+    const double x = value(m);
+    line += std::isfinite(x) ? fmt::format("{:>11.4g}", x) : fmt::format("{:>11}", "-");
+  }
+  return line + "\n";
+}
+
+/// Added mass and damping (t, t m2; t/s, t m2/s) of one body.
+std::string radiation_table(const HydrodynamicDatabase& database, Eigen::Index first) {
+  std::string text = head("added mass, t, t m2");
+  for (const std::size_t k : chosen_frequencies(database)) {
+    text += row(fmt::format("{:.3f} rad/s", database.frequencies[k]), first,
+                [&](Eigen::Index m) { return database.added_mass[k](m, m) / 1e3; });
+  }
+  text += row("infinite", first,
+              [&](Eigen::Index m) { return database.infinite_added_mass(m, m) / 1e3; });
+  text += head("damping, t/s, t m2/s");
+  for (const std::size_t k : chosen_frequencies(database)) {
+    text += row(fmt::format("{:.3f} rad/s", database.frequencies[k]), first,
+                [&](Eigen::Index m) { return database.damping[k](m, m) / 1e3; });
+  }
+  return text;
+}
+
+/// Excitation (kN/m, kN) and response (m/m, deg/m): the largest over all headings.
+std::string wave_table(const HydrodynamicDatabase& database,
+                       const std::vector<MatrixXcd>& responses, Eigen::Index first) {
+  if (database.headings.empty()) return {};
+  std::string text = head("excitation, kN/m, kN m/m");
+  for (const std::size_t k : chosen_frequencies(database)) {
+    const MatrixXcd X = database.excitation(k);
+    text += row(fmt::format("{:.3f} rad/s, largest heading", database.frequencies[k]), first,
+                [&](Eigen::Index m) { return X.row(m).cwiseAbs().maxCoeff() / 1e3; });
+  }
+  if (responses.empty()) return text;
+  text += head("response, m/m, deg/m");
+  for (const std::size_t k : chosen_frequencies(database)) {
+    text +=
+        row(fmt::format("{:.3f} rad/s, largest heading", database.frequencies[k]), first,
+            [&](Eigen::Index m) {
+              return responses[k].row(m).cwiseAbs().maxCoeff() / (is_rotation(m) ? degree : 1.0);
+            });
+  }
+  return text;
+}
+
+/// Responses of a draught; none without masses or stiffness.
+std::vector<MatrixXcd> responses_of(const HydrodynamicFile& file,
+                                    const std::vector<MatrixXd>& masses, std::size_t state) {
+  const HydrodynamicDatabase& database = file.series.databases[state];
+  if (masses.size() <= state || database.hydrostatic_stiffness.size() == 0) return {};
+  return calc_response_amplitudes(database, masses[state]);
+}
+
+std::string name_of_state(const HydrodynamicFile& file, std::size_t state) {
+  const double draught = file.series.draughts[state];
+  return draught > 0.0 ? fmt::format("draught {:.3f} m", draught) : std::string("draught unknown");
+}
+
+// ------------------------------------------------------------------------------------------ page
+
+template <class Value>
+Curve over_frequency(const HydrodynamicDatabase& database, const std::string& name,
+                     const Value& value) {
+  Curve curve{name, database.frequencies, {}};
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) curve.y.push_back(value(k));
+  return curve;
+}
+
+template <class Value>
+LineChart by_heading(const HydrodynamicDatabase& database, std::string title, std::string unit,
+                     const Value& value) {
+  LineChart chart{std::move(title), "rad/s", std::move(unit), {}};
+  for (std::size_t h = 0; h < database.headings.size(); ++h) {
+    chart.curves.push_back(
+        over_frequency(database, fmt::format("{:.0f} deg", database.headings[h] / degree),
+                       [&](std::size_t k) { return value(k, static_cast<Eigen::Index>(h)); }));
+  }
+  return chart;
+}
+
+/// The charts of one mode of one body at a draught.
+std::string charts_of_mode(const HydrodynamicDatabase& database,
+                           const std::vector<MatrixXcd>& responses, Eigen::Index m) {
+  const bool rotation = is_rotation(m);
+  const std::string name = mode_names[static_cast<std::size_t>(m % modes_per_body)];
+  LineChart mass{"added mass, " + name, "rad/s", rotation ? "t m2" : "t", {}};
+  mass.curves.push_back(over_frequency(
+      database, "A", [&](std::size_t k) { return database.added_mass[k](m, m) / 1e3; }));
+  mass.curves.push_back(over_frequency(database, "infinite frequency", [&](std::size_t) {
+    return database.infinite_added_mass(m, m) / 1e3;
+  }));
+  LineChart damping{"damping, " + name, "rad/s", rotation ? "t m2/s" : "t/s", {}};
+  damping.curves.push_back(
+      over_frequency(database, "", [&](std::size_t k) { return database.damping[k](m, m) / 1e3; }));
+  LineChart memory{"retardation function, " + name, "s", rotation ? "t m2/s2" : "t/s2", {}};
+  Curve kernel;
+  const std::size_t stride = database.retardation.size() / 500 + 1;
+  for (std::size_t n = 0; n < database.retardation.size(); n += stride) {
+    kernel.x.push_back(static_cast<double>(n) * database.time_step);
+    kernel.y.push_back(database.retardation[n](m, m) / 1e3);
+  }
+  memory.curves.push_back(std::move(kernel));
+  std::string page = to_svg(mass) + to_svg(damping) + to_svg(memory);
+  if (database.headings.empty()) return page;
+  page += to_svg(by_heading(
+      database, "excitation, " + name, rotation ? "kN m/m" : "kN/m",
+      [&](std::size_t k, Eigen::Index h) {
+        return std::abs(database.froude_krylov[k](m, h) + database.diffraction[k](m, h)) / 1e3;
+      }));
+  if (responses.empty()) return page;
+  return page + to_svg(by_heading(database, "response, " + name, rotation ? "deg/m" : "m/m",
+                                  [&](std::size_t k, Eigen::Index h) {
+                                    return std::abs(responses[k](m, h)) / (rotation ? degree : 1.0);
+                                  }));
+}
+
+constexpr const char* page_head = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>{0}</title><style>
+body {{ font: 14px system-ui, sans-serif; max-width: 1340px; margin: 24px auto; padding: 0 16px; color: #222; }}
+.charts {{ display: flex; flex-wrap: wrap; }} svg {{ width: 420px; }}
+svg text {{ font: 10px system-ui, sans-serif; }} svg .title {{ font-weight: 600; font-size: 11px; }}
+svg path {{ fill: none; stroke-width: 1.4; }} svg .grid {{ stroke: #ddd; }}
+pre {{ overflow-x: auto; background: #f6f6f6; padding: 10px; }}
+</style></head><body><h1>{0}</h1><p>{1}</p>
+)";
+
+std::string origin_text(const HydrodynamicFile& file) {
+  const dynamics::Water& water = file.series.databases[0].water;
+  return fmt::format(
+      "{}; water of {:.6g} kg/m3, {}", file.origin, water.density,
+      std::isinf(water.depth) ? std::string("deep") : fmt::format("{:.6g} m deep", water.depth));
+}
+
+}  // namespace
+
+std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<MatrixXd>& masses) {
+  std::string text = origin_text(file) + "\n";
+  for (std::size_t s = 0; s < file.series.databases.size(); ++s) {
+    const HydrodynamicDatabase& database = file.series.databases[s];
+    const std::vector<MatrixXcd> responses = responses_of(file, masses, s);
+    for (int b = 0; b < database.body_count(); ++b) {
+      const auto body = static_cast<std::size_t>(b);
+      text += fmt::format("\n{}, {}, {:.6g} m3 displaced\n", database.body_names[body],
+                          name_of_state(file, s), database.displaced_volumes[body]);
+      const Eigen::Index first = Eigen::Index{modes_per_body} * b;
+      if (!responses.empty()) {
+        text += head("");
+        text += row("natural period alone, s", first,
+                    [&](Eigen::Index m) { return calc_natural_period(database, masses[s], m); });
+      }
+      text += radiation_table(database, first) + wave_table(database, responses, first);
+    }
+  }
+  return text;
+}
+
+std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& title,
+                              const std::vector<MatrixXd>& masses) {
+  std::string page = fmt::format(page_head, title, origin_text(file));
+  for (std::size_t s = 0; s < file.series.databases.size(); ++s) {
+    const HydrodynamicDatabase& database = file.series.databases[s];
+    const std::vector<MatrixXcd> responses = responses_of(file, masses, s);
+    for (int b = 0; b < database.body_count(); ++b) {
+      page += fmt::format("<h2>{}, {}</h2>\n<div class=\"charts\">\n",
+                          database.body_names[static_cast<std::size_t>(b)], name_of_state(file, s));
+      for (int m = 0; m < modes_per_body; ++m) {
+        page += charts_of_mode(database, responses, Eigen::Index{modes_per_body} * b + m);
+      }
+      page += "</div>\n";
+    }
+  }
+  page +=
+      "<p>Responses are those of bodies that float freely, damped by the waves they radiate "
+      "alone.</p>\n<pre>" +
+      hydrodynamic_table(file, masses) + "</pre>\n</body></html>\n";
+  return page;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace blocklift::pipeline {
+
+/// A curve of a chart.
+struct Curve {
+  std::string name;  ///< in the legend; empty: none
+  std::vector<double> x, y;
+};
+
+/// Curves over a common axis.
+struct LineChart {
+  std::string title;
+  std::string x_label, y_label;
+  std::vector<Curve> curves;
+};
+
+/// The chart as SVG for a page: axes with round figures, one colour a curve, a legend beside it.
+/// Numbers that are not finite leave a gap.
+std::string to_svg(const LineChart& chart);
+
+/// Round figures (1, 2 or 5 times a power of ten apart) that span the values, about `count` of them.
+std::vector<double> round_figures(double lowest, double highest, int count);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,112 @@
+#include <cmath>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/hull_diagnosis.h"
+#include "pipeline/hydrodynamics/hydrodynamic_problem.h"
+#include "pipeline/input/document.h"
+#include "pipeline/input/file_kind.h"
+#include "pipeline/input/vessel_group.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The vessel's file as a body, its place and draughts still to be given.
+std::optional<HydrodynamicBody> read_body(const fs::path& file, std::optional<double> panel_size,
+                                          Diagnostics& diagnostics,
+                                          HydrodynamicSettings& settings) {
+  std::optional<Vessel> vessel = read_vessel(file, diagnostics);
+  if (!vessel) return std::nullopt;
+  settings = vessel->model.hydrodynamics;
+  if (!panel_size) panel_size = settings.panel_size;
+  HydrodynamicBody body;
+  body.body = vessel->body();
+  body.radii_of_gyration = vessel->model.radii_of_gyration;
+  body.as_meshed = settings.as_meshed;
+  body.hull = std::move(vessel->hull);
+  body.name = body.hull.name();
+  if (panel_size && *panel_size != vessel->model.panel_size) {
+    const std::size_t before = diagnostics.error_count();
+    try {
+      const std::string name = body.hull.name();
+      body.hull = make_vessel_hull(vessel->model, file.parent_path(), *panel_size);
+      body.hull.set_name(name);
+      for (const auto& defect : dynamics::diagnose(body.hull, {.largest_warp = 0.5})) {
+        diagnostics.error(vessel->model.place, defect.message);
+      }
+    } catch (const std::runtime_error& error) {
+      diagnostics.error(vessel->model.place, error.what());
+    }
+    if (diagnostics.error_count() > before) return std::nullopt;
+  }
+  return body;
+}
+
+void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& problem) {
+  problem.frequencies = settings.frequencies.list();
+  problem.headings = settings.headings;
+  problem.water.density = settings.water_density;
+  if (settings.water_depth) problem.water.depth = *settings.water_depth;
+  problem.symmetry = settings.symmetry;
+  for (HydrodynamicBody& body : problem.bodies) body.body.water_density = settings.water_density;
+}
+
+std::optional<HydrodynamicProblem> read_single(const fs::path& file, Diagnostics& diagnostics) {
+  HydrodynamicProblem problem;
+  HydrodynamicSettings settings;
+  std::optional<HydrodynamicBody> body = read_body(file, {}, diagnostics, settings);
+  if (!body) return std::nullopt;
+  problem.title = body->name;
+  problem.place = {std::make_shared<const std::string>(shown_path(file)), 0, 0};
+  body->draughts = settings.draughts;
+  problem.bodies.push_back(std::move(*body));
+  take_settings(settings, problem);
+  return problem;
+}
+
+std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelLibrary& library,
+                                              Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.error_count();
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  VesselGroup group;
+  Reading reading(*document, diagnostics);
+  const Format<VesselGroup> format = vessel_group_format();
+  reading.with_owner("the file", [&] { return format.read(document->root, reading, group); });
+  if (diagnostics.error_count() > before) return std::nullopt;
+  HydrodynamicProblem problem;
+  problem.title = group.title.empty() ? fs::absolute(file).stem().string() : group.title;
+  problem.place = group.place;
+  for (const Named<PlacedVessel>& placed : group.vessels) {
+    const fs::path found =
+        library.find_vessel(placed.value.vessel, file.parent_path(), diagnostics);
+    if (found.empty()) continue;
+    HydrodynamicSettings own;
+    std::optional<HydrodynamicBody> body =
+        read_body(found, group.hydrodynamics.panel_size, diagnostics, own);
+    if (!body) continue;
+    body->name = placed.name.value;
+    body->hull.set_name(body->name);
+    body->position = {placed.value.position[0], placed.value.position[1]};
+    body->heading = placed.value.heading;
+    body->draughts = placed.value.draughts;
+    problem.bodies.push_back(std::move(*body));
+  }
+  if (diagnostics.error_count() > before) return std::nullopt;
+  take_settings(group.hydrodynamics, problem);
+  return problem;
+}
+
+}  // namespace
+
+std::optional<HydrodynamicProblem> read_hydrodynamic_problem(const fs::path& file,
+                                                             const ModelLibrary& library,
+                                                             Diagnostics& diagnostics) {
+  const fs::path inside = file / "vessel.yaml";
+  if (fs::is_directory(file) && fs::exists(inside)) return read_single(inside, diagnostics);
+  if (kind_of_file(file) == FileKind::vessels) return read_group(file, library, diagnostics);
+  return read_single(file, diagnostics);
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,157 @@
+// `blocklift hydro` as a user meets it: run as a process.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/input/temporary_folder.h"
+#include "tests/pipeline/run_program.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string pontoon =
+    "kind: vessel\n"
+    "hull: {barge: {length: 12 m, breadth: 8 m, depth: 4 m}}\n"
+    "panel_size: 1 m\n"
+    "mass: 150 t\n"
+    "centre_of_mass: [0 m, 0 m, 2 m]\n"
+    "radii_of_gyration: [3 m, 4 m, 4 m]\n"
+    "hydrodynamics:\n"
+    "  frequencies: {lowest: 1.5 rad/s, highest: 3 rad/s, count: 4}\n"
+    "  headings: [0 deg, 90 deg]\n";
+
+class HydroCommand : public ::testing::Test {
+ protected:
+  HydroCommand() { folder_.write("pontoon/vessel.yaml", pontoon); }
+
+  static Outcome run(const std::string& arguments) {
+    return test::run_program(BLOCKLIFT_EXECUTABLE, "hydro " + arguments);
+  }
+  /// What is said of the pontoon's file with a passage changed.
+  std::string complaint(const std::string& from, const std::string& to) const {
+    std::string text = pontoon;
+    text.replace(text.find(from), from.size(), to);
+    folder_.write("changed/vessel.yaml", text);
+    const Outcome outcome = run("changed/vessel.yaml -o changed.h5");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    EXPECT_FALSE(fs::exists("changed.h5"));
+    return outcome.err;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(HydroCommand, ComputesOnceAndConverts) {
+  const Outcome first = run("pontoon/vessel.yaml -o db.h5");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("panels on the bodies"), HasSubstr("a quarter of all"),
+                               HasSubstr("GB of memory"), HasSubstr("added mass"),
+                               HasSubstr("natural period alone"), HasSubstr("response, m/m"),
+                               HasSubstr("database: db.h5")));
+  EXPECT_THAT(test::text_of_file("db.html"), AllOf(HasSubstr("<svg"), HasSubstr("retardation")));
+  EXPECT_EQ(first.err, "");
+  const Outcome second = run("pontoon -o db.h5");
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_THAT(second.out, AllOf(HasSubstr("already computed: db.h5"), Not(HasSubstr("of memory"))));
+  folder_.write("pontoon/vessel.yaml", pontoon + "  water_depth: 20 m\n");
+  EXPECT_THAT(run("pontoon -o db.h5").out, HasSubstr("database: db.h5"));
+  EXPECT_EQ(run("--import db.h5 --export bemio -o wec.h5").exit_code, 0);
+  EXPECT_EQ(run("--import db.h5 --export wamit -o wec.1").exit_code, 0);
+  EXPECT_THAT(run("--import wec.h5 -o back.h5").out, HasSubstr("imported from wec.h5 (BEMIO)"));
+  EXPECT_THAT(run("--import wec.1 --water-depth 20 -o back.h5").out,
+              HasSubstr("imported from wec.1 (WAMIT)"));
+}
+
+TEST_F(HydroCommand, ComputesSeveralVesselsTogether) {
+  folder_.write("pair.yaml",
+                "kind: vessels\n"
+                "vessels:\n"
+                "  left: {vessel: pontoon, position: [0 m, -6 m]}\n"
+                "  right: {vessel: pontoon, position: [0 m, 6 m], draughts: [1 m, 1.5 m]}\n"
+                "hydrodynamics:\n"
+                "  frequencies: {lowest: 1.5 rad/s, highest: 3 rad/s, count: 4}\n");
+  const Outcome outcome = run("pair.yaml -o pair.h5");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("draught 1.000 m"), HasSubstr("draught 1.500 m"),
+                                 HasSubstr("left"), HasSubstr("right")));
+  folder_.write("crash.yaml",
+                "kind: vessels\n"
+                "vessels:\n"
+                "  left: {vessel: pontoon, position: [0 m, -3 m]}\n"
+                "  right: {vessel: pontoon, position: [0 m, 3 m]}\n"
+                "  third: {vessel: pontoom, position: [40 m, 3 m]}\n");
+  const Outcome unknown = run("crash.yaml -o crash.h5");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("crash.yaml:5"), HasSubstr("pontoom")));
+  std::string text = test::text_of_file("crash.yaml");
+  folder_.write("crash.yaml", text.substr(0, text.find("  third")));
+  const Outcome crash = run("crash.yaml -o crash.h5");
+  EXPECT_EQ(crash.exit_code, 2);
+  EXPECT_THAT(crash.err, HasSubstr("intersect"));
+}
+
+TEST_F(HydroCommand, SaysWhatIsWrong) {
+  EXPECT_THAT(complaint("highest: 3 rad/s", "highest: 9 rad/s"),
+              HasSubstr("at least three must go into a wave"));
+  EXPECT_THAT(complaint("count: 4", "count: 0"), HasSubstr("vessel.yaml:8"));
+  EXPECT_THAT(complaint("highest: 3 rad/s", "highest: 1 rad/s"),
+              HasSubstr("the highest must lie above the lowest"));
+  EXPECT_THAT(complaint("150 t", "600 t"), HasSubstr("would have to displace"));
+  EXPECT_THAT(complaint("  headings:", "  draughts: [2 m, 1 m]\n  headings:"),
+              HasSubstr("draughts must ascend"));
+  EXPECT_THAT(complaint("  headings:", "  heading:"), HasSubstr("did you mean \"headings\"?"));
+  const Outcome memory = run("pontoon --memory-limit 0.001 -o small.h5");
+  EXPECT_EQ(memory.exit_code, 2);
+  EXPECT_THAT(memory.err, HasSubstr("GB of memory, but 0.00 GB may be used"));
+  EXPECT_EQ(run("").exit_code, 2);
+  EXPECT_EQ(run("none.yaml").exit_code, 2);
+  EXPECT_EQ(run("--import none.h5 -o x.h5").exit_code, 2);
+  EXPECT_EQ(run("--import pontoon/vessel.yaml -o x.h5").exit_code, 2);
+}
+
+/// Panels of a box of 4 m, its lowest point at z, in WAMIT's format; some left out, or turned round.
+std::string box_panels(double z, bool open, bool inward) {
+  const std::string low = std::to_string(z), high = std::to_string(z + 4);
+  const std::string corner[] = {"-2 -2 ", "2 -2 ", "2 2 ", "-2 2 "};
+  std::string panels;
+  const auto add = [&](const std::string& a, const std::string& b, const std::string& c,
+                       const std::string& d) {
+    panels += inward ? d + "\n" + c + "\n" + b + "\n" + a + "\n"
+                     : a + "\n" + b + "\n" + c + "\n" + d + "\n";
+  };
+  add(corner[3] + low, corner[2] + low, corner[1] + low, corner[0] + low);
+  if (!open) add(corner[0] + high, corner[1] + high, corner[2] + high, corner[3] + high);
+  for (int k = 0; k < 4; ++k) {
+    const std::string &a = corner[k], &b = corner[(k + 1) % 4];
+    add(a + low, b + low, b + high, a + high);
+  }
+  return "box\n1 9.80665\n0 0\n" + std::to_string(open ? 5 : 6) + "\n" + panels;
+}
+
+TEST_F(HydroCommand, DiagnosesMeshes) {
+  const auto complaint_about = [&](const std::string& mesh) {
+    folder_.write("box/hull.gdf", mesh);
+    folder_.write("box/vessel.yaml",
+                  "kind: vessel\nhull: {mesh: {file: hull.gdf}}\npanel_size: 4 m\nmass: 20 t\n"
+                  "centre_of_mass: [0 m, 0 m, 0 m]\nradii_of_gyration: [1 m, 1 m, 1 m]\n"
+                  "hydrodynamics: {water_line: as meshed,\n"
+                  "  frequencies: {lowest: 0.8 rad/s, highest: 1 rad/s, count: 2}}\n");
+    const Outcome outcome = run("box -o box.h5");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    return outcome.err;
+  };
+  EXPECT_THAT(complaint_about(box_panels(-2, true, false)), HasSubstr("open"));
+  EXPECT_THAT(complaint_about(box_panels(-2, false, true)), HasSubstr("normals"));
+  EXPECT_THAT(complaint_about(box_panels(1, false, false)), HasSubstr("wholly above the water"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
