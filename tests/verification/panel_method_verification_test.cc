@@ -51,38 +51,6 @@ TEST(Ellipsoid, AddedMassInInfiniteFluid) {
   for (const double error : last) EXPECT_LT(error, 0.02);
 }
 
-// MacCamy and Fuchs (1954): horizontal force on a vertical cylinder that stands on the bottom,
-// |X| = 4 rho g tanh(k h)/(k^2 |H1'(k a)|).
-TEST(StandingCylinder, ExcitationAfterMacCamyAndFuchs) {
-  const double depth = 2.0;
-  const std::vector<WettedBody> bodies{
-      {"column",
-       make_vertical_cylinder(1.0, depth, false,
-                              {.meridians = 32, .parallels = 12, .grading = 3.0}),
-       Vector3(0, 0, -depth)}};
-  const SurfaceMesh surface = make_surface_mesh(
-      find_water_lines(bodies), {.first_ring = 0.06, .growth = 1.08, .radius = 40.0});
-  const PanelModel model(bodies, surface, {1.0, 1.0, depth}, {true, true});
-  DatabaseSettings settings;
-  for (const double ka : {0.3, 0.6, 1.0, 1.5, 2.0}) {
-    settings.frequencies.push_back(std::sqrt(ka * std::tanh(ka * depth)));
-  }
-  settings.headings = {0.0};
-  settings.duration = 60.0;
-  settings.damping_strength = 0.5;
-  const HydrodynamicDatabase database = compute_database(model, settings);
-  for (std::size_t i = 0; i < settings.frequencies.size(); ++i) {
-    const double k = calc_wave_number(settings.frequencies[i], model.water());
-    // H1' = H0 - H1/x.
-    const double J = std::cyl_bessel_j(0.0, k) - std::cyl_bessel_j(1.0, k) / k;
-    const double Y = std::cyl_neumann(0.0, k) - std::cyl_neumann(1.0, k) / k;
-    const double exact = 4.0 * std::tanh(k * depth) / (k * k * std::hypot(J, Y));
-    const double found = std::abs(database.excitation(i)(surge, 0));
-    std::printf("ka %.2f: %.4f (%.4f) %+.2f %%\n", k, found, exact, 100 * (found / exact - 1));
-    EXPECT_NEAR(found, exact, 0.02 * exact);
-  }
-}
-
 struct Pair {
   std::vector<WettedBody> bodies;
   SurfaceMesh surface;

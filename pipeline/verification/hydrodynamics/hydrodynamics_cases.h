@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/verification/verification.h"
+
+namespace blocklift::pipeline {
+
+/// Cases of the sea: hydrostatics and the panel method.
+std::vector<VerificationCase> hydrodynamics_cases();
+
+/// A cube that floats upright and heeled far over.
+VerificationCase floating_cube();
+/// Righting arms of a box to 180 degrees.
+VerificationCase righting_arms_of_a_box();
+/// Work of buoyancy round a closed path of poses.
+VerificationCase closed_path_of_buoyancy();
+/// Integrals over a flat panel against quadrature; solid angle of a closed body.
+VerificationCase panel_integrals();
+/// Added mass of a sphere deep under the surface.
+VerificationCase deep_sphere();
+/// Added mass and damping of a hemisphere over frequency, with convergence; energy; Ogilvie's relations.
+VerificationCase floating_hemisphere();
+/// Symmetry of two bodies' coefficients.
+VerificationCase two_hemispheres();
+/// Diffraction directly and by Haskind's relation.
+VerificationCase haskind_relation();
+/// Excitation of a cylinder that stands on the bottom.
+VerificationCase standing_cylinder();
+/// Free decay of a floating sphere, directly and by Cummins' equation; steps of the convolution.
+VerificationCase free_decay_of_a_sphere();
+
+}  // namespace blocklift::pipeline
