@@ -7,6 +7,7 @@
 
 #include "dynamics/marine/hydrodynamic_database.h"
 #include "dynamics/marine/panel_shapes.h"
+#include "dynamics/marine/radiation.h"
 
 namespace {
 
@@ -94,6 +95,32 @@ void database(benchmark::State& state) {
   }
 }
 BENCHMARK(database)->Arg(0)->Arg(1)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
+
+/// The surface marched with a barge of 110 x 46 x 5 m, no symmetry: how many times faster than the water.
+void direct_marching(benchmark::State& state) {
+  const std::vector<WettedBody> bodies{
+      {"barge", make_box_hull(110, 46, 5, {24, 12, 3, 3.0}), Vector3::Zero()}};
+  const SurfaceMesh surface = make_surface_mesh(
+      find_water_lines(bodies), {.first_ring = 2.5, .growth = 1.1, .radius = 600.0});
+  const PanelModel model(bodies, surface, {1025.0, 9.81});
+  DirectRadiation::Settings settings;
+  settings.damping_strength = 0.3;
+  settings.wave = RegularWave{0.628, 0.785, 0.5};
+  DirectRadiation radiation(model, settings);
+  const double step = 0.8 * radiation.step_limit();
+  radiation.start(step);
+  Eigen::VectorXd velocity = Eigen::VectorXd::Constant(6, 0.1);
+  for (auto unused : state) {
+    Eigen::VectorXd force = radiation.calc_force();
+    benchmark::DoNotOptimize(force.data());
+    radiation.advance(velocity);
+  }
+  state.counters["unknowns"] = model.body_mesh().size() + model.surface_mesh().size();
+  state.counters["step_s"] = step;
+  state.counters["times_real_time"] = benchmark::Counter(
+      step * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+BENCHMARK(direct_marching)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// Two crane barges of 110 x 46 x 5 m with a ship of 100 x 18 x 4 m between them: 18 modes.
 void two_barges_and_a_ship(benchmark::State& state) {
