@@ -147,7 +147,7 @@ Decay compute_decay(const testing::HemisphereDivision& division) {
 
 // Five codes' extrema span periods of 4.37 to 4.45 s and a second crest of 0.632 to 0.651 m. Exact
 // linear theory (multipole solution): the figures below. Both ways, one discretisation: they differ
-// by the time step alone.
+// by the time step alone. Instants follow from samples 0.05 s apart: a fifth of that is asked.
 std::vector<VerificationRow> decay_rows() {
   constexpr std::array<Extremum, 4> exact = {
       {{2.214, -.8670}, {4.421, .6347}, {6.602, -.4645}, {8.776, .3462}}};
@@ -164,7 +164,7 @@ std::vector<VerificationRow> decay_rows() {
                            2e-3, theory));
     rows.push_back(compare(what + "Cummins' equation", "m", exact[k].value,
                            decay.convolved[k].value, 2e-3, theory));
-    rows.push_back(compare(what + "time", "s", exact[k].time, decay.direct[k].time, 5e-3, theory));
+    rows.push_back(compare(what + "time", "s", exact[k].time, decay.direct[k].time, 1e-2, theory));
     rows.push_back(bound(what + "difference of both ways", "m",
                          std::abs(decay.direct[k].value - decay.convolved[k].value), 1e-3));
   }
