@@ -29,6 +29,27 @@ TEST(WettedBody, BargeCutAtItsWaterLine) {
   EXPECT_EQ(model.body_mesh().size(), body.hull.size());
 }
 
+// Panels of a ship's ends are not flat, and are cut anywhere: the water line closes all the same. What
+// flat panels leave out of warped ones is second order in their size.
+TEST(WettedBody, WaterLineOfAShipClosesAtAnyDraught) {
+  const Hull ship = make_ship({.length = 118,
+                               .breadth = 20,
+                               .depth = 10.6,
+                               .draught = 7.6,
+                               .bow_length = 38,
+                               .stern_length = 32,
+                               .transom_breadth = 12},
+                              {30, 6, 3, 3});
+  for (const double draught : {0.5, 1.0, 2.15, 3.0, 4.0, 7.6, 9.0}) {
+    const Pose X_WB = Pose::translation({0, 0, -draught});
+    const WettedBody body = make_wetted_body(ship, X_WB);
+    EXPECT_EQ(find_water_lines(std::vector<WettedBody>{body}).size(), 1U) << draught;
+    EXPECT_NO_THROW(PanelModel({body}, {}, {})) << draught;
+    const double volume = calc_hydrostatics(HullClusters(ship), X_WB).volume;
+    EXPECT_NEAR(body.hull.displaced_volume(), volume, 0.01 * volume) << draught;
+  }
+}
+
 // Heeled and trimmed, the volume is that of the hydrostatics, which cut the hull exactly.
 TEST(WettedBody, HeeledBargeKeepsItsVolume) {
   const Hull hull = barge();
