@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
