@@ -84,9 +84,9 @@ void add_rows(PartFile file, const ExactStress& exact, double tolerance, double 
 
 }  // namespace
 
-// The estimate is asymptotically exact where the recovered stress is better than the elements': on the
-// bar's regular mesh; on the ring's irregular tetrahedra it stays within the third of the true error that
-// Zienkiewicz and Zhu report for such meshes.
+// The estimate is asymptotically exact where the recovered stress is better than the elements'. Measured: 0.97
+// of the true error on the ring's irregular tetrahedra; 0.84 on the bar with one element across, whose
+// parabola over the width no patch sees, and 0.94 with two.
 VerificationCase error_estimate(const ModelLibrary& library) {
   return {.name = "error-estimate",
           .stage = "structure",
@@ -94,7 +94,7 @@ VerificationCase error_estimate(const ModelLibrary& library) {
           .compute = [bar = find_part(library, "rotating-bar"), ring = find_part(library, "lame")] {
             std::vector<VerificationRow> rows;
             add_rows(bar, rotating_bar, 0.2, 0.002, rows);
-            add_rows(ring, lame_ring, 0.5, 0.01, rows);
+            add_rows(ring, lame_ring, 0.1, 0.005, rows);
             return rows;
           }};
 }
