@@ -206,7 +206,7 @@ class Recovery {
 PartError compare_stresses(const PartModel& model, const Eigen::VectorXd& displacement,
                            const std::function<StressColumns(int)>& better) {
   const auto solids = static_cast<Eigen::Index>(model.mesh.solids.size());
-  PartError error{Eigen::VectorXd::Zero(solids), Eigen::VectorXd::Zero(solids)};
+  PartError error{Eigen::VectorXd::Zero(solids), Eigen::VectorXd::Zero(solids), {}};
   for (int solid = 0; solid < solids; ++solid) {
     const int element = model.mesh.solids[at(solid)];
     const ElementKind& kind = model.mesh.kind(element);
@@ -239,13 +239,15 @@ double PartError::relative(const std::vector<int>& solids) const {
 PartError estimate_part_error(const PartModel& model, const PartStress& stress,
                               const Eigen::VectorXd& displacement) {
   const Recovery recovery(model, stress, displacement);
-  return compare_stresses(model, displacement, [&](int solid) -> StressColumns {
+  PartError error = compare_stresses(model, displacement, [&](int solid) -> StressColumns {
     const ElementKind& kind = model.mesh.kind(model.mesh.solids[at(solid)]);
     StressColumns nodal(6, kind.nodes);
     for (int i = 0; i < kind.nodes; ++i)
       nodal.col(i) = recovery.at_points().col(stress.point_of[at(stress.first_of[at(solid)] + i)]);
     return nodal * kind.values.transpose();
   });
+  error.recovered = recovery.at_points();
+  return error;
 }
 
 PartError true_part_error(const PartModel& model, const Eigen::VectorXd& displacement,

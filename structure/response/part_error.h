@@ -19,6 +19,8 @@ namespace blocklift::structure {
 struct PartError {
   Eigen::VectorXd squared_error;  ///< |e|^2 of each solid, J
   Eigen::VectorXd squared_norm;   ///< int s_h : C^-1 : s_h dV of each solid, J
+  /// The recovered stress at the points of PartStress, Pa; empty for a true error.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> recovered;
   /// |e| over the square root of the sum of both over some solids.
   double relative(const std::vector<int>& solids) const;
 };

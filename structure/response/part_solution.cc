@@ -104,11 +104,11 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
   result.estimated_error = error.relative(solids);
   for (const int solid : solids)
     for (int i = 0; i < model.mesh.kind(model.mesh.solids[at(solid)]).nodes; ++i) {
-      const auto averaged = solution.stress.averaged.col(
-          solution.stress.point_of[at(solution.stress.first_of[at(solid)] + i)]);
-      if (von_mises(averaged) == result.von_mises)
+      const int point = solution.stress.point_of[at(solution.stress.first_of[at(solid)] + i)];
+      if (von_mises(solution.stress.averaged.col(point)) == result.von_mises)
         result.von_mises_error =
-            std::max(result.von_mises_error, von_mises(of_solids[at(solid)].col(i) - averaged));
+            std::max(result.von_mises_error,
+                     von_mises(of_solids[at(solid)].col(i) - error.recovered.col(point)));
     }
   return result;
 }

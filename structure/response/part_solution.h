@@ -31,8 +31,9 @@ struct PartGroupResult {
   double displacement = 0;  ///< m
   /// By superconvergent patch recovery, in the energy norm, as a share of the norm (see PartError).
   double estimated_error = 0;
-  /// Of the largest averaged stress: by how much (as a von Mises stress) the stresses of the solids
-  /// that meet there differ from it, Pa. It falls as the mesh gets finer, unless the stress is singular.
+  /// Of the largest averaged stress: by how much (as a von Mises stress) the stresses of the solids that
+  /// meet there differ from the recovered one, Pa. It falls as the mesh gets finer, unless the stress is
+  /// singular.
   double von_mises_error = 0;
 };
 
