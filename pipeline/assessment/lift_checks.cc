@@ -4,9 +4,11 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "pipeline/assessment/loop_loads.h"
 #include "pipeline/assessment/result_file.h"
 
 namespace blocklift::pipeline {
@@ -129,6 +131,9 @@ std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
   }
   if (lift_case.checks.crane_capacity) add_capacities(lift_case, lift, checks);
   add_slack(lift_case, lift, checks);
+  for (Check& check : check_equalisers(lift, lift_case.checks.smallest_tension)) {
+    checks.push_back(std::move(check));
+  }
   if (lift_case.checks.largest_swing) add_swing(lift, *lift_case.checks.largest_swing, checks);
   return checks;
 }

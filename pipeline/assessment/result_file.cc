@@ -7,6 +7,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "pipeline/assessment/loop_loads.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/version.h"
 
@@ -145,6 +146,7 @@ void write_history(ResultsWriter& file, std::string_view group, const LiftSystem
     file.write(layout::join(group, "supports", history.supports[i].name, "normal_force"),
                span_of(history.supports[i].normal_force), {"N", "upwards on the body"});
   }
+  write_loops(file, group, system, history);
   write_energy(file, group, history.energy);
 }
 

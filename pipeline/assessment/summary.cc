@@ -10,6 +10,7 @@
 
 #include "pipeline/assessment/assumptions.h"
 #include "pipeline/assessment/history_summary.h"
+#include "pipeline/assessment/loop_loads.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/version.h"
 
@@ -354,6 +355,8 @@ Json make_summary(const Assessment& assessment) {
     summary["ropes"] = tables.ropes();
     summary["hoists"] = tables.hoists();
     summary["cranes"] = tables.cranes();
+    if (Json loops = loops_json(*assessment.lift); !loops.empty())
+      summary["loops"] = std::move(loops);
   }
   if (assessment.lift_case.compare)
     summary["comparison"] = comparison_json(assessment, *assessment.lift_case.compare);

@@ -23,6 +23,9 @@
 ///     bodies/<body>/pose           (o) m, 1 [n x 7], X_WB
 ///     bodies/<body>/velocity       (o) rad/s, m/s [n x 6], angular then linear (acceleration alike)
 ///     drives/<drive>/position      (o) m or rad [n]                      force (o) N or N m [n]
+///     loops/<loop>/force           (o) N m, N [n x 6], on its second body at its frame, in W
+///                                      multipliers (o) N or N m [n x its equations]   residual (o) m or rad [n]
+///                                      attribute of the group: kind
 ///     energy/<term>                (o) J [n]; the term `balance` is what the others leave unexplained
 ///   /measured/<rope>               (o) time s [p], tension N [p]: a measured series
 ///   /modes/<i>                     (o) natural modes at rest at one instant, i = 1, 2, ...; m modes
@@ -65,6 +68,10 @@
 ///                      linked_static_N (o), linked_dynamic_N (o)}]; linked: {rope: tension} at that instant
 ///   hoists         (o) like ropes, and crane, capacity_N (o), max_swing_rad (o)
 ///   cranes         (o) like ropes, max_static_load_N and max_dynamic_load_N instead of tensions, capacity_N
+///   loops          (o) [{name, kind, max_static_load_N (_Nm of a gear that turns), time_of_max_static_s,
+///                      max_dynamic_load_N, time_of_max_dynamic_s, dynamic_over_static, max_static_moment_Nm (o),
+///                      max_dynamic_moment_Nm (o), min_static_tension_N (o), min_dynamic_tension_N (o),
+///                      largest_residual}]: what closes the cranes' linkages, and equalisers
 ///   comparison     (o) {source, ropes: [{name, published_static_N, published_dynamic_N,
 ///                      static_difference_percent, dynamic_difference_percent}],
 ///                      series (o): [{name, points, mean_difference_percent, largest_difference_percent,

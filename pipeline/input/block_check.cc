@@ -15,13 +15,6 @@ const char* axis_name(std::size_t axis) {
   return names.at(axis);
 }
 
-template <class T>
-const T* find_by_name(const std::vector<T>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const T& item) { return item.name.value == name; });
-  return found == items.end() ? nullptr : &*found;
-}
-
 /// Complains about a name that is not in the list; passes over one that could not be read.
 template <class T>
 const T* look_up(const Located<std::string>& name, const std::vector<T>& items,

@@ -12,6 +12,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/input/build_parts.h"
+#include "pipeline/input/crane_pose.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -122,8 +123,9 @@ class LiftBuilder {
     if (crane.base) ground = {crane.base->value, body_of_.at(crane.base->value)};
     PartsBuilder& parts =
         crane_parts_.emplace_back(*crane.model, crane.name.value + ".", X_WC, ground);
+    const CranePose& pose = crane_poses_.emplace_back(pose_at_start(crane));
     parts.add_bodies(builder);
-    parts.add_loops(builder);
+    parts.add_loops(builder, &pose.mechanism);
     for (const BodyModel* body : parts.added()) {
       note_body(crane.name.value + "." + body->name.value, parts.body(body->name.value), "crane",
                 body->shapes);
@@ -191,11 +193,20 @@ class LiftBuilder {
     rope.unstretched_length = length;
   }
 
-  /// Coordinates at the start: drives as the case says, load and hook blocks as guessed.
-  void set_start(const dynamics::Mechanism& mechanism) {
-    for (const DrivenJoint& drive : driven_joints_) {
-      q_start_[mechanism.body(drive.body).q_offset + drive.degree_of_freedom] = drive.start;
+  /// Coordinates of a crane's joints: drives as the case says, the others as its loops lead them.
+  void set_crane(const dynamics::Mechanism& mechanism, std::size_t index) {
+    const CranePose& pose = crane_poses_[index];
+    for (const BodyModel* model : crane_parts_[index].added()) {
+      const std::string& name = model->name.value;
+      const dynamics::Body& body = mechanism.body(crane_parts_[index].body(name));
+      const dynamics::Body& alone = pose.mechanism.body(pose.mechanism.body_index(name));
+      q_start_.segment(body.q_offset, body.nq()) = pose.q.segment(alone.q_offset, alone.nq());
     }
+  }
+
+  /// Coordinates at the start: cranes as they are put together; load, vessels and hook blocks as guessed.
+  void set_start(const dynamics::Mechanism& mechanism) {
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) set_crane(mechanism, i);
     set_free_start(mechanism, "load", load_pose());
     for (const VesselInCase& vessel : case_.vessels) {
       set_free_start(mechanism, vessel.name.value, marine_.start(vessel.name.value));
@@ -331,6 +342,7 @@ class LiftBuilder {
   MarineBuilder marine_;
   std::map<std::string, BodyIndex> body_of_;
   std::deque<PartsBuilder> crane_parts_;
+  std::deque<CranePose> crane_poses_;
   std::vector<LiftBody> bodies_;
   std::vector<LiftHoist> hoists_;
   std::vector<LiftRope> ropes_;

@@ -103,12 +103,7 @@ class MechanismAssembler {
       q_.segment<3>(offset) = X_WB.p;
       q_.segment<4>(offset + 3) = dynamics::quaternion_from_rotation(X_WB.R);
     }
-    for (const auto& position : file_.initial.positions) {
-      const JointModel& joint = *file_.find_joint(position.name.value);
-      const dynamics::Body& body = mechanism.body(parts_.carried_by(joint.name.value));
-      q_.segment(body.q_offset, body.nq()) =
-          joint_position(joint.kind, position.value.value).values;
-    }
+    parts_.set_positions(mechanism, file_.initial.positions, q_);
     for (const auto& velocity : file_.initial.velocities) {
       const JointModel& joint = *file_.find_joint(velocity.name.value);
       const dynamics::Body& body = mechanism.body(parts_.carried_by(joint.name.value));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "pipeline/input/joint_values.h"
 
 namespace blocklift::pipeline {
 
@@ -152,8 +153,25 @@ dynamics::LoopDefinition PartsBuilder::definition_of(const LoopModel& loop) cons
   return definition;
 }
 
-void PartsBuilder::add_loops(dynamics::MechanismBuilder& builder) const {
-  for (const LoopModel& loop : parts_.loops) builder.add_loop(definition_of(loop));
+void PartsBuilder::add_loops(dynamics::MechanismBuilder& builder,
+                             const dynamics::Mechanism* known) const {
+  for (std::size_t i = 0; i < parts_.loops.size(); ++i) {
+    dynamics::LoopDefinition definition = definition_of(parts_.loops[i]);
+    if (known) {
+      definition.length = known->loops()[i].length;
+      definition.offset = known->loops()[i].offset;
+    }
+    builder.add_loop(definition);
+  }
+}
+
+void PartsBuilder::set_positions(const dynamics::Mechanism& mechanism, const JointValues& positions,
+                                 dynamics::VectorRef q) const {
+  for (const auto& position : positions) {
+    const JointModel& joint = *parts_.find_joint(position.name.value);
+    const dynamics::Body& body = mechanism.body(carried_by(joint.name.value));
+    q.segment(body.q_offset, body.nq()) = joint_position(joint.kind, position.value.value).values;
+  }
 }
 
 void PartsBuilder::add_springs(const dynamics::Mechanism& mechanism,

@@ -38,10 +38,18 @@ class PartsBuilder {
   /// @param held names of joints of which all velocities count as driven.
   /// @throws dynamics::ModelError if joints form a ring, or a body or joint is impossible.
   void add_bodies(dynamics::MechanismBuilder& builder, const std::vector<std::string>& held = {});
-  /// Adds all loops; the bodies come first. @throws dynamics::ModelError as the builder does.
-  void add_loops(dynamics::MechanismBuilder& builder) const;
+  /// Adds all loops; the bodies come first.
+  /// @param known the parts by themselves, whose loops have the lengths and offsets that the file leaves
+  ///   open; null: they stay open.
+  /// @throws dynamics::ModelError as the builder does.
+  void add_loops(dynamics::MechanismBuilder& builder,
+                 const dynamics::Mechanism* known = nullptr) const;
   /// Adds all springs. @throws dynamics::ModelError as the elements do.
   void add_springs(const dynamics::Mechanism& mechanism, dynamics::ForceElements& elements) const;
+
+  /// Puts positions that the file gives to joints into q (nq of the mechanism).
+  void set_positions(const dynamics::Mechanism& mechanism, const JointValues& positions,
+                     dynamics::VectorRef q) const;
 
   /// Adds the wind areas of all bodies.
   void add_wind_areas(const std::shared_ptr<const dynamics::WindField>& wind,

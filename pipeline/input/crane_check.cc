@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "pipeline/input/build_parts.h"
+#include "pipeline/input/crane_pose.h"
 #include "pipeline/input/mechanism_parts_check.h"
 
 namespace blocklift::pipeline {
@@ -33,16 +33,15 @@ void check_hoists(const CraneModel& crane, Reading& reading) {
 void check_crane(const CraneModel& crane, Reading& reading, const Mark& mark) {
   check_parts(crane, reading);
   check_hoists(crane, reading);
+  check_joint_positions(crane, crane.pose, "the pose", reading);
   if (reading.diagnostics().has_errors()) return;
   try {
-    dynamics::MechanismBuilder builder;
-    PartsBuilder parts(crane, "", dynamics::Pose::identity());
-    parts.add_bodies(builder);
-    parts.add_loops(builder);
-    dynamics::ForceElements elements;
-    parts.add_springs(builder.build(), elements);
+    put_together(crane);
   } catch (const dynamics::ModelError& error) {
     reading.error(mark, error.what());
+  } catch (const dynamics::SimulationError& error) {
+    reading.error(crane.loops.front().name.mark, error.what(),
+                  {"the key \"pose\" says where joints stand when the crane is put together"});
   }
 }
 

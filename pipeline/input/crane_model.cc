@@ -91,6 +91,10 @@ Format<CraneModel> crane_model_format() {
                 "between points or at joints")
       .optional("drives", &CraneModel::drives, named_tables(drive_table(true).format()),
                 "of joints; a joint without a drive moves freely")
+      .optional("pose", &CraneModel::pose, joint_values_format(joint_positions),
+                "where joints stand when the crane is put together, by name (zero where left out): "
+                "loops close nearest to this pose, lengths that they leave open are taken from it, "
+                "and drives go from it to where a case starts them")
       .optional("hoists", &CraneModel::hoists, named_tables(hoist_format()),
                 "winches with tackle and hook block")
       .optional("capacity", &CraneModel::capacity, quantity(Dimension::load, Range::positive()),

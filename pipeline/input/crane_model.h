@@ -37,6 +37,7 @@ struct CraneModel : MechanismParts {
   std::string kind;
   std::string title;
   ParameterValues parameters;
+  JointValues pose;  ///< where joints stand when the crane is put together; zero if left out
   std::vector<HoistModel> hoists;
   std::optional<double> capacity;  ///< of the whole crane, N
   Mark place;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
@@ -70,6 +71,14 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 /// @param candidates names that exist; long lists are cut.
 std::string names_hint(std::string_view introduction, const std::vector<std::string>& candidates,
                        std::string_view wrong_name);
+
+/// The thing of that name; null if there is none.
+template <class T>
+const T* find_by_name(const std::vector<T>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const T& item) { return item.name.value == name; });
+  return found == items.end() ? nullptr : &*found;
+}
 
 /// Names of things that have a located one, for hints.
 template <class T>

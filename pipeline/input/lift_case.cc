@@ -1,6 +1,5 @@
 #include "pipeline/input/lift_case.h"
 
-#include <algorithm>
 #include <system_error>
 
 #include "pipeline/formats/series_file.h"
@@ -12,13 +11,6 @@ namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class T>
-const T* find_by_name(const std::vector<T>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const T& item) { return item.name.value == name; });
-  return found == items.end() ? nullptr : &*found;
-}
 
 /// The case file of a path: itself, or `case.yaml` in the folder that it is. Empty and a complaint
 /// if the folder has none.
@@ -147,6 +139,9 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   if (document->root.IsMap()) {
     resolve_rope_points(lift_case, diagnostics);
     check_lift_case(lift_case, diagnostics);
+  }
+  if (diagnostics.error_count() == errors_before && !lift_case.load_table) {
+    check_loops_at_start(lift_case, diagnostics);
   }
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   return lift_case;

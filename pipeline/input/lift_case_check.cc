@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/errors.h"
+#include "pipeline/input/crane_pose.h"
 #include "pipeline/input/operation_schedule.h"
 
 namespace blocklift::pipeline {
@@ -411,19 +413,24 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   for (const CraneInCase& crane : lift_case.cranes) {
     if (!crane.model || lift_case.load_table) continue;
     check_start(crane, diagnostics);
-    if (crane.model->loops.empty()) continue;
-    diagnostics.error(
-        crane.model_name.mark,
-        fmt::format("crane {} has loops, and the equilibrium that a lift starts from cannot "
-                    "be found with loops",
-                    crane.name.value),
-        {"model the crane as a tree: joints, springs, ropes"});
   }
   check_ropes(lift_case, diagnostics);
   check_afloat(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_duration(lift_case, schedule_operation(lift_case, diagnostics), diagnostics);
+}
+
+void check_loops_at_start(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (crane.model->loops.empty()) continue;
+    try {
+      pose_at_start(crane);
+    } catch (const dynamics::SimulationError& error) {
+      const Mark mark = crane.start.empty() ? crane.name.mark : crane.start.front().name.mark;
+      diagnostics.error(mark, error.what());
+    }
+  }
 }
 
 }  // namespace blocklift::pipeline

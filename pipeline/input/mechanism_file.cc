@@ -18,13 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class T>
-const T* find_by_name(const std::vector<T>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const T& item) { return item.name.value == name; });
-  return found == items.end() ? nullptr : &*found;
-}
-
 /// Puts what comes from a robot description before the file's own parts; complains about names that
 /// both have.
 template <class T>

@@ -37,9 +37,6 @@ struct ForceModel {
   std::optional<Located<LoadOverTime>> moment_table;
 };
 
-/// Positions or velocities of joints: the values that the file gives to each.
-using JointValues = std::vector<Named<Located<std::vector<Quantity>>>>;
-
 enum class Assembly { nearest, as_given };
 
 /// Where the motion begins.

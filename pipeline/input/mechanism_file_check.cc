@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/input/joint_values.h"
 #include "pipeline/input/mechanism_file.h"
 #include "pipeline/input/mechanism_parts_check.h"
 #include "pipeline/input/operation_schedule.h"
@@ -260,21 +259,8 @@ class MechanismCheck {
   }
 
   void check_initial() {
-    const auto check = [&](const JointValues& values, const char* what, auto&& convert) {
-      for (const auto& value : values) {
-        const JointModel* joint = file_.find_joint(value.name.value);
-        if (!joint) {
-          find(file_.joints, value.name, "the initial state", "joint");
-          continue;
-        }
-        const JointVector vector = convert(joint->kind, value.value.value);
-        if (vector.complaint.empty()) continue;
-        reading_.error(value.value.mark, fmt::format("the {} of joint {} {}", what,
-                                                     joint->name.value, vector.complaint));
-      }
-    };
-    check(file_.initial.positions, "position", joint_position);
-    check(file_.initial.velocities, "velocity", joint_velocity);
+    check_joint_positions(file_, file_.initial.positions, "the initial state", reading_);
+    check_joint_velocities(file_, file_.initial.velocities, "the initial state", reading_);
     for (const Located<std::string>& held : file_.initial.held) {
       find(file_.joints, held, "the initial state", "joint");
     }
@@ -282,11 +268,6 @@ class MechanismCheck {
       reading_.error(file_.initial.velocities.front().name.mark,
                      "a simulation that starts from equilibrium begins at rest, without initial "
                      "velocities");
-    }
-    if (file_.simulate.start == Start::equilibrium && !file_.loops.empty()) {
-      reading_.error(file_.loops.front().name.mark,
-                     "the equilibrium of a mechanism with loops cannot be found",
-                     {"start as_given, with dampers, and let the motion die away"});
     }
   }
 

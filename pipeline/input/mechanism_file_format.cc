@@ -5,16 +5,6 @@
 namespace blocklift::pipeline {
 namespace {
 
-const std::vector<Dimension> positions = {Dimension::length, Dimension::angle, Dimension::ratio};
-
-/// One value, or a list of them.
-template <class T>
-Format<std::vector<T>> one_or_several(Format<T> element) {
-  const auto one =
-      converted<T, std::vector<T>>(element, [](T value) { return std::vector<T>{value}; });
-  return by_shape<std::vector<T>>(one, list_of(element, 1), std::nullopt);
-}
-
 /// One number for a joint, three for a body.
 Format<Components> components(Dimension dimension) {
   const auto element = quantity(dimension);
@@ -105,18 +95,15 @@ Format<DriveModel> drive_format() {
 }
 
 Format<InitialState> initial_format() {
-  const std::vector<Dimension> rates = {Dimension::speed, Dimension::angular_speed};
   Table<InitialState> table("initial state", "Where the motion begins.");
   table
       .optional(
-          "positions", &InitialState::positions,
-          names_to(located(one_or_several(quantity_of(positions)))),
+          "positions", &InitialState::positions, joint_values_format(joint_positions),
           "of joints, by name, one value for each degree of freedom (a spherical joint: roll, "
           "pitch, yaw or a quaternion w, x, y, z; a free one: a position, then the same); zero "
           "where left out")
       .optional(
-          "velocities", &InitialState::velocities,
-          names_to(located(one_or_several(quantity_of(rates)))),
+          "velocities", &InitialState::velocities, joint_values_format(speeds),
           "of joints, by name (a spherical joint: angular speeds about the body's axes; a free "
           "one: speeds and angular speeds along them); zero where left out")
       .by_default(

@@ -109,18 +109,24 @@ bool check_point(const MechanismParts& parts, const PointModel& point, const std
   return false;
 }
 
+const JointModel* look_up_joint(const MechanismParts& parts, const Located<std::string>& name,
+                                const std::string& user, Reading& reading) {
+  const JointModel* joint = parts.find_joint(name.value);
+  if (!joint && !name.value.empty()) {
+    reading.error(name.mark,
+                  fmt::format("{} names joint \"{}\", which the {} does not have", user, name.value,
+                              reading.owner()),
+                  {names_hint("its joints are", names_of(parts.joints), name.value)});
+  }
+  return joint;
+}
+
 std::optional<bool> check_freedom(const MechanismParts& parts, const JointAxis& freedom,
                                   const std::string& user, Reading& reading) {
   const std::string& name = freedom.joint.value;
   if (name.empty()) return std::nullopt;
-  const JointModel* joint = parts.find_joint(name);
-  if (!joint) {
-    reading.error(freedom.joint.mark,
-                  fmt::format("{} names joint \"{}\", which the {} does not have", user, name,
-                              reading.owner()),
-                  {names_hint("its joints are", names_of(parts.joints), name)});
-    return std::nullopt;
-  }
+  const JointModel* joint = look_up_joint(parts, freedom.joint, user, reading);
+  if (!joint) return std::nullopt;
   const std::vector<bool> turns = joint_turns(joint->kind);
   const int degree = freedom.degree_of_freedom.value;
   if (!dynamics::velocities_are_rates(joint->kind)) {

@@ -1,7 +1,5 @@
 #include "pipeline/input/mechanism_parts.h"
 
-#include <algorithm>
-
 #include "pipeline/input/mechanism_parts_check.h"
 
 namespace blocklift::pipeline {
@@ -11,6 +9,8 @@ const std::vector<Dimension> speeds = {Dimension::speed, Dimension::angular_spee
 const std::vector<Dimension> accelerations = {Dimension::acceleration,
                                               Dimension::angular_acceleration};
 const std::vector<Dimension> jerks = {Dimension::jerk, Dimension::angular_jerk};
+const std::vector<Dimension> joint_positions = {Dimension::length, Dimension::angle,
+                                                Dimension::ratio};
 
 namespace {
 
@@ -38,13 +38,6 @@ Format<InertiaModel> inertia_format() {
       .by_default("xz", &InertiaModel::xz, entry, "0 t m^2", "entry off the diagonal")
       .by_default("yz", &InertiaModel::yz, entry, "0 t m^2", "entry off the diagonal");
   return table.format();
-}
-
-template <class T>
-const T* find_by_name(const std::vector<T>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const T& item) { return item.name.value == name; });
-  return found == items.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -149,6 +142,13 @@ Format<JointModel> joint_format() {
                 "viscous, one value for each degree of freedom")
       .rule(check_joint);
   return table.format();
+}
+
+Format<JointValues> joint_values_format(const std::vector<Dimension>& dimensions) {
+  const auto value = quantity_of(dimensions);
+  const auto one = converted<Quantity, std::vector<Quantity>>(
+      value, [](Quantity alone) { return std::vector<Quantity>{alone}; });
+  return names_to(located(by_shape<std::vector<Quantity>>(one, list_of(value, 1), std::nullopt)));
 }
 
 Table<DriveModel> drive_table(bool limits_required) {

@@ -137,6 +137,9 @@ struct SpringModel {
   std::optional<Located<Quantity>> free_coordinate;  ///< m or rad
 };
 
+/// Positions or velocities of joints: the values that the file gives to each.
+using JointValues = std::vector<Named<Located<std::vector<Quantity>>>>;
+
 /// Bodies joined to a mechanism, with what acts between them. SI units.
 struct MechanismParts {
   std::vector<BodyModel> bodies;
@@ -159,11 +162,15 @@ Format<LoopModel> loop_format();
 Format<SpringModel> spring_format();
 /// `{body: boom, position: [1 m, 0 m, 0 m]}`
 Format<PointModel> point_format();
+/// Values of joints by name, each one quantity or several, of any of these dimensions.
+Format<JointValues> joint_values_format(const std::vector<Dimension>& dimensions);
 /// Area on which the wind acts; shared with blocks.
 Format<WindAreaModel> wind_area_format();
 
 /// Quantities that a drive's coordinate and its derivatives may be.
 extern const std::vector<Dimension> travels, speeds, accelerations, jerks;
+/// Quantities that a joint's positions may be: travels, and the plain numbers of a quaternion.
+extern const std::vector<Dimension> joint_positions;
 
 /// The keys of a drive that are the same in cranes and in mechanism files.
 /// @param limits_required in cranes; elsewhere a drive may follow a table instead.

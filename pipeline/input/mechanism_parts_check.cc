@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "pipeline/input/joint_values.h"
+
 namespace blocklift::pipeline {
 
 bool is_angular(Dimension dimension) {
@@ -149,6 +151,20 @@ void check_no_ring(const MechanismParts& parts, Reading& reading) {
   }
 }
 
+void check_joint_values(const MechanismParts& parts, const JointValues& values,
+                        const std::string& user, const char* what,
+                        JointVector (*convert)(dynamics::JointKind, const std::vector<Quantity>&),
+                        Reading& reading) {
+  for (const auto& value : values) {
+    const JointModel* joint = look_up_joint(parts, value.name, user, reading);
+    if (!joint) continue;
+    const JointVector vector = convert(joint->kind, value.value.value);
+    if (vector.complaint.empty()) continue;
+    reading.error(value.value.mark,
+                  fmt::format("the {} of joint {} {}", what, joint->name.value, vector.complaint));
+  }
+}
+
 }  // namespace
 
 void check_body(const BodyModel& body, Reading& reading, const Mark& mark) {
@@ -203,6 +219,16 @@ void check_joint(const JointModel& joint, Reading& reading, const Mark& mark) {
         fmt::format("damping {} of {} is {}, but the joint {} there", i + 1, reading.owner(),
                     text_of(found.dimension).noun, turns[i] ? "turns" : "slides"));
   }
+}
+
+void check_joint_positions(const MechanismParts& parts, const JointValues& values,
+                           const std::string& user, Reading& reading) {
+  check_joint_values(parts, values, user, "position", joint_position, reading);
+}
+
+void check_joint_velocities(const MechanismParts& parts, const JointValues& values,
+                            const std::string& user, Reading& reading) {
+  check_joint_values(parts, values, user, "velocity", joint_velocity, reading);
 }
 
 void check_parts(const MechanismParts& parts, Reading& reading) {

@@ -17,6 +17,14 @@ void check_parts(const MechanismParts& parts, Reading& reading);
 /// The part of check_parts that concerns loops and springs.
 void check_loops_and_springs(const MechanismParts& parts, Reading& reading);
 
+/// Complains about positions for joints that do not exist or that do not fit their joint.
+/// @param user what they belong to, for messages: "the initial state".
+void check_joint_positions(const MechanismParts& parts, const JointValues& values,
+                           const std::string& user, Reading& reading);
+/// The same of velocities.
+void check_joint_velocities(const MechanismParts& parts, const JointValues& values,
+                            const std::string& user, Reading& reading);
+
 /// Complains if the lowest coordinate is not below the highest.
 void check_range_ascends(const DriveLimits& limits, const std::string& owner, const Mark& mark,
                          Reading& reading);
@@ -27,6 +35,10 @@ bool is_angular(Dimension dimension);
 /// Looks up the body of a point; "world" exists always. @returns false after a complaint.
 bool check_point(const MechanismParts& parts, const PointModel& point, const std::string& user,
                  Reading& reading);
+
+/// Looks up a joint for `user` ("force motor"). @returns null, after a complaint unless the name is empty.
+const JointModel* look_up_joint(const MechanismParts& parts, const Located<std::string>& name,
+                                const std::string& user, Reading& reading);
 
 /// Looks up a joint and its degree of freedom for `user` ("force motor").
 /// @returns whether it turns; nothing after a complaint.

@@ -4,6 +4,7 @@
 
 #include "pipeline/assessment/block_preparation.h"
 #include "pipeline/assessment/lift_scene.h"
+#include "pipeline/assessment/loop_loads.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/simulation/mechanism_run.h"
@@ -17,7 +18,7 @@ OutputSeries series_of(const std::string& name, const std::string& unit,
   return {name, "", {{"", unit}}, values};
 }
 
-/// Tensions and drive positions of the time integration.
+/// Tensions, drive positions and loads of loops of the time integration.
 std::vector<OutputSeries> table_of(const LiftSimulation& simulation) {
   const dynamics::History& history = simulation.run.dynamic_history();
   std::vector<OutputSeries> series;
@@ -30,6 +31,11 @@ std::vector<OutputSeries> table_of(const LiftSimulation& simulation) {
     const bool turns = mechanism.angular()[static_cast<std::size_t>(driven[i])] != 0;
     series.push_back(series_of(history.drives[i].name + ".position", turns ? "rad" : "m",
                                history.drives[i].position));
+  }
+  for (std::size_t i = 0; i < history.loops.size(); ++i) {
+    const dynamics::Loop& loop = mechanism.loops()[i];
+    series.push_back(
+        series_of(loop.name + ".load", loop_load_unit(loop), loop_load(loop, history.loops[i])));
   }
   return series;
 }

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/input/build_lift.h"
 #include "pipeline/input/build_mechanism.h"
@@ -120,6 +121,35 @@ TEST(MechanismFile, LoopsThatCannotCloseAreAnError) {
   EXPECT_THAT(complaints_about("second: {body: slider}",
                                "second: {body: slider, position: [0 m, 9 m, 0 m]}"),
               HasSubstr("mechanism.yaml:1:1: error: "));
+}
+
+/// Potential energy of the sample at a crank angle a, by hand: x = cos a + sqrt(9 - sin^2 a), the rod
+/// turned by b = -asin(sin(a) / 3). The tie hangs slack; wind (1.25 / 2 kg/m^3, 4 m/s, 2 m^2, 1.2) and
+/// motor (4 N m) are constant.
+double potential_by_hand(double a) {
+  const double b = -std::asin(std::sin(a) / 3);
+  const double x = std::cos(a) + std::sqrt(9 - std::pow(std::sin(a), 2));
+  const double weight = 3 * 9.81 * 0.5 * std::sin(a);
+  const double buffer = 0.5 * 10 * std::pow(6 - x - 2, 2);
+  const double twist = 0.5 * 2 * std::pow(b - a - std::acos(-1.0) / 18, 2);
+  return weight + buffer + twist - 4 * a - 0.5 * 1.25 * 16 * 2 * 1.2 * x;
+}
+
+TEST(MechanismFile, StartsFromTheEquilibriumOfAMechanismWithLoops) {
+  std::string complaints;
+  std::string text = with(sample, "  velocities: {shaft: 1 rad/s}\n", "");
+  text = with(text, "duration: 1 s", "duration: 1 s, start: equilibrium");
+  const auto file = read(text, complaints);
+  ASSERT_TRUE(file) << complaints;
+  const dynamics::LiftSystem system = build_mechanism(*file).system;
+  Eigen::VectorXd q = system.q_start();
+  dynamics::EquilibriumSolver(system).solve(0, q);
+  const double a = q[0];
+  const double slope = (potential_by_hand(a + 1e-5) - potential_by_hand(a - 1e-5)) / 2e-5;
+  EXPECT_NEAR(slope, 0, 1e-6) << "at " << a;
+  EXPECT_GT(potential_by_hand(a + 0.1), potential_by_hand(a));
+  EXPECT_GT(potential_by_hand(a - 0.1), potential_by_hand(a));
+  EXPECT_NEAR(q[2], std::cos(a) + std::sqrt(9 - std::pow(std::sin(a), 2)), 1e-10);
 }
 
 TEST(MechanismFile, SaysWhatDoesNotExist) {
@@ -387,24 +417,42 @@ TEST(CraneParts, MayHaveSpringsWhoseWorldIsTheCranesBase) {
   EXPECT_EQ(built.system.mechanism().body(springs[0].definition().from.body).name, "C1.trolley");
 }
 
-TEST(CraneParts, LoopsAreReadAndRefusedInALift) {
+/// The complaints about a lift whose crane has these parts more.
+std::string complaints_about_crane(const std::string& parts) {
   test::SampleLift lift;
-  lift.crane = with(
-      lift.crane, "drives:\n",
-      "loops:\n  rod: {kind: distance, first: {body: trolley}, second: {body: wrld}}\ndrives:\n");
-  const auto complaints = [&] {
-    const TemporaryFolder folder;
-    lift.write(folder);
-    Diagnostics diagnostics;
-    ModelLibrary library({});
-    EXPECT_FALSE(read_lift_case("case.yaml", library, diagnostics));
-    return diagnostics.to_text();
-  };
-  EXPECT_THAT(complaints(),
+  lift.crane = with(lift.crane, "drives:\n", parts + "drives:\n");
+  const TemporaryFolder folder;
+  lift.write(folder);
+  Diagnostics diagnostics;
+  ModelLibrary library({});
+  read_lift_case("case.yaml", library, diagnostics);
+  return diagnostics.to_text();
+}
+
+TEST(CraneParts, LoopsAreChecked) {
+  EXPECT_THAT(complaints_about_crane("loops:\n  rod: {kind: distance, first: {body: trolley}, "
+                                     "second: {body: wrld}}\n"),
               HasSubstr("loop rod names body \"wrld\", which the crane does not have\n"
                         "    its bodies are gantry, trolley, world; did you mean \"world\"?"));
-  lift.crane = with(lift.crane, "wrld", "world");
-  EXPECT_THAT(complaints(), HasSubstr("crane C1 has loops, and the equilibrium"));
+  EXPECT_THAT(complaints_about_crane("pose: {travers: 1 m}\n"),
+              HasSubstr("the pose names joint \"travers\", which the crane does not have\n"
+                        "    its joints are travel, traverse; did you mean \"traverse\"?"));
+  EXPECT_THAT(complaints_about_crane("pose: {traverse: 10 deg}\n"),
+              HasSubstr("the position of joint traverse takes a length (it is prismatic)"));
+}
+
+// The rod is as long as in the pose, where the trolley stands at 3 m; the drives cannot leave it.
+TEST(CraneParts, DrivesThatOpenALoopAreAnError) {
+  EXPECT_THAT(
+      complaints_about_crane("loops:\n  rod: {kind: distance, first: {body: trolley}, "
+                             "second: {body: gantry}}\npose: {traverse: 3 m}\n"),
+      HasSubstr("the loops of crane C1 cannot follow its drives from the pose in which it is put "
+                "together to this start; they open with drive travel at 0 m, drive traverse at "
+                "3.02 m, where they miss: loop \"rod\" by"));
+  EXPECT_THAT(complaints_about_crane(
+                  "loops:\n  rod: {kind: distance, first: {body: trolley}, second: {body: gantry}, "
+                  "length: 1 m}\npose: {traverse: 3 m}\n"),
+              HasSubstr("the key \"pose\" says where joints stand when the crane is put together"));
 }
 
 }  // namespace

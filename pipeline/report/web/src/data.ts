@@ -101,7 +101,7 @@ export interface NaturalMode {
 export interface ModeShapes { time: number; bodies: Record<string, Packed> }
 export interface Summary {
   verdict?: string; verdict_reasons?: string[]; checks?: Check[];
-  ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[];
+  ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[]; loops?: LoadMaxima[];
   comparison?: Maybe<Comparison>; structure?: Maybe<Structure>;
   natural_periods?: { instant: string; time_s: number; modes: NaturalMode[] }[];
   energy?: Maybe<{ largest_energy_J?: number; largest_imbalance_J?: number; relative_imbalance?: number }>;

@@ -110,6 +110,7 @@ export function loadsSection(data: PageData, clock: Clock): Section | null {
       ropeTable(data, clock), comparisonTable(data),
       linkedTable(data, clock, "static"), linkedTable(data, clock, "dynamic"),
       capacityTable("Hoists", "Hoist", data.summary.hoists, data, clock),
-      capacityTable("Cranes", "Crane", data.summary.cranes, data, clock)],
+      capacityTable("Cranes", "Crane", data.summary.cranes, data, clock),
+      capacityTable("Links and equalisers of the cranes", "Link", data.summary.loops, data, clock)],
   };
 }
