@@ -236,7 +236,7 @@ TEST_F(MeshFiles, CalculixInputIsReadBack) {
             std::string("Point(1)={0,0,0};Point(2)={2,0,0};Point(3)={2,1,0};Point(4)={0,1,0};") +
             "Line(1)={1,2};Line(2)={2,3};Line(3)={3,4};Line(4)={4,1};Curve Loop(1)={1,2,3,4};"
             "Plane Surface(1)={1};Transfinite Surface{1};Mesh.MeshSizeMax=1;" +
-            kind + "Extrude{0,0,1}{Surface{1};Layers{1};" + layer + "};\n";
+            kind + "Extrude{0,0,1}{Surface{1};Layers{1};" + layer + "}\n";
         PartReading reading;
         reading.element_order = order;
         const PartModel model = model_of(read_part_mesh(write("box.geo", geometry), reading));

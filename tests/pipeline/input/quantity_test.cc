@@ -94,10 +94,9 @@ TEST(QuantityTest, SaysWhatIsWrong) {
 // UDUNITS itself would take a frequency for a time and a number for an angle.
 TEST(QuantityTest, KeepsReciprocalsAndAnglesApart) {
   EXPECT_EQ(message_of("5 Hz", {Dimension::time}),
-            "\"5 Hz\" has a unit of another kind; a time is due, for example \"10 s\"");
+            "\"5 Hz\" is a frequency; a time is due, for example \"10 s\"");
   EXPECT_EQ(message_of("5 1/s", {Dimension::angular_speed}),
-            "\"5 1/s\" has a unit of another kind; an angular speed is due, for example \"0.5 "
-            "deg/s\"");
+            "\"5 1/s\" is a frequency; an angular speed is due, for example \"0.5 deg/s\"");
   EXPECT_EQ(message_of("10 %", {Dimension::angle}),
             "\"10 %\" is a plain number; an angle is due, for example \"45 deg\"");
 }
