@@ -226,7 +226,8 @@ TEST_F(MeshFiles, NastranIsRead) {
   pull(std::move(mesh));
 }
 
-// Every kind comes back from our own file for CalculiX node by node.
+// Every kind comes back from our own file for CalculiX node by node; the file holds 12 digits, so that a
+// coordinate of 1 to 2 m is off by 5e-12 m at most and the 60 of an element by 4e-11 m.
 TEST_F(MeshFiles, CalculixInputIsReadBack) {
   for (const char* kind : {"", "Recombine Surface{1};"})
     for (const char* layer : {"", "Recombine;"})
@@ -246,7 +247,7 @@ TEST_F(MeshFiles, CalculixInputIsReadBack) {
         for (std::size_t s = 0; s < again.solids.size(); ++s)
           EXPECT_LT(
               (again.places(again.solids[s]) - model.mesh.places(model.mesh.solids[s])).norm(),
-              1e-12)
+              4e-11)
               << again.describe(again.solids[s]);
       }
 }
