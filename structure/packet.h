@@ -53,7 +53,8 @@ class Packet {
     Eigen::Index height = 0;
     take(height);
     const auto size = static_cast<Eigen::Index>(take_count());
-    matrix.resize(height, height > 0 ? size / height : 0);
+    // Without rows: a vector keeps its one column.
+    matrix.resize(height, height > 0 ? size / height : matrix.cols());
     extract(matrix.data(), static_cast<std::size_t>(size) * sizeof(Number));
   }
 
