@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
 #include <thread>
@@ -105,7 +106,7 @@ struct Search {
   Search& operator=(const Search&) = delete;
 };
 
-void set_up(Search& search, Pencil& pencil, double shift, int sought) {
+void set_up(Search& search, Pencil& pencil, double shift) {
   const auto size = static_cast<PetscInt>(pencil.stiffness.rows());
   const auto shell = [&](Mat& matrix, PetscErrorCode (*product)(Mat, Vec, Vec)) {
     check(MatCreateShell(PETSC_COMM_SELF, size, size, size, size, &pencil, &matrix));
@@ -120,8 +121,6 @@ void set_up(Search& search, Pencil& pencil, double shift, int sought) {
   check(EPSSetType(search.solver, EPSKRYLOVSCHUR));
   check(EPSSetTarget(search.solver, -shift));
   check(EPSSetWhichEigenpairs(search.solver, EPS_TARGET_MAGNITUDE));
-  check(EPSSetDimensions(search.solver, sought, std::min<PetscInt>(size, 2 * sought + 10),
-                         PETSC_DEFAULT));
   check(EPSSetTolerances(search.solver, 1e-11, 500));
   ST transform = nullptr;
   KSP equations = nullptr;
@@ -135,21 +134,35 @@ void set_up(Search& search, Pencil& pencil, double shift, int sought) {
   check(PCSetType(inverse, PCSHELL));
   check(PCShellSetContext(inverse, &pencil));
   check(PCShellSetApply(inverse, apply_inverse));
+  check(MatCreateVecs(search.stiffness, &search.start, nullptr));
+}
+
+void copy(const Eigen::VectorXd& from, Vec to) {
+  PetscScalar* values = nullptr;
+  check(VecGetArray(to, &values));
+  Eigen::Map<Eigen::VectorXd>(values, from.size()) = from;
+  check(VecRestoreArray(to, &values));
 }
 
 // Noise after one application of the operator, so that held unknowns are at rest.
-void set_start(Search& search, const Pencil& pencil) {
-  std::mt19937 random(1);
+void set_start(Search& search, const Pencil& pencil, unsigned seed) {
+  std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   Eigen::VectorXd noise(pencil.stiffness.rows());
   for (double& value : noise) value = normal(random);
-  const Eigen::VectorXd smooth = pencil.shifted.solve(mass_times(pencil.mass, noise));
-  check(MatCreateVecs(search.stiffness, &search.start, nullptr));
-  PetscScalar* values = nullptr;
-  check(VecGetArray(search.start, &values));
-  Eigen::Map<Eigen::VectorXd>(values, smooth.size()) = smooth;
-  check(VecRestoreArray(search.start, &values));
+  copy(pencil.shifted.solve(mass_times(pencil.mass, noise)), search.start);
   check(EPSSetInitialSpace(search.solver, 1, &search.start));
+}
+
+// Keeps the next search to what is orthogonal to these shapes.
+void leave_out(Search& search, const Eigen::MatrixXd& shapes) {
+  const auto count = static_cast<PetscInt>(shapes.cols());
+  Vec* vectors = nullptr;
+  check(VecDuplicateVecs(search.start, count, &vectors));
+  for (PetscInt i = 0; i < count; ++i) copy(shapes.col(i), vectors[i]);
+  const PetscErrorCode code = EPSSetDeflationSpace(search.solver, count, vectors);
+  check(VecDestroyVecs(count, &vectors));
+  check(code);
 }
 
 NaturalModes collect(const Search& search, int found) {
@@ -175,6 +188,43 @@ NaturalModes collect(const Search& search, int found) {
     check(VecRestoreArrayRead(search.start, &values));
   }
   return modes;
+}
+
+// The lowest modes, `sought` of them or fewer, besides those that are known.
+NaturalModes search_modes(Search& search, const Pencil& pencil, const NaturalModes& known,
+                          int sought, unsigned seed) {
+  const Eigen::Index room = pencil.stiffness.rows() - known.shapes.cols();
+  check(EPSSetDimensions(search.solver, sought,
+                         static_cast<PetscInt>(std::min<Eigen::Index>(room, 2L * sought + 10)),
+                         PETSC_DEFAULT));
+  set_start(search, pencil, seed);
+  if (known.shapes.cols() > 0) leave_out(search, known.shapes);
+  check(EPSSolve(search.solver));
+  PetscInt found = 0;
+  check(EPSGetConverged(search.solver, &found));
+  if (found < 1)
+    throw ModelError(fmt::format("only {} natural modes were found; ask for no more",
+                                 known.squared_frequencies.size()));
+  return collect(search, found);
+}
+
+// Both sets, in order.
+NaturalModes merge(const NaturalModes& a, const NaturalModes& b) {
+  Eigen::VectorXd values(a.squared_frequencies.size() + b.squared_frequencies.size());
+  values << a.squared_frequencies, b.squared_frequencies;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return values[i] < values[j]; });
+  NaturalModes all;
+  all.squared_frequencies = values(order);
+  all.shapes.resize(a.shapes.rows(), values.size());
+  for (Eigen::Index m = 0; m < values.size(); ++m) {
+    const Eigen::Index from = order[static_cast<std::size_t>(m)];
+    all.shapes.col(m) =
+        from < a.shapes.cols() ? a.shapes.col(from) : b.shapes.col(from - a.shapes.cols());
+  }
+  return all;
 }
 
 using Shapes = Eigen::MatrixXd;
@@ -234,6 +284,52 @@ double estimate_first_elastic(const SparseLower& stiffness, const NodalMass& mas
   return ritz.eigenvalues()[std::min<Eigen::Index>(6, independent - 1)];
 }
 
+// Rigid motions of the whole body that nothing holds: those of its six along which no stiffness acts.
+NaturalModes find_rigid_motions(const SparseLower& stiffness, const NodalMass& mass,
+                                const Eigen::Matrix3Xd& nodes,
+                                const std::vector<FixedUnknown>& fixed, double first_elastic) {
+  Shapes motions = trial_shapes(nodes, mass).leftCols<6>();
+  for (const FixedUnknown& unknown : fixed) motions.row(unknown.unknown).setZero();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motions.transpose() *
+                                                            mass_times(mass, motions));
+  const Eigen::Index independent =
+      (gram.eigenvalues().array() > 1e-10 * gram.eigenvalues()[5]).count();
+  motions = (motions * gram.eigenvectors().rightCols(independent) *
+             gram.eigenvalues().tail(independent).cwiseSqrt().cwiseInverse().asDiagonal())
+                .eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
+      motions.transpose() * (stiffness.selfadjointView<Eigen::Lower>() * motions));
+  const Eigen::Index loose = (ritz.eigenvalues().array() < 1e-6 * first_elastic).count();
+  NaturalModes rigid;
+  rigid.squared_frequencies = ritz.eigenvalues().head(loose);
+  rigid.shapes = motions * ritz.eigenvectors().leftCols(loose);
+  return rigid;
+}
+
+// A search begins with one vector, which holds one mode of a repeated frequency, as the parts of a body
+// that hang together loosely have it; others come by rounding, or not. So it is repeated beside what is
+// known until nothing lower comes.
+NaturalModes search_all(Search& search, const Pencil& pencil, NaturalModes modes, int count,
+                        long free, double shift) {
+  constexpr int beside = 3;
+  const int with_margin = count + std::max(4, count / 4);
+  if (with_margin >= free)  // all that there are
+    return search_modes(search, pencil, {}, static_cast<int>(free), 1);
+  int sought = with_margin - static_cast<int>(modes.shapes.cols());
+  for (unsigned seed = 1; modes.squared_frequencies.size() < free; ++seed) {
+    const auto left = static_cast<long>(free - modes.squared_frequencies.size());
+    const NaturalModes more = search_modes(
+        search, pencil, modes, static_cast<int>(std::clamp<long>(sought, 1, left)), seed);
+    sought = beside;
+    if (modes.squared_frequencies.size() >= count) {
+      const double last = modes.squared_frequencies[count - 1];
+      if (more.squared_frequencies[0] > last - 1e-8 * (std::abs(last) + shift)) break;
+    }
+    modes = merge(modes, more);
+  }
+  return modes;
+}
+
 void add_mass(const NodalMass& mass, double factor, SparseLower& stiffness) {
   for (long column = 0; column < mass.cols(); ++column)
     for (NodalMass::InnerIterator entry(mass, column); entry; ++entry)
@@ -267,7 +363,8 @@ NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& m
   if (count < 1 || count > free)
     throw ModelError(
         fmt::format("{} modes are asked for; there are {} unknowns that move", count, free));
-  const double shift = 0.1 * estimate_first_elastic(stiffness, mass, nodes);
+  const double first_elastic = estimate_first_elastic(stiffness, mass, nodes);
+  const double shift = 0.1 * first_elastic;
   SparseLower sum = stiffness;
   add_mass(mass, shift, sum);
   std::vector<FixedUnknown> at_rest = fixed;
@@ -277,16 +374,13 @@ NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& m
   static const Library library;
   Pencil pencil{stiffness, mass, shifted};
   Search search;
-  const int sought = static_cast<int>(std::min<long>(count + std::max(4, count / 4), free));
-  set_up(search, pencil, shift, sought);
-  set_start(search, pencil);
-  check(EPSSolve(search.solver));
-  PetscInt found = 0;
-  check(EPSGetConverged(search.solver, &found));
-  if (found < sought)
-    throw ModelError(
-        fmt::format("only {} of {} natural modes were found; ask for fewer", found, count));
-  NaturalModes modes = collect(search, found);
+  set_up(search, pencil, shift);
+  NaturalModes modes =
+      search_all(search, pencil, find_rigid_motions(stiffness, mass, nodes, fixed, first_elastic),
+                 count, free, shift);
+  if (modes.squared_frequencies.size() < count)
+    throw ModelError(fmt::format("only {} of {} natural modes were found; ask for fewer",
+                                 modes.squared_frequencies.size(), count));
   modes.squared_frequencies.conservativeResize(count);
   modes.shapes.conservativeResize(Eigen::NoChange, count);
   modes.frequencies = modes.squared_frequencies.cwiseMax(0).cwiseSqrt() / (2 * M_PI);

@@ -30,8 +30,9 @@ struct NaturalModes {
 ///
 /// SLEPc's Krylov-Schur method on (K + s M)^-1 M, whose matrix is factorised once; s > 0 is a small
 /// part of the first elastic omega^2 (of its estimate by bending and stretching shapes), so that a
-/// free body's singular stiffness does no harm. More modes are sought than asked for, so that copies
-/// of a repeated frequency are not missed at the end.
+/// free body's singular stiffness does no harm. Rigid motions of the whole are known beforehand; the search is
+/// repeated beside the modes that it found until nothing lower comes, as one run may miss copies of a
+/// repeated frequency.
 /// Source: Hernandez, Roman, Vidal (2005), SLEPc; Ericsson and Ruhe (1980) for the spectral transform.
 /// @param stiffness lower triangle, unknown 3 n + a being node n along axis a.
 /// @param mass by nodes, kg; at nodes without mass the unknowns must be fixed.

@@ -9,6 +9,7 @@
 
 #include "pipeline/verification/models/box_mesh.h"
 #include "structure/error.h"
+#include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {
 namespace {
@@ -57,6 +58,29 @@ TEST(NaturalModes, AgreeWithADenseSolver) {
   for (int i = 0; i < 5; ++i)
     EXPECT_NEAR(held.squared_frequencies[i], exact_held[i], 1e-8 * exact_held[i]) << i;
   for (const FixedUnknown& unknown : fixed) EXPECT_EQ(held.shapes.row(unknown.unknown).norm(), 0);
+}
+
+// A shell of plates, soft beside the stretching and bending of its whole: none of its six rigid motions,
+// which have one frequency, is missed, and so no elastic mode is taken for one.
+TEST(NaturalModes, AllRigidMotionsOfASoftBodyAreFound) {
+  const ElasticModel model = make_elastic_model(testing::small_block(), 1);
+  const NaturalModes modes = find_block_modes(model, 8);
+  EXPECT_LT(modes.squared_frequencies.head(6).cwiseAbs().maxCoeff(),
+            1e-5 * modes.squared_frequencies[6]);
+  EXPECT_GT(modes.frequencies[6], 0.1);
+}
+
+TEST(NaturalModes, CopiesOfARepeatedFrequencyAreFound) {
+  const Material soft{"soft", 1e9, 0, 8000, 250e6};
+  const ElasticModel model(testing::box_mesh({4, 1, 1}, Vector3(2, 0.1, 0.1), soft), 2);
+  std::vector<FixedUnknown> fixed;  // a square bar, held at one end, bends alike in two planes
+  for (int n = 0; n < model.space().node_count(); ++n)
+    for (int a = 0; a < 3; ++a)
+      if (model.space().nodes(0, n) < 1e-9) fixed.push_back({3 * n + a, 0});
+  const NaturalModes modes = find_block_modes(model, 4, fixed);
+  for (const int pair : {0, 2})
+    EXPECT_NEAR(modes.frequencies[pair + 1], modes.frequencies[pair],
+                1e-6 * modes.frequencies[pair]);
 }
 
 // A free bar that cannot bend (held across): f_n = n c / (2 L), c = sqrt(E / rho).
