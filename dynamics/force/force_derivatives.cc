@@ -106,6 +106,23 @@ void ForceDerivatives::add_turning(std::size_t slot, const Matrix3& df_dtheta) {
   }
 }
 
+void ForceDerivatives::add_motion(std::size_t slot, const Vector3& rate_W,
+                                  Eigen::Ref<Eigen::MatrixXd> p,
+                                  Eigen::Ref<Eigen::MatrixXd> v_q) const {
+  const Point& point = points_[slot];
+  for (int j = 0; j < point.count; ++j) {
+    const int column = point.velocity[static_cast<std::size_t>(j)];
+    p.col(column) += point.p.col(j);
+    v_q.col(column) += point.v_q.col(j) + point.turn.col(j).cross(rate_W);
+  }
+}
+
+void ForceDerivatives::add_turn(std::size_t slot, Eigen::Ref<Eigen::MatrixXd> turn) const {
+  const Point& point = points_[slot];
+  for (int j = 0; j < point.count; ++j)
+    turn.col(point.velocity[static_cast<std::size_t>(j)]) += point.turn.col(j);
+}
+
 void ForceDerivatives::add_wrench_block(std::size_t on, std::size_t by,
                                         const Eigen::Matrix<double, 6, 6>& dF_dX,
                                         const Eigen::Matrix<double, 6, 6>& dF_dV) {

@@ -57,6 +57,20 @@ class ForceDerivatives {
     dtau_dv_(k, k) += dtau_dv;
   }
 
+  /// Adds derivatives of the generalised forces that an element has put together itself (nv x nv).
+  void add_generalised(const Eigen::MatrixXd& dtau_dq, const Eigen::MatrixXd& dtau_dv) {
+    dtau_dq_ += dtau_dq;
+    dtau_dv_ += dtau_dv;
+  }
+  /// Adds a located point's motion by each velocity: dp/dq (which is dv/dv) and dv/dq, 3 x nv each.
+  /// @param rate_W velocity of the point within its body, which turns with it.
+  void add_motion(std::size_t slot, const Vector3& rate_W, Eigen::Ref<Eigen::MatrixXd> p,
+                  Eigen::Ref<Eigen::MatrixXd> v_q) const;
+  /// Adds the turn of the point's body by each velocity, 3 x nv.
+  void add_turn(std::size_t slot, Eigen::Ref<Eigen::MatrixXd> turn) const;
+  /// As `start` was told.
+  bool stretch_only() const { return stretch_only_; }
+
   const Eigen::MatrixXd& dtau_dq() const { return dtau_dq_; }  ///< nv x nv, by tangent increments
   const Eigen::MatrixXd& dtau_dv() const { return dtau_dv_; }  ///< nv x nv
   /// One a body, see compute_inverse_dynamics_derivatives.

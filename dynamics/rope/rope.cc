@@ -55,7 +55,8 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
   require_not_negative(d.name, "damping", d.damping);
 }
 
-void Rope::calc_path(const Kinematics& kinematics, RopePath& path) const {
+void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
+                     const RopeEndShifts* shifts) const {
   const std::vector<BodyPoint>& points = definition_.points;
   double length = 0.0;
   double rate = 0.0;
@@ -65,9 +66,15 @@ void Rope::calc_path(const Kinematics& kinematics, RopePath& path) const {
     const auto body = static_cast<std::size_t>(points[i].body);
     const Pose& X_WB = kinematics.X_WB[body];
     const MotionVector& V_WB = kinematics.V_WB[body];
-    const Vector3 r = X_WB.R * points[i].p_BoQ_B;
+    Vector3 r = X_WB.R * points[i].p_BoQ_B;
+    Vector3 v_in_body = Vector3::Zero();
+    if (shifts && (i == 0 || i + 1 == points.size())) {
+      const RopeEndShift& shift = i == 0 ? shifts->first : shifts->last;
+      r += X_WB.R * shift.displacement_B;
+      v_in_body = X_WB.R * shift.rate_B;
+    }
     const Vector3 p = X_WB.p + r;
-    const Vector3 v = V_WB.linear + V_WB.angular.cross(r);
+    const Vector3 v = V_WB.linear + V_WB.angular.cross(r) + v_in_body;
     path.r_W[i] = r;
     if (i > 0) {
       const Vector3 span = p - p_previous;
@@ -202,7 +209,7 @@ EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
   const double elastic = load.taut ? load.elastic_force : std::max(0.0, load.elastic_force);
   const double elongation_rate = load.length_rate - load.unstretched_rate;
   const double dissipated =
-      load.taut ? load.damping_force * elongation_rate : -elastic * std::min(0.0, elongation_rate);
+      load.taut ? load.damping_force * elongation_rate : -elastic * elongation_rate;
   return {.stored_energy = 0.5 * elastic * elastic / load.stiffness,
           .dissipated_power = dissipated,
           .supplied_power = -load.unstretched_rate *

@@ -24,6 +24,16 @@ struct RopeFeed {
   double rate = 0.0;
 };
 
+/// Displacement of a rope's end within the body that carries it, and its rate (m, m/s, in B).
+struct RopeEndShift {
+  Vector3 displacement_B = Vector3::Zero();
+  Vector3 rate_B = Vector3::Zero();
+};
+/// Of both ends of a rope.
+struct RopeEndShifts {
+  RopeEndShift first, last;
+};
+
 /// Where a rope runs at one instant. Made once for the longest rope, filled without allocating.
 struct RopePath {
   std::vector<Vector3> r_W;           ///< for each point, from its body's origin, in W, m
@@ -83,8 +93,10 @@ class Rope {
   }
 
   /// Geometry and its rate.
+  /// @param shifts of the ends within their bodies; null: none.
   /// @throws ModelError if a point lies on its neighbour (the direction of the pull is undefined).
-  void calc_path(const Kinematics& kinematics, RopePath& path) const;
+  void calc_path(const Kinematics& kinematics, RopePath& path,
+                 const RopeEndShifts* shifts = nullptr) const;
 
   /// Load by the law above.
   /// @throws ModelError if the winch has pulled the whole rope in (L0 <= 0).

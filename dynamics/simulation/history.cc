@@ -134,7 +134,7 @@ void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWo
     r.elongation[sample] = load.elongation();
     r.unstretched_length[sample] = load.unstretched_length;
     r.unstretched_rate[sample] = load.unstretched_rate;
-    system.ropes()[i].calc_path(w.kinematics, w.path);
+    system.ropes()[i].calc_path(w.kinematics, w.path, &w.end_shifts[i]);
     r.first_force.row(sample) = Rope::first_force(w.path, tension).transpose();
     r.last_force.row(sample) = system.ropes()[i].last_force(w.path, tension).transpose();
   }

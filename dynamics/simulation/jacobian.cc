@@ -12,6 +12,7 @@ namespace {
 std::size_t most_points(const LiftSystem& system) {
   std::size_t most = 2;
   for (const Rope& rope : system.ropes()) most = std::max(most, rope.points().size());
+  for (const ElasticBody& body : system.elastic_bodies()) most = std::max(most, body.point_count());
   return most;
 }
 
@@ -20,10 +21,14 @@ void calc_force_derivatives(const LiftSystem& system, double t, bool stretch_onl
   compute_motion_columns(system.mechanism(), w.kinematics, w.v, tangent.inverse.columns);
   tangent.forces.start(w.kinematics, tangent.inverse.columns, stretch_only);
   for (std::size_t i = 0; i < system.ropes().size(); ++i) {
-    if (!w.rope_loads[i].taut) continue;
+    if (!w.rope_loads[i].taut || system.ends_elastically(static_cast<int>(i))) continue;
     const Rope& rope = system.ropes()[i];
     rope.calc_path(w.kinematics, w.path);
     rope.add_derivatives(w.kinematics, w.path, w.rope_loads[i], tangent.forces);
+  }
+  for (std::size_t i = 0; i < system.elastic_bodies().size(); ++i) {
+    system.elastic_bodies()[i].add_derivatives(w.kinematics, w.ropes(system, nullptr), w.elastic[i],
+                                               tangent.forces);
   }
   for (std::size_t i = 0; i < system.supports().size(); ++i) {
     system.supports()[i].add_derivatives(w.kinematics, w.support_loads[i], tangent.forces);

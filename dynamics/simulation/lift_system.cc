@@ -10,6 +10,25 @@
 
 namespace blocklift::dynamics {
 
+namespace {
+
+std::vector<char> mark_elastic_ends(const LiftDefinition& d) {
+  std::vector<char> marks(d.ropes.size(), 0);
+  for (const ElasticBody& body : d.elastic_bodies) {
+    for (const int rope : body.ropes()) {
+      char& mark = marks[static_cast<std::size_t>(rope)];
+      if (mark != 0) {
+        throw ModelError("rope \"" + d.ropes[static_cast<std::size_t>(rope)].name() +
+                         "\" ends at two elastic bodies; one of them must be rigid");
+      }
+      mark = 1;
+    }
+  }
+  return marks;
+}
+
+}  // namespace
+
 LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
   const Mechanism& m = d_.mechanism;
   if (d_.v_start.size() == 0) d_.v_start = Eigen::VectorXd::Zero(m.nv());
@@ -33,6 +52,7 @@ LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
       }
     }
   }
+  ends_elastically_ = mark_elastic_ends(d_);
   winch_of_rope_.assign(d_.ropes.size(), -1);
   for (std::size_t i = 0; i < d_.operation.winches().size(); ++i) {
     const int rope = d_.operation.winches()[i].rope;
@@ -65,7 +85,10 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
       feeds(system.ropes().size()),
       rope_loads(system.ropes().size()),
       support_loads(system.supports().size()),
-      path(make_rope_path(system.ropes())) {
+      path(make_rope_path(system.ropes())),
+      end_shifts(system.ropes().size()) {
+  for (const ElasticBody& body : system.elastic_bodies())
+    elastic.emplace_back(body, system.mechanism());
   const AddedInertia* added = system.water() ? &system.water()->inertia() : nullptr;
   if (!system.mechanism().loops().empty()) {
     loops.emplace(system.mechanism(), added);
@@ -77,6 +100,10 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
   for (std::size_t i = 0; i < feeds.size(); ++i) {
     feeds[i] = {system.ropes()[i].definition().unstretched_length, 0.0};
   }
+}
+
+ElasticBody::Ropes LiftWorkspace::ropes(const LiftSystem& system, const Contacts* contacts) {
+  return {system.ropes(), feeds, contacts, path, end_shifts, rope_loads};
 }
 
 void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& w) {
@@ -135,11 +162,16 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
   w.loads.set_zero();
   const std::vector<Rope>& ropes = system.ropes();
   for (std::size_t i = 0; i < ropes.size(); ++i) {
+    if (system.ends_elastically(static_cast<int>(i))) continue;
     ropes[i].calc_path(w.kinematics, w.path);
     RopeLoad& load = w.rope_loads[i];
     load = contacts ? ropes[i].calc_load(w.path, w.feeds[i], (*contacts)[i] != 0)
                     : ropes[i].calc_load(w.path, w.feeds[i]);
     if (load.tension != 0.0) ropes[i].add_forces(w.path, load.tension, w.loads.F_Bo_W);
+  }
+  for (std::size_t i = 0; i < system.elastic_bodies().size(); ++i) {
+    system.elastic_bodies()[i].add_forces(w.kinematics, w.q, w.v, w.ropes(system, contacts),
+                                          w.elastic[i], w.loads.F_Bo_W, w.loads.tau);
   }
   const std::vector<SupportPad>& supports = system.supports();
   for (std::size_t i = 0; i < supports.size(); ++i) {
@@ -255,6 +287,7 @@ StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWo
   for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
     energy.elastic += system.ropes()[i].calc_energy(w.rope_loads[i]).stored_energy;
   }
+  for (const ElasticBody::Workspace& body : w.elastic) energy.elastic += body.energy;
   for (std::size_t i = 0; i < w.support_loads.size(); ++i) {
     energy.elastic +=
         system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).stored_energy;

@@ -14,6 +14,7 @@
 #include "dynamics/marine/viscous.h"
 #include "dynamics/multibody/constrained_dynamics.h"
 #include "dynamics/multibody/forward_dynamics.h"
+#include "dynamics/rope/elastic_body.h"
 #include "dynamics/rope/mooring_line.h"
 #include "dynamics/rope/rope.h"
 #include "dynamics/simulation/operation.h"
@@ -51,6 +52,8 @@ struct LiftDefinition {
   Eigen::VectorXd v_start = {};  ///< nv; empty: at rest
   /// What floating bodies radiate; null: nothing.
   std::shared_ptr<const RadiatedWater> water = {};
+  /// Bodies that give way where ropes pull at them; a rope ends at one of them at most.
+  std::vector<ElasticBody> elastic_bodies = {};
 };
 
 /// Mechanism, force elements, ropes and operation: an immutable model of a lift, and the layout of
@@ -74,6 +77,11 @@ class LiftSystem {
   const std::vector<Rope>& ropes() const { return d_.ropes; }
   const std::vector<SupportPad>& supports() const { return d_.supports; }
   const ForceElements& elements() const { return d_.elements; }
+  const std::vector<ElasticBody>& elastic_bodies() const { return d_.elastic_bodies; }
+  /// Does an end of the rope lie at an elastic body?
+  bool ends_elastically(int rope) const {
+    return ends_elastically_[static_cast<std::size_t>(rope)] != 0;
+  }
   const Operation& operation() const { return d_.operation; }
   const Eigen::VectorXd& q_start() const { return d_.q_start; }
   const Eigen::VectorXd& v_start() const { return d_.v_start; }
@@ -97,6 +105,7 @@ class LiftSystem {
   int nq_free_ = 0;
   int nv_free_ = 0;
   std::vector<int> winch_of_rope_;
+  std::vector<char> ends_elastically_;
 };
 
 /// Which one-sided elements act: an entry for each rope (taut?), then for each pad (loaded?).
@@ -139,7 +148,12 @@ struct LiftWorkspace {
   std::vector<RopeFeed> feeds;  ///< for each rope
   std::vector<RopeLoad> rope_loads;
   std::vector<SupportLoad> support_loads;
-  RopePath path;  ///< of the rope evaluated last
+  RopePath path;                                ///< of the rope evaluated last
+  std::vector<RopeEndShifts> end_shifts;        ///< for each rope; zero at rigid bodies
+  std::vector<ElasticBody::Workspace> elastic;  ///< for each elastic body
+
+  /// The parts of it that elastic bodies read and write.
+  ElasticBody::Ropes ropes(const LiftSystem& system, const Contacts* contacts);
 };
 
 /// q, v of the driven joints, their vdot, and the ropes' feeds at a time into the workspace.
