@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <random>
 #include <string>
 #include <thread>
 #include <utility>
@@ -144,44 +143,8 @@ LoadBalance UnitResponses::balance(const LoadCase& load_case) const {
   return result;
 }
 
-double UnitResponses::first_elastic_period(int iterations) const {
-  const Eigen::VectorXd nodal_mass = model_.mass_moments().col(0);
-  Eigen::VectorXd mass(model_.unknowns());
-  for (Eigen::Index n = 0; n < nodal_mass.size(); ++n)
-    mass.segment<3>(3 * n).setConstant(nodal_mass[n]);
-  // A subspace of four shapes: mixtures of the lugs' responses, or noise where there are no lugs.
-  std::mt19937 random(1);
-  std::normal_distribution<double> normal;
-  const auto noise = [&] { return normal(random); };
-  const Eigen::Index lug_forces = 3 * model_.lug_count();
-  Eigen::MatrixXd shapes =
-      lug_forces >= 4 ? Eigen::MatrixXd(displacements_.leftCols(lug_forces) *
-                                        Eigen::MatrixXd::NullaryExpr(lug_forces, 4, noise))
-                      : Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(model_.unknowns(), 4, noise));
-  double frequency_squared = 0;
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    for (Eigen::Index j = 0; j < shapes.cols(); ++j)
-      shapes.col(j) = without_rigid_motion(shapes.col(j));
-    Eigen::MatrixXd loads = mass.asDiagonal() * shapes;
-    for (Eigen::Index j = 0; j < loads.cols(); ++j)  // lumping leaves a small moment
-      loads.col(j) +=
-          model_.inertia_loads().leftCols<6>() *
-          balancing_field(model_.mass_properties(), resultant(model_.space().nodes, loads.col(j)))
-              .coefficients()
-              .head<6>();
-    Eigen::MatrixXd next = system_->equations.solve(loads);
-    for (Eigen::Index j = 0; j < next.cols(); ++j) next.col(j) = without_rigid_motion(next.col(j));
-    // Rayleigh-Ritz: next' K next = next' loads, next' M next.
-    Eigen::MatrixXd stiffness = next.transpose() * loads;
-    stiffness = (0.5 * (stiffness + stiffness.transpose())).eval();
-    const Eigen::MatrixXd inertia = next.transpose() * (mass.asDiagonal() * next);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, inertia);
-    const double before = frequency_squared;
-    frequency_squared = solver.eigenvalues()[0];
-    shapes = next * solver.eigenvectors();
-    if (std::abs(frequency_squared - before) < 1e-3 * frequency_squared) break;
-  }
-  return 2 * M_PI / std::sqrt(frequency_squared);
+Eigen::MatrixXd UnitResponses::solve(const Eigen::MatrixXd& balanced_loads) const {
+  return system_->equations.solve(balanced_loads);
 }
 
 }  // namespace blocklift::structure

@@ -72,9 +72,8 @@ class UnitResponses {
   /// Solves a load case directly, without the basis: for checks of the superposition.
   Eigen::VectorXd solve_directly(const LoadCase& load_case) const;
 
-  /// First natural period of the free block, s: inverse iteration on the inertia-relieved block
-  /// with lumped mass. Loads that rise over several of these periods are quasi-static.
-  double first_elastic_period(int iterations = 12) const;
+  /// Displacements against the 3-2-1 support under loads (columns, N) that are in balance.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& balanced_loads) const;
 
   /// Takes the best-fitting rigid motion (mass-weighted) out of a displacement.
   Eigen::VectorXd without_rigid_motion(const Eigen::VectorXd& displacement) const;
