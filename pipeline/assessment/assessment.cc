@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/assessment/stopwatch.h"
 #include "pipeline/assessment/summary.h"
+#include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/report.h"
@@ -105,14 +107,23 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
   block.mesh_s = watch.lap();
   const auto& lugs = block.model->mesh().lugs;
 
+  const auto respond = [&] {
+    progress("block: stiffness, factorisation, unit responses", 0, "");
+    block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  };
   if (!the_case.load_table) {
-    BuiltLift model = prepare_lift(the_case, load_mass(block.model->mass_properties()), progress);
+    // A rigid block moves without its stiffness: what is wrong with the lift is said sooner.
+    std::optional<LoadFlexibility> flexibility;
+    if (the_case.dynamics.flexibility != Flexibility::rigid) {
+      respond();
+      flexibility = make_flexibility(*block.responses, the_case.dynamics);
+    }
+    BuiltLift model = prepare_lift(the_case, load_mass(block.model->mass_properties()), progress,
+                                   flexibility ? &*flexibility : nullptr);
     assessment.lift = run_lift(the_case, std::move(model), progress);
     assessment.checks = check_lift(the_case, *assessment.lift);
   }
-
-  progress("block: stiffness, factorisation, unit responses", 0, "");
-  block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  if (!block.responses) respond();
   progress("block: stresses", 0.5, "");
   const structure::StressRecovery recovery(*block.responses);
   if (assessment.lift) {

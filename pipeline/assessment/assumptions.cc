@@ -63,11 +63,40 @@ void add_sea_assumptions(const LiftCase& lift_case, const dynamics::LiftSystem& 
       system.memory_count(), 100 * system.water()->memory_error()));
 }
 
+std::string flexibility_sentence(const DynamicsSettings& settings) {
+  switch (settings.flexibility) {
+    case Flexibility::rigid:
+      return "The elastic motion of the block does not act back on the ropes.";
+    case Flexibility::static_:
+      return "The block gives way at its lugs, at once, by the compliance of its structure, which "
+             "the ropes feel; its elastic vibration is left out.";
+    case Flexibility::modal:
+      return fmt::format(
+          "The ropes feel the block give way at its lugs: by {} natural modes with a damping of "
+          "{:g} of the critical one, and at once by what these leave of the compliance. Stress is "
+          "that of the lugs' forces and the rigid inertia; the inertia of the vibration itself is "
+          "not in it.",
+          settings.elastic_modes, settings.modal_damping);
+  }
+  return {};
+}
+
+std::string displacement_sentence(const LiftRun& lift) {
+  if (!lift.elastic_displacement) return {};
+  return fmt::format(
+      " Lug {} moves furthest within the block, against its mean motion: {:.1f} mm at {:.1f} s.",
+      lift.elastic_displacement->lug, 1e3 * lift.elastic_displacement->size,
+      lift.elastic_displacement->time);
+}
+
 void add_block_assumptions(const Assessment& assessment, std::vector<std::string>& list) {
   const structure::MassProperties& mass = assessment.block.model->mass_properties();
   list.emplace_back(
       "The block is linear elastic; its loads are the forces at the lugs, gravity and the inertia "
-      "of its motion, which are in balance. Its elastic motion does not act back on the ropes.");
+      "of its motion, which are in balance.");
+  if (assessment.lift)
+    list.push_back(flexibility_sentence(assessment.lift_case.dynamics) +
+                   displacement_sentence(*assessment.lift));
   list.push_back(fmt::format(
       "Inertia relief: the first elastic period of the free block is about {:.2f} s; loads that "
       "rise within a few of these periods shake the block itself, which is not part of the "

@@ -1,5 +1,6 @@
 #include "pipeline/assessment/lift_run.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,27 @@
 #include "pipeline/assessment/stopwatch.h"
 
 namespace blocklift::pipeline {
+
+namespace {
+
+const std::string& lug_of(const BuiltLift& model, int rope) {
+  const auto found = std::find_if(model.ropes.begin(), model.ropes.end(),
+                                  [&](const LiftRope& other) { return other.rope == rope; });
+  return found->lug;
+}
+
+// The load is the one elastic body of a lift.
+void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorkspace& w,
+                 std::optional<LugDisplacement>& largest) {
+  const auto& ends = model.system.elastic_bodies().front().definition().ends;
+  for (std::size_t end = 0; end < ends.size(); ++end) {
+    const double size = dynamics::ElasticBody::displacement(w.elastic.front(), end).norm();
+    if (largest && size <= largest->size) continue;
+    largest = {lug_of(model, ends[end].rope), size, time};
+  }
+}
+
+}  // namespace
 
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress) {
   const auto report = [&](const char* stage) {
@@ -35,18 +57,25 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
   settings.sample_interval = lift_case.dynamics.sample_interval;
   settings.progress = report("time integration");
+  std::optional<LugDisplacement> elastic;
+  if (!system.elastic_bodies().empty()) {
+    settings.observe = [&](Eigen::Index, double time, const dynamics::LiftWorkspace& w) {
+      keep_larger(model, time, w, elastic);
+    };
+  }
   dynamics::IntegrationResult dynamic_result =
       dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
   const double dynamic_s = watch.lap();
   return {std::move(model), std::move(static_history), std::move(dynamic_result), static_s,
-          dynamic_s,        std::move(natural_modes)};
+          dynamic_s,        std::move(natural_modes),  std::move(elastic)};
 }
 
-BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress) {
+BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
+                       const LoadFlexibility* flexibility) {
   const auto database = find_radiation(radiation_problem(lift_case), [&](const std::string& what) {
     progress("radiation of vessels", 0, what);
   });
-  return build_lift(lift_case, load, database.get());
+  return build_lift(lift_case, load, database.get(), flexibility);
 }
 
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,

@@ -277,6 +277,26 @@ Json structure_json(const Assessment& assessment) {
   return json;
 }
 
+// How the block gave way where the ropes pull.
+Json flexibility_json(const DynamicsSettings& settings, const LiftRun& lift) {
+  switch (settings.flexibility) {
+    case Flexibility::rigid:
+      return {{"kind", "rigid"}};
+    case Flexibility::static_:
+    case Flexibility::modal:
+      break;
+  }
+  Json json{{"kind", settings.flexibility == Flexibility::modal ? "modal" : "static"}};
+  if (settings.flexibility == Flexibility::modal) {
+    json["modes"] = settings.elastic_modes;
+    json["modal_damping"] = settings.modal_damping;
+  }
+  if (const auto& largest = lift.elastic_displacement)
+    json["largest_lug_displacement"] = {
+        {"size_m", largest->size}, {"lug", largest->lug}, {"time_s", largest->time}};
+  return json;
+}
+
 Json energy_json(const LiftRun& lift) {
   const dynamics::EnergyHistory& energy = lift.dynamic_history().energy;
   const Eigen::VectorXd stored = energy.kinetic + energy.gravity + energy.elastic;
@@ -364,6 +384,7 @@ Json make_summary(const Assessment& assessment) {
   if (assessment.lift) {
     summary["natural_periods"] = natural_periods_json(assessment.lift->model.system.mechanism(),
                                                       assessment.lift->natural_modes);
+    summary["flexibility"] = flexibility_json(assessment.lift_case.dynamics, *assessment.lift);
     summary["energy"] = energy_json(*assessment.lift);
     summary["solver"] = solver_json(*assessment.lift);
   }

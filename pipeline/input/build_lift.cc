@@ -63,8 +63,12 @@ double mass_on(const LiftCase& lift_case, const std::string& vessel) {
 class LiftBuilder {
  public:
   LiftBuilder(const LiftCase& lift_case, const LoadMass& load,
-              const dynamics::HydrodynamicDatabase* database)
-      : case_(lift_case), load_(load), database_(database), marine_(lift_case, lift_case.gravity) {
+              const dynamics::HydrodynamicDatabase* database, const LoadFlexibility* flexibility)
+      : case_(lift_case),
+        load_(load),
+        database_(database),
+        flexibility_(flexibility),
+        marine_(lift_case, lift_case.gravity) {
     marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
   }
 
@@ -76,6 +80,7 @@ class LiftBuilder {
     }
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) add_crane(builder, i);
     add_load(builder);
+    if (flexibility_) add_modes(builder);
     const dynamics::Mechanism mechanism = builder.build();
     q_start_ = mechanism.zero_configuration();
     set_start(mechanism);
@@ -84,13 +89,14 @@ class LiftBuilder {
     for (const dynamics::RopeDefinition& rope : rope_definitions_) {
       ropes.emplace_back(mechanism, rope);
     }
+    std::vector<dynamics::ElasticBody> elastic_bodies = make_elastic_bodies(mechanism, ropes);
     Schedule schedule = make_schedule();
     dynamics::Operation operation = make_operation(mechanism, schedule);
     const auto water = marine_.make_water(place(), database_);
     const auto system = [&](bool at_rest) {
       return dynamics::LiftSystem({mechanism, ropes, make_supports(),
                                    make_elements(mechanism, at_rest), operation, q_start_,
-                                   Eigen::VectorXd::Zero(mechanism.nv()), water});
+                                   Eigen::VectorXd::Zero(mechanism.nv()), water, elastic_bodies});
     };
     const bool gusts = case_.wind && case_.wind->gusts != dynamics::GustSpectrum::none;
     const bool moves = gusts || marine_.has_waves();
@@ -172,6 +178,55 @@ class LiftBuilder {
                   {case_.load.model ? drawn_box(*case_.load.model) : hull_box(*case_.load.vessel)});
   }
 
+  /// The load's natural modes: each a body of the load's mass that slides level.
+  void add_modes(dynamics::MechanismBuilder& builder) {
+    for (Eigen::Index k = 0; k < flexibility_->angular_frequencies.size(); ++k) {
+      BodyDefinition mode;
+      mode.name = fmt::format("load.mode_{}", k + 1);
+      mode.joint.kind = dynamics::JointKind::prismatic;
+      mode.joint.axis = Vector3::UnitX();
+      mode.mass = load_.mass;
+      modes_.push_back(builder.add_body(mode));
+    }
+  }
+
+  void add_mode_springs(const dynamics::Mechanism& mechanism,
+                        dynamics::ForceElements& elements) const {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      const double omega = flexibility_->angular_frequencies[static_cast<Eigen::Index>(k)];
+      std::get<std::vector<dynamics::JointSpring>>(elements).emplace_back(
+          mechanism, dynamics::JointSpring::Definition{
+                         .name = mechanism.body(modes_[k]).name,
+                         .body = modes_[k],
+                         .stiffness = load_.mass * omega * omega,
+                         .damping = 2 * flexibility_->damping_ratio * load_.mass * omega,
+                         .free_coordinate = 0});
+    }
+  }
+
+  /// The load with the ropes that end at its lugs.
+  std::vector<dynamics::ElasticBody> make_elastic_bodies(
+      const dynamics::Mechanism& mechanism, const std::vector<dynamics::Rope>& ropes) const {
+    if (!flexibility_) return {};
+    dynamics::ElasticBody::Definition load{"load", body_of_.at("load"), {}, {}, {}, modes_};
+    std::vector<Eigen::Index> rows;
+    const auto take = [&](const ResolvedPoint& point, int rope, bool last) {
+      if (point.lug.empty()) return;
+      const auto lug = std::find(flexibility_->lugs.begin(), flexibility_->lugs.end(), point.lug);
+      for (int axis = 0; axis < 3; ++axis)
+        rows.push_back(3 * (lug - flexibility_->lugs.begin()) + axis);
+      load.ends.push_back({rope, last});
+    };
+    for (std::size_t i = 0; i < case_.ropes.size(); ++i) {
+      take(case_.ropes[i].path.front(), ropes_[i].rope, false);
+      take(case_.ropes[i].path.back(), ropes_[i].rope, true);
+    }
+    if (load.ends.empty()) return {};
+    load.compliance = flexibility_->compliance(rows, rows);
+    load.shapes = flexibility_->shapes(rows, Eigen::all);
+    return {dynamics::ElasticBody(mechanism, ropes, std::move(load))};
+  }
+
   BodyIndex register_body(dynamics::MechanismBuilder& builder, const BodyDefinition& body,
                           std::string kind, std::vector<BoxShape> boxes) {
     const BodyIndex index = builder.add_body(body);
@@ -241,6 +296,7 @@ class LiftBuilder {
     dynamics::ForceElements elements;
     add_wind_areas(at_rest, elements);
     for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements);
+    add_mode_springs(mechanism, elements);
     marine_.add_elements(place(), database_, at_rest, elements);
     const LoadInCase& load = case_.load;
     if (!load.vessel) return elements;
@@ -339,7 +395,9 @@ class LiftBuilder {
   const LiftCase& case_;
   const LoadMass& load_;
   const dynamics::HydrodynamicDatabase* database_;
+  const LoadFlexibility* flexibility_;
   MarineBuilder marine_;
+  std::vector<BodyIndex> modes_;
   std::map<std::string, BodyIndex> body_of_;
   std::deque<PartsBuilder> crane_parts_;
   std::deque<CranePose> crane_poses_;
@@ -367,12 +425,13 @@ RadiationProblem radiation_problem(const LiftCase& lift_case) {
 }
 
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
-                     const dynamics::HydrodynamicDatabase* database) {
+                     const dynamics::HydrodynamicDatabase* database,
+                     const LoadFlexibility* flexibility) {
   if (lift_case.load_table) {
     throw std::invalid_argument("case " + lift_case.name +
                                 " is a load table: it has no cranes whose motion could be built");
   }
-  return LiftBuilder(lift_case, load, database).build();
+  return LiftBuilder(lift_case, load, database, flexibility).build();
 }
 
 }  // namespace blocklift::pipeline

@@ -23,6 +23,15 @@ struct LoadMass {
   Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< about the centre of mass, kg m^2
 };
 
+/// How the load gives way at its lugs (structure::LugFlexibility): 3 rows a lug, in the order of `lugs`.
+struct LoadFlexibility {
+  std::vector<std::string> lugs;
+  Eigen::MatrixXd compliance;           ///< that follows at once, m/N
+  Eigen::MatrixXd shapes;               ///< a column a mode, normalised to the load's mass
+  Eigen::VectorXd angular_frequencies;  ///< of the modes, rad/s
+  double damping_ratio = 0;             ///< of each, over the critical one
+};
+
 /// A hoist of the lift within the dynamics.
 struct LiftHoist {
   std::string name;               ///< "C1.upper_1": of the hoist, its tackle, and its hook block
@@ -79,11 +88,14 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// damping, without radiation.
 ///
 /// @param database of radiation_problem(); null: vessels make no waves.
+/// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints to the
+///   world, see dynamics::ElasticBody.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.
 /// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
 ///   complaints does.
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
-                     const dynamics::HydrodynamicDatabase* database = nullptr);
+                     const dynamics::HydrodynamicDatabase* database = nullptr,
+                     const LoadFlexibility* flexibility = nullptr);
 
 /// Mass, centre of mass and inertia of a load that is a vessel.
 LoadMass load_mass(const VesselModel& vessel);

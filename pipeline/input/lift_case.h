@@ -129,10 +129,20 @@ struct SupportInCase {
   std::optional<double> reach;      ///< level, beyond which there is no pad, m
 };
 
+/// How the block gives way where the ropes pull at it.
+enum class Flexibility {
+  rigid,    ///< not at all
+  static_,  ///< at once, by the compliance of its lugs
+  modal     ///< by natural modes that vibrate, the rest at once
+};
+
 struct DynamicsSettings {
   double relative_tolerance = 0;
   double sample_interval = 0;  ///< s
   double static_interval = 0;  ///< s
+  Flexibility flexibility = Flexibility::rigid;
+  int elastic_modes = 0;     ///< where the flexibility is modal
+  double modal_damping = 0;  ///< of each, over the critical one
 };
 
 /// How the wear by repeated lifts is judged.

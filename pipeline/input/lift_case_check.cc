@@ -383,6 +383,11 @@ void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
     for (const std::string& part : parts_of(crane, true)) bodies.push_back(part);
   }
   check_marine_parts(lift_case, lift_case.gravity, bodies, diagnostics);
+  if (lift_case.load.vessel_name && lift_case.dynamics.flexibility != Flexibility::rigid) {
+    diagnostics.error(lift_case.load.vessel_name->mark,
+                      "the load is a vessel, whose structure is not known; it cannot be flexible",
+                      {"leave flexibility out, or give a block as the load"});
+  }
   if (lift_case.load.vessel_name && !lift_case.sea) {
     diagnostics.error(lift_case.load.vessel_name->mark, "the load is a vessel, and there is no sea",
                       {"add sea: {} for calm deep sea water"});

@@ -152,7 +152,19 @@ Format<DynamicsSettings> dynamics_format() {
                   "sought: a small part of the load's bounce on its ropes")
       .by_default("static_interval", &DynamicsSettings::static_interval,
                   quantity(Dimension::time, Range::between(1e-3, 30)), "1 s",
-                  "between two static equilibria");
+                  "between two static equilibria")
+      .by_default("flexibility", &DynamicsSettings::flexibility,
+                  choice<Flexibility>({{"rigid", Flexibility::rigid},
+                                       {"static", Flexibility::static_},
+                                       {"modal", Flexibility::modal}}),
+                  "rigid",
+                  "how the block gives way where ropes pull at its lugs: not at all; at once, by "
+                  "the compliance of its structure; or by its lowest natural modes, which vibrate, "
+                  "and at once by what they leave of the compliance")
+      .by_default("elastic_modes", &DynamicsSettings::elastic_modes, integer(Range::between(1, 60)),
+                  "10", "number of natural modes of the free block where the flexibility is modal")
+      .by_default("modal_damping", &DynamicsSettings::modal_damping, number(Range::between(0, 0.5)),
+                  "0.01", "damping of each of these modes over the critical one");
   return table.format();
 }
 

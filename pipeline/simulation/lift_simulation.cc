@@ -1,10 +1,12 @@
 #include "pipeline/simulation/lift_simulation.h"
 
+#include <optional>
 #include <utility>
 
 #include "pipeline/assessment/block_preparation.h"
 #include "pipeline/assessment/lift_scene.h"
 #include "pipeline/assessment/loop_loads.h"
+#include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/simulation/mechanism_run.h"
@@ -53,7 +55,13 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   const auto block = make_block_model(*lift_case.load.model, lift_case.load.model_name.value,
                                       lift_case.structure, diagnostics);
   if (!block) throw InputError(diagnostics);
-  BuiltLift model = prepare_lift(lift_case, load_mass(block->mass_properties()), progress);
+  std::optional<LoadFlexibility> flexibility;
+  if (lift_case.dynamics.flexibility != Flexibility::rigid) {
+    progress("block: stiffness, factorisation, unit responses", 0, "");
+    flexibility = make_flexibility(structure::UnitResponses(*block), lift_case.dynamics);
+  }
+  BuiltLift model = prepare_lift(lift_case, load_mass(block->mass_properties()), progress,
+                                 flexibility ? &*flexibility : nullptr);
   LiftRun run = run_lift(lift_case, std::move(model), progress);
   return {std::move(lift_case), block->mesh().lugs, std::move(run)};
 }

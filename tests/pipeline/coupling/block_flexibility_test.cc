@@ -1,0 +1,91 @@
+// The block's elasticity felt by the ropes of a lift.
+#include "pipeline/coupling/block_flexibility.h"
+
+#include <gtest/gtest.h>
+
+#include "dynamics/simulation/equilibrium.h"
+#include "pipeline/assessment/block_assessment.h"
+#include "pipeline/assessment/lift_run.h"
+#include "pipeline/assessment/lift_scene.h"
+#include "tests/pipeline/assessment/small_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+const structure::UnitResponses& responses() {
+  static const structure::UnitResponses all(*test::small_lift().model);
+  return all;
+}
+
+LiftCase lift_case(Flexibility flexibility) {
+  LiftCase result = test::read_small_lift();
+  result.dynamics.flexibility = flexibility;
+  result.dynamics.elastic_modes = 4;
+  return result;
+}
+
+BuiltLift build(Flexibility kind, double factor = 1) {
+  const LiftCase the_case = lift_case(kind);
+  std::optional<LoadFlexibility> flexibility = make_flexibility(responses(), the_case.dynamics);
+  if (flexibility) flexibility->compliance *= factor;
+  return build_lift(the_case, load_mass(test::small_lift().mass()), nullptr,
+                    flexibility ? &*flexibility : nullptr);
+}
+
+Eigen::VectorXd tensions(const BuiltLift& lift) {
+  Eigen::VectorXd q = lift.system.q_start();
+  dynamics::EquilibriumSolver(lift.system).solve(0, q);
+  dynamics::LiftWorkspace w(lift.system);
+  w.q = q;
+  w.v.setZero();
+  dynamics::set_drives(lift.system, 0, false, w);
+  dynamics::calc_loads(lift.system, 0, nullptr, w);
+  Eigen::VectorXd result(static_cast<Eigen::Index>(lift.ropes.size()));
+  for (std::size_t i = 0; i < lift.ropes.size(); ++i)
+    result[static_cast<Eigen::Index>(i)] =
+        w.rope_loads[static_cast<std::size_t>(lift.ropes[i].rope)].tension;
+  return result;
+}
+
+TEST(BlockFlexibility, RigidCasesHaveNone) {
+  EXPECT_FALSE(make_flexibility(responses(), lift_case(Flexibility::rigid).dynamics));
+  EXPECT_TRUE(build(Flexibility::rigid).system.elastic_bodies().empty());
+}
+
+TEST(BlockFlexibility, AStifferBlockComesToTheRigidOne) {
+  const Eigen::VectorXd rigid = tensions(build(Flexibility::rigid));
+  const auto difference = [&](double factor) {
+    return (tensions(build(Flexibility::static_, factor)) - rigid).norm() / rigid.norm();
+  };
+  // Linear elements are stiff, and the tensions of four slings follow from statics but for small angles
+  // and one degree: so the block is made softer to see it. The difference is of the first order in the
+  // compliance.
+  EXPECT_NEAR(difference(10) / difference(100), 0.1, 0.03);
+  EXPECT_LT(difference(1e-3), 1e-6);
+}
+
+TEST(BlockFlexibility, ModesAtRestAreTheStaticCompliance) {
+  const BuiltLift modal = build(Flexibility::modal);
+  EXPECT_EQ(modal.system.mechanism().body_count(),
+            build(Flexibility::rigid).system.mechanism().body_count() + 4);
+  const Eigen::VectorXd still = tensions(build(Flexibility::static_));
+  EXPECT_LT((tensions(modal) - still).norm(), 1e-5 * still.norm());
+}
+
+// The two stages agree on the balance of the block in each state, or assess_block throws.
+TEST(BlockFlexibility, LoadsOnAFlexibleBlockBalance) {
+  for (const Flexibility kind : {Flexibility::static_, Flexibility::modal}) {
+    const LiftRun run = run_lift(lift_case(kind), build(kind), [](auto&&...) {});
+    const BlockAttachment attachment =
+        attach_block(run.model.system, run.model.load, test::small_lift().lugs());
+    const structure::StressRecovery recovery(responses());
+    const BlockAssessment block =
+        assess_block(responses(), recovery, attachment, run.static_history, run.dynamic_history());
+    EXPECT_GT(block.simultaneous.dynamic_state.result.checked_von_mises.value, 0);
+    const Eigen::VectorXd& kept = run.dynamic_history().energy.elastic;
+    EXPECT_GT(kept.minCoeff(), 0);
+  }
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
