@@ -76,7 +76,7 @@ std::string flexibility_sentence(const DynamicsSettings& settings) {
           "{:g} of the critical one, and at once by what these leave of the compliance. Stress is "
           "that of the lugs' forces and the rigid inertia; the inertia of the vibration itself is "
           "not in it.",
-          settings.elastic_modes, settings.modal_damping);
+          settings.mode_count(), settings.mode_damping());
   }
   return {};
 }

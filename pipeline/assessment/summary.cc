@@ -288,8 +288,8 @@ Json flexibility_json(const DynamicsSettings& settings, const LiftRun& lift) {
   }
   Json json{{"kind", settings.flexibility == Flexibility::modal ? "modal" : "static"}};
   if (settings.flexibility == Flexibility::modal) {
-    json["modes"] = settings.elastic_modes;
-    json["modal_damping"] = settings.modal_damping;
+    json["modes"] = settings.mode_count();
+    json["modal_damping"] = settings.mode_damping();
   }
   if (const auto& largest = lift.elastic_displacement)
     json["largest_lug_displacement"] = {

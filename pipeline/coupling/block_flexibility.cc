@@ -9,7 +9,7 @@ namespace blocklift::pipeline {
 std::optional<LoadFlexibility> make_flexibility(const structure::UnitResponses& responses,
                                                 const DynamicsSettings& settings) {
   if (settings.flexibility == Flexibility::rigid) return {};
-  const int modes = settings.flexibility == Flexibility::modal ? settings.elastic_modes : 0;
+  const int modes = settings.flexibility == Flexibility::modal ? settings.mode_count() : 0;
   structure::LugFlexibility at_lugs = structure::find_lug_flexibility(responses, modes);
   LoadFlexibility flexibility;
   for (const structure::LugRegion& lug : responses.model().mesh().lugs)
@@ -17,7 +17,7 @@ std::optional<LoadFlexibility> make_flexibility(const structure::UnitResponses& 
   flexibility.compliance = std::move(at_lugs.residual_compliance);
   flexibility.shapes = std::move(at_lugs.shapes);
   flexibility.angular_frequencies = std::move(at_lugs.angular_frequencies);
-  flexibility.damping_ratio = settings.modal_damping;
+  flexibility.damping_ratio = settings.mode_damping();
   return flexibility;
 }
 

@@ -141,8 +141,11 @@ struct DynamicsSettings {
   double sample_interval = 0;  ///< s
   double static_interval = 0;  ///< s
   Flexibility flexibility = Flexibility::rigid;
-  int elastic_modes = 0;     ///< where the flexibility is modal
-  double modal_damping = 0;  ///< of each, over the critical one
+  std::optional<Located<int>> elastic_modes = {};     ///< where the flexibility is modal
+  std::optional<Located<double>> modal_damping = {};  ///< of each, over the critical one
+
+  int mode_count() const { return elastic_modes ? elastic_modes->value : 10; }
+  double mode_damping() const { return modal_damping ? modal_damping->value : 0.01; }
 };
 
 /// How the wear by repeated lifts is judged.

@@ -340,6 +340,7 @@ void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
     refuse(lift_case.sea.has_value(), "a sea");
     refuse(lift_case.load.vessel_name.has_value(), "a vessel as the load");
     refuse(!lift_case.operation.empty(), "an operation");
+    refuse(lift_case.dynamics.flexibility != Flexibility::rigid, "a flexible block");
     return;
   }
   const auto require = [&](bool missing, const char* key) {
@@ -373,6 +374,19 @@ void check_duration(const LiftCase& lift_case, const Schedule& schedule, Diagnos
   };
   check("sample_interval", lift_case.dynamics.sample_interval);
   check("static_interval", lift_case.dynamics.static_interval);
+}
+
+/// The keys of the natural modes, which one kind of flexibility alone reads.
+void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostics) {
+  if (dynamics.flexibility == Flexibility::modal) return;
+  const auto refuse = [&](const auto& key, const char* name) {
+    if (!key) return;
+    diagnostics.error(key->mark,
+                      fmt::format("{} is given, and the block has no natural modes", name),
+                      {"they are those of flexibility: modal"});
+  };
+  refuse(dynamics.elastic_modes, "elastic_modes");
+  refuse(dynamics.modal_damping, "modal_damping");
 }
 
 /// Vessels, sea and lines, and the lugs and the water of a load that is a vessel.
@@ -421,6 +435,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   }
   check_ropes(lift_case, diagnostics);
   check_afloat(lift_case, diagnostics);
+  check_flexibility(lift_case.dynamics, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_duration(lift_case, schedule_operation(lift_case, diagnostics), diagnostics);

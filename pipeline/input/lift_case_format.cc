@@ -161,10 +161,13 @@ Format<DynamicsSettings> dynamics_format() {
                   "how the block gives way where ropes pull at its lugs: not at all; at once, by "
                   "the compliance of its structure; or by its lowest natural modes, which vibrate, "
                   "and at once by what they leave of the compliance")
-      .by_default("elastic_modes", &DynamicsSettings::elastic_modes, integer(Range::between(1, 60)),
-                  "10", "number of natural modes of the free block where the flexibility is modal")
-      .by_default("modal_damping", &DynamicsSettings::modal_damping, number(Range::between(0, 0.5)),
-                  "0.01", "damping of each of these modes over the critical one");
+      .optional("elastic_modes", &DynamicsSettings::elastic_modes,
+                located(integer(Range::between(1, 60))),
+                "number of natural modes of the free block where the flexibility is modal; 10 if "
+                "left out")
+      .optional("modal_damping", &DynamicsSettings::modal_damping,
+                located(number(Range::between(0, 0.5))),
+                "damping of each of these modes over the critical one; 0.01 if left out");
   return table.format();
 }
 

@@ -20,7 +20,7 @@ const structure::UnitResponses& responses() {
 LiftCase lift_case(Flexibility flexibility) {
   LiftCase result = test::read_small_lift();
   result.dynamics.flexibility = flexibility;
-  result.dynamics.elastic_modes = 4;
+  result.dynamics.elastic_modes = {4, {}};
   return result;
 }
 

@@ -413,6 +413,14 @@ TEST(LiftCaseTest, SamplesAreCloserThanTheBounceOfALoad) {
             "1 error\n");
 }
 
+TEST(LiftCaseTest, NaturalModesAreThoseOfAModalBlock) {
+  EXPECT_EQ(complaints_about_case("settle: 10 s",
+                                  "settle: 10 s\ndynamics: {flexibility: static, elastic_modes: 5}"),
+            "case.yaml:21:48: error: elastic_modes is given, and the block has no natural modes\n"
+            "    they are those of flexibility: modal\n"
+            "1 error\n");
+}
+
 TEST(LiftCaseTest, ReadsMeasuredTensions) {
   SampleLift lift;
   lift.lift_case = with(lift.lift_case, "  source: a yard\n",
