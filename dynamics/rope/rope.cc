@@ -209,7 +209,7 @@ EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
   const double elastic = load.taut ? load.elastic_force : std::max(0.0, load.elastic_force);
   const double elongation_rate = load.length_rate - load.unstretched_rate;
   const double dissipated =
-      load.taut ? load.damping_force * elongation_rate : -elastic * elongation_rate;
+      load.taut ? load.damping_force * elongation_rate : -elastic * std::min(0.0, elongation_rate);
   return {.stored_energy = 0.5 * elastic * elastic / load.stiffness,
           .dissipated_power = dissipated,
           .supplied_power = -load.unstretched_rate *
