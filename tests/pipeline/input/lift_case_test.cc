@@ -414,8 +414,8 @@ TEST(LiftCaseTest, SamplesAreCloserThanTheBounceOfALoad) {
 }
 
 TEST(LiftCaseTest, NaturalModesAreThoseOfAModalBlock) {
-  EXPECT_EQ(complaints_about_case("settle: 10 s",
-                                  "settle: 10 s\ndynamics: {flexibility: static, elastic_modes: 5}"),
+  EXPECT_EQ(complaints_about_case(
+                "settle: 10 s", "settle: 10 s\ndynamics: {flexibility: static, elastic_modes: 5}"),
             "case.yaml:21:48: error: elastic_modes is given, and the block has no natural modes\n"
             "    they are those of flexibility: modal\n"
             "1 error\n");
