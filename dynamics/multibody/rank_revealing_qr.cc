@@ -182,14 +182,19 @@ void RankRevealingQr::solve_minimum_norm(VectorRef y) {
   }
 }
 
-Eigen::MatrixXd RankRevealingQr::complement() const {
-  const Eigen::Index n = a_.rows();
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(n, n - rank_);
-  for (Eigen::Index i = 0; i < n - rank_; ++i) {
-    basis(rank_ + i, i) = 1.0;
-    apply_reflections_backwards(basis.col(i));
+Eigen::MatrixXd RankRevealingQr::columns_of_q(Eigen::Index first, Eigen::Index count) const {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(a_.rows(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    columns(first + i, i) = 1.0;
+    apply_reflections_backwards(columns.col(i));
   }
-  return basis;
+  return columns;
 }
+
+Eigen::MatrixXd RankRevealingQr::complement() const {
+  return columns_of_q(rank_, a_.rows() - rank_);
+}
+
+Eigen::MatrixXd RankRevealingQr::range() const { return columns_of_q(0, rank_); }
 
 }  // namespace blocklift::dynamics

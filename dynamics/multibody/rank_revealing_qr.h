@@ -38,11 +38,14 @@ class RankRevealingQr {
   /// Coefficients c of the combination of independent columns that a dependent column is:
   /// a_(pivot rank + i) = sum c_k a_(pivot k). c: rank() entries.
   void combination(Eigen::Index i, VectorRef c) const;
-  /// First entry onwards of Q: an orthonormal basis of what is perpendicular to all columns, rows x
+  /// The other columns of Q: an orthonormal basis of what is perpendicular to all columns, rows x
   /// (rows - rank).
   Eigen::MatrixXd complement() const;
+  /// The first rank() columns of Q: an orthonormal basis of the columns, rows x rank.
+  Eigen::MatrixXd range() const;
 
  private:
+  Eigen::MatrixXd columns_of_q(Eigen::Index first, Eigen::Index count) const;
   void scale_columns(const std::vector<char>& group);
   void bring_forward(Eigen::Index k);
   void reflect(Eigen::Index k);

@@ -187,10 +187,8 @@ void EquilibriumSolver::Implementation::calc_stiffness(const Eigen::VectorXd& u,
                                                        Eigen::MatrixXd& result) {
   calc_residual(u, set, residual_here);
   calc_tangent_matrices(system, time, w, tangent_matrices);
-  const Eigen::MatrixXd moved = coordinates.tangent();
-  // What the loops bear of the force's change does not count: along the tangent, or Z where they are one.
-  const Eigen::MatrixXd& along = w.loops ? moved : coordinates.basis();
-  result.noalias() = along.transpose() * (tangent_matrices.stiffness * moved);
+  result.noalias() = coordinates.virtual_motions().transpose() * tangent_matrices.stiffness *
+                     coordinates.tangent();
   result.diagonal() += holding_stiffness * weight;
 }
 
@@ -336,6 +334,11 @@ void EquilibriumSolver::Implementation::finish(Eigen::VectorXd& q) {
   Eigen::VectorXd residual(coordinates.size());
   calc_residual(Eigen::VectorXd::Zero(coordinates.size()), nullptr, residual);
   w.joint_force = tau - w.loads.tau;
+  if (w.loops) {
+    Eigen::Index i = 0;
+    for (const int k : mechanism.free_velocities()) free_force[i++] = -w.joint_force[k];
+    coordinates.balance_at_reference(free_force, w.loops->lambda);
+  }
   for (const int k : mechanism.driven_velocities()) {
     if (w.loops) w.joint_force[k] -= coordinates.loop_force(k, w.loops->lambda);
   }

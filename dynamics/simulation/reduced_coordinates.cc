@@ -1,38 +1,91 @@
 #include "dynamics/simulation/reduced_coordinates.h"
 
+#include <limits>
+
 #include "dynamics/errors.h"
 #include "dynamics/multibody/assembly.h"
 #include "dynamics/multibody/derivatives.h"
 
 namespace blocklift::dynamics {
+namespace {
+
+// Residual at which positions count as on the loops (m, rad), and what rounding may leave of it.
+constexpr double on_loops = 1e-14;
+constexpr double stalled_on_loops = 1e-11;
+constexpr int most_iterations = 20;
+
+}  // namespace
 
 ReducedCoordinates::ReducedCoordinates(const LiftSystem& system)
     : system_(system),
+      kinematics_(system.mechanism()),
+      rows_(LoopRows::none(system.mechanism())),
       reference_(system.q_start()),
       basis_(Eigen::MatrixXd::Identity(system.nv_free(), system.nv_free())),
+      normal_(system.nv_free(), 0),
       increment_(Eigen::VectorXd::Zero(system.mechanism().nv())) {
-  if (!system.mechanism().loops().empty()) projector_.emplace(system.mechanism());
+  if (system.mechanism().loops().empty()) return;
+  projector_.emplace(system.mechanism());
+  state_.emplace(system.mechanism());
 }
 
 void ReducedCoordinates::set_reference(VectorRef q) {
   if (projector_) {
     if (!projector_->project_positions(q)) assemble(system_.mechanism(), q);
     projector_->look(q);
-    basis_ = projector_->factorisation().complement();
+    const RankRevealingQr& qr = projector_->factorisation();
+    basis_ = qr.complement();
+    normal_ = qr.range();
+    rows_.choose(LoopRows::all(system_.mechanism()), qr.pivots(), qr.rank());
+    evaluate(q);
   }
   reference_ = q;
+  increment_.setZero();
+}
+
+// Loops, their Jacobian and its product with N at q.
+void ReducedCoordinates::evaluate(ConstVectorRef q) {
+  const Mechanism& mechanism = system_.mechanism();
+  const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(mechanism.nv());
+  compute_kinematics(mechanism, q, at_rest, kinematics_);
+  compute_loops(mechanism, kinematics_, q, at_rest, *state_);
+  jacobian_.resize(rows_.count(), mechanism.nv());
+  calc_loop_jacobian(mechanism, kinematics_, *state_, rows_.slot, jacobian_);
+  free_jacobian_ = jacobian_(Eigen::all, mechanism.free_velocities());
+  if (rows_.count() > 0) gn_.compute(free_jacobian_ * normal_);
+}
+
+// Newton's step in y that closes the loops: dy = -(G D N)^-1 g.
+Eigen::VectorXd ReducedCoordinates::closing_move(const Eigen::MatrixXd& increments) {
+  Eigen::VectorXd residual(rows_.count());
+  for (Eigen::Index i = 0; i < residual.size(); ++i) {
+    residual[i] = state_->residual[rows_.rows[static_cast<std::size_t>(i)]];
+  }
+  return -(free_jacobian_ * increments * normal_).partialPivLu().solve(residual);
 }
 
 void ReducedCoordinates::move_to(const Eigen::VectorXd& z, VectorRef q) {
   const Mechanism& mechanism = system_.mechanism();
-  Eigen::Index i = 0;
-  const Eigen::VectorXd moves = basis_ * z;
-  for (const int k : mechanism.free_velocities()) increment_[k] = moves[i++];
+  const std::vector<int>& free = mechanism.free_velocities();
+  Eigen::VectorXd moves = basis_ * z;
+  increment_(free) = moves;
   mechanism.integrate(reference_, increment_, 1.0, q);
-  if (projector_ && !projector_->project_positions(q)) {
-    throw SimulationError("the loops cannot be closed there; they miss: " +
-                          describe_residual(mechanism, projector_->state().residual, 1e-9));
+  if (!projector_) return;
+  Eigen::MatrixXd increments(mechanism.nv(), mechanism.nv());
+  double last = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    evaluate(q);
+    const double miss = state_->residual.lpNorm<Eigen::Infinity>();
+    if (miss <= on_loops || (!(miss < 0.5 * last) && miss <= stalled_on_loops)) return;
+    if (!(miss < 2.0 * last) || rows_.count() == 0) break;
+    last = miss;
+    increment_jacobian(mechanism, increment_, increments);
+    moves += normal_ * closing_move(increments(free, free));
+    increment_(free) = moves;
+    mechanism.integrate(reference_, increment_, 1.0, q);
   }
+  throw SimulationError("the loops cannot be closed there; they miss: " +
+                        describe_residual(mechanism, state_->residual, 1e-9));
 }
 
 Eigen::MatrixXd ReducedCoordinates::tangent() {
@@ -40,18 +93,33 @@ Eigen::MatrixXd ReducedCoordinates::tangent() {
   const std::vector<int>& free = mechanism.free_velocities();
   Eigen::MatrixXd whole(mechanism.nv(), mechanism.nv());
   increment_jacobian(mechanism, increment_, whole);
-  Eigen::MatrixXd result = whole(free, free) * basis_;
-  if (!projector_) return result;
-  Eigen::VectorXd column = Eigen::VectorXd::Zero(mechanism.nv());
-  for (Eigen::Index j = 0; j < result.cols(); ++j) {
-    column(free) = result.col(j);
-    projector_->remove_normal_part(column);
-    result.col(j) = column(free);
+  const Eigen::MatrixXd increments = whole(free, free);
+  Eigen::MatrixXd moves = basis_;
+  if (rows_.count() > 0) {
+    const Eigen::MatrixXd closed = free_jacobian_ * increments;
+    moves -= normal_ * (closed * normal_).partialPivLu().solve(closed * basis_);
   }
-  return result;
+  return increments * moves;
 }
 
-void ReducedCoordinates::balance(VectorRef f, VectorRef lambda) {
+Eigen::MatrixXd ReducedCoordinates::virtual_motions() const {
+  if (rows_.count() == 0) return basis_;
+  return basis_ - normal_ * gn_.solve(free_jacobian_ * basis_);
+}
+
+void ReducedCoordinates::balance(VectorRef f, VectorRef lambda) const {
+  lambda.setZero();
+  if (rows_.count() == 0) return;
+  const Eigen::VectorXd normal_force = normal_.transpose() * f;
+  Eigen::VectorXd chosen = gn_.transpose().solve(normal_force);
+  chosen *= -1.0;
+  f += free_jacobian_.transpose() * chosen;
+  for (Eigen::Index i = 0; i < chosen.size(); ++i) {
+    lambda[rows_.rows[static_cast<std::size_t>(i)]] = chosen[i];
+  }
+}
+
+void ReducedCoordinates::balance_at_reference(VectorRef f, VectorRef lambda) {
   if (projector_) projector_->balance(f, lambda);
 }
 
