@@ -125,8 +125,8 @@ void ForceDerivatives::add_turn(std::size_t slot, Eigen::Ref<Eigen::MatrixXd> tu
 
 void ForceDerivatives::add_wrench_block(std::size_t on, std::size_t by,
                                         const Eigen::Matrix<double, 6, 6>& dF_dX,
-                                        const Eigen::Matrix<double, 6, 6>& dF_dV) {
-  if (stretch_only_) return;
+                                        const Eigen::Matrix<double, 6, 6>& dF_dV, bool stretches) {
+  if (stretch_only_ && !stretches) return;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   const Point& a = points_[on];
   const Point& b = points_[by];

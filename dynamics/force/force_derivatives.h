@@ -22,7 +22,7 @@ class ForceDerivatives {
 
   /// Begins anew at the instant of `kinematics`, with its columns; both must stay until the end.
   /// @param stretch_only leaves out what forces that are held do by turning with their line or body, and
-  /// wrench blocks: what remains at rest is the stiffness of stretching alone.
+  /// wrench blocks that do not stretch: what remains at rest is the stiffness of stretching alone.
   void start(const Kinematics& kinematics, const MotionColumns& columns, bool stretch_only = false);
 
   /// Slot: the point fixed in the body at r_W from Bo (in W, m).
@@ -48,9 +48,10 @@ class ForceDerivatives {
   /// The force at the point changes by df_dtheta times the turn of its body (in W): N/rad.
   void add_turning(std::size_t slot, const Matrix3& df_dtheta);
   /// The force (moment; force) about the slot's point changes by the motion (angular; linear) of the
-  /// body at that point and by its velocity there, in W.
+  /// body at that point and by its velocity there, in W. `stretches`: what the motion changes is the
+  /// stretching of a spring.
   void add_wrench_block(std::size_t on, std::size_t by, const Eigen::Matrix<double, 6, 6>& dF_dX,
-                        const Eigen::Matrix<double, 6, 6>& dF_dV);
+                        const Eigen::Matrix<double, 6, 6>& dF_dV, bool stretches = false);
   /// The joint force at velocity k of the mechanism changes with its own coordinate and velocity.
   void add_joint(int k, double dtau_dq, double dtau_dv) {
     dtau_dq_(k, k) += dtau_dq;

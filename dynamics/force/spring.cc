@@ -6,21 +6,17 @@
 
 namespace blocklift::dynamics {
 
-namespace {
-
-void require_not_negative(const std::string& element, const char* what, double value) {
+void require_spring_value(const std::string& spring, const char* what, double value) {
   if (!std::isfinite(value) || value < 0.0) {
-    throw ModelError("spring \"" + element + "\" has the " + what + " " + std::to_string(value) +
+    throw ModelError("spring \"" + spring + "\" has the " + what + " " + std::to_string(value) +
                      "; a finite number, zero or more, is due");
   }
 }
 
-}  // namespace
-
 PointSpring::PointSpring(Definition definition) : definition_(std::move(definition)) {
-  require_not_negative(definition_.name, "stiffness", definition_.stiffness);
-  require_not_negative(definition_.name, "damping", definition_.damping);
-  require_not_negative(definition_.name, "free length", definition_.free_length);
+  require_spring_value(definition_.name, "stiffness", definition_.stiffness);
+  require_spring_value(definition_.name, "damping", definition_.damping);
+  require_spring_value(definition_.name, "free length", definition_.free_length);
   if (definition_.from.body == definition_.to.body) {
     throw ModelError("spring \"" + definition_.name +
                      "\" has both ends on one body, so it can do nothing; join two bodies");
@@ -82,8 +78,8 @@ EnergyAccount PointSpring::calc_energy(const MotionState& state) const {
 
 JointSpring::JointSpring(const Mechanism& mechanism, Definition definition)
     : definition_(std::move(definition)) {
-  require_not_negative(definition_.name, "stiffness", definition_.stiffness);
-  require_not_negative(definition_.name, "damping", definition_.damping);
+  require_spring_value(definition_.name, "stiffness", definition_.stiffness);
+  require_spring_value(definition_.name, "damping", definition_.damping);
   if (!std::isfinite(definition_.free_coordinate)) {
     throw ModelError("spring \"" + definition_.name +
                      "\" needs the joint coordinate at which it is free of force");

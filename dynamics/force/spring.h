@@ -4,6 +4,9 @@
 
 namespace blocklift::dynamics {
 
+/// @throws ModelError, naming spring and quantity, if a stiffness, damping or length is negative or not finite.
+void require_spring_value(const std::string& spring, const char* what, double value);
+
 /// Straight spring and damper between two points; it pulls and pushes.
 ///
 /// With L the distance of the points, the force that draws them together is

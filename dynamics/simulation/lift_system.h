@@ -6,6 +6,7 @@
 #include "dynamics/force/applied_load.h"
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
+#include "dynamics/force/torsional_spring.h"
 #include "dynamics/force/wind.h"
 #include "dynamics/force/wind_load.h"
 #include "dynamics/marine/diffraction_force.h"
@@ -23,10 +24,11 @@ namespace blocklift::dynamics {
 
 /// The kinds of force elements; a new kind is entered here and nowhere else.
 using ForceElements =
-    std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<WindArea>,
-               std::vector<WindLoad>, std::vector<HullForce>, std::vector<DiffractionForce>,
-               std::vector<MorisonMember>, std::vector<QuadraticDamping>, std::vector<MooringLine>,
-               std::vector<TuggerLine>, std::vector<AppliedLoad>, std::vector<JointLoad>>;
+    std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<TorsionalSpring>,
+               std::vector<WindArea>, std::vector<WindLoad>, std::vector<HullForce>,
+               std::vector<DiffractionForce>, std::vector<MorisonMember>,
+               std::vector<QuadraticDamping>, std::vector<MooringLine>, std::vector<TuggerLine>,
+               std::vector<AppliedLoad>, std::vector<JointLoad>>;
 
 /// Calls `function` with each element of every kind.
 template <class Function>

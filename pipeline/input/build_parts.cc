@@ -189,6 +189,19 @@ void PartsBuilder::add_springs(const dynamics::Mechanism& mechanism,
       std::get<std::vector<dynamics::PointSpring>>(elements).emplace_back(std::move(definition));
       continue;
     }
+    if (spring.kind == SpringKind::torsional) {
+      dynamics::TorsionalSpring::Definition definition;
+      definition.name = prefix_ + spring.name.value;
+      definition.from = point(spring.from->body.value, Vector3::Zero()).body;
+      definition.to = point(spring.to->body.value, Vector3::Zero()).body;
+      definition.stiffness = spring.stiffness.value.value;
+      definition.damping = damping;
+      if (spring.free_orientation) {
+        definition.R_FT_free = rotation_of(spring.free_orientation->value);
+      }
+      std::get<std::vector<dynamics::TorsionalSpring>>(elements).emplace_back(definition);
+      continue;
+    }
     dynamics::JointSpring::Definition definition;
     definition.name = prefix_ + spring.name.value;
     definition.body = carried_by(spring.joint->value);

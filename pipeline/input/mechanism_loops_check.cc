@@ -59,6 +59,18 @@ void check_gear(const MechanismParts& parts, const LoopModel& loop, Reading& rea
   }
 }
 
+const char* place_of(SpringKind kind) {
+  switch (kind) {
+    case SpringKind::point:
+      return "acts between points";
+    case SpringKind::joint:
+      return "acts at a joint";
+    case SpringKind::torsional:
+      return "acts against the turning of two bodies";
+  }
+  return "";
+}
+
 void check_one_spring(const MechanismParts& parts, const SpringModel& spring, Reading& reading) {
   const std::string user = "spring " + spring.name.value;
   for (const auto* end : {&spring.from, &spring.to}) {
@@ -70,7 +82,7 @@ void check_one_spring(const MechanismParts& parts, const SpringModel& spring, Re
                   fmt::format("{} has both ends on body {}, so it can do nothing", user,
                               spring.to->body.value));
   }
-  bool turns = false;
+  bool turns = spring.kind == SpringKind::torsional;
   if (spring.kind == SpringKind::joint) {
     if (!spring.joint) return;
     const auto found = check_freedom(
@@ -82,11 +94,13 @@ void check_one_spring(const MechanismParts& parts, const SpringModel& spring, Re
   }
   const auto check = [&](const char* key, const Located<Quantity>& value, bool angular) {
     if (!std::isfinite(value.value.value) || is_angular(value.value.dimension) == angular) return;
-    reading.error(value.mark, fmt::format("{} of {} is {}, but it {}", key, user,
-                                          text_of(value.value.dimension).noun,
-                                          spring.kind == SpringKind::point ? "is a point spring"
-                                          : angular ? "acts where its joint turns"
-                                                    : "acts where its joint slides"));
+    reading.error(
+        value.mark,
+        fmt::format("{} of {} is {}, but it {}", key, user, text_of(value.value.dimension).noun,
+                    spring.kind == SpringKind::point       ? "is a point spring"
+                    : spring.kind == SpringKind::torsional ? "is a torsional spring"
+                    : angular                              ? "acts where its joint turns"
+                                                           : "acts where its joint slides"));
   };
   check("stiffness", spring.stiffness, turns);
   if (spring.damping) check("damping", *spring.damping, turns);
@@ -212,21 +226,29 @@ void check_loop(const LoopModel& loop, Reading& reading, const Mark& mark) {
 
 void check_spring(const SpringModel& spring, Reading& reading, const Mark& mark) {
   const bool at_joint = spring.kind == SpringKind::joint;
+  const bool torsional = spring.kind == SpringKind::torsional;
+  const char* place = place_of(spring.kind);
   const auto check = [&](bool given, const char* key, bool due, bool required) {
     if (given && !due) {
-      reading.error(mark, fmt::format("{} acts {}, so it has no {}", reading.owner(),
-                                      at_joint ? "at a joint" : "between points", key));
+      reading.error(mark, fmt::format("{} {}, so it has no {}", reading.owner(), place, key));
     } else if (!given && due && required) {
-      reading.error(mark, fmt::format("{} acts {} and lacks the key \"{}\"", reading.owner(),
-                                      at_joint ? "at a joint" : "between points", key));
+      reading.error(mark,
+                    fmt::format("{} {} and lacks the key \"{}\"", reading.owner(), place, key));
     }
   };
   check(spring.from.has_value(), "from", !at_joint, true);
   check(spring.to.has_value(), "to", !at_joint, true);
-  check(spring.free_length.has_value(), "free_length", !at_joint, true);
+  check(spring.free_length.has_value(), "free_length", spring.kind == SpringKind::point, true);
   check(spring.joint.has_value(), "joint", at_joint, true);
   check(spring.degree_of_freedom.has_value(), "degree_of_freedom", at_joint, false);
   check(spring.free_coordinate.has_value(), "free_coordinate", at_joint, false);
+  check(spring.free_orientation.has_value(), "free_orientation", torsional, false);
+  if (!torsional) return;
+  for (const auto* end : {&spring.from, &spring.to}) {
+    if (!*end || (*end)->position.isZero(0.0)) continue;
+    reading.error((*end)->place, fmt::format("{} {}, so that a position on them means nothing",
+                                             reading.owner(), place));
+  }
 }
 
 void check_loops_and_springs(const MechanismParts& parts, Reading& reading) {

@@ -80,14 +80,19 @@ Format<LoopModel> loop_format() {
 
 Format<SpringModel> spring_format() {
   Table<SpringModel> table("spring",
-                           "Spring with a damper, between two points or at a joint. It pulls and "
-                           "pushes.");
+                           "Spring with a damper, between two points, at a joint, or against the "
+                           "turning of two bodies. It pulls and pushes.");
   table
       .required("kind", &SpringModel::kind,
-                choice<SpringKind>({{"point", SpringKind::point}, {"joint", SpringKind::joint}}),
-                "where it acts: between two points, or at a joint")
-      .optional("from", &SpringModel::from, point_format(), "of a point spring: one end")
-      .optional("to", &SpringModel::to, point_format(), "of a point spring: the other end")
+                choice<SpringKind>({{"point", SpringKind::point},
+                                    {"joint", SpringKind::joint},
+                                    {"torsional", SpringKind::torsional}}),
+                "where it acts: between two points, at a degree of freedom of a joint, or against "
+                "any turn of one body as seen from another (torsional)")
+      .optional("from", &SpringModel::from, point_format(),
+                "of a point spring: one end; of a torsional one the body alone")
+      .optional("to", &SpringModel::to, point_format(),
+                "of a point spring: the other end; of a torsional one the body alone")
       .optional("joint", &SpringModel::joint, reference(), "of a joint spring")
       .optional("degree_of_freedom", &SpringModel::degree_of_freedom, integer(Range::between(1, 6)),
                 "of a joint spring: which of the joint's degrees of freedom, counted from 1; the "
@@ -105,6 +110,9 @@ Format<SpringModel> spring_format() {
                 "of a point spring: its length without force")
       .optional("free_coordinate", &SpringModel::free_coordinate, quantity_of(travels),
                 "of a joint spring: coordinate without force; zero if left out")
+      .optional("free_orientation", &SpringModel::free_orientation, attitude_format(),
+                "of a torsional spring: orientation of `to` in the axes of `from` without moment; "
+                "the axes parallel if left out")
       .rule(check_spring);
   return table.format();
 }

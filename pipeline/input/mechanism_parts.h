@@ -121,9 +121,10 @@ struct LoopModel {
   std::optional<Located<std::vector<std::vector<PointModel>>>> paths;
 };
 
-enum class SpringKind { point, joint };
+enum class SpringKind { point, joint, torsional };
 
-/// Spring and damper between two points, or at a degree of freedom of a joint.
+/// Spring and damper between two points, at a degree of freedom of a joint, or between the orientations of
+/// two bodies.
 struct SpringModel {
   Located<std::string> name;
   SpringKind kind = SpringKind::point;
@@ -135,6 +136,7 @@ struct SpringModel {
   std::optional<Located<Quantity>> damping;
   std::optional<Located<double>> free_length;        ///< m
   std::optional<Located<Quantity>> free_coordinate;  ///< m or rad
+  std::optional<Located<Vector3>> free_orientation;  ///< rad: roll, pitch, yaw
 };
 
 /// Positions or velocities of joints: the values that the file gives to each.

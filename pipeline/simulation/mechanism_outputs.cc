@@ -254,6 +254,16 @@ void OutputRecorder::add_spring(const std::string& name, const std::string& spri
                });
     return;
   }
+  if (const auto* torsional = find_element<dynamics::TorsionalSpring>(mechanism_.system, spring)) {
+    const std::string what = force ? "moment on the second body" : "turn of the second body";
+    add_series(
+        name, fmt::format("{} of spring {}, in the world's axes", what, spring),
+        columns_of(xyz, force ? "N m" : "rad"), [torsional, force](const Instant& now, Row row) {
+          const dynamics::MotionState state{now.time, now.w.q, now.w.v, now.w.kinematics};
+          row = (force ? torsional->calc_moment(state) : torsional->calc_turn(state)).transpose();
+        });
+    return;
+  }
   const auto* turn = find_element<dynamics::JointSpring>(mechanism_.system, spring);
   const dynamics::JointSpring::Definition& d = turn->definition();
   const Body& body = mechanism_.system.mechanism().body(d.body);

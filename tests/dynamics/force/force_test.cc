@@ -4,6 +4,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
+#include "dynamics/force/torsional_spring.h"
 #include "dynamics/force/wind.h"
 #include "pipeline/verification/models/random_mechanism.h"
 #include "tests/dynamics/force/one_body.h"
@@ -72,6 +73,39 @@ TEST(JointSpring, TurnsBackAndBalances) {
   const EnergyAccount account = spring.calc_energy({0.0, q, v, kinematics});
   EXPECT_NEAR(account.stored_energy, 0.2, 1e-14);
   EXPECT_NEAR(account.dissipated_power, 18.0, 1e-14);
+}
+
+// Turned by an angle about any axis from the free orientation, the body is turned back about that axis.
+TEST(TorsionalSpring, TurnsBackTheShorterWayAndBalances) {
+  OneBody body;
+  testing::Random random(5);
+  for (int i = 0; i < 10; ++i) {
+    const Matrix3 R_free = random.pose(1).R;
+    const TorsionalSpring spring({.name = "s",
+                                  .from = world_index,
+                                  .to = 1,
+                                  .stiffness = 100.0,
+                                  .damping = 3.0,
+                                  .R_FT_free = R_free});
+    const Vector3 axis = random.direction();
+    const double angle = random.uniform(0, 3);
+    body.q.tail<4>() = quaternion_from_rotation(rotation_about(axis, angle) * R_free);
+    body.v.setZero();
+    body.update();
+    EXPECT_LT((spring.calc_moment(body.state()) + 100.0 * angle * axis).norm(), 1e-10);
+    EXPECT_NEAR(spring.calc_energy(body.state()).stored_energy, 50.0 * angle * angle, 1e-10);
+    body.q = testing::random_configuration(random, body.mechanism);
+    body.v = random.values(6, 1);
+    body.update();
+    expect_balanced(body, spring);
+  }
+}
+
+TEST(TorsionalSpring, RefusesWhatCannotBe) {
+  EXPECT_THAT([] { TorsionalSpring({.name = "s7", .from = 0, .to = 0, .stiffness = 1.0}); },
+              ThrowsMessage<ModelError>(HasSubstr("\"s7\" has both ends on one body")));
+  EXPECT_THAT([] { TorsionalSpring({.name = "s7", .from = 0, .to = 1, .stiffness = -1.0}); },
+              ThrowsMessage<ModelError>(HasSubstr("\"s7\" has the stiffness")));
 }
 
 // 1/2 rho C A u^2 by hand: 0.5 * 1.25 * 1.6 * 10 * 64 = 640 N straight on; at 60 degrees to the

@@ -67,6 +67,15 @@ ForceElements random_elements(Random& random, const Mechanism& mechanism) {
   for (const char* name : {"a", "b", "c"}) {
     std::get<std::vector<PointSpring>>(elements).emplace_back(spring(name));
   }
+  for (const BodyIndex from : {world_index, mechanism.body_count() / 2}) {
+    std::get<std::vector<TorsionalSpring>>(elements).emplace_back(
+        TorsionalSpring::Definition{.name = "torsional",
+                                    .from = from,
+                                    .to = mechanism.body_count() - 1,
+                                    .stiffness = random.uniform(5, 20),
+                                    .damping = random.uniform(0, 3),
+                                    .R_FT_free = random.pose(1).R});
+  }
   for (BodyIndex i = 1; i < mechanism.body_count(); ++i) {
     const Body& body = mechanism.body(i);
     if (body.nv() == 0) continue;

@@ -1,6 +1,7 @@
 #include "pipeline/input/mechanism_file.h"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -204,6 +205,17 @@ TEST(MechanismFile, ChecksThatKindsAndKeysFit) {
   EXPECT_THAT(
       complaints_about("stiffness: 2 N m/rad", "stiffness: 2 N/m"),
       HasSubstr("stiffness of spring twist is a stiffness, but it acts where its joint turns"));
+  const std::string torsional = "kind: torsional, from: {body: crank}, to: {body: world}, ";
+  EXPECT_THAT(complaints_about("kind: joint, joint: pin, stiffness: 2 N m/rad",
+                               torsional + "stiffness: 2 N/m"),
+              AllOf(HasSubstr("stiffness of spring twist is a stiffness, but it is a torsional"),
+                    HasSubstr("spring twist acts against the turning of two bodies, so it has no "
+                              "free_coordinate")));
+  EXPECT_THAT(complaints_about("{kind: joint, joint: pin, stiffness: 2 N m/rad, free_coordinate: "
+                               "10 deg}",
+                               "{kind: torsional, from: {body: crank, position: [1 m, 0 m, 0 m]}, "
+                               "to: {body: world}, stiffness: 2 N m/rad}"),
+              HasSubstr("so that a position on them means nothing"));
   EXPECT_THAT(complaints_about("x: {joint: guide}", "x: {joint: guide, quantity: tension}"),
               HasSubstr("output x asks for the tension of a joint"));
   EXPECT_THAT(complaints_about("x: {joint: guide}", "x: {joint: guide, rope: tie}"),
@@ -233,6 +245,31 @@ TEST(MechanismFile, ChecksDrives) {
               HasSubstr("the initial velocity of joint shaft is that of drive d"));
   EXPECT_THAT(complaints("{joint: pin, table: [[0 s, 0 deg], [0.5 s, 1 deg]]}"),
               HasSubstr("goes from 0 s to 0.5 s, the simulation from 0 s to 1 s"));
+}
+
+// A torsion pendulum with three axes alike: a ball on a spherical joint, turned 40 degrees, swings with
+// sqrt(k/I) whatever the axis; its spring is free of moment at a yaw of 30 degrees.
+TEST(MechanismFile, SimulatesATorsionalSpringAtASphericalJoint) {
+  std::string complaints;
+  const auto file = read(R"(mechanism: torsion
+gravity: 0 m/s^2
+bodies:
+  ball: {mass: 2 kg, inertia: {xx: 3 kg m^2, yy: 3 kg m^2, zz: 3 kg m^2}}
+joints:
+  socket: {kind: spherical, child: ball}
+springs:
+  twist: {kind: torsional, from: {body: world}, to: {body: ball}, stiffness: 12 N m/rad, free_orientation: [0 deg, 0 deg, 30 deg]}
+initial: {positions: {socket: [0 deg, 0 deg, 70 deg]}}
+simulate: {duration: 1 s, relative_tolerance: 1e-10}
+)",
+                         complaints);
+  ASSERT_TRUE(file) << complaints;
+  const dynamics::LiftSystem system = build_mechanism(*file).system;
+  const auto result = dynamics::integrate(system, system.q_start(), system.v_start(),
+                                          {.relative_tolerance = 1e-10, .sample_interval = 1.0});
+  const double degree = std::numbers::pi / 180;
+  const double angle = 30 * degree + 40 * degree * std::cos(2.0);
+  EXPECT_NEAR(2 * std::atan2(result.q_end[3], result.q_end[0]), angle, 1e-8);
 }
 
 TEST(MechanismFile, SimulatesATableDriveAndAConstantSpeed) {
