@@ -16,11 +16,15 @@ std::vector<structure::LugRegion> vessel_lugs(const LoadInCase& load) {
   return lugs;
 }
 
+DrawnBox drawn_box(const BoxShape& box) {
+  return {box.size, box.centre, dynamics::quaternion_from_rotation(rotation_of(box.attitude))};
+}
+
 Scene make_scene(const BuiltLift& model, const std::vector<structure::LugRegion>& lugs) {
   Scene scene;
   for (const LiftBody& body : model.bodies) {
     DrawnBody drawn{body.name, body.kind, {}};
-    for (const BoxShape& box : body.boxes) drawn.boxes.push_back({box.size, box.centre});
+    for (const BoxShape& box : body.boxes) drawn.boxes.push_back(drawn_box(box));
     scene.bodies.push_back(drawn);
   }
   for (const LiftHoist& hoist : model.hoists) scene.hoists.push_back(hoist.rope);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "dynamics/simulation/history.h"
@@ -144,6 +145,21 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
   for (std::size_t i = 0; i < instants.size(); ++i)
     all.push_back({instants[i].name, std::move(results[i])});
   return all;
+}
+
+std::string describe_natural_periods(const NaturalModes& modes) {
+  constexpr std::size_t listed = 3;
+  std::string text = "natural periods at the " + modes.instant + ":";
+  const std::vector<Mode>& list = modes.linearisation.modes;
+  if (list.empty()) text += " none, nothing is free to move";
+  for (std::size_t i = 0; i < std::min(listed, list.size()); ++i) {
+    const Mode& mode = list[i];
+    text += fmt::format("{} {} {}", i > 0 ? "," : "", mode.name,
+                        mode.kind == dynamics::ModeKind::oscillating
+                            ? fmt::format("{:.3g} s", mode.period())
+                            : fmt::format("({})", dynamics::mode_kind_name(mode.kind)));
+  }
+  return text;
 }
 
 Json natural_periods_json(const dynamics::Mechanism& mechanism,

@@ -27,6 +27,9 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
                                              const dynamics::History& static_history,
                                              const Eigen::VectorXd& q_start, double interval);
 
+/// "natural periods at the start: load: pendulum along x 16.2 s, ...": the slowest three, for the terminal.
+std::string describe_natural_periods(const NaturalModes& modes);
+
 /// The table "natural_periods" of summary.json (pipeline/formats/results_layout.h).
 nlohmann::ordered_json natural_periods_json(const dynamics::Mechanism& mechanism,
                                             const std::vector<NaturalModes>& all);

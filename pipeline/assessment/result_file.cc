@@ -152,15 +152,17 @@ void write_history(ResultsWriter& file, std::string_view group, const LiftSystem
 
 void write_scene(ResultsWriter& file, const LiftSystem& system, const Scene& scene) {
   for (const DrawnBody& body : scene.bodies) {
-    RowMajorMatrix boxes(static_cast<Eigen::Index>(body.boxes.size()), 6);
+    RowMajorMatrix boxes(static_cast<Eigen::Index>(body.boxes.size()), 10);
     for (std::size_t i = 0; i < body.boxes.size(); ++i) {
       boxes.row(static_cast<Eigen::Index>(i)) << body.boxes[i].size.transpose(),
-          body.boxes[i].centre.transpose();
+          body.boxes[i].centre.transpose(), body.boxes[i].orientation.transpose();
     }
     const std::string path = layout::join(layout::scene_bodies, body.name);
-    file.write_matrix(layout::join(path, "boxes"), boxes,
-                      {"m", "size x y z and centre x y z of each box, in the body's frame"});
-    file.write_attribute(layout::join(path, "boxes"), "kind", body.kind);
+    file.write_matrix(
+        layout::join(path, "boxes"), boxes,
+        {"m, m, 1",
+         "size x y z, centre x y z and orientation w x y z of each box, in the body's frame"});
+    file.write_attribute(path, "kind", body.kind);
   }
   for (std::size_t i = 0; i < system.ropes().size(); ++i) {
     const dynamics::Rope& rope = system.ropes()[i];

@@ -14,8 +14,10 @@ namespace blocklift::pipeline {
 
 /// A body as it is drawn: boxes fixed in it.
 struct DrawnBox {
-  dynamics::Vector3 size;
-  dynamics::Vector3 centre;
+  dynamics::Vector3 size;    ///< along the box's edges, m
+  dynamics::Vector3 centre;  ///< in the body's frame, m
+  dynamics::Vector4 orientation{1, 0, 0,
+                                0};  ///< of the edges in the body's frame, quaternion w x y z
 };
 struct DrawnBody {
   std::string name;

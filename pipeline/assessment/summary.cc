@@ -308,8 +308,9 @@ Json energy_json(const LiftRun& lift) {
           {"relative_imbalance", number(imbalance / largest)}};
 }
 
-Json solver_json(const LiftRun& lift) {
-  const dynamics::IntegrationStatistics& s = lift.dynamic_result.statistics;
+}  // namespace
+
+Json solver_json(const dynamics::IntegrationStatistics& s, double simulated_s, double elapsed_s) {
   return {{"steps", s.steps},
           {"right_hand_sides", s.right_hand_sides},
           {"right_hand_sides_for_differences", s.difference_right_hand_sides},
@@ -320,8 +321,10 @@ Json solver_json(const LiftRun& lift) {
           {"nonlinear_failures", s.nonlinear_failures},
           {"restarts", s.restarts},
           {"ropes_slack_or_taut_again", s.contact_changes},
-          {"times_faster_than_real_time", number(lift.simulated_s() / lift.dynamic_s)}};
+          {"times_faster_than_real_time", number(simulated_s / elapsed_s)}};
 }
+
+namespace {
 
 void add_structure_timing(const BlockRun& block, Json& timing) {
   const structure::SolutionTiming& solution = block.responses->timing();
@@ -334,22 +337,24 @@ void add_structure_timing(const BlockRun& block, Json& timing) {
   if (block.history) timing["history_s"] = block.history->evaluation_s;
 }
 
+Json dynamics_timing(const LiftRun& lift) {
+  return {{"static_s", lift.static_s},
+          {"dynamic_s", lift.dynamic_s},
+          {"simulated_s", lift.simulated_s()}};
+}
+
 Json timing_json(const Assessment& assessment) {
-  Json timing = Json::object();
-  if (assessment.lift) {
-    timing["static_s"] = assessment.lift->static_s;
-    timing["dynamic_s"] = assessment.lift->dynamic_s;
-    timing["simulated_s"] = assessment.lift->simulated_s();
-  }
+  Json timing = assessment.lift ? dynamics_timing(*assessment.lift) : Json::object();
   if (assessment.block.model) add_structure_timing(assessment.block, timing);
   timing["total_s"] = assessment.total_s;
   return timing;
 }
 
-Json comparison_json(const Assessment& assessment, const Comparison& compare) {
+Json comparison_json(const LiftCase& lift_case, const LiftRun* lift) {
+  const Comparison& compare = *lift_case.compare;
   Json json{{"source", compare.source}};
-  if (assessment.lift) {
-    const LoadTables tables(assessment.lift_case, *assessment.lift);
+  if (lift) {
+    const LoadTables tables(lift_case, *lift);
     json["ropes"] = tables.comparison(compare);
     if (!compare.series.empty()) json["series"] = tables.series(compare);
   }
@@ -357,6 +362,23 @@ Json comparison_json(const Assessment& assessment, const Comparison& compare) {
   if (compare.deformation_increase)
     json["deformation_increase_percent"] = 100 * *compare.deformation_increase;
   return json;
+}
+
+void add_loads(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
+  const LoadTables tables(lift_case, lift);
+  summary["ropes"] = tables.ropes();
+  summary["hoists"] = tables.hoists();
+  summary["cranes"] = tables.cranes();
+  if (Json loops = loops_json(lift); !loops.empty()) summary["loops"] = std::move(loops);
+}
+
+void add_motion(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
+  summary["natural_periods"] =
+      natural_periods_json(lift.model.system.mechanism(), lift.natural_modes);
+  summary["flexibility"] = flexibility_json(lift_case.dynamics, lift);
+  summary["energy"] = energy_json(lift);
+  summary["solver"] =
+      solver_json(lift.dynamic_result.statistics, lift.simulated_s(), lift.dynamic_s);
 }
 
 }  // namespace
@@ -370,26 +392,26 @@ Json make_summary(const Assessment& assessment) {
                {"verdict_reasons", verdict_reasons(assessment.checks)},
                {"checks", Json::array()}};
   for (const Check& check : assessment.checks) summary["checks"].push_back(check_json(check));
-  if (assessment.lift) {
-    const LoadTables tables(assessment.lift_case, *assessment.lift);
-    summary["ropes"] = tables.ropes();
-    summary["hoists"] = tables.hoists();
-    summary["cranes"] = tables.cranes();
-    if (Json loops = loops_json(*assessment.lift); !loops.empty())
-      summary["loops"] = std::move(loops);
-  }
+  const LiftRun* lift = assessment.lift ? &*assessment.lift : nullptr;
+  if (lift) add_loads(assessment.lift_case, *lift, summary);
   if (assessment.lift_case.compare)
-    summary["comparison"] = comparison_json(assessment, *assessment.lift_case.compare);
+    summary["comparison"] = comparison_json(assessment.lift_case, lift);
   if (assessment.block.model) summary["structure"] = structure_json(assessment);
-  if (assessment.lift) {
-    summary["natural_periods"] = natural_periods_json(assessment.lift->model.system.mechanism(),
-                                                      assessment.lift->natural_modes);
-    summary["flexibility"] = flexibility_json(assessment.lift_case.dynamics, *assessment.lift);
-    summary["energy"] = energy_json(*assessment.lift);
-    summary["solver"] = solver_json(*assessment.lift);
-  }
+  if (lift) add_motion(assessment.lift_case, *lift, summary);
   summary["timing"] = timing_json(assessment);
   summary["assumptions"] = list_assumptions(assessment);
+  return summary;
+}
+
+Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift) {
+  Json summary{{"case", lift_case.name},
+               {"title", lift_case.title},
+               {"program_version", program_version},
+               {"created", creation_time()}};
+  add_loads(lift_case, lift, summary);
+  if (lift_case.compare) summary["comparison"] = comparison_json(lift_case, &lift);
+  add_motion(lift_case, lift, summary);
+  summary["timing"] = dynamics_timing(lift);
   return summary;
 }
 

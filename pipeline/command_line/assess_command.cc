@@ -75,18 +75,7 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
 /// The load's own slow motions at the start, and what the integration cost.
 void print_motion(const LiftRun& lift) {
   if (!lift.natural_modes.empty()) {
-    fmt::print("\nnatural periods at the start:");
-    int listed = 0;
-    for (const dynamics::Mode& mode : lift.natural_modes.front().linearisation.modes) {
-      if (listed == 3) break;
-      if (mode.kind == dynamics::ModeKind::oscillating) {
-        fmt::print("{} {} {:.3g} s", listed++ > 0 ? "," : "", mode.name, mode.period());
-      } else {
-        fmt::print("{} {} ({})", listed++ > 0 ? "," : "", mode.name,
-                   dynamics::mode_kind_name(mode.kind));
-      }
-    }
-    fmt::print("\n");
+    fmt::print("\n{}\n", describe_natural_periods(lift.natural_modes.front()));
   }
   const dynamics::IntegrationStatistics& cost = lift.dynamic_result.statistics;
   fmt::print("time integration: {} steps, {} right-hand sides, {} Jacobians\n", cost.steps,

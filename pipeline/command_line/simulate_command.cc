@@ -11,7 +11,7 @@
 #include "pipeline/command_line/progress_bar.h"
 #include "pipeline/input/file_kind.h"
 #include "pipeline/simulation/lift_simulation.h"
-#include "pipeline/simulation/mechanism_run.h"
+#include "pipeline/simulation/mechanism_results.h"
 
 namespace blocklift::pipeline {
 
@@ -37,6 +37,7 @@ void print_statistics(const dynamics::IntegrationStatistics& statistics, double 
 void print_files(const fs::path& folder, bool csv) {
   fmt::print("results: {}\n", (folder / "results.h5").string());
   if (csv) fmt::print("table: {}\n", (folder / "results.csv").string());
+  fmt::print("report: {}\n", (folder / "report.html").string());
 }
 
 void print_rope_use(const MechanismFile& file, const MechanismRun& run) {
@@ -70,9 +71,12 @@ int simulate_mechanism(const SimulateOptions& options) {
     write_mechanism_results(*file, run, folder, options.csv);
   }
   fmt::print("{}\n\n{}\n", file->title.empty() ? file->name : file->title,
-             extremes_table(run.time, run.outputs));
+             extremes_table(run.time(), run.outputs));
   print_rope_use(*file, run);
-  print_statistics(run.statistics, run.elapsed);
+  if (!run.natural_modes.empty()) {
+    fmt::print("{}\n", describe_natural_periods(run.natural_modes.front()));
+  }
+  print_statistics(run.result.statistics, run.elapsed);
   print_files(folder, options.csv);
   return exit_code::done;
 }
@@ -114,6 +118,9 @@ int simulate_lift_case(const SimulateOptions& options) {
                at_rest[i].time, in_motion[i].tension / newton_per_tonne, in_motion[i].time);
   }
   fmt::print("\n");
+  if (!simulation.run.natural_modes.empty()) {
+    fmt::print("{}\n", describe_natural_periods(simulation.run.natural_modes.front()));
+  }
   print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
   print_files(folder, options.csv);
   return exit_code::done;

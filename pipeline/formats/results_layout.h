@@ -6,7 +6,8 @@
 /// Where everything lies in results.h5 and summary.json: the one place that names it.
 ///
 /// The report is made from these two files alone. Parts marked (o) are optional: a case with a load
-/// table has no /static, /dynamic, /operation, /modes and /scene; a run without structure has no /structure.
+/// table has no /static, /dynamic, /operation, /modes and /scene; a run without structure has no /structure;
+/// a mechanism has no /static, and /outputs besides.
 /// Sizes: n samples of the stage, b boxes, k rope points, N surface points, M surface quadrangles.
 /// Frames: W world, B a body, all SI. Poses are x y z, then the unit quaternion w x y z.
 ///
@@ -27,6 +28,9 @@
 ///                                      multipliers (o) N or N m [n x its equations]   residual (o) m or rad [n]
 ///                                      attribute of the group: kind
 ///     energy/<term>                (o) J [n]; the term `balance` is what the others leave unexplained
+///   /time, /outputs/<output>       (o) s [n], and what a mechanism file asks for [n x columns]; attribute columns (o):
+///                                      their names
+///   /statistics                    (o) what the time integration cost: attributes
 ///   /measured/<rope>               (o) time s [p], tension N [p]: a measured series
 ///   /modes/<i>                     (o) natural modes at rest at one instant, i = 1, 2, ...; m modes
 ///                                      attributes instant (in words), time
@@ -36,8 +40,8 @@
 ///     bodies/<body>/motion             rad, m [m x 12], complex amplitudes in W: rotation vector, displacement of
 ///                                      the origin (real parts), then both imaginary; largest motion 1 m
 ///   /scene                         (o) what the drawing shows; bodies are those of .../bodies, or "world"
-///     bodies/<body>/boxes              m [b x 6], size x y z and centre x y z, in B (may have no rows);
-///                                      attribute kind (o): crane, hook block, load, ...
+///     bodies/<body>/boxes              m, m, 1 [b x 10], size x y z, centre x y z, quaternion, in B (may have no rows);
+///                                      attribute kind (o) of the body: crane, hook block, load, ...
 ///     ropes/<rope>/bodies              texts [k], the body each point of the path belongs to
 ///     ropes/<rope>/points              m [k x 3], each in its body's frame; attribute kind: sling or hoist
 ///     lugs/names                       texts [l]   lugs/points           m [l x 3], in the load's frame
@@ -58,7 +62,8 @@
 ///                                      patches/plates, texts
 ///   /structure/history/points/<name>   point m [3]; <state>/von_mises, <state>/normal_stress   Pa [n]
 ///
-/// summary.json, one object; everything but case and verdict may be missing, null stands for "not known"
+/// summary.json, one object; everything but case may be missing, null stands for "not known"; what is simulated
+/// and not assessed has no verdict
 ///   case, title, program_version, created
 ///   verdict            "pass" | "fail";   verdict_reasons   list of text
 ///   checks             [{name, demand, limit, unit, utilisation, pass, time_s (o), note (o)}]
@@ -121,6 +126,10 @@ inline constexpr std::string_view stage_end = "/operation/stage_end";
 
 inline constexpr std::string_view static_history = "/static";
 inline constexpr std::string_view dynamic_history = "/dynamic";
+
+inline constexpr std::string_view outputs_time = "/time";
+inline constexpr std::string_view outputs_group = "/outputs";
+inline constexpr std::string_view statistics_group = "/statistics";
 
 inline constexpr std::string_view measured_group = "/measured";
 

@@ -126,6 +126,65 @@ json history(const ResultsReader& results, const std::string& group) {
       {"energy", std::move(energy)}};
 }
 
+std::string attribute_or(const ResultsReader& results, std::string_view object, const char* name,
+                         const std::string& otherwise) {
+  return results.has_attribute(object, name) ? results.read_text_attribute(object, name)
+                                             : otherwise;
+}
+
+/// "x, y, z" in parts.
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(", ", begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return parts;
+}
+
+/// The columns of an output, a series each.
+json output_series(const ResultsReader& results, const std::string& output,
+                   const std::vector<double>& time) {
+  const std::string dataset = join(layout::outputs_group, output);
+  const Array<double> values = results.read(dataset);
+  if (values.rows() != time.size())
+    throw ResultsError("\"" + dataset + "\" has " + std::to_string(values.rows()) +
+                       " samples, its time has " + std::to_string(time.size()));
+  const std::vector<std::string> names = parts_of(attribute_or(results, dataset, "columns", ""));
+  const Meaning meaning = results.read_meaning(dataset);
+  const std::vector<std::string> units = parts_of(meaning.units);
+  json list = json::array();
+  for (std::size_t column = 0; column < values.columns(); ++column) {
+    std::vector<double> one;
+    for (std::size_t i = 0; i < values.rows(); ++i) one.push_back(values(i, column));
+    std::vector<double> kept_time, kept_values;
+    for (const std::size_t i : indices_to_draw(one, small_history_buckets)) {
+      if (!std::isfinite(one[i])) continue;
+      kept_time.push_back(time[i]);
+      kept_values.push_back(one[i]);
+    }
+    list.push_back({{"name", output},
+                    {"quantity", column < names.size() ? names[column] : ""},
+                    {"units", units.size() > 1 ? units[column] : meaning.units},
+                    {"description", meaning.description},
+                    {"time", floats(kept_time)},
+                    {"values", floats(kept_values)}});
+  }
+  return list;
+}
+
+json outputs(const ResultsReader& results) {
+  json list = json::array();
+  const auto names = children_of(results, std::string(layout::outputs_group));
+  if (names.empty()) return list;
+  const std::vector<double> time = results.read(layout::outputs_time).values;
+  for (const std::string& name : names)
+    for (json& one : output_series(results, name, time)) list.push_back(std::move(one));
+  return list;
+}
+
 json motion(const ResultsReader& results, const std::string& group) {
   if (!results.has(join(group, "bodies"))) return nullptr;
   const std::vector<double> time = results.read(join(group, "time")).values;
@@ -210,12 +269,6 @@ json points_of(const ResultsReader& results, const std::string& dataset, std::si
   return rows;
 }
 
-std::string attribute_or(const ResultsReader& results, std::string_view object, const char* name,
-                         const std::string& otherwise) {
-  return results.has_attribute(object, name) ? results.read_text_attribute(object, name)
-                                             : otherwise;
-}
-
 json scene(const ResultsReader& results) {
   if (!results.has(layout::scene_group)) return nullptr;
   json bodies = json::array();
@@ -223,7 +276,7 @@ json scene(const ResultsReader& results) {
     const std::string group = join(layout::scene_bodies, body);
     bodies.push_back({{"name", body},
                       {"kind", attribute_or(results, group, "kind", "")},
-                      {"boxes", points_of(results, join(group, "boxes"), 6)}});
+                      {"boxes", points_of(results, join(group, "boxes"), 10)}});
   }
   json ropes = json::array();
   for (const std::string& rope : children_of(results, std::string(layout::scene_ropes))) {
@@ -365,6 +418,7 @@ nlohmann::ordered_json make_page_data(const ResultsReader& results, const json& 
       {"stages", stages(results)},
       {"histories", {{"static", history(results, still)}, {"dynamic", history(results, moving)}}},
       {"motion", {{"static", motion(results, still)}, {"dynamic", motion(results, moving)}}},
+      {"outputs", outputs(results)},
       {"measured", measured(results)},
       {"modes", modes(results)},
       {"scene", scene(results)},

@@ -17,6 +17,7 @@ namespace blocklift::pipeline {
 ///   histories   {static, dynamic}: {start, end, ropes, hoists, drives, energy}, lists of
 ///               {name, quantity, units, description, time, values}, thinned by indices_to_draw
 ///   motion      {static, dynamic}: {time, bodies: {name: poses}}, some hundred instants
+///   outputs     list of series like those of the histories, what a mechanism file asks for
 ///   modes       [{time, bodies: {name: amplitudes}}], in the order of the summary's natural_periods
 ///   scene       {load, bodies: [{name, kind, boxes}], ropes: [{name, kind, bodies, points}], lugs}
 ///   surface     {points, quads, quad_group, groups, fields: {way: {state: {...}}}, note}

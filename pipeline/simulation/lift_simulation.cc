@@ -3,13 +3,18 @@
 #include <optional>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "pipeline/assessment/block_preparation.h"
 #include "pipeline/assessment/lift_scene.h"
 #include "pipeline/assessment/loop_loads.h"
+#include "pipeline/assessment/summary.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
-#include "pipeline/simulation/mechanism_run.h"
+#include "pipeline/report/report.h"
+#include "pipeline/simulation/mechanism_results.h"
 #include "structure/elasticity/elastic_model.h"
 
 namespace blocklift::pipeline {
@@ -71,18 +76,26 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   const LiftCase& lift_case = simulation.lift_case;
   const dynamics::LiftSystem& system = simulation.run.model.system;
   const Scene scene = make_scene(simulation.run.model, simulation.lugs);
-  ResultsWriter file(folder / layout::results_file);
+  const Preparation preparation(folder);
+  const std::filesystem::path& aside = preparation.folder();
+  ResultsWriter file(aside / layout::results_file);
   write_case(file, lift_case.name, lift_case.title, lift_case.yaml);
   write_operation(file, system.operation());
   write_history(file, layout::static_history, system, simulation.run.static_history, scene);
   write_history(file, layout::dynamic_history, system, simulation.run.dynamic_history(), scene);
+  write_natural_modes(file, system.mechanism(), simulation.run.natural_modes);
   write_scene(file, system, scene);
   if (lift_case.compare) write_measured(file, *lift_case.compare);
   write_statistics(file, simulation.run.dynamic_result.statistics);
   file.finish();
-  if (!with_csv) return;
-  write_file(folder / "results.csv",
-             csv_text(simulation.run.dynamic_history().time, table_of(simulation)));
+  write_file(aside / layout::summary_file,
+             make_simulation_summary(lift_case, simulation.run).dump(2));
+  write_report(aside);
+  if (with_csv) {
+    write_file(aside / "results.csv",
+               csv_text(simulation.run.dynamic_history().time, table_of(simulation)));
+  }
+  preparation.move_into_place();
 }
 
 }  // namespace blocklift::pipeline

@@ -2,39 +2,31 @@
 
 #include <algorithm>
 #include <chrono>
-#include <span>
 
 #include <fmt/format.h>
 
 #include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "pipeline/assessment/radiation_cache.h"
-#include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/results_layout.h"
-#include "pipeline/version.h"
 
 namespace blocklift::pipeline {
-namespace {
-
-constexpr auto mechanism_group = "/mechanism";
-constexpr auto outputs_group = "/outputs";
-constexpr auto statistics_group = "/statistics";
-
-}  // namespace
-
 MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress) {
   const auto start = std::chrono::steady_clock::now();
   const auto database = find_radiation(radiation_problem(file), {});
-  const BuiltMechanism mechanism = build_mechanism(file, database.get());
+  BuiltMechanism mechanism = build_mechanism(file, database.get());
+  std::vector<NaturalModes> natural_modes;
+  std::vector<std::string> findings;
   const dynamics::LiftSystem& system = mechanism.system;
-  MechanismRun run;
   Eigen::VectorXd q = system.q_start();
   if (file.simulate.start == Start::equilibrium) {
-    dynamics::EquilibriumSolver(mechanism.at_rest()).solve(0, q);
+    dynamics::EquilibriumSolver solver(mechanism.at_rest());
+    solver.solve(0, q);
+    natural_modes.push_back(
+        {"start", dynamics::linearise(mechanism.at_rest(), 0, solver.workspace())});
   }
   if (!system.mechanism().loops().empty()) {
-    run.findings = dynamics::diagnose_loops(system.mechanism(), q).sentences(system.mechanism());
+    findings = dynamics::diagnose_loops(system.mechanism(), q).sentences(system.mechanism());
   }
   dynamics::IntegrationSettings settings;
   settings.relative_tolerance = file.simulate.relative_tolerance;
@@ -46,63 +38,11 @@ MechanismRun run_mechanism(const MechanismFile& file,
   settings.observe = [&](Eigen::Index sample, double t, const dynamics::LiftWorkspace& w) {
     recorder.observe(sample, t, w);
   };
-  const dynamics::IntegrationResult result =
-      dynamics::integrate(system, q, system.v_start(), settings);
-  run.time = result.history.time;
-  run.outputs = recorder.finish(result.history);
-  run.statistics = result.statistics;
-  run.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return run;
-}
-
-void write_statistics(ResultsWriter& file, const dynamics::IntegrationStatistics& s) {
-  file.make_group(statistics_group);
-  const auto write = [&](const char* name, long value) {
-    file.write_attribute(statistics_group, name, static_cast<double>(value));
-  };
-  write("steps", s.steps);
-  write("right_hand_sides", s.right_hand_sides);
-  write("difference_right_hand_sides", s.difference_right_hand_sides);
-  write("jacobians", s.jacobians);
-  write("factorisations", s.factorisations);
-  write("newton_iterations", s.newton_iterations);
-  write("error_test_failures", s.error_test_failures);
-  write("nonlinear_failures", s.nonlinear_failures);
-  write("restarts", s.restarts);
-  write("contact_changes", s.contact_changes);
-}
-
-void write_mechanism_results(const MechanismFile& file, const MechanismRun& run,
-                             const std::filesystem::path& folder, bool with_csv) {
-  ResultsWriter results(folder / layout::results_file);
-  results.make_group(mechanism_group);
-  results.write_attribute(mechanism_group, "name", file.name);
-  results.write_attribute(mechanism_group, "title", file.title);
-  results.write_attribute(mechanism_group, "program_version", program_version);
-  results.write_text(std::string(mechanism_group) + "/yaml", file.yaml, "the mechanism file");
-  results.write("/time",
-                std::span<const double>(run.time.data(), static_cast<std::size_t>(run.time.size())),
-                {"s", "time of each sample"});
-  for (const OutputSeries& series : run.outputs) {
-    const std::string path = layout::join(outputs_group, series.name);
-    const Meaning meaning{series.units(), series.description};
-    if (series.columns.size() == 1) {
-      const Eigen::VectorXd values = series.values.col(0);
-      results.write(path,
-                    std::span<const double>(values.data(), static_cast<std::size_t>(values.size())),
-                    meaning);
-    } else {
-      results.write_matrix(path, series.values, meaning);
-    }
-    std::string names;
-    for (const OutputColumn& column : series.columns) {
-      names += (names.empty() ? "" : ", ") + column.name;
-    }
-    if (!names.empty()) results.write_attribute(path, "columns", names);
-  }
-  write_statistics(results, run.statistics);
-  results.finish();
-  if (with_csv) write_file(folder / "results.csv", csv_text(run.time, run.outputs));
+  dynamics::IntegrationResult result = dynamics::integrate(system, q, system.v_start(), settings);
+  std::vector<OutputSeries> outputs = recorder.finish(result.history);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return {std::move(mechanism),     std::move(result),   std::move(outputs),
+          std::move(natural_modes), std::move(findings), elapsed.count()};
 }
 
 std::string csv_text(const Eigen::VectorXd& time, const std::vector<OutputSeries>& outputs) {

@@ -1,22 +1,25 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "dynamics/simulation/time_integration.h"
+#include "pipeline/assessment/natural_modes.h"
 #include "pipeline/simulation/mechanism_outputs.h"
 
 namespace blocklift::pipeline {
 
-/// The motion of a mechanism file.
+/// A mechanism file and its motion.
 struct MechanismRun {
-  Eigen::VectorXd time;  ///< s
+  BuiltMechanism mechanism;
+  dynamics::IntegrationResult result;
   std::vector<OutputSeries> outputs;
-  dynamics::IntegrationStatistics statistics;
-  std::vector<std::string> findings;  ///< on loops: what repeats, what stands in a dead point
-  double elapsed = 0;                 ///< wall-clock time, s
+  std::vector<NaturalModes> natural_modes;  ///< at the start, where that is an equilibrium
+  std::vector<std::string> findings;        ///< on loops: what repeats, what stands in a dead point
+  double elapsed = 0;                       ///< wall-clock time, s
+
+  const Eigen::VectorXd& time() const { return result.history.time; }  ///< of the samples, s
 };
 
 /// Simulates a mechanism file over its duration.
@@ -25,19 +28,10 @@ struct MechanismRun {
 MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress);
 
-/// Writes results.h5 into a folder (made if missing) and, if asked, results.csv: columns of time and
-/// outputs, units in the header. Each file appears whole or not at all.
-/// @throws ResultsError, std::runtime_error if they cannot be written.
-void write_mechanism_results(const MechanismFile& file, const MechanismRun& run,
-                             const std::filesystem::path& folder, bool with_csv);
-
 /// Text of a CSV file: header "time [s],tip.x [m],...", then a line a sample, numbers with all digits.
 std::string csv_text(const Eigen::VectorXd& time, const std::vector<OutputSeries>& outputs);
 
 /// A table of the smallest and largest value of each column with their times, for the terminal.
 std::string extremes_table(const Eigen::VectorXd& time, const std::vector<OutputSeries>& outputs);
-
-/// Attributes of the group /statistics: what an integration cost.
-void write_statistics(ResultsWriter& file, const dynamics::IntegrationStatistics& statistics);
 
 }  // namespace blocklift::pipeline

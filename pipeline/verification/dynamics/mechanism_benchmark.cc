@@ -56,7 +56,7 @@ Eigen::Index find_sample(const Eigen::VectorXd& time, double wanted) {
 double figure_of(const MechanismRun& run, const std::string& output, const std::string& column,
                  double time) {
   const OutputSeries& series = find_output(run, output);
-  return series.values(find_sample(run.time, time),
+  return series.values(find_sample(run.time(), time),
                        static_cast<Eigen::Index>(find_column(series, column)));
 }
 

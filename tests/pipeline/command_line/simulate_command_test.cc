@@ -93,6 +93,42 @@ TEST(SimulateCommand, StartsTheLuffingCraneAtRestAndAccountsForItsEnergy) {
   // The works of winches and drive turn over some 1e6 J.
   for (const double imbalance : results.read("/outputs/imbalance").values)
     EXPECT_LT(std::abs(imbalance), 10);
+  // It starts at rest, so that its natural motions are told; and everything is drawn.
+  EXPECT_THAT(outcome.out, HasSubstr("natural periods at the start: "));
+  EXPECT_TRUE(results.has("/modes/1/names"));
+  EXPECT_TRUE(results.has("/scene/bodies/boom/boxes"));
+  EXPECT_TRUE(results.has("/dynamic/bodies/boom/pose"));
+  const std::string summary = text_of_file("results/luffing-crane/summary.json");
+  EXPECT_THAT(summary, HasSubstr("\"natural_periods\""));
+  EXPECT_THAT(summary, HasSubstr("\"jacobians\""));
+  EXPECT_THAT(summary, Not(HasSubstr("\"verdict\"")));
+  EXPECT_TRUE(fs::exists("results/luffing-crane/report.html"));
+}
+
+// A box turned by a quarter about z and one body without shapes, for which bars stand.
+TEST(SimulateCommand, DrawsShapesAsTheyAreTurnedAndBarsForTheOthers) {
+  const TemporaryFolder folder;
+  folder.write("mechanism.yaml", R"(mechanism: drawn
+bodies:
+  arm: {mass: 1 kg, inertia: {xx: 1 kg m^2, yy: 1 kg m^2, zz: 1 kg m^2}, shapes: [{box: [3 m, 1 m, 1 m], centre: [1 m, 0 m, 0 m], orientation: [0 deg, 0 deg, 90 deg]}]}
+  rod: {mass: 1 kg, centre_of_mass: [0 m, 2 m, 0 m], inertia: {xx: 1 kg m^2, yy: 1 kg m^2, zz: 1 kg m^2}}
+joints:
+  A: {kind: revolute, child: arm, axis: [0, 1, 0]}
+  B: {kind: revolute, parent: arm, child: rod}
+simulate: {duration: 0.1 s}
+)");
+  const Outcome outcome = run("simulate mechanism.yaml -o out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const ResultsReader results("out/results.h5");
+  const Array<double> box = results.read("/scene/bodies/arm/boxes");
+  ASSERT_EQ(box.rows(), 1U);
+  const double half = std::sqrt(0.5);
+  const std::vector<double> due = {3, 1, 1, 1, 0, 0, half, 0, 0, half};
+  for (std::size_t i = 0; i < due.size(); ++i) EXPECT_NEAR(box(0, i), due[i], 1e-15) << i;
+  const Array<double> bar = results.read("/scene/bodies/rod/boxes");
+  ASSERT_EQ(bar.rows(), 1U);
+  EXPECT_NEAR(bar(0, 0), 2, 1e-15);  // as long as the way to the centre of mass
+  EXPECT_NEAR(bar(0, 4), 1, 1e-15);  // and half-way along it
 }
 
 TEST(SimulateCommand, RunsARobotDescription) {
@@ -124,6 +160,10 @@ TEST(SimulateCommand, SimulatesALiftCaseWithoutItsStress) {
   EXPECT_GT(results.read_number_attribute("/statistics", "steps"), 0);
   EXPECT_THAT(text_of_file("out/results.csv"), StartsWith("time [s],"));
   EXPECT_THAT(text_of_file("out/results.csv"), HasSubstr("R1.tension [N]"));
+  EXPECT_TRUE(results.has("/modes/1/names"));
+  EXPECT_THAT(text_of_file("out/summary.json"), HasSubstr("\"natural_periods\""));
+  EXPECT_THAT(text_of_file("out/summary.json"), Not(HasSubstr("\"verdict\"")));
+  EXPECT_TRUE(fs::exists("out/report.html"));
 }
 
 TEST(SimulateCommand, TellsWrongInputBeforeItRuns) {

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/decimation.h"
 #include "pipeline/report/page_data.h"
@@ -148,6 +149,27 @@ TEST_F(Report, ThinsHistoriesButKeepsTheLargestValueAndItsTime) {
       static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
   EXPECT_FLOAT_EQ(values[top], 987654.0F);
   EXPECT_NEAR(time[top], 43.21, 1e-4);
+}
+
+TEST_F(Report, TakesTheOutputsOfAMechanismByColumns) {
+  {
+    ResultsWriter writer(folder_ / layout::results_file);
+    writer.write(layout::outputs_time, std::vector<double>{0, 1, 2}, {"s", "time"});
+    RowMajorMatrix values(3, 2);
+    values << 1, 10, 2, 20, 3, 30;
+    const std::string path = layout::join(layout::outputs_group, "tip");
+    writer.write_matrix(path, values, {"m, rad", "where it is"});
+    writer.write_attribute(path, "columns", "x, angle");
+    writer.finish();
+  }
+  write_file(folder_ / layout::summary_file, R"({"case": "arm", "title": "An arm"})");
+  write_report(folder_);
+  const json data = page_data();
+  ASSERT_EQ(data["outputs"].size(), 2U);
+  EXPECT_EQ(data["outputs"][1]["name"], "tip");
+  EXPECT_EQ(data["outputs"][1]["quantity"], "angle");
+  EXPECT_EQ(data["outputs"][1]["units"], "rad");
+  EXPECT_THAT(floats_of(data["outputs"][1]["values"]), ElementsAre(10.0F, 20.0F, 30.0F));
 }
 
 TEST_F(Report, LeavesOutWhatTheResultsDoNotHave) {

@@ -44,12 +44,14 @@ void write_history(ResultsWriter& writer, std::string_view history, double step)
 }
 
 void write_scene(ResultsWriter& writer) {
-  RowMajorMatrix box(1, 6);
-  box << 10, 4, 2, 5, 2, 1;
-  writer.write_matrix(join(layout::scene_bodies, "block", "boxes"), box, {"m", "size, centre"});
+  RowMajorMatrix box(1, 10);
+  box << 10, 4, 2, 5, 2, 1, 1, 0, 0, 0;
+  writer.write_matrix(join(layout::scene_bodies, "block", "boxes"), box,
+                      {"m, m, 1", "size, centre, orientation"});
   writer.write_attribute(join(layout::scene_bodies, "block"), "kind", "load");
-  box << 20, 2, 2, 5, 2, 30;
-  writer.write_matrix(join(layout::scene_bodies, "crane", "boxes"), box, {"m", "size, centre"});
+  box << 20, 2, 2, 5, 2, 30, 1, 0, 0, 0;
+  writer.write_matrix(join(layout::scene_bodies, "crane", "boxes"), box,
+                      {"m, m, 1", "size, centre, orientation"});
   writer.write_attribute(join(layout::scene_bodies, "crane"), "kind", "crane");
   for (const double x : {0.0, 10.0}) {
     const std::string group = join(layout::scene_ropes, x > 0.0 ? "R2" : "R1");

@@ -114,6 +114,7 @@ export interface PageData {
   stages: Stage[];
   histories: Record<State, History | null>;
   motion: Record<State, Motion | null>;
+  outputs?: PackedSeries[];
   measured?: PackedSeries[];
   modes: ModeShapes[];
   scene: Scene | null;

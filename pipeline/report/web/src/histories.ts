@@ -198,6 +198,13 @@ class Group {
   }
 }
 
+/** As many decimals as tell neighbouring ticks apart. */
+function tickText(tick: number, ticks: number[]): string {
+  const step = ticks.length > 1 ? Math.abs(ticks[1] - ticks[0]) : Math.abs(tick);
+  if (Math.max(...ticks.map(Math.abs)) >= 1e6 || (step > 0 && step < 1e-4)) return tick === 0 ? "0" : tick.toExponential(1);
+  return fixed(tick, step > 0 ? Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)) : 0);
+}
+
 interface PlotSettings {
   host: HTMLElement; height: number; group: Group; clock: Clock; plugins: uPlot.Plugin[]; series: uPlot.Series[];
   unit: string; small: boolean; range?: uPlot.Range.MinMax | uPlot.Range.Function; cursor?: (time: number | null) => void;
@@ -216,7 +223,7 @@ function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
     axes: [
       { ...axis, size: small ? 22 : 24, gap: 3, space: small ? 60 : 90, label: small ? undefined : "time, s", labelFont: font(12), labelSize: 20, labelGap: 0 },
       { ...axis, size: small ? 42 : 46, gap: 3, space: small ? 24 : 44, label: small ? undefined : settings.unit, labelFont: font(12), labelSize: 18,
-        values: (_, ticks) => ticks.map((tick) => fixed(tick, Number.isInteger(tick) ? 0 : 2)) },
+        values: (_, ticks) => ticks.map((tick) => tickText(tick, ticks)) },
     ],
     series: [{}, ...settings.series], plugins: settings.plugins,
     hooks: {
@@ -368,6 +375,21 @@ function legend(): HTMLElement {
 
 const palette = ["#2f6396", "#d2601a", "#3f8f5b", "#8d5aa5", "#a8842c", "#c2456b", "#4aa3b5", "#6b7682"];
 
+/** A plot of series in one unit with its legend; it is drawn once its place in the page has a width. */
+function tileOf(data: PageData, group: Group, clock: Clock, settings: {
+  title: string; packed: PackedSeries[]; series: Series[]; label: (one: PackedSeries) => string; factor: number; unit: string; plugins?: uPlot.Plugin[];
+}): HTMLElement {
+  const { packed, series } = settings;
+  const host = h("div", { class: "plot" });
+  const colour = (i: number): string => (packed.length === 1 ? "#4b5864" : palette[i % palette.length]);
+  requestAnimationFrame(() => makePlot({
+    host, height: 200, group, clock, unit: settings.unit, small: false, plugins: [stageBands(data.stages, false), ...settings.plugins ?? []],
+    series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, spanGaps: true, points: { show: false } })),
+  }, aligned(series, settings.factor)));
+  return h("div", { class: "tile" }, h("h4", {}, settings.title), host, packed.length > 1 && h("span", { class: "legend" },
+    packed.map((one, i) => h("span", { title: one.description }, h("i", { style: `background:${colour(i)}` }), settings.label(one)))));
+}
+
 /** Terms of energy over time; the balance, that should be nothing, in a plot of its own. */
 export function energyPlot(data: PageData, history: History): HTMLElement {
   const group = new Group(history.start, history.end);
@@ -375,19 +397,49 @@ export function energyPlot(data: PageData, history: History): HTMLElement {
   const plots: HTMLElement[] = [];
   const add = (title: string, packed: PackedSeries[], factor: number, unit: string): void => {
     if (packed.length === 0) return;
-    const host = h("div", { class: "plot" });
     const series = packed.map((one) => new Series(one));
     // Potential energy has no zero of its own: from the start on, it stands on the scale of the work done.
     for (const { values } of series.filter((_, i) => packed[i].name === "gravity")) values.set(values.map((value, _, all) => value - all[0]));
-    const colour = (i: number): string => (packed.length === 1 ? "#4b5864" : palette[i % palette.length]);
-    plots.push(h("div", { class: "tile" }, h("h4", {}, title), host, packed.length > 1 && h("span", { class: "legend" },
-      packed.map((one, i) => h("span", { title: one.description }, h("i", { style: `background:${colour(i)}` }), one.name === "gravity" ? "gravity, from the start" : one.name.replace(/_/g, " "))))));
-    requestAnimationFrame(() => makePlot({
-      host, height: 200, group, clock, unit, small: false, plugins: [stageBands(data.stages, false)],
-      series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, spanGaps: true, points: { show: false } })),
-    }, aligned(series, factor)));
+    plots.push(tileOf(data, group, clock, { title, packed, series, factor, unit,
+      label: (one) => (one.name === "gravity" ? "gravity, from the start" : one.name.replace(/_/g, " ")) }));
   };
-  add("Energies of the dynamic run", history.energy.filter((one) => one.name !== "balance"), 1e-6, "MJ");
+  const largest = Math.max(0, ...history.energy.flatMap((one) => Array.from(new Series(one).values, Math.abs)));
+  const [factor, unit] = largest < 1e4 ? [1, "J"] : largest < 1e6 ? [1e-3, "kJ"] : [1e-6, "MJ"];
+  add("Energies of the dynamic run", history.energy.filter((one) => one.name !== "balance"), factor, unit);
   add("What the balance leaves unexplained", history.energy.filter((one) => one.name === "balance"), 1, "J");
   return h("div", { class: "tiles two" }, plots);
+}
+
+/** A line at the instant of the drawing. */
+function nowLine(clock: Clock): uPlot.Plugin {
+  return { hooks: { draw: (u) => {
+    const now = u.valToPos(clock.time, "x", true);
+    u.ctx.save();
+    u.ctx.strokeStyle = "#1d2730";
+    u.ctx.lineWidth = devicePixelRatio;
+    u.ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
+    u.ctx.beginPath();
+    u.ctx.moveTo(now, u.bbox.top);
+    u.ctx.lineTo(now, u.bbox.top + u.bbox.height);
+    u.ctx.stroke();
+    u.ctx.restore();
+  } } };
+}
+
+/** What a mechanism file asks for: a plot for each output and unit. */
+export function outputsSection(data: PageData, clock: Clock): Section | null {
+  const outputs = data.outputs ?? [];
+  if (outputs.length === 0) return null;
+  const group = new Group(clock.start, clock.end);
+  const tiles = new Map<string, PackedSeries[]>();
+  for (const one of outputs) {
+    const key = `${one.name.replace(/_/g, " ")}, ${one.units}`;
+    tiles.set(key, [...tiles.get(key) ?? [], one]);
+  }
+  clock.listen(() => group.redraw());
+  return { id: "outputs", title: "Outputs", content: [
+    h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's instant (dashed)."),
+    h("div", { class: "tiles two" }, [...tiles].map(([title, packed]) => tileOf(data, group, clock, {
+      title, packed, series: packed.map((one) => new Series(one)), label: (one) => one.quantity.replace(/_/g, " "), factor: 1,
+      unit: packed[0].units, plugins: [nowLine(clock)] })))] };
 }

@@ -9,7 +9,7 @@ import { elevation, frameOf } from "./elevation";
 import type { Section } from "./main";
 import type { Vibration, VibrationPlayer } from "./modes";
 import { Bodies, boxCorners, inWorld, ropePath, Vector } from "./motion";
-import { kilonewtons, missing, seconds, tonnesForce } from "./numbers";
+import { kilonewtons, missing, seconds, significant, tonnesForce } from "./numbers";
 import { BlockSurface } from "./surface";
 import { canDraw, Viewer } from "./viewer";
 
@@ -61,7 +61,8 @@ class LiftView {
         .setIndex(new three.BufferAttribute(surface.outlines(), 1)), new three.LineBasicMaterial({ color: 0x4d6276 })));
     } else {
       for (const box of body.boxes) {
-        const shape = new three.BoxGeometry(box[0], box[1], box[2]).translate(box[3], box[4], box[5]);
+        const shape = new three.BoxGeometry(box[0], box[1], box[2])
+          .applyQuaternion(new three.Quaternion(box[7], box[8], box[9], box[6])).translate(box[3], box[4], box[5]);
         group.add(new three.Mesh(shape, material), new three.LineSegments(new three.EdgesGeometry(shape), lines));
       }
     }
@@ -241,12 +242,13 @@ export function liftSection(data: PageData, clock: Clock, player: VibrationPlaye
   if (!canDraw()) {
     clock.listen(drawElevations);
     drawings.classList.add("always");
-    return { id: "lift", title: "The lift", content: [h("div", { class: "player" }, time, now), drawings, tensionPanel(data, clock), strip,
+    return { id: "lift", title: scene.load ? "The lift" : "The motion", content: [h("div", { class: "player" }, time, now), drawings, tensionPanel(data, clock), strip,
       h("p", { class: "hint" }, "This browser does not draw in three dimensions (WebGL); the elevations take its place.")] };
   }
   const view = new LiftView(data, scene, bodies, times);
   clock.listen((value) => view.show(value));
-  const views = choice("View", [["oblique", "oblique"], ["side", "side"], ["front", "front"], ["top", "top"], ["load", "load"]], "oblique",
+  const views = choice("View", [["oblique", "oblique"], ["side", "side"], ["front", "front"], ["top", "top"],
+    ...(scene.load ? [["load", "load"] as ["load", "load"]] : [])], "oblique",
     (name) => view.look(name, clock.time));
   const which = choice("Motion", moving.map((one) => [one, one]), state, (value) => { player.play(null); state = value; view.show(clock.time); });
   const vibration = vibrationBar(clock, view, player, bodies, () => {
@@ -258,19 +260,20 @@ export function liftSection(data: PageData, clock: Clock, player: VibrationPlaye
   view.look("oblique", clock.time);
   view.show(clock.time);
   return {
-    id: "lift", title: "The lift", content: [
+    id: "lift", title: scene.load ? "The lift" : "The motion", content: [
       h("div", { class: "controls" }, views.element, moving.length > 1 && which.element,
-        checkbox("follow the load", false, (on) => { view.followLoad = on; view.show(clock.time); })),
+        scene.load && checkbox("follow the load", false, (on) => { view.followLoad = on; view.show(clock.time); })),
       h("div", { class: "stage-view" }, view.viewer.element, tensionPanel(data, clock)),
       h("div", { class: "player" }, playButton(clock), time, now), vibration, strip, drawings],
   };
 }
 
 function playButton(clock: Clock): HTMLElement {
-  const speeds = 60;  // seconds of the lift in one second
+  // Seconds of the lift in one second: a short motion takes some ten seconds to be shown.
+  const speeds = Math.min(60, (clock.end - clock.start) / 10);
   let playing = false;
   let last = 0;
-  const button = h("button", { type: "button", class: "play", title: `Play, ${speeds} times as fast as the lift`, onclick: () => {
+  const button = h("button", { type: "button", class: "play", title: `Play, ${significant(speeds, 2)} times as fast as the motion`, onclick: () => {
     playing = !playing;
     last = performance.now();
     button.textContent = playing ? "pause" : "play";

@@ -5,7 +5,7 @@ import { PageData, readPageData, states } from "./data";
 import { append, Child, h } from "./dom";
 import { accuracySection, methodSection } from "./accuracy";
 import { checksSection, verdictSection } from "./verdict";
-import { historiesSection } from "./histories";
+import { historiesSection, outputsSection } from "./histories";
 import { liftSection } from "./lift";
 import { loadsSection } from "./loads";
 import { modesSection, VibrationPlayer } from "./modes";
@@ -32,7 +32,7 @@ function show(): void {
   const report = document.getElementById("report")!;
   append(report, [verdictSection(data)]);
   const makers: (() => Section | null)[] = [
-    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => historiesSection(data, clock), () => loadsSection(data, clock),
+    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock),
     () => stressSection(data), () => structureSection(data), () => checksSection(data),
     () => accuracySection(data), () => methodSection(data),
   ];

@@ -60,9 +60,9 @@ function period(mode: NaturalMode): string {
   return known(mode.period_s) ? significant(mode.period_s, 3) : missing;
 }
 
-/** Modes in which the load has a part, those that an operator can feel, and the quick rest apart. */
+/** Modes in which the load has a part, those that an operator can feel, and the quick rest apart; all, if nothing is the load. */
 function isMain(mode: NaturalMode, load: string): boolean {
-  return mode.kind !== "oscillating" || (mode.energy_share_by_body?.[load] ?? 0) >= 0.2;
+  return !load || mode.kind !== "oscillating" || (mode.energy_share_by_body?.[load] ?? 0) >= 0.2;
 }
 
 function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], play: ((row: number) => void) | null): Child {
@@ -121,7 +121,7 @@ export function modesSection(data: PageData, clock: Clock, player: VibrationPlay
     const rest = modes.filter((mode) => !isMain(mode, load));
     body.replaceChildren();
     for (const part of [
-      modeTable(`Motions of the load: ${instants[index].instant}, ${seconds(time)} s`, main, modes, play),
+      modeTable(`${load ? "Motions of the load" : "Motions"}: ${instants[index].instant}, ${seconds(time)} s`, main, modes, play),
       rest.length > 0 ? h("details", { class: "modes" }, h("summary", {}, `Motions of hook blocks and other bodies (${rest.length})`),
         modeTable("Motions in which the load has little part", rest, modes, play) as HTMLElement) : null,
     ]) if (part) body.appendChild(part as Node);
@@ -131,9 +131,10 @@ export function modesSection(data: PageData, clock: Clock, player: VibrationPlay
     instants.map((one, i) => h("option", { value: i }, `${one.instant}, ${seconds(one.time_s)} s`)));
   return {
     id: "periods", title: "Natural periods", content: [
-      h("p", { class: "lead" }, "The motions that the lift has of its own while it hangs at rest, drives and winches held: a push or a "
+      h("p", { class: "lead" }, load ? "The motions that the lift has of its own while it hangs at rest, drives and winches held: a push or a "
         + "start of the cranes wakes those whose period it meets. Small vibrations about the equilibrium at the start, after each stage, "
-        + "and where a rope at rest is nearest to breaking."),
+        + "and where a rope at rest is nearest to breaking."
+        : "The motions that the mechanism has of its own at rest, drives and winches held: small vibrations about its equilibrium at the start."),
       overview(data, load, clock),
       instants.length > 1 ? h("div", { class: "controls" }, h("label", {}, "Instant ", which)) : null, body],
   };

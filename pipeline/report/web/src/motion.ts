@@ -63,9 +63,11 @@ export function ropePath(rope: Scene["ropes"][number], bodies: Bodies, time: num
   return rope.points.map((point, i) => inWorld(bodies.pose(rope.bodies[i], time), point as Vector));
 }
 
+/** Corners of a box in the body's frame: sizes, centre, quaternion of its edges. */
 export function boxCorners(box: number[]): Vector[] {
   const corners: Vector[] = [];
+  const place: Pose = { p: [box[3], box[4], box[5]], q: [box[6], box[7], box[8], box[9]] };
   for (const x of [-0.5, 0.5]) for (const y of [-0.5, 0.5]) for (const z of [-0.5, 0.5])
-    corners.push([box[3] + x * box[0], box[4] + y * box[1], box[5] + z * box[2]]);
+    corners.push(inWorld(place, [x * box[0], y * box[1], z * box[2]]));
   return corners;
 }

@@ -82,12 +82,13 @@ export function verdictSection(data: PageData): HTMLElement {
     : failed === 0 ? (checks.length === 1 ? "The one check is met." : `All ${checks.length} checks are met.`)
     : `${failed} of ${checks.length} checks ${failed === 1 ? "is" : "are"} not met.`;
   const reasons = (summary.verdict_reasons ?? []).filter((reason) => reason);
+  const assessed = summary.verdict !== undefined;
   return h("header", { id: "verdict" },
-    h("p", { class: "kicker" }, "Lift assessment"),
+    h("p", { class: "kicker" }, assessed ? "Lift assessment" : "Simulation"),
     h("h1", {}, data.case.title || data.case.name),
     h("p", { class: "made" }, [data.case.name, data.case.created && dateText(data.case.created),
       data.case.program_version && `Blocklift ${data.case.program_version}`].filter(Boolean).join("  ·  ")),
-    h("div", { class: pass ? "verdict pass" : "verdict fail" },
+    assessed && h("div", { class: pass ? "verdict pass" : "verdict fail" },
       h("div", { class: "word" }, pass ? "Pass" : "Fail"),
       h("div", { class: "why" },
         h("p", { class: "sentence" }, sentence),
