@@ -16,6 +16,7 @@
 #include "pipeline/assessment/history_file.h"
 #include "pipeline/assessment/lift_checks.h"
 #include "pipeline/assessment/lift_scene.h"
+#include "pipeline/assessment/padeye_summary.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/assessment/stopwatch.h"
 #include "pipeline/assessment/summary.h"
@@ -23,6 +24,7 @@
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/report.h"
+#include "structure/output/part_files.h"
 #include "structure/output/vtu.h"
 
 namespace blocklift::pipeline {
@@ -52,6 +54,9 @@ HistorySettings history_settings(const StructureSettings& settings) {
   result.fatigue_curve = settings.fatigue.curve;
   result.stress_concentration = settings.fatigue.stress_concentration;
   result.lifts = settings.fatigue.lifts;
+  result.hot_spot_curve = settings.fatigue.hot_spot_curve;
+  for (const HotSpotInFile& spot : settings.hot_spots)
+    result.hot_spots.push_back({spot.name.value, {spot.toe, spot.direction, spot.thickness}});
   return result;
 }
 
@@ -79,6 +84,8 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
     write_block(file, surface, *assessment.block.responses, assessment.block.assessment);
     if (assessment.block.history)
       write_block_history(file, surface, *assessment.block.responses, *assessment.block.history);
+    write_buckling(file, assessment.block.buckling);
+    write_padeyes(file, assessment.block.padeyes);
   }
   file.finish();
 }
@@ -136,15 +143,31 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     block.history = assess_history(
         *block.responses, recovery, attachment, assessment.lift->static_history,
         assessment.lift->dynamic_history(), block.assessment, history_settings(the_case.structure));
+    progress("block: panels", 0.85, "");
+    block.buckling = assess_buckling(the_case, *block.responses, *block.history);
+    progress("block: padeyes", 0.9, "");
+    block.padeyes =
+        assess_padeyes(the_case, *block.responses, attachment, assessment.lift->static_history,
+                       assessment.lift->dynamic_history());
   } else {
     const LoadTable& table = *the_case.load_table;
     block.assessment =
         assess_load_table(*block.responses, recovery, table_forces(table, table.static_loads, lugs),
                           table_forces(table, table.dynamic_loads, lugs));
+    block.buckling = assess_buckling(the_case, *block.responses, block.assessment);
+    block.padeyes = assess_padeyes(the_case, *block.responses, block.assessment);
   }
+  block.error = structure::estimate_block_error(
+      *block.model, block.responses->displacement(
+                        block.history ? block.history->dynamic_state.governing
+                                      : block.assessment.simultaneous.dynamic_state.load));
   for (Check& check :
        check_block(the_case, block.assessment, block.history ? &*block.history : nullptr))
     assessment.checks.push_back(check);
+  for (Check& check : check_buckling(the_case, block.buckling))
+    assessment.checks.push_back(std::move(check));
+  for (Check& check : check_padeyes(the_case, block.padeyes))
+    assessment.checks.push_back(std::move(check));
   assessment.total_s = total.lap();
   return assessment;
 }
@@ -184,6 +207,9 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
                          pictured.static_state.load);
     structure::write_vtu(preparation.folder() / "block-dynamic.vtu", responses,
                          pictured.dynamic_state.load);
+    for (const PadeyeAssessment& padeye : assessment.block.padeyes.padeyes)
+      structure::write_part_vtu(preparation.folder() / padeye_file(padeye), padeye.model->part(),
+                                padeye.model->as_part(padeye.governing_state().result));
   }
 
   nlohmann::ordered_json summary = make_summary(assessment);

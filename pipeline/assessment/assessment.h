@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "pipeline/assessment/block_assessment.h"
+#include "pipeline/assessment/buckling_assessment.h"
 #include "pipeline/assessment/checks.h"
 #include "pipeline/assessment/history_assessment.h"
 #include "pipeline/assessment/lift_run.h"
+#include "pipeline/assessment/padeye_assessment.h"
+#include "structure/response/block_error.h"
 
 namespace blocklift::pipeline {
 
@@ -20,6 +23,9 @@ struct BlockRun {
   std::unique_ptr<structure::UnitResponses> responses;
   BlockAssessment assessment;
   std::optional<HistoryAssessment> history;  ///< every sample of the lift; none for a load table
+  structure::BlockError error;               ///< estimated, at the load that governs the stress
+  BucklingAssessment buckling;               ///< of every panel
+  PadeyesAssessment padeyes;                 ///< of lugs that are made as padeyes
   double mesh_s = 0;                         ///< wall-clock time of meshing and mass properties
 };
 

@@ -113,8 +113,24 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
       "of 50 x 50 mm. The raw peak beside it depends on the mesh and grows with refinement at "
       "re-entrant corners.");
   list.emplace_back(
-      "Each rope's force is spread over its lug plate; contact of the pin, welds and buckling are "
-      "not part of the model.");
+      "In the block each rope's force is spread over its lug plate; contact of the pin and welds "
+      "are not part of it.");
+  const BlockRun& block = assessment.block;
+  if (!block.padeyes.padeyes.empty())
+    list.push_back(fmt::format(
+        "Padeyes are cut from the block along the pad's edge and driven there by the block's "
+        "displacement; the pin presses with the cosine of the angle from the rope's direction, "
+        "elastic, without contact. Forces and stresses are multiplied by {:g}; hand formulae take "
+        "{:g} % of the force along the pin at least. Stress within the main plate's thickness of "
+        "the cut is left to the block's own.",
+        assessment.lift_case.checks.lug_consequence_factor,
+        100 * assessment.lift_case.checks.lug_side_load));
+  list.push_back(fmt::format(
+      "Buckling: {} panels between crossing plates (and the stiffeners that the block's file "
+      "names), simply supported, under their mean membrane stresses with linear falls; openings "
+      "within a panel do not weaken it beyond their stress, and neither initial deflection nor the "
+      "strength after buckling counts.",
+      block.buckling.panels.size()));
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 
 #include "pipeline/assessment/stopwatch.h"
+#include "structure/error.h"
 #include "structure/response/batches.h"
+#include "structure/response/block_field.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::pipeline {
@@ -183,16 +185,10 @@ Vector3 principal_direction(const structure::Stress& s) {
       std::abs(solver.eigenvalues()[2]) >= std::abs(solver.eigenvalues()[0]) ? 2 : 0);
 }
 
-StressHistory follow(const structure::UnitResponses& responses,
-                     const structure::MembraneStress& membrane, const FollowedPoint& point,
-                     const HistoryAssessment& history) {
-  const int p = nearest_patch(membrane, point.point_B);
-  const structure::Patch& patch = membrane.patches()[static_cast<std::size_t>(p)];
-  StressHistory result;
-  result.name = point.name;
-  result.point_B = patch.centre_B;
-  result.part = responses.model().mesh().sheet_names[static_cast<std::size_t>(patch.sheet)];
-  const Eigen::MatrixXd unit = structure::unit_stress_of_patch(membrane, p);
+// Stress in time of one place, by its unit responses (6 x unit loads, Pa); cycles are counted of the part
+// along `normal`, or along the largest principal stress where none is given.
+void fill_in(const Eigen::MatrixXd& unit, const Vector3* normal, const HistoryAssessment& history,
+             double concentration, const structure::FatigueCurve& curve, StressHistory& result) {
   const auto von_mises = [&](const Eigen::MatrixXd& stress) {
     Eigen::VectorXd values(stress.cols());
     for (Eigen::Index t = 0; t < stress.cols(); ++t)
@@ -205,16 +201,50 @@ StressHistory follow(const structure::UnitResponses& responses,
   result.dynamic_von_mises = von_mises(in_motion);
   Eigen::Index worst = 0;
   result.dynamic_von_mises.maxCoeff(&worst);
-  const Vector3 n = principal_direction(in_motion.col(worst));
-  Eigen::Matrix<double, 1, 6> normal;
-  normal << n.x() * n.x(), n.y() * n.y(), n.z() * n.z(), 2 * n.x() * n.y(), 2 * n.y() * n.z(),
-      2 * n.z() * n.x();
-  result.static_normal = (normal * at_rest).transpose();
-  result.dynamic_normal = (normal * in_motion).transpose();
+  const Eigen::Matrix<double, 1, 6> along =
+      structure::normal_component(normal ? *normal : principal_direction(in_motion.col(worst)));
+  result.static_normal = (along * at_rest).transpose();
+  result.dynamic_normal = (along * in_motion).transpose();
   result.cycles = structure::count_rainflow_of_repeated(result.dynamic_normal);
   std::vector<structure::Cycles> raised = result.cycles;
-  for (structure::Cycles& cycle : raised) cycle.range *= history.stress_concentration;
-  result.damage_per_lift = structure::damage(raised, history.curve);
+  for (structure::Cycles& cycle : raised) cycle.range *= concentration;
+  result.damage_per_lift = structure::damage(raised, curve);
+}
+
+StressHistory follow(const structure::UnitResponses& responses,
+                     const structure::MembraneStress& membrane, const FollowedPoint& point,
+                     const HistoryAssessment& history) {
+  const int p = nearest_patch(membrane, point.point_B);
+  const structure::Patch& patch = membrane.patches()[static_cast<std::size_t>(p)];
+  StressHistory result;
+  result.name = point.name;
+  result.point_B = patch.centre_B;
+  result.part = responses.model().mesh().sheet_names[static_cast<std::size_t>(patch.sheet)];
+  fill_in(structure::unit_stress_of_patch(membrane, p), nullptr, history,
+          history.stress_concentration, history.curve, result);
+  return result;
+}
+
+StressHistory follow(const structure::UnitResponses& responses, const FollowedHotSpot& followed,
+                     const HistoryAssessment& history) {
+  const structure::BlockMesh& mesh = responses.model().mesh();
+  StressHistory result;
+  result.name = followed.name;
+  result.point_B = followed.spot.toe;
+  std::vector<Eigen::MatrixXd> unit;
+  for (const Vector3& point : followed.spot.places()) {
+    const structure::CellPlace place = structure::find_cell(mesh, point);
+    if (place.cell < 0)
+      throw structure::ModelError(
+          fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, where the block has no "
+                      "material; the toe lies on a plate's surface and the direction along it",
+                      followed.name, point.x(), point.y(), point.z()));
+    unit.push_back(structure::stresses_at(responses.model(), responses.displacements(), place));
+    result.part = mesh.sheet_names[static_cast<std::size_t>(
+        mesh.cell_sheet[static_cast<std::size_t>(place.cell)])];
+  }
+  fill_in(structure::hot_spot_stress(unit[0], unit[1]), &followed.spot.direction, history, 1,
+          history.hot_spot_curve, result);
   return result;
 }
 
@@ -274,6 +304,9 @@ HistoryAssessment assess_history(const structure::UnitResponses& responses,
       settings.points.empty() ? default_points(result.dynamic_state) : settings.points;
   for (const FollowedPoint& point : points)
     result.points.push_back(follow(responses, membrane, point, result));
+  result.hot_spot_curve = structure::fatigue_curve(settings.hot_spot_curve);
+  for (const FollowedHotSpot& spot : settings.hot_spots)
+    result.hot_spots.push_back(follow(responses, spot, result));
   result.evaluation_s = watch.lap();
   return result;
 }

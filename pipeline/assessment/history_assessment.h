@@ -9,6 +9,7 @@
 #include "pipeline/coupling/load_mapping.h"
 #include "structure/response/block_envelope.h"
 #include "structure/response/fatigue.h"
+#include "structure/response/hot_spot.h"
 
 namespace blocklift::pipeline {
 
@@ -78,6 +79,10 @@ struct HistoryAssessment {
   PracticeComparison rope_instants;       ///< only the instants of each rope's largest dynamic load
   std::vector<StressHistory> points;
   structure::FatigueCurve curve;
+  /// Structural stress at weld toes (structure::hot_spot_stress): von Mises of it, and the part of it
+  /// across the weld as normal stress; damage by their own curve.
+  std::vector<StressHistory> hot_spots;
+  structure::FatigueCurve hot_spot_curve;
   double stress_concentration = 1;
   double lifts = 1;         ///< that the block sees
   double evaluation_s = 0;  ///< wall-clock time
@@ -92,16 +97,25 @@ struct FollowedPoint {
   structure::Vector3 point_B = structure::Vector3::Zero();  ///< m
 };
 
+/// A weld toe whose structural stress is followed.
+struct FollowedHotSpot {
+  std::string name;
+  structure::HotSpot spot;  ///< in B
+};
+
 /// What is asked of a history.
 struct HistorySettings {
   std::vector<FollowedPoint> points;  ///< none: the hot spot of the envelope and that of each lug
   std::string fatigue_curve = "F";
   double stress_concentration = 1;  ///< by which the range is multiplied before the curve is read
   double lifts = 1;
+  std::vector<FollowedHotSpot> hot_spots;
+  std::string hot_spot_curve = "D";
 };
 
 /// Superposes every sample of both histories.
-/// @throws std::runtime_error if a sample is not in balance to largest_balance_residual.
+/// @throws std::runtime_error if a sample is not in balance to largest_balance_residual;
+///   structure::ModelError if the block has no material where a hot spot is read.
 HistoryAssessment assess_history(const structure::UnitResponses& responses,
                                  const structure::StressRecovery& recovery,
                                  const BlockAttachment& attachment,

@@ -69,9 +69,9 @@ Json practice_json(const PracticeComparison& practice) {
           {"share_of_patches_short", practice.patches_short}};
 }
 
-Json points_json(const HistoryAssessment& history) {
+Json points_json(const std::vector<StressHistory>& points, double lifts) {
   Json rows = Json::array();
-  for (const StressHistory& one : history.points) {
+  for (const StressHistory& one : points) {
     double largest = 0, count = 0;
     for (const structure::Cycles& cycles : one.cycles) {
       largest = std::max(largest, cycles.range);
@@ -85,7 +85,16 @@ Json points_json(const HistoryAssessment& history) {
                     {"cycles_per_lift", count},
                     {"largest_range_Pa", largest},
                     {"damage_per_lift", one.damage_per_lift},
-                    {"damage", one.damage_per_lift * history.lifts}});
+                    {"damage", one.damage_per_lift * lifts}});
+  }
+  return rows;
+}
+
+Json hot_spots_json(const HistoryAssessment& history) {
+  Json rows = points_json(history.hot_spots, history.lifts);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i]["largest_normal_Pa"] = history.hot_spots[i].dynamic_normal.maxCoeff();
+    rows[i]["smallest_normal_Pa"] = history.hot_spots[i].dynamic_normal.minCoeff();
   }
   return rows;
 }
@@ -106,7 +115,9 @@ Json history_json(const HistoryAssessment& history) {
             {"source", history.curve.source},
             {"stress_concentration", history.stress_concentration},
             {"lifts", history.lifts}}},
-          {"points", points_json(history)}};
+          {"points", points_json(history.points, history.lifts)},
+          {"hot_spot_curve", history.hot_spot_curve.name},
+          {"hot_spots", hot_spots_json(history)}};
 }
 
 }  // namespace blocklift::pipeline

@@ -185,6 +185,11 @@ class ModelMaker {
     } else if (load.traction) {
       taken.kind = structure::SurfaceLoad::Kind::traction;
       taken.vector = *load.traction;
+    } else if (load.bearing) {
+      taken.kind = structure::SurfaceLoad::Kind::bearing;
+      taken.vector = load.bearing->force;
+      taken.axis = load.bearing->axis;
+      taken.point = load.bearing->point;
     } else {
       taken.vector = *load.force;
     }
@@ -223,6 +228,33 @@ std::vector<ProbeResult> find_probes(const PartFile& file, const PartModel& mode
     if (outside == count)
       diagnostics.error(probe.name.mark,
                         fmt::format("probe {} lies outside the part", probe.name.value));
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+std::vector<HotSpotResult> find_hot_spots(const PartFile& file, const PartModel& model,
+                                          const structure::PartSolution& solution,
+                                          Diagnostics& diagnostics) {
+  std::vector<HotSpotResult> results;
+  for (const HotSpotInFile& asked : file.hot_spots) {
+    HotSpotResult result{asked.name.value, {asked.toe, asked.direction, asked.thickness}, {}, {}};
+    std::array<structure::Stress, 2> stress;
+    bool inside = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Vector3 place = result.spot.places()[i];
+      const structure::PartProbe probe = structure::probe_part(model, solution, place);
+      stress[i] = probe.stress;
+      if (inside && !probe.inside)
+        diagnostics.error(asked.name.mark,
+                          fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, which is "
+                                      "outside the part",
+                                      asked.name.value, place.x(), place.y(), place.z()),
+                          {"the toe lies on the surface and the direction along it"});
+      inside = inside && probe.inside;
+    }
+    result.structural = structure::hot_spot_stress(stress[0], stress[1]);
+    result.stress = structure::evaluate_hot_spot(result.structural, asked.direction);
     results.push_back(std::move(result));
   }
   return results;
@@ -355,6 +387,8 @@ PartAssessment assess_part(PartFile file, structure::PartTeam* team) {
   if (assessment.file.loads.empty()) return assessment;
   assessment.probes =
       find_probes(assessment.file, assessment.model, assessment.solution, diagnostics);
+  assessment.hot_spots =
+      find_hot_spots(assessment.file, assessment.model, assessment.solution, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   return assessment;
 }

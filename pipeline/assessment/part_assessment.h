@@ -8,6 +8,7 @@
 #include "pipeline/input/part_file.h"
 #include "structure/elasticity/natural_modes.h"
 #include "structure/parallel/part_team.h"
+#include "structure/response/hot_spot.h"
 #include "structure/response/part_solution.h"
 
 namespace blocklift::pipeline {
@@ -17,6 +18,14 @@ struct ProbeResult {
   std::string name;
   bool is_line = false;
   std::vector<structure::PartProbe> points;
+};
+
+/// Structural stress at a weld toe.
+struct HotSpotResult {
+  std::string name;
+  structure::HotSpot spot;
+  structure::Stress structural = structure::Stress::Zero();  ///< Pa
+  structure::HotSpotStress stress;
 };
 
 /// One mesh on the way to the accuracy that is asked for.
@@ -38,6 +47,7 @@ struct PartAssessment {
   std::optional<structure::NaturalModes> modes;
   std::vector<RefinementStep> refinement;  ///< the last is the mesh of the solution
   std::vector<ProbeResult> probes;
+  std::vector<HotSpotResult> hot_spots;
   double mesh_s = 0;   ///< wall-clock time of reading or making the mesh
   double modes_s = 0;  ///< of finding the modes
 };

@@ -73,6 +73,12 @@ void add_solution(const PartAssessment& assessment, Json& summary) {
   summary["all"] = group_json(solution.all);
   for (const structure::PartGroupResult& group : solution.groups)
     summary["groups"][group.group] = group_json(group);
+  for (const HotSpotResult& spot : assessment.hot_spots)
+    summary["hot_spots"][spot.name] = {{"toe_m", vector(spot.spot.toe)},
+                                       {"normal_Pa", spot.stress.normal},
+                                       {"principal_Pa", spot.stress.principal},
+                                       {"principal_angle_rad", spot.stress.angle},
+                                       {"governing_Pa", spot.stress.governing}};
   for (const ProbeResult& probe : assessment.probes) {
     if (!probe.is_line) {
       summary["probes"][probe.name] = probe_json(probe.points[0]);

@@ -11,6 +11,7 @@
 #include "pipeline/assessment/assumptions.h"
 #include "pipeline/assessment/history_summary.h"
 #include "pipeline/assessment/loop_loads.h"
+#include "pipeline/assessment/padeye_summary.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/version.h"
 
@@ -243,6 +244,16 @@ Json lugs_json(const Assessment& assessment) {
   return rows;
 }
 
+Json error_json(const structure::BlockMesh& mesh, const structure::BlockError& error) {
+  Json json{{"relative", error.relative},
+            {"worst_part", error.worst_part},
+            {"worst_point_m", point(error.worst_point)},
+            {"groups", Json::object()}};
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+    json["groups"][mesh.groups[g].name] = error.of_groups[g];
+  return json;
+}
+
 Json structure_json(const Assessment& assessment) {
   const BlockAssessment& block = assessment.block.assessment;
   const structure::ElasticModel& model = *assessment.block.model;
@@ -273,6 +284,10 @@ Json structure_json(const Assessment& assessment) {
               {"steel_centre_of_mass_m", point(mass.steel_centre_B)},
               {"smallest_density_factor", mass.smallest_density_factor},
               {"largest_density_factor", mass.largest_density_factor}}}};
+  json["estimated_error"] = error_json(model.mesh(), assessment.block.error);
+  json["buckling"] = buckling_json(assessment.block.buckling);
+  if (!assessment.block.padeyes.padeyes.empty())
+    json["padeyes"] = padeyes_json(assessment.block.padeyes);
   if (assessment.block.history) json["history"] = history_json(*assessment.block.history);
   return json;
 }
@@ -334,6 +349,8 @@ void add_structure_timing(const BlockRun& block, Json& timing) {
   timing["factorisation_s"] = solution.factorisation_s;
   timing["solve_s"] = solution.solve_s;
   timing["evaluation_s"] = block.assessment.evaluation_s;
+  timing["buckling_s"] = block.buckling.evaluation_s;
+  if (!block.padeyes.padeyes.empty()) timing["padeyes_s"] = block.padeyes.evaluation_s;
   if (block.history) timing["history_s"] = block.history->evaluation_s;
 }
 

@@ -110,6 +110,26 @@ void print_block(const BlockAssessment& block, const HistoryAssessment* history)
       history->per_rope_maxima.largest_percent, history->per_rope_maxima.worst_percent);
 }
 
+void print_details(const BlockRun& block) {
+  fmt::print("estimated error of the stress field {:.1f} % in the energy norm, most of it in {}\n",
+             100 * block.error.relative, block.error.worst_part);
+  if (!block.buckling.panels.empty()) {
+    const BuckledPanel& worst = block.buckling.panels.front();
+    fmt::print("nearest to buckling of {} panels: {:.2f} (elastic {:.2f}) in {}\n",
+               block.buckling.panels.size(), worst.worst.utilisation.critical,
+               worst.worst.utilisation.elastic, worst.panel.plate);
+  }
+  for (const PadeyeAssessment& padeye : block.padeyes.padeyes) {
+    const PadeyeState& state = padeye.governing_state();
+    fmt::print(
+        "padeye {:<6}{:>8.1f} MPa in the main plate,{:>7.1f} in the cheek plates ({}); worst "
+        "formula {:.2f}, {}\n",
+        padeye.lug, state.result.main_plate.checked_von_mises.value / 1e6,
+        state.result.cheeks.checked_von_mises.value / 1e6, state.name,
+        padeye.worst_formula().formula.utilisation, padeye.worst_formula().formula.name);
+  }
+}
+
 void print_checks(const Assessment& assessment) {
   fmt::print("\n");
   for (const std::string& reason : verdict_reasons(assessment.checks)) fmt::print("{}\n", reason);
@@ -150,6 +170,7 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   if (assessment.block.model) {
     print_block(assessment.block.assessment,
                 assessment.block.history ? &*assessment.block.history : nullptr);
+    print_details(assessment.block);
   }
   print_checks(assessment);
   fmt::print("report: {}\n", report.string());

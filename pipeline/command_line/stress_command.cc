@@ -42,6 +42,12 @@ void print_solution(const PartAssessment& assessment) {
         "s_xy", "s_yz", "s_zx", "v. Mises");
   for (const ProbeResult& probe : assessment.probes)
     for (const structure::PartProbe& point : probe.points) print_probe(probe.name, point);
+  if (!assessment.hot_spots.empty())
+    fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "hot spot", "across MPa", "principal MPa",
+               "governing MPa");
+  for (const HotSpotResult& spot : assessment.hot_spots)
+    fmt::print("{:<18}{:>14.5g}{:>14.5g}{:>14.5g}\n", spot.name, spot.stress.normal / 1e6,
+               spot.stress.principal / 1e6, spot.stress.governing / 1e6);
   fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "force on the part", "x N", "y N", "z N");
   const auto print_force = [](const std::string& name, const Eigen::Vector3d& force) {
     fmt::print("{:<18}{:>14.6g}{:>14.6g}{:>14.6g}\n", name, force.x(), force.y(), force.z());

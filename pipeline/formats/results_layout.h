@@ -60,6 +60,12 @@
 ///     patches/von_mises                Pa [P]   patches/time   s [P]   patches/rope   index [P] into ../ropes
 ///   /structure/history/ropes           texts;   patches/points   m [P x 3]   patches/plate   index [P] into
 ///                                      patches/plates, texts
+///   /structure/panels              (o) plates   texts [p]   table   [p x 15], a panel a row, the nearest to
+///                                      buckling first; what the columns are stands in its description
+///   /structure/padeyes/<lug>       (o) the governing state of a padeye; attributes state, rope, time (o)
+///     corners                          m [c x 8], x y of four corners of a column of elements, padeye's frame
+///     plate                            [c]  0 main plate, 1, 2 cheek plates in front and behind
+///     von_mises                        Pa [c], of the mean stress   force   N [3], of the pin
 ///   /structure/history/points/<name>   point m [3]; <state>/von_mises, <state>/normal_stress   Pa [n]
 ///
 /// summary.json, one object; everything but case may be missing, null stands for "not known"; what is simulated
@@ -99,7 +105,17 @@
 ///                      worst_difference_percent, worst_part, worst_envelope_Pa, share_of_patches_short}},
 ///                      fatigue: {curve, source, stress_concentration, lifts}, points: [{name, part, point_m,
 ///                      max_static_von_mises_Pa, max_dynamic_von_mises_Pa, cycles_per_lift, largest_range_Pa,
-///                      damage_per_lift, damage}]
+///                      damage_per_lift, damage}], hot_spot_curve, hot_spots: the same with largest_normal_Pa,
+///                      smallest_normal_Pa (structural stress across the weld)
+///     estimated_error (o) {relative, worst_part, worst_point_m, groups: {name: relative}}: of the stress field
+///                      in the energy norm, at the instant of the largest checked stress
+///     buckling     (o) {panels_looked_at, panels: the worst of [{plate, centre_m, sides_m, field_m, thickness_m,
+///                      free_edges, s11_Pa, s22_Pa, s12_Pa, utilisation, elastic_utilisation, state, time_s (o)}]}
+///     padeyes      (o) [{lug, rope, padeye, consequence_factor, unknowns, governing_state, file,
+///                      formulas: [{name, demand, limit, unit, utilisation, pass, source, time_s (o)}], with
+///                      the factor, states: [{name, time_s (o), force_N, main_plate_checked_von_mises_Pa,
+///                      cheeks_checked_von_mises_Pa, peak_von_mises_Pa, peak_point_m, force_residual,
+///                      moment_residual}], without it, in the padeye's frame}]
 ///   natural_periods (o) [{instant, time_s, modes: [{name, kind, period_s, frequency_Hz, damping_ratio,
 ///                      elastic_share, energy_share_by_body: {body: share}}]}], modes slowest first;
 ///                      period_s null where nothing brings the motion back
@@ -148,6 +164,9 @@ inline constexpr std::string_view surface_points = "/structure/surface/points";
 inline constexpr std::string_view surface_quads = "/structure/surface/quads";
 inline constexpr std::string_view surface_quad_group = "/structure/surface/quad_group";
 inline constexpr std::string_view surface_group_names = "/structure/surface/group_names";
+
+inline constexpr std::string_view panels_group = "/structure/panels";
+inline constexpr std::string_view padeyes_group = "/structure/padeyes";
 
 inline constexpr std::string_view simultaneous = "simultaneous";
 inline constexpr std::string_view per_rope_maxima = "per_rope_maxima";

@@ -224,6 +224,21 @@ void check_lugs(const BlockModel& block, Reading& reading) {
   }
 }
 
+void check_padeyes(const BlockModel& block, Reading& reading) {
+  for (const LugModel& lug : block.lugs) {
+    if (!lug.padeye) continue;
+    const std::string user = "lug " + lug.name.value;
+    const PadeyeDesign* design = look_up(*lug.padeye, block.padeyes, user, "padeye", reading);
+    if (!design || !std::isfinite(design->radius + design->thickness + design->hole + design->pin))
+      continue;
+    std::vector<std::string> faults;
+    place_padeye(*design, block, lug, faults);
+    for (const std::string& fault : faults)
+      reading.error(lug.padeye->mark, fmt::format("{} cannot be made as padeye {}: {}", user,
+                                                  design->name.value, fault));
+  }
+}
+
 }  // namespace
 
 void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
@@ -239,6 +254,7 @@ void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
   check_openings(block, reading);
   check_pads(block, reading);
   check_lugs(block, reading);
+  check_padeyes(block, reading);
 }
 
 }  // namespace blocklift::pipeline

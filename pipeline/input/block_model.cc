@@ -141,6 +141,17 @@ Format<MaterialModel> material_format() {
   return table.format();
 }
 
+Format<StiffenersModel> stiffeners_format() {
+  Table<StiffenersModel> table("row of stiffeners",
+                               "Stiffeners that a plate carries and its model leaves out (their "
+                               "mass belongs to the outfitting). They divide its panels where "
+                               "buckling is checked, and do nothing else.");
+  table.required("along", &StiffenersModel::along, choice<std::size_t>(axes), "axis they run along")
+      .required("spacing", &StiffenersModel::spacing,
+                quantity(Dimension::length, Range::positive()), "between neighbours");
+  return table.format();
+}
+
 Format<PlateModel> plate_format() {
   Table<Written<PlateModel>> table("plate",
                                    "Equal flat rectangular plates, one at each position "
@@ -153,6 +164,14 @@ Format<PlateModel> plate_format() {
                 "of the plate")
       .optional("material", &PlateModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
+      .optional("stiffeners", &PlateModel::stiffeners, stiffeners_format(),
+                "that the plate carries and this model leaves out")
+      .rule([](const Written<PlateModel>& plate, Reading& reading, const Mark& mark) {
+        if (!plate.stiffeners || plate.stiffeners->along != plate.normal) return;
+        reading.error(mark,
+                      fmt::format("the stiffeners of {} run along its normal", reading.owner()),
+                      {"they run along one of its two other axes"});
+      })
       .rule(check_rectangle<PlateModel>);
   return taken(table);
 }
@@ -194,6 +213,9 @@ Format<LugModel> lug_format() {
                 "of the lug plate")
       .required("pin", &LugModel::pin, position_format(), "centre of the pin")
       .optional("material", &LugModel::material, reference(), "that of the pad if left out")
+      .optional("padeye", &LugModel::padeye, reference(),
+                "one of the block's padeyes: what the lug is made as, checked by hand formulae and "
+                "by a fine mesh")
       .rule(check_rectangle<LugModel>);
   return taken(table);
 }
@@ -211,6 +233,10 @@ const PlateModel* BlockModel::find_plate(const std::string& name) const {
     return plate.name.value == name;
   });
   return found == plates.end() ? nullptr : &*found;
+}
+
+const PadeyeDesign* BlockModel::find_padeye(const LugModel& lug) const {
+  return lug.padeye ? find_by_name(padeyes, lug.padeye->value) : nullptr;
 }
 
 std::vector<std::string> BlockModel::lug_names() const {
@@ -242,6 +268,8 @@ Format<BlockModel> block_model_format() {
       .optional("pads", &BlockModel::pads, named_tables(pad_format()),
                 "thicker regions around lugs")
       .optional("lugs", &BlockModel::lugs, named_tables(lug_format()), "where ropes may pull")
+      .optional("padeyes", &BlockModel::padeyes, named_tables(padeye_format()),
+                "what lugs are made as; a lug names one of them")
       .optional("wind_areas", &BlockModel::wind_areas, list_of(wind_area_format()),
                 "areas on which the wind acts")
       .place(&BlockModel::place)

@@ -8,6 +8,7 @@
 
 #include "pipeline/input/crane_model.h"
 #include "pipeline/input/geometry_format.h"
+#include "pipeline/input/padeye_format.h"
 
 namespace blocklift::pipeline {
 
@@ -26,12 +27,19 @@ struct Rectangle {
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
 };
 
+/// Stiffeners that a plate carries and its model does not: they divide its panels in the check of buckling.
+struct StiffenersModel {
+  std::size_t along = 0;                                      ///< axis
+  double spacing = std::numeric_limits<double>::quiet_NaN();  ///< m
+};
+
 /// Equal plates, one at each of several positions along their common normal.
 struct PlateModel : Rectangle {
   Located<std::string> name;
   std::vector<double> at;  ///< positions of the mid-planes, m
   double thickness = std::numeric_limits<double>::quiet_NaN();
   Located<std::string> material;  ///< the block's only one where the file names none
+  std::optional<StiffenersModel> stiffeners;
 };
 
 /// Rectangular hole in plates.
@@ -57,8 +65,9 @@ struct LugModel : Rectangle {
   Located<std::string> pad;
   double at = std::numeric_limits<double>::quiet_NaN();
   double thickness = std::numeric_limits<double>::quiet_NaN();
-  Located<std::string> material;  ///< empty: that of the pad
-  Located<Vector3> pin;           ///< centre of the pin, m
+  Located<std::string> material;               ///< empty: that of the pad
+  Located<Vector3> pin;                        ///< centre of the pin, m
+  std::optional<Located<std::string>> padeye;  ///< that it is made as
 };
 
 /// Stiffened block of flat plates, in its own frame: x along, y across, z up. SI units.
@@ -72,10 +81,12 @@ struct BlockModel {
   std::vector<OpeningModel> openings;
   std::vector<PadModel> pads;
   std::vector<LugModel> lugs;
+  std::vector<PadeyeDesign> padeyes;
   std::vector<WindAreaModel> wind_areas;
   Mark place;
 
   const LugModel* find_lug(const std::string& name) const;
+  const PadeyeDesign* find_padeye(const LugModel& lug) const;  ///< null: the lug has none
   const PlateModel* find_plate(const std::string& name) const;
   std::vector<std::string> lug_names() const;
 };

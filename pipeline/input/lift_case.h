@@ -12,6 +12,7 @@
 #include "dynamics/force/wind_field.h"
 #include "pipeline/input/block_model.h"
 #include "pipeline/input/crane_model.h"
+#include "pipeline/input/hot_spot_format.h"
 #include "pipeline/input/marine_parts.h"
 #include "pipeline/input/model_library.h"
 
@@ -152,6 +153,7 @@ struct DynamicsSettings {
 struct FatigueSettings {
   std::string curve = "F";  ///< detail category of DNV-RP-C203, in air
   double stress_concentration = 1;
+  std::string hot_spot_curve = "D";  ///< for structural stress at weld toes
   double lifts = 1;
 };
 
@@ -160,14 +162,18 @@ struct StructureSettings {
   double largest_element = 0;                   ///< m
   std::vector<Named<Vector3>> stress_points{};  ///< whose stress is followed in time, in B, m
   FatigueSettings fatigue{};
+  std::vector<HotSpotInFile> hot_spots{};  ///< weld toes of the block, in B
 };
 
 struct CheckSettings {
   double rope_safety_factor = 0;
   bool crane_capacity = false;
   double yield_factor = 0;
-  double smallest_tension = 0;          ///< N
-  std::optional<double> largest_swing;  ///< rad
+  double lug_consequence_factor = 0;      ///< on forces and stresses of padeyes
+  double lug_side_load = 0;               ///< least force along a padeye's pin, share of the rope's
+  std::optional<double> buckling_factor;  ///< absent: yield_factor
+  double smallest_tension = 0;            ///< N
+  std::optional<double> largest_swing;    ///< rad
 };
 
 /// A published or measured pair of largest loads, N.

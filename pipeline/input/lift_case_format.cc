@@ -189,6 +189,9 @@ Format<FatigueSettings> fatigue_format() {
       .by_default("stress_concentration", &FatigueSettings::stress_concentration,
                   number(Range::at_least(1)), "1",
                   "by which stress ranges are multiplied before the curve is read")
+      .by_default("hot_spot_curve", &FatigueSettings::hot_spot_curve, fatigue_curve_format(), "D",
+                  "for the structural stress at named weld toes, without stress_concentration; D "
+                  "is class 90 MPa, as DNV-RP-C203 has it for that stress")
       .by_default("lifts", &FatigueSettings::lifts, number(Range::at_least(1)), "1",
                   "lifts of this kind that the block sees");
   return table.format();
@@ -206,6 +209,9 @@ Format<StructureSettings> structure_format() {
                 "places in the block's frame whose stress is followed in time, each at the nearest "
                 "patch of the checked stress; if left out, the hot spot of the lift and that of "
                 "each lug")
+      .optional("hot_spots", &StructureSettings::hot_spots, hot_spots_format(),
+                "weld toes of the block, by name, in its frame: structural stress in time, cycles "
+                "and damage")
       .by_default("fatigue", &StructureSettings::fatigue, fatigue_format(), "{}",
                   "wear by repeated lifts")
       .rule([](const StructureSettings& settings, Reading& reading, const Mark&) {
@@ -224,6 +230,16 @@ Format<CheckSettings> checks_format() {
                   "hook and crane loads against the cranes' capacities")
       .by_default("yield_factor", &CheckSettings::yield_factor, number(Range::at_least(1)), "1.5",
                   "yield stress over the largest checked stress")
+      .by_default("lug_consequence_factor", &CheckSettings::lug_consequence_factor,
+                  number(Range::at_least(1)), "1.3",
+                  "on the forces at padeyes (GL Noble Denton 0027/ND, lift points)")
+      .by_default("lug_side_load", &CheckSettings::lug_side_load,
+                  quantity(Dimension::ratio, Range::between(0, 1)), "5 %",
+                  "of the rope's force, along the pin, that hand formulae of padeyes take at least "
+                  "(API RP 2A)")
+      .optional("buckling_factor", &CheckSettings::buckling_factor, number(Range::at_least(1)),
+                "critical stress of a plate panel over the stress in it; the yield factor if left "
+                "out")
       .by_default("smallest_tension", &CheckSettings::smallest_tension,
                   quantity(Dimension::load, Range::not_negative()), "0 kN",
                   "below which a rope counts as slack")

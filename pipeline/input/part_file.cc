@@ -92,19 +92,31 @@ Format<PartRotation> rotation_format() {
 }
 
 void check_load(const PartLoadInFile& load, Reading& reading, const Mark& mark) {
-  const int on_groups =
-      load.pressure.has_value() + load.traction.has_value() + load.force.has_value();
+  const int on_groups = load.pressure.has_value() + load.traction.has_value() +
+                        load.force.has_value() + load.bearing.has_value();
   const int on_all =
       load.gravity.has_value() + load.acceleration.has_value() + load.rotation.has_value();
   if (on_groups + on_all != 1)
     reading.error(mark,
                   fmt::format("the load has {} kinds; exactly one is due", on_groups + on_all),
-                  {"pressure, traction, force, gravity, acceleration or rotation"});
+                  {"pressure, traction, force, bearing, gravity, acceleration or rotation"});
   if (on_groups == 1 && load.groups.empty())
     reading.error(mark, "the load acts on no group", {"name them: groups: [...]"});
   if (on_all == 1 && !load.groups.empty())
     reading.error(load.groups[0].mark, "gravity, acceleration and rotation act on the whole part",
                   {"leave groups out"});
+}
+
+Format<PartBearing> bearing_format() {
+  Table<PartBearing> table(
+      "bearing",
+      "A pin that presses on its hole: pressure with the cosine of the angle from the "
+      "force's direction over half of the hole; what is along the axis is spread over "
+      "all of it. The sum is the force exactly, without a moment about the axis.");
+  table.required("force", &PartBearing::force, vector_of(Dimension::load), "of the pin on the hole")
+      .required("axis", &PartBearing::axis, direction_format(), "of the hole")
+      .required("point", &PartBearing::point, position_format(), "on the axis");
+  return table.format();
 }
 
 Format<PartLoadInFile> load_format() {
@@ -118,6 +130,7 @@ Format<PartLoadInFile> load_format() {
                 "force for each area of the faces")
       .optional("force", &PartLoadInFile::force, vector_of(Dimension::load),
                 "resultant, spread evenly over all of a group; each group bears it")
+      .optional("bearing", &PartLoadInFile::bearing, bearing_format(), "of a pin on a hole's faces")
       .optional("gravity", &PartLoadInFile::gravity, vector_of(Dimension::acceleration),
                 "acceleration of gravity")
       .optional("acceleration", &PartLoadInFile::acceleration, vector_of(Dimension::acceleration),
@@ -253,6 +266,9 @@ void check_part(const PartFile& part, Reading& reading, const Mark& mark) {
   for (const PartProbeInFile& probe : part.probes)
     if (part.loads.empty())
       reading.error(probe.name.mark, "a part without loads has nothing to probe");
+  for (const HotSpotInFile& spot : part.hot_spots)
+    if (part.loads.empty())
+      reading.error(spot.name.mark, "a part without loads has no stress at a weld toe");
   if (part.modes)
     for (const PartMaterial& material : part.materials)
       if (!(material.density > 0))
@@ -285,6 +301,8 @@ Format<PartFile> part_file_format() {
       .optional("loads", &PartFile::loads, named_tables(load_format()),
                 "by name; they act together")
       .optional("probes", &PartFile::probes, named_tables(probe_format()), "by name")
+      .optional("hot_spots", &PartFile::hot_spots, hot_spots_format(),
+                "weld toes, by name, whose structural stress is extrapolated")
       .optional("solver", &PartFile::solver, solver_format(), "how the equations are solved")
       .optional("modes", &PartFile::modes, integer(Range::between(1, 1000)),
                 "natural modes to find, the lowest, those of rigid motion counted")

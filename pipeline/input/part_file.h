@@ -8,6 +8,7 @@
 
 #include "pipeline/input/format.h"
 #include "pipeline/input/geometry_format.h"
+#include "pipeline/input/hot_spot_format.h"
 #include "structure/elasticity/solver_choice.h"
 
 namespace blocklift::pipeline {
@@ -53,13 +54,21 @@ struct PartRotation {
   double speed = 0;                 ///< rad/s
 };
 
+/// A pin that presses on its hole.
+struct PartBearing {
+  Vector3 force = Vector3::Zero();  ///< of the pin on the hole, N
+  Vector3 axis = Vector3::UnitZ();  ///< of the hole
+  Vector3 point = Vector3::Zero();  ///< on the axis, m
+};
+
 /// One load: exactly one of its kinds is given.
 struct PartLoadInFile {
   Located<std::string> name;
   std::vector<Located<std::string>> groups;
-  std::optional<double> pressure;       ///< Pa
-  std::optional<Vector3> traction;      ///< Pa
-  std::optional<Vector3> force;         ///< N
+  std::optional<double> pressure;   ///< Pa
+  std::optional<Vector3> traction;  ///< Pa
+  std::optional<Vector3> force;     ///< N
+  std::optional<PartBearing> bearing;
   std::optional<Vector3> gravity;       ///< m/s^2
   std::optional<Vector3> acceleration;  ///< of the part, m/s^2
   std::optional<PartRotation> rotation;
@@ -102,6 +111,7 @@ struct PartFile {
   std::vector<PartSupportInFile> supports;
   std::vector<PartLoadInFile> loads;
   std::vector<PartProbeInFile> probes;
+  std::vector<HotSpotInFile> hot_spots;
   std::optional<int> modes;  ///< natural modes asked for
   /// Largest estimated error of the stress field in the energy norm, as a share of the norm.
   std::optional<double> accuracy;

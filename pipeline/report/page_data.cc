@@ -376,6 +376,30 @@ json surface(const ResultsReader& results) {
   return result;
 }
 
+json padeyes(const ResultsReader& results) {
+  json rows = json::array();
+  if (!results.has(layout::padeyes_group)) return rows;
+  for (const std::string& lug : children_of(results, std::string(layout::padeyes_group))) {
+    const std::string group = join(layout::padeyes_group, lug);
+    const auto plates = results.read_indices(join(group, "plate")).values;
+    const auto stresses = results.read(join(group, "von_mises")).values;
+    const json corners = points_of(results, join(group, "corners"), 8);
+    if (plates.size() != stresses.size() || corners.size() != plates.size())
+      throw ResultsError("\"" + group + "\" has lists of different lengths");
+    json row{{"lug", lug},
+             {"state", attribute_or(results, group, "state", "")},
+             {"rope", attribute_or(results, group, "rope", "")},
+             {"force", results.read(join(group, "force")).values},
+             {"plate", plates},
+             {"von_mises", stresses},
+             {"corners", corners}};
+    if (results.has_attribute(group, "time"))
+      row["time"] = results.read_number_attribute(group, "time");
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 json case_of(const ResultsReader& results, const json& summary) {
   const auto take = [&](const char* name) -> std::string {
     if (results.has_attribute(layout::case_group, name))
@@ -422,7 +446,8 @@ nlohmann::ordered_json make_page_data(const ResultsReader& results, const json& 
       {"measured", measured(results)},
       {"modes", modes(results)},
       {"scene", scene(results)},
-      {"surface", surface(results)}};
+      {"surface", surface(results)},
+      {"padeyes", padeyes(results)}};
 }
 
 }  // namespace blocklift::pipeline

@@ -107,11 +107,17 @@ Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads) const {
   Eigen::VectorXd given(static_cast<Eigen::Index>(fixed_.size()));
   for (std::size_t i = 0; i < fixed_.size(); ++i)
     given[static_cast<Eigen::Index>(i)] = fixed_[i].value;
-  if (!given.isZero(0)) loads.colwise() -= (fixed_rows_.transpose() * given).eval();
+  const Eigen::Index columns = loads.cols();
+  return solve(std::move(loads), given.replicate(1, columns));
+}
+
+Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads,
+                                         const Eigen::MatrixXd& given) const {
+  if (!given.isZero(0)) loads -= fixed_rows_.transpose() * given;
   for (const FixedUnknown& fixed : fixed_) loads.row(fixed.unknown).setZero();
   Eigen::MatrixXd displacements = factor_->solve(loads);
-  for (const FixedUnknown& fixed : fixed_)
-    displacements.row(fixed.unknown).setConstant(fixed.value);
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    displacements.row(fixed_[i].unknown) = given.row(static_cast<Eigen::Index>(i));
   return displacements;
 }
 

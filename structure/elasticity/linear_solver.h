@@ -37,6 +37,9 @@ class ConstrainedSystem {
   void factorise();
   /// Displacements for load vectors (one a column; entries at fixed unknowns do not matter).
   Eigen::MatrixXd solve(Eigen::MatrixXd loads) const;
+  /// The same with displacements of the fixed unknowns that are given here, not by FixedUnknown::value:
+  /// a row a fixed unknown, a column a load vector, m.
+  Eigen::MatrixXd solve(Eigen::MatrixXd loads, const Eigen::MatrixXd& given) const;
   /// Forces that the supports exert, one row a fixed unknown: (K u - f) there, N.
   Eigen::MatrixXd reactions(const Eigen::MatrixXd& displacements,
                             const Eigen::MatrixXd& loads) const;

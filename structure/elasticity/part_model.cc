@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "structure/elasticity/bearing_load.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -79,6 +80,10 @@ class SolidsBehindFaces {
 
 void add_surface_load(const PartMesh& mesh, const SurfaceLoad& load, Eigen::VectorXd& forces) {
   const PartGroup& group = group_of(mesh, "load " + load.name, load.group);
+  if (load.kind == SurfaceLoad::Kind::bearing) {
+    add_bearing_load(mesh, load, group, forces);
+    return;
+  }
   const bool is_force = load.kind == SurfaceLoad::Kind::force;
   if (group.dimension == 3 || (!is_force && group.dimension != 2))
     throw ModelError(fmt::format("load {} is {}, but group \"{}\" holds {}", load.name,

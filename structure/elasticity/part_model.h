@@ -22,12 +22,14 @@ struct PartSupport {
 
 /// A load on a group of faces, edges or points.
 struct SurfaceLoad {
-  enum class Kind { pressure, traction, force };
+  enum class Kind { pressure, traction, force, bearing };
   std::string name;
   std::string group;
   Kind kind = Kind::force;
   double pressure = 0;               ///< against the face, positive pushes, Pa
-  Vector3 vector = Vector3::Zero();  ///< traction, Pa; or the resultant, spread evenly, N
+  Vector3 vector = Vector3::Zero();  ///< traction, Pa; or the resultant, N
+  Vector3 axis = Vector3::UnitZ();   ///< of the hole that bears, unit
+  Vector3 point = Vector3::Zero();   ///< on that axis, m
 };
 
 /// A load on all material: b(x) = rho (g - omega x (omega x (x - point))), N/m^3.

@@ -91,7 +91,10 @@ void add_cells(const PlateGrid& grid, const std::vector<GridBox>& boxes, BlockMe
     mesh.cell_sheet.push_back(sheet);
     mesh.cell_normal.push_back(crossing ? -1 : sheets[at(sheet)].normal);
   }
-  for (const Sheet& sheet : sheets) mesh.sheet_names.push_back(sheet.name);
+  for (const Sheet& sheet : sheets) {
+    mesh.sheet_names.push_back(sheet.name);
+    mesh.sheet_thickness.push_back(sheet.thickness);
+  }
 }
 
 void check_joined(const PlateGrid& grid, const std::vector<GridBox>& boxes, const BlockMesh& mesh) {

@@ -55,6 +55,7 @@ struct BlockMesh : HexMesh {
   /// over one another make up its thickness.
   std::vector<int> cell_sheet;
   std::vector<std::string> sheet_names;  ///< such as "web_frames at x = 4 m"
+  std::vector<double> sheet_thickness;   ///< as described (elements taper where plates meet), m
   std::vector<LugRegion> lugs;
 };
 

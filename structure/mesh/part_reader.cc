@@ -360,4 +360,14 @@ PartMesh read_part_mesh(const std::string& path, const PartReading& reading) {
   }
 }
 
+PartMesh make_part_mesh(const AbaqusMesh& mesh) {
+  const GmshSession session;
+  try {
+    const auto points = add_to_gmsh(mesh);
+    return Collector(1).collect(points);
+  } catch (const std::string& error) {
+    throw ModelError("Gmsh cannot take the mesh: " + error);
+  }
+}
+
 }  // namespace blocklift::structure

@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 
+#include "structure/mesh/abaqus_file.h"
 #include "structure/mesh/part_mesh.h"
 
 namespace blocklift::structure {
@@ -30,5 +31,9 @@ struct PartReading {
 ///   would exceed the memory (before they are made), or holds no solid elements, or kinds
 ///   other than hexahedra, tetrahedra and wedges (pyramids among them).
 PartMesh read_part_mesh(const std::string& path, const PartReading& reading);
+
+/// The same of a mesh that is made here; coordinates in m, elements as they are. Element::tag is the
+/// mesh's own. @throws ModelError as above.
+PartMesh make_part_mesh(const AbaqusMesh& mesh);
 
 }  // namespace blocklift::structure

@@ -13,6 +13,13 @@ double von_mises(const Stress& s) {
                    3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
+double complementary_energy(const Material& material, const Stress& s) {
+  const double nu = material.poisson_ratio, trace = s.head<3>().sum();
+  return ((1 + nu) * (s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm()) -
+          nu * trace * trace) /
+         material.youngs_modulus;
+}
+
 Stress stress_of_gradient(const Material& material, const Eigen::Matrix3d& g) {
   const double mu = material.shear_modulus();
   const double pressure = material.lame_lambda() * g.trace();

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 
 #include "structure/mesh/element_shape.h"
+#include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
@@ -17,15 +18,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using Stress6 = Eigen::Matrix<double, 6, 1>;
-
-// s : C^-1 : s, twice the energy of a stress, J/m^3.
-double complementary(const Material& material, const Stress6& s) {
-  const double trace = s.head<3>().sum();
-  return ((1 + material.poisson_ratio) *
-              (s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm()) -
-          material.poisson_ratio * trace * trace) /
-         material.youngs_modulus;
-}
 
 // Points of an element kind at which its stresses are most accurate. Source: Barlow (1976).
 Eigen::Matrix3Xd accurate_points(const ElementKind& kind) {
@@ -218,8 +210,9 @@ PartError compare_stresses(const PartModel& model, const Eigen::VectorXd& displa
       const double volume =
           kind.weights[q] *
           (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
-      error.squared_error[solid] += volume * complementary(material, other.col(q) - own.col(q));
-      error.squared_norm[solid] += volume * complementary(material, own.col(q));
+      error.squared_error[solid] +=
+          volume * complementary_energy(material, other.col(q) - own.col(q));
+      error.squared_norm[solid] += volume * complementary_energy(material, own.col(q));
     }
   }
   return error;

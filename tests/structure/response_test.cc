@@ -12,6 +12,7 @@
 #include "structure/error.h"
 #include "structure/output/surface.h"
 #include "structure/output/vtu.h"
+#include "structure/response/block_error.h"
 #include "structure/response/cell_stress.h"
 #include "structure/response/flexibility.h"
 #include "structure/response/stress.h"
@@ -175,6 +176,45 @@ TEST_F(SmallBlock, VtuFileHoldsAllPoints) {
 // Free bar of length L pulled at one end: the stress falls linearly from F/A to 0 (d'Alembert: a
 // section at x carries what accelerates the part behind it, N = F x / L), and nothing reacts.
 // The pull is spread over the last tenth of the bar; there N = F x/L - F (x - 0.9 L) / (0.1 L).
+// The true error from the energies of better elements: |u - u_h|^2 = f (u - u_h) in the energy norm
+// (Galerkin's orthogonality), cubic elements standing for u.
+TEST(BlockErrorEstimate, IsOfTheTrueErrorsSizeAndFallsWithTheDegree) {
+  LoadCase load_case{"lift", std::vector<Vector3>(4, Vector3(0, 0, 20e3)), {}};
+  std::vector<double> energy, estimate;
+  for (const int degree : {1, 2, 3}) {
+    const ElasticModel model = make_elastic_model(testing::small_block(), degree);
+    if (degree == 1) {
+      Wrench pull;
+      for (const LugRegion& lug : model.mesh().lugs) {
+        pull.force += Vector3(0, 0, 20e3);
+        pull.moment += lug.p_BPin.cross(Vector3(0, 0, 20e3));
+      }
+      load_case.field = balancing_field(model.mass_properties(), pull);
+    }
+    const UnitResponses responses(model);
+    const Eigen::VectorXd u = responses.displacement(load_case);
+    energy.push_back(u.dot(responses.load_vector(load_case)));
+    estimate.push_back(estimate_block_error(model, u).relative);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double truth = std::sqrt(1 - energy[i] / energy[2]);
+    EXPECT_GT(estimate[i], 0.3 * truth) << "degree " << i + 1;
+    EXPECT_LT(estimate[i], 2 * truth) << "degree " << i + 1;
+  }
+  EXPECT_LT(estimate[1], estimate[0]);
+  EXPECT_LT(estimate[2], estimate[1]);
+}
+
+TEST(BlockErrorEstimate, LinearDisplacementHasNone) {
+  const ElasticModel model = make_elastic_model(testing::small_block(), 2);
+  Eigen::VectorXd u(model.unknowns());
+  for (int n = 0; n < model.space().node_count(); ++n) {
+    const Vector3 x = model.space().nodes.col(n);
+    u.segment<3>(3 * n) = 1e-4 * Vector3(x.x() + x.y(), 2 * x.z(), x.x() - x.y());
+  }
+  EXPECT_LT(estimate_block_error(model, u).relative, 1e-9);
+}
+
 TEST(FreeBar, StressFallsLinearlyAndNothingReacts) {
   Material material = testing::steel();
   material.poisson_ratio = 0;

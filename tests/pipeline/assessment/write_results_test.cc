@@ -65,8 +65,8 @@ TEST(WriteResults, PutsEverythingIntoTheFolder) {
     names.insert(name);
     EXPECT_GT(text.size(), 1000u) << name;
   }
-  EXPECT_EQ(names, (std::set<std::string>{"block-dynamic.vtu", "block-static.vtu", "report.html",
-                                          "results.h5", "summary.json"}));
+  EXPECT_EQ(names, (std::set<std::string>{"block-dynamic.vtu", "block-static.vtu", "lug-L1.vtu",
+                                          "report.html", "results.h5", "summary.json"}));
 }
 
 TEST(WriteResults, LeavesNothingWhenItFails) {
@@ -119,13 +119,24 @@ TEST(Summary, HoldsEverythingThatReadersCountOn) {
   const auto summary = nlohmann::json::parse(test::text_of_file("summary.json"));
   EXPECT_EQ(summary["case"], "small-lift");
   EXPECT_EQ(summary["verdict"], "pass");
-  ASSERT_EQ(summary["checks"].size(), 12u);
+  ASSERT_EQ(summary["checks"].size(), 17u);
   for (const auto& check : summary["checks"]) {
     expect_numbers(check, {"demand", "limit", "utilisation"});
     EXPECT_TRUE(check["name"].is_string());
     EXPECT_TRUE(check["unit"].is_string());
     EXPECT_TRUE(check["pass"].is_boolean());
   }
+  ASSERT_EQ(summary["structure"]["padeyes"].size(), 1u);
+  const auto& padeye = summary["structure"]["padeyes"][0];
+  EXPECT_EQ(padeye["lug"], "L1");
+  ASSERT_EQ(padeye["states"].size(), 4u);
+  for (const auto& state : padeye["states"])
+    expect_numbers(state, {"main_plate_checked_von_mises_Pa", "cheeks_checked_von_mises_Pa",
+                           "peak_von_mises_Pa", "force_residual", "moment_residual"});
+  for (const auto& formula : padeye["formulas"])
+    expect_numbers(formula, {"demand", "limit", "utilisation"});
+  for (const auto& panel : summary["structure"]["buckling"]["panels"])
+    expect_numbers(panel, {"utilisation", "elastic_utilisation", "thickness_m", "time_s"});
   ASSERT_EQ(summary["ropes"].size(), 4u);
   for (const auto& rope : summary["ropes"]) {
     expect_numbers(rope, {"max_static_tension_N", "time_of_max_static_s", "max_dynamic_tension_N",
@@ -203,7 +214,7 @@ TEST(Summary, OfALoadTableHasNoRopes) {
   EXPECT_FALSE(summary.contains("ropes"));
   EXPECT_FALSE(summary.contains("energy"));
   expect_way(summary["structure"]["simultaneous"]);
-  ASSERT_EQ(summary["checks"].size(), 1u);
+  ASSERT_EQ(summary["checks"].size(), 6u);  // stress, panels of three plates, two of the padeye
   const auto& forces = assessment.block.assessment.simultaneous.dynamic_state.load.lug_forces_B;
   EXPECT_NEAR(forces[0].z(), 3e3 * 9.80665, 1e-6);
   EXPECT_NEAR(forces[1].z(), 2e3 * 9.80665, 1e-6);

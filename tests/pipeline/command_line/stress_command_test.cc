@@ -131,6 +131,64 @@ TEST_F(StressCommand, RefinesUntilTheAccuracyIsMet) {
   EXPECT_THAT(outcome.out, HasSubstr("elements"));
 }
 
+// A cantilever's stress falls linearly from its root: 6 F (L - x) / (b h^2) on its upper side, 30 MPa at the
+// toe that is 1.5 m before the force. Quadratic tetrahedra of half the bar's height bend within 5 %.
+TEST_F(StressCommand, ExtrapolatesToAWeldToe) {
+  std::string text = bar_part;
+  text.replace(text.find("[600 kN, 0 kN, 0 kN]"), 20, "[0 kN, -60 kN, 0 kN]");
+  text +=
+      "hot_spots:\n  toe: {toe: [0.5 m, 0.3 m, 0.1 m], direction: [1, 0, 0], thickness: 200 mm}\n";
+  folder_.write("bar.yaml", text);
+  const Outcome outcome = run("stress bar.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("hot spot"));
+  const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
+  const auto& toe = summary["hot_spots"]["toe"];
+  EXPECT_NEAR(toe["normal_Pa"], 30e6, 0.05 * 30e6);
+  EXPECT_NEAR(toe["governing_Pa"], toe["principal_Pa"], 1);
+  EXPECT_LT(toe["principal_angle_rad"], 0.1);
+}
+
+TEST_F(StressCommand, WeldToesOutsideThePartAreRefused) {
+  change("probes:\n",
+         "hot_spots:\n  toe: {toe: [0.5 m, 0.3 m, 0.1 m], direction: [0, 1, 0], "
+         "thickness: 20 mm}\nprobes:\n");
+  expect_refused(
+      AllOf(HasSubstr("bar.yaml:11:3: error: hot spot toe is read at (0.5, 0.308, 0.1) m"),
+            HasSubstr("outside the part")));
+}
+
+// The support answers with the pin's force, sideways part included.
+TEST_F(StressCommand, PinPressesOnItsHole) {
+  folder_.write("eye.geo", R"(
+SetFactory("OpenCASCADE");
+Box(1) = {-100, -200, -10, 200, 300, 20};
+Cylinder(2) = {0, 0, -10, 0, 0, 20, 40};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+Mesh.MeshSizeMax = 30;
+Physical Volume("eye") = {3};
+Physical Surface("hole") = Surface In BoundingBox{-41, -41, -11, 41, 41, 11};
+Physical Surface("base") = Surface In BoundingBox{-101, -201, -11, 101, -199, 11};
+)");
+  folder_.write("eye.yaml", R"(
+part: eye
+mesh: {file: eye.geo, length_unit: mm}
+materials: {steel: {youngs_modulus: 206 GPa, poisson_ratio: 0.3, yield_stress: 235 MPa}}
+supports: {base: {groups: [base]}}
+loads:
+  pin: {groups: [hole], bearing: {force: [30 kN, 100 kN, -5 kN], axis: [0, 0, 1], point: [0 m, 0 m, 0 m]}}
+)");
+  const Outcome outcome = run("stress eye.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(text_of_file("results/eye/summary.json"));
+  const auto& force = summary["reactions"]["base"]["force_N"];
+  EXPECT_NEAR(force[0], -30e3, 1e-3);
+  EXPECT_NEAR(force[1], -100e3, 1e-3);
+  EXPECT_NEAR(force[2], 5e3, 1e-3);
+  const auto& moment = summary["reactions"]["base"]["moment_about_origin_N_m"];
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(moment[axis], 0, 1e-3);
+}
+
 TEST_F(StressCommand, APartWithNothingToComputeIsRefused) {
   std::string text = bar_part;
   text.erase(text.find("loads:"), text.find("probes:") - text.find("loads:"));

@@ -287,6 +287,42 @@ TEST(LiftCaseErrors, BlockWhosePartsDoNotFit) {
       "5 errors\n");
 }
 
+TEST(LiftCaseErrors, PadeyesThatCannotBeMade) {
+  SampleLift lift;
+  lift.block = with(lift.block, "lugs:\n",
+                    "padeyes:\n"
+                    "  eye: {radius: 250 mm, thickness: 50 mm, hole: 60 mm, pin: 70 mm}\n"
+                    "  good: {radius: 150 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm, "
+                    "cheek_radius: 250 mm, cheek_thickness: 10 mm, cheek_weld: 8 mm}\n"
+                    "  bare: {radius: 150 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm, "
+                    "cheek_radius: 100 mm, cheek_thickness: 10 mm}\n"
+                    "lugs:\n");
+  lift.block = with(lift.block, "pin: [0 m, 0 m, 1.2 m]", "pin: [0 m, 0 m, 1.2 m], padeye: eye");
+  lift.block = with(lift.block, "pin: [4 m, 0 m, 1.2 m]", "pin: [4 m, 0 m, 1.2 m], padeye: god");
+  const std::string found = complaints_about(lift);
+  for (const char* expected :
+       {"padeye eye: the pin, 70 mm, is larger than its hole, 60 mm",
+        "the main plate, 250 mm about the hole, reaches beyond the lug, which ends 200 mm from the "
+        "pin",
+        "the main plate is 50 mm thick, the lug in the block 40 mm",
+        "plate.yaml:20:131: error: lug L2 names padeye \"god\", which the block does not have",
+        "did you mean \"good\"?",
+        "plate.yaml:17:9: error: padeye bare has cheek plates without a weld"})
+    EXPECT_NE(found.find(expected), std::string::npos) << expected << "\nnot in\n" << found;
+  lift.block = with(lift.block, "padeye: god", "padeye: good");
+  EXPECT_NE(complaints_about(lift).find("lug L2 cannot be made as padeye good: the cheek plates' "
+                                        "radius, 250 mm, reaches beyond the main plate"),
+            std::string::npos);
+}
+
+TEST(LiftCaseErrors, StiffenersAlongTheirPlatesNormal) {
+  SampleLift lift;
+  lift.block = with(lift.block, "thickness: 20 mm",
+                    "thickness: 20 mm, stiffeners: {along: z, spacing: 0.5 m}");
+  EXPECT_NE(complaints_about(lift).find("the stiffeners of plate bottom run along its normal"),
+            std::string::npos);
+}
+
 TEST(LiftCaseErrors, BlockWithTwoPlatesInOnePlaceAndACutPad) {
   SampleLift lift;
   lift.block = with(lift.block, "openings:\n",

@@ -73,10 +73,34 @@ interface LugStress {
   static_checked_von_mises_Pa?: Maybe<number>; dynamic_checked_von_mises_Pa?: Maybe<number>;
   stress_increase_percent?: Maybe<number>;
 }
+export interface Buckling {
+  panels_looked_at?: number;
+  panels?: {
+    plate: string; centre_m?: number[]; field_m?: number[]; thickness_m?: number; s11_Pa?: number; s22_Pa?: number; s12_Pa?: number;
+    utilisation?: Maybe<number>; elastic_utilisation?: Maybe<number>; state?: string; time_s?: Maybe<number>;
+  }[];
+}
+export interface PadeyeSummary {
+  lug: string; rope?: string; padeye?: string; consequence_factor?: number; unknowns?: number; governing_state?: number; file?: string;
+  formulas?: {
+    name: string; demand?: Maybe<number>; limit?: Maybe<number>; unit?: string; utilisation?: Maybe<number>; pass?: boolean;
+    source?: string; time_s?: Maybe<number>;
+  }[];
+  states?: {
+    name: string; time_s?: Maybe<number>; force_N?: number[]; main_plate_checked_von_mises_Pa?: Maybe<number>;
+    cheeks_checked_von_mises_Pa?: Maybe<number>; peak_von_mises_Pa?: Maybe<number>; force_residual?: Maybe<number>;
+  }[];
+}
+/** Side view of a padeye: four corners (x, y a corner, m) and the stress of each column of elements. */
+export interface PadeyePicture {
+  lug: string; state: string; rope: string; time?: number; force: number[]; plate: number[]; von_mises: number[]; corners: number[][];
+}
 export interface Structure {
   unknowns?: number; elements?: number; element_degree?: number; mesh_size_m?: number;
   material?: string; yield_Pa?: Maybe<number>;
   per_rope_maxima?: StructureWay; simultaneous?: StructureWay; history?: StructureHistory; simultaneous_by_rope?: StructureWay[];
+  padeyes?: PadeyeSummary[]; buckling?: Buckling;
+  estimated_error?: { relative?: Maybe<number>; worst_part?: string; worst_point_m?: number[] };
   lugs?: { name: string; rope?: string; simultaneous?: LugStress; per_rope_maxima?: LugStress }[];
   mass?: {
     total_kg?: Maybe<number>; steel_kg?: Maybe<number>; outfitting_kg?: Maybe<number>;
@@ -119,6 +143,7 @@ export interface PageData {
   modes: ModeShapes[];
   scene: Scene | null;
   surface: Surface | null;
+  padeyes?: PadeyePicture[];
 }
 
 export function readPageData(): PageData {

@@ -9,6 +9,7 @@ import { historiesSection, outputsSection } from "./histories";
 import { liftSection } from "./lift";
 import { loadsSection } from "./loads";
 import { modesSection, VibrationPlayer } from "./modes";
+import { padeyesSection } from "./padeyes";
 import { stressSection } from "./stress";
 import { structureSection } from "./structure";
 
@@ -33,7 +34,7 @@ function show(): void {
   append(report, [verdictSection(data)]);
   const makers: (() => Section | null)[] = [
     () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock),
-    () => stressSection(data), () => structureSection(data), () => checksSection(data),
+    () => stressSection(data), () => structureSection(data), () => padeyesSection(data), () => checksSection(data),
     () => accuracySection(data), () => methodSection(data),
   ];
   const links: Child[] = [h("a", { href: "#verdict" }, data.case.name || "Verdict")];

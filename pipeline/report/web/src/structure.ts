@@ -85,6 +85,17 @@ function lugsTable(structure: Structure): Child {
   lugs.map((lug) => [lug.name, lug.rope ?? missing, ...cells(lug.simultaneous), ...cells(lug.per_rope_maxima)]));
 }
 
+function bucklingTable(structure: Structure): Child {
+  const panels = structure.buckling?.panels ?? [];
+  if (panels.length === 0) return null;
+  return table(`Panels nearest to buckling, of ${structure.buckling?.panels_looked_at ?? panels.length}, over the whole lift`, [left("Plate"),
+    { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "t, mm" }, { head: "Stress 11, 22, 12, MPa" }, left("State"), { head: "at, s" },
+    { head: "Elastic utilisation" }, { head: "Johnson-Ostenfeld" }],
+  panels.slice(0, 12).map((panel) => [panel.plate, point(panel.centre_m), panel.field_m?.map((side) => fixed(side, 2)).join(" x ") ?? missing,
+    millimetres(panel.thickness_m), [panel.s11_Pa, panel.s22_Pa, panel.s12_Pa].map(megapascals).join(", "), panel.state ?? missing,
+    seconds(panel.time_s), fixed(panel.elastic_utilisation, 2), fixed(panel.utilisation, 2)]));
+}
+
 function balanceTable(structure: Structure): Child {
   const rows: Child[][] = [];
   const row = (name: string, way: StructureWay | undefined): void => {
@@ -117,6 +128,9 @@ function modelText(structure: Structure): string {
   if (known(structure.unknowns)) parts.push(`${fixed(structure.unknowns, 0)} unknowns`);
   if (known(structure.mesh_size_m)) parts.push(`largest element ${fixed(structure.mesh_size_m, 2)} m`);
   if (structure.material) parts.push(structure.material + (known(structure.yield_Pa) ? ` (yield ${megapascals(structure.yield_Pa)} MPa)` : ""));
+  const error = structure.estimated_error;
+  if (known(error?.relative)) parts.push(`estimated error of the stress field ${fixed(100 * error!.relative!, 1)}\u202f% in the energy norm, `
+    + `most of it in ${error!.worst_part}`);
   return parts.length ? `Model: ${parts.join(", ")}.` : "";
 }
 
@@ -128,6 +142,6 @@ export function structureSection(data: PageData): Section | null {
       h("p", { class: "lead" }, "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
         + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. "
         + (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : ""), modelText(structure)),
-      waysTable(data, structure), historyTables(structure), lugsTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
+      waysTable(data, structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
   };
 }
