@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/hull_intersection.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -65,6 +66,20 @@ Vector3 middle(const PanelMesh& mesh) {
   return sum / mesh.total_area();
 }
 
+/// @throws ModelError if two of the bodies cut each other, or one holds another.
+void require_apart(const std::vector<WettedBody>& bodies) {
+  std::vector<Triangles> surfaces;
+  for (const WettedBody& body : bodies) surfaces.push_back(triangles_of(body.hull));
+  for (std::size_t a = 0; a < bodies.size(); ++a) {
+    for (std::size_t b = a + 1; b < bodies.size(); ++b) {
+      const std::optional<Vector3> place = find_intersection(surfaces[a], surfaces[b]);
+      if (!place) continue;
+      throw ModelError("bodies " + bodies[a].name + " and " + bodies[b].name +
+                       " intersect under water, at " + describe(*place) + ": move them apart");
+    }
+  }
+}
+
 Eigen::VectorXd areas_of(const PanelMesh& mesh) {
   Eigen::VectorXd areas(mesh.size());
   for (int k = 0; k < mesh.size(); ++k) areas[k] = mesh.panels[static_cast<std::size_t>(k)].area;
@@ -84,6 +99,7 @@ PanelModel::PanelModel(std::vector<WettedBody> bodies, const SurfaceMesh& surfac
     body.hull = expand_symmetry(body.hull);
     check(body);
   }
+  require_apart(bodies_);
   const Symmetry have = find_symmetry(bodies_);
   if ((symmetry.x && !have.x) || (symmetry.y && !have.y)) {
     throw ModelError(

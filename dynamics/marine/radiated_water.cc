@@ -51,6 +51,13 @@ RadiatedWater::RadiatedWater(const Definition& definition, const MemoryStateSpac
   scale_states();
 }
 
+RadiatedWater::RadiatedWater(std::vector<BodyFrame> frames,
+                             const Eigen::MatrixXd& infinite_added_mass)
+    : inertia_(std::move(frames), reordered(infinite_added_mass, true, true)),
+      memory_error_(0.0),
+      input_(0, infinite_added_mass.rows()),
+      output_(infinite_added_mass.rows(), 0) {}
+
 // A steady velocity of 1 (m/s or rad/s) brings no state, or pair, beyond 1.
 void RadiatedWater::scale_states() {
   for (Eigen::Index i = 0; i < decay_.size(); ++i) {

@@ -35,6 +35,11 @@ class RadiatedWater {
   ///   MemoryStateSpace.
   explicit RadiatedWater(const Definition& definition);
 
+  /// Water whose memory is marched beside the integration (IntegrationSettings::surface): no states.
+  /// `infinite_added_mass` is 6N x 6N in the order of the modes (DegreeOfFreedom).
+  /// @throws ModelError as AddedInertia.
+  RadiatedWater(std::vector<BodyFrame> frames, const Eigen::MatrixXd& infinite_added_mass);
+
   const AddedInertia& inertia() const { return inertia_; }
   const std::vector<BodyFrame>& frames() const { return inertia_.frames(); }
   /// Number of states x.

@@ -114,13 +114,32 @@ void MemoryConvolution::calc_force(double time, const VectorXd& velocity, Vector
   }
 }
 
+namespace {
+
+/// Over the first two periods of the longest wave.
+WaveRamp slow_ramp(const std::vector<RegularWave>& waves) {
+  double longest = 0.0;
+  for (const RegularWave& wave : waves) {
+    longest = std::max(longest, 2.0 * std::numbers::pi / wave.frequency);
+  }
+  return {0.0, 2.0 * longest};
+}
+
+}  // namespace
+
 DirectRadiation::DirectRadiation(const PanelModel& model, const Settings& settings)
-    : wave_(settings.wave),
+    : waves_(settings.waves),
+      ramp_(settings.ramp.value_or(slow_ramp(settings.waves))),
+      with_froude_krylov_(settings.with_froude_krylov),
       infinite_added_mass_(MatrixXd::Zero(model.mode_count(), model.mode_count())) {
   RankineSettings rankine = settings.rankine;
-  rankine.keep_factors = wave_.has_value();
+  rankine.keep_factors = !waves_.empty();
   const VectorXd damping = DampingZone{settings.damping_strength}.rates(model.surface());
   const Water& water = model.water();
+  for (const RegularWave& wave : waves_) {
+    wave_vector_.emplace_back(calc_wave_number(wave.frequency, water) *
+                              Eigen::Vector2d(std::cos(wave.heading), std::sin(wave.heading)));
+  }
   for (const Parity& parity : model.parities()) {
     if (model.normal_velocities(parity).isZero(0.0)) continue;
     RankinePart part(model, parity, rankine);
@@ -130,31 +149,42 @@ DirectRadiation::DirectRadiation(const PanelModel& model, const Settings& settin
     FreeSurfaceMarch march(part, damping, water.gravity, 1);
     const double factor = water.density * water.gravity * part.image_count();
     parts_.push_back({std::move(part), std::move(march), factor, {}, {}, {}});
-    if (wave_) add_wave(model, parts_.back());
+    if (!waves_.empty()) add_waves(model, parts_.back());
   }
 }
 
-void DirectRadiation::add_wave(const PanelModel& model, Part& part) const {
-  const Water& water = model.water();
-  const IncidentWave wave(water, wave_->frequency, wave_->heading);
+void DirectRadiation::add_waves(const PanelModel& model, Part& part) const {
   const Complex i(0.0, 1.0);
   const Parity& parity = part.rankine.parity();
-  const Eigen::VectorXcd potential =
-      model.part_of(parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
-  const Eigen::VectorXcd opposed =
-      model.part_of(parity, [&](const Vector3& p, const Vector3& n) -> Complex {
-        return -(wave.velocity(p).transpose() * n)(0);
-      });
-  MatrixXd velocities(opposed.size(), 2), bodies, supply;
-  velocities << opposed.real(), opposed.imag();
+  const auto count = static_cast<Eigen::Index>(waves_.size());
+  const Eigen::Index panels = model.body_areas().size();
+  Eigen::MatrixXcd potential(panels, count);
+  MatrixXd velocities(panels, 2 * count), bodies, supply;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const RegularWave& regular = waves_[static_cast<std::size_t>(k)];
+    const IncidentWave wave(model.water(), regular.frequency, regular.heading);
+    potential.col(k) =
+        (i * regular.frequency) *
+        model.part_of(parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
+    const Eigen::VectorXcd opposed =
+        model.part_of(parity, [&](const Vector3& p, const Vector3& n) -> Complex {
+          return -(wave.velocity(p).transpose() * n)(0);
+        });
+    velocities.col(2 * k) = opposed.real();
+    velocities.col(2 * k + 1) = opposed.imag();
+  }
   part.rankine.solve(velocities, bodies, supply);
-  const MatrixXd weighted = water.density * part.rankine.image_count() *
+  const MatrixXd weighted = model.water().density * part.rankine.image_count() *
                             (model.body_areas().asDiagonal() * part.rankine.normal_velocities());
-  const Complex a = wave_->amplitude;
-  part.wave_supply = a * (supply.col(0).cast<Complex>() + i * supply.col(1).cast<Complex>());
-  part.wave_force = a * i * wave_->frequency * (weighted.transpose() * potential);
-  part.wave_potential = a * (weighted.transpose() *
-                             (bodies.col(0).cast<Complex>() + i * bodies.col(1).cast<Complex>()));
+  part.wave_force = weighted.transpose() * potential;
+  part.wave_supply.resize(supply.rows(), count);
+  part.wave_potential.resize(weighted.cols(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    part.wave_supply.col(k) =
+        supply.col(2 * k).cast<Complex>() + i * supply.col(2 * k + 1).cast<Complex>();
+    part.wave_potential.col(k) = weighted.transpose() * (bodies.col(2 * k).cast<Complex>() +
+                                                         i * bodies.col(2 * k + 1).cast<Complex>());
+  }
 }
 
 double DirectRadiation::step_limit() const {
@@ -171,10 +201,30 @@ void DirectRadiation::start(double step) {
   }
 }
 
-double DirectRadiation::ramp(double time) const {
-  const double fraction = time * wave_->frequency / (4.0 * std::numbers::pi);
-  if (fraction >= 1.0) return 1.0;
-  return fraction <= 0.0 ? 0.0 : 0.5 * (1.0 - std::cos(std::numbers::pi * fraction));
+void DirectRadiation::carry(const Eigen::Vector2d& displacement) { displacement_ = displacement; }
+
+Eigen::VectorXcd DirectRadiation::amplitudes(double time) const {
+  Eigen::VectorXcd values(static_cast<Eigen::Index>(waves_.size()));
+  const double factor = ramp_.factor(time);
+  for (std::size_t k = 0; k < waves_.size(); ++k) {
+    const double phase = waves_[k].frequency * time - wave_vector_[k].dot(displacement_);
+    values[static_cast<Eigen::Index>(k)] = factor * std::polar(1.0, phase) * waves_[k].amplitude;
+  }
+  return values;
+}
+
+// What the bodies' own way adds to the rate is of second order.
+Eigen::VectorXcd DirectRadiation::amplitude_rates(double time) const {
+  constexpr double beside = 1e-3;
+  const double factor = ramp_.factor(time);
+  const double growth = (ramp_.factor(time + beside) - ramp_.factor(time - beside)) / (2 * beside);
+  Eigen::VectorXcd rates(static_cast<Eigen::Index>(waves_.size()));
+  for (std::size_t k = 0; k < waves_.size(); ++k) {
+    const double phase = waves_[k].frequency * time - wave_vector_[k].dot(displacement_);
+    rates[static_cast<Eigen::Index>(k)] = Complex(growth, factor * waves_[k].frequency) *
+                                          std::polar(1.0, phase) * waves_[k].amplitude;
+  }
+  return rates;
 }
 
 VectorXd DirectRadiation::calc_force() const {
@@ -182,12 +232,9 @@ VectorXd DirectRadiation::calc_force() const {
   for (const Part& part : parts_) {
     VectorXd share = -part.force_factor *
                      (part.rankine.surface_columns().transpose() * part.march.elevation().col(0));
-    if (wave_) {
-      // The wave grows with the ramp r: d/dt (r e^{iwt}) by central difference of the ramp.
-      const double r = ramp(time_), dr = (ramp(time_ + 1e-3) - ramp(time_ - 1e-3)) / 2e-3;
-      const Complex oscillation = std::polar(1.0, wave_->frequency * time_);
-      share += (r * oscillation * part.wave_force).real();
-      share += (Complex(dr, r * wave_->frequency) * oscillation * part.wave_potential).real();
+    if (!waves_.empty()) {
+      share += (part.wave_potential * amplitude_rates(time_)).real();
+      if (with_froude_krylov_) share += (part.wave_force * amplitudes(time_)).real();
     }
     force(part.rankine.modes()) += share;
   }
@@ -198,10 +245,7 @@ void DirectRadiation::advance(const VectorXd& velocity) {
   const double middle = time_ + 0.5 * step_;
   for (Part& part : parts_) {
     MatrixXd supply = part.rankine.surface_columns() * velocity(part.rankine.modes());
-    if (wave_) {
-      const Complex oscillation = ramp(middle) * std::polar(1.0, wave_->frequency * middle);
-      supply += (oscillation * part.wave_supply).real();
-    }
+    if (!waves_.empty()) supply += (part.wave_supply * amplitudes(middle)).real();
     part.march.advance(supply);
   }
   time_ += step_;

@@ -64,7 +64,10 @@ class DirectRadiation {
  public:
   struct Settings {
     double damping_strength = not_a_number;  ///< nu at the edge of the surface, rad/s
-    std::optional<RegularWave> wave;         ///< that the bodies diffract, if any
+    std::vector<RegularWave> waves;          ///< that the bodies diffract
+    bool with_froude_krylov = true;          ///< exert their own pressure as well
+    /// How the waves grow; none: over the first two periods of the longest.
+    std::optional<WaveRamp> ramp;
     RankineSettings rankine;
   };
   DirectRadiation(const PanelModel& model, const Settings& settings);
@@ -77,25 +80,35 @@ class DirectRadiation {
   void start(double step);
   double time() const { return time_; }
   /// Force (6N) on the bodies now but for -A_inf times their acceleration: memory of the surface,
-  /// and with a wave Froude-Krylov and diffraction. The wave's share grows over its first two periods.
+  /// and with waves diffraction and, if asked, Froude-Krylov.
   Eigen::VectorXd calc_force() const;
   /// One step, with the bodies' velocity (6N) at its middle.
   void advance(const Eigen::VectorXd& velocity);
+  /// All bodies, and the surface with them, lie this much further along (m, in the world of the panels)
+  /// than they did at first: they meet the waves there.
+  void carry(const Eigen::Vector2d& displacement);
 
  private:
   struct Part {
     RankinePart rankine;
     FreeSurfaceMarch march;
-    double force_factor;              ///< rho g times the number of images
+    double force_factor;  ///< rho g times the number of images
+    // A column for each wave, of unit amplitude.
     Eigen::MatrixXcd wave_supply;     ///< W^1/2 q of the wave's normal velocity
-    Eigen::VectorXcd wave_force;      ///< Froude-Krylov, per unit ramp
-    Eigen::VectorXcd wave_potential;  ///< rho n W Phi of the wave: its force needs d/dt
+    Eigen::MatrixXcd wave_force;      ///< Froude-Krylov
+    Eigen::MatrixXcd wave_potential;  ///< rho n W Phi of the scattered wave: its force needs d/dt
   };
-  void add_wave(const PanelModel& model, Part& part) const;
-  double ramp(double time) const;
+  void add_waves(const PanelModel& model, Part& part) const;
+  /// Amplitudes of the waves at a time, ramp included, and their rates.
+  Eigen::VectorXcd amplitudes(double time) const;
+  Eigen::VectorXcd amplitude_rates(double time) const;
 
   std::vector<Part> parts_;
-  std::optional<RegularWave> wave_;
+  std::vector<RegularWave> waves_;
+  std::vector<Eigen::Vector2d> wave_vector_;  ///< rad/m
+  WaveRamp ramp_;
+  bool with_froude_krylov_ = true;
+  Eigen::Vector2d displacement_ = Eigen::Vector2d::Zero();
   Eigen::MatrixXd infinite_added_mass_;
   double step_ = not_a_number, time_ = 0.0;
 };

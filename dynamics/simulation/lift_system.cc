@@ -149,9 +149,10 @@ void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, Vec
 namespace {
 
 // What the memory of the water that floating bodies radiate does to them now.
-void add_memory_forces(const RadiatedWater& water, LiftWorkspace& w) {
+void add_memory_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
   water.inertia().calc_velocity(w.kinematics, w.water_velocity);
   water.calc_force(w.memory, w.water_force);
+  w.marched.add_to(t, w.water_force);
   add_frame_forces(water.frames(), w.kinematics, w.water_force, w.loads.F_Bo_W);
 }
 
@@ -183,7 +184,7 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
   const MotionState state{t, w.q, w.v, w.kinematics};
   for_each_element(system.elements(),
                    [&](const auto& element) { element.add_forces(state, w.loads); });
-  if (system.water()) add_memory_forces(*system.water(), w);
+  if (system.water()) add_memory_forces(*system.water(), t, w);
 }
 
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,

@@ -129,6 +129,20 @@ struct StoredEnergy {
   double sum() const { return kinetic + gravity + elastic; }
 };
 
+/// Force of a water surface that is marched in steps, between two of them: a cubic in time.
+struct MarchedForce {
+  /// Of the powers 0 to 3 of (t - from) / step, 6N x 4; of no rows: there is no such surface.
+  Eigen::Matrix<double, Eigen::Dynamic, 4> coefficients;
+  double from = 0.0, step = 1.0;  ///< s
+
+  /// force += that at a time (s). Does not allocate.
+  void add_to(double time, VectorRef force) const {
+    if (coefficients.rows() == 0) return;
+    const double s = (time - from) / step;
+    force.noalias() += coefficients * Vector4(1.0, s, s * s, s * s * s);
+  }
+};
+
 /// Everything that one evaluation of a lift system writes; made once, used again without
 /// allocation. One thread each.
 struct LiftWorkspace {
@@ -145,6 +159,7 @@ struct LiftWorkspace {
   Eigen::VectorXd memory;                       ///< x: states of the radiated water
   Eigen::VectorXd memory_rate;                  ///< dx/dt
   Eigen::VectorXd water_velocity, water_force;  ///< of RadiatedWater's frames, 6N each
+  MarchedForce marched;                         ///< of a surface that is marched beside
   /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
   std::optional<LoopRows> loop_rows;
   std::vector<RopeFeed> feeds;  ///< for each rope

@@ -15,6 +15,7 @@
 #include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/multibody/loop_projection.h"
 #include "dynamics/simulation/equilibrium.h"
+#include "dynamics/simulation/marched_surface.h"
 #include "dynamics/simulation/newton_matrix.h"
 #include "dynamics/simulation/sundials.h"
 
@@ -49,6 +50,7 @@ class Integrator {
   void project_error(VectorRef error);
   std::string describe_loops() const;
   void integrate_interval(double start, double end);
+  void march_surface();
   void step(double end);
   void restart(double t);
   void count_before_restart();
@@ -82,6 +84,7 @@ class Integrator {
   std::optional<LoopProjector> projector_;
   Eigen::VectorXd projected_;                      ///< state
   Eigen::VectorXd error_q_, error_v_, increment_;  ///< nq, nv, nv
+  std::optional<MarchedSurface> surface_;
   Contacts contacts_;
   Eigen::VectorXd sample_times_;
   Eigen::Index next_sample_ = 0;
@@ -146,6 +149,11 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   get_state(system, w_.q, w_.v, sundials::view(y_.get()));
   find_quaternions();
   project_state(0.0, sundials::view(y_.get()));
+  if (settings.surface) {
+    set_state(system, sundials::view(y_.get()), w_);
+    set_drives(system, 0.0, true, w_);
+    surface_.emplace(*settings.surface, settings.surface_step, system, w_);
+  }
 }
 
 void Integrator::find_quaternions() {
@@ -523,13 +531,27 @@ void Integrator::integrate_interval(double start, double end) {
   from_ = jumps ? std::min(start + beside, end) : start;
   to_ = end;
   if (jumps && start > 0.0) restart(time_);
-  sundials::check(CVodeSetStopTime(cvode_, end), "CVodeSetStopTime");
   const double reached = end - 1e-12 * std::max(1.0, end);
   while (time_ < reached) {
     if (++steps_taken_ > settings_.largest_step_count) fail("more steps than allowed");
-    step(end);
+    // A surface's step that ends together with the interval ends with it.
+    const bool first = surface_ && surface_->next() < end - 1e-6 * settings_.surface_step;
+    const double stop = first ? surface_->next() : end;
+    sundials::check(CVodeSetStopTime(cvode_, stop), "CVodeSetStopTime");
+    step(stop);
+    if (surface_) march_surface();
     report_progress(time_);
   }
+}
+
+// At the end of a step of the surface: the surface follows the bodies, and the force the surface.
+void Integrator::march_surface() {
+  if (time_ < surface_->next() - 2e-6 * settings_.surface_step) return;
+  loaded_time_ = not_a_number;
+  set_state(system_, sundials::view(y_.get()), w_);
+  set_drives(system_, within_interval(time_), true, w_);
+  compute_kinematics(system_.mechanism(), w_.q, w_.v, w_.kinematics);
+  surface_->advance(w_);
 }
 
 void Integrator::report_progress(double t) {

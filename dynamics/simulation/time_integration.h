@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "dynamics/marine/radiation.h"
 #include "dynamics/simulation/history.h"
 
 namespace blocklift::dynamics {
@@ -14,6 +15,10 @@ struct IntegrationSettings {
   double sample_interval = 0.05;  ///< s
   bool works = true;              ///< accumulate the works of drives, winches, wind and dissipation
   long largest_step_count = 50'000'000;
+  /// The water's surface to be marched beside (MarchedSurface), from calm; null: none. The system's water
+  /// then has its added mass and no states.
+  DirectRadiation* surface = nullptr;
+  double surface_step = not_a_number;  ///< s
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
   /// Called at each sample with its number and time (s) and the workspace of that instant: accelerations,

@@ -105,7 +105,7 @@ void direct_marching(benchmark::State& state) {
   const PanelModel model(bodies, surface, {1025.0, 9.81});
   DirectRadiation::Settings settings;
   settings.damping_strength = 0.3;
-  settings.wave = RegularWave{0.628, 0.785, 0.5};
+  settings.waves = {RegularWave{0.628, 0.785, 0.5}};
   DirectRadiation radiation(model, settings);
   const double step = 0.8 * radiation.step_limit();
   radiation.start(step);

@@ -84,7 +84,7 @@ TEST(RegularWave, DirectMarchAndDatabaseAgree) {
     const Hemisphere sphere = make_hemisphere(5.0, division, {1000.0, 9.81}, -2.0);
     DirectRadiation::Settings direct;
     direct.damping_strength = 0.5;
-    direct.wave = wave;
+    direct.waves = {wave};
     DirectRadiation radiation(sphere.model, direct);
     const FloatingMotion marched = march_directly(bodies, radiation, 0.05, 60.0);
     DatabaseSettings settings;

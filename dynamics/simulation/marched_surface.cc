@@ -1,0 +1,99 @@
+#include "dynamics/simulation/marched_surface.h"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+const RadiatedWater& water_of(const LiftSystem& system, const DirectRadiation& radiation) {
+  if (!system.water() || system.memory_count() != 0) {
+    throw ModelError(
+        "a surface is to be marched beside a system whose water is not made for it: give it the "
+        "surface's added mass and no memory of its own");
+  }
+  const Eigen::Index size = radiation.infinite_added_mass().rows();
+  if (system.water()->inertia().size() != size) {
+    throw ModelError("the marched surface has " + std::to_string(size) + " modes, the system's " +
+                     "water " + std::to_string(system.water()->inertia().size()));
+  }
+  return *system.water();
+}
+
+}  // namespace
+
+MarchedSurface::MarchedSurface(DirectRadiation& radiation, double step, const LiftSystem& system,
+                               LiftWorkspace& w)
+    : radiation_(radiation), water_(water_of(system, radiation)), step_(step) {
+  radiation_.start(step);
+  compute_kinematics(system.mechanism(), w.q, w.v, w.kinematics);
+  start_ = place_of(w);
+  velocity_ = velocity_of(w);
+  radiation_.carry(Eigen::Vector2d::Zero());
+  past_.fill(force());
+  w.marched.coefficients = Eigen::Matrix<double, Eigen::Dynamic, 4>::Zero(past_[0].size(), 4);
+  w.marched.coefficients.col(0) = past_[0];
+  w.marched.from = 0.0;
+  w.marched.step = step_;
+}
+
+Eigen::VectorXd MarchedSurface::velocity_of(LiftWorkspace& w) const {
+  water_.inertia().calc_velocity(w.kinematics, w.water_velocity);
+  Eigen::VectorXd velocity(w.water_velocity.size());
+  for (Eigen::Index mode = 0; mode < velocity.size(); ++mode) {
+    velocity[mode] = w.water_velocity[place_of_mode(mode)];
+  }
+  return velocity;
+}
+
+Eigen::Vector2d MarchedSurface::place_of(const LiftWorkspace& w) const {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const BodyFrame& frame : water_.frames()) {
+    const Pose& X_WB = w.kinematics.X_WB[static_cast<std::size_t>(frame.body)];
+    sum += X_WB.apply(frame.X_BH.p).head<2>();
+  }
+  return sum / static_cast<double>(water_.frames().size());
+}
+
+Eigen::VectorXd MarchedSurface::force() const {
+  const Eigen::VectorXd by_modes = radiation_.calc_force();
+  Eigen::VectorXd force(by_modes.size());
+  for (Eigen::Index mode = 0; mode < force.size(); ++mode) {
+    force[place_of_mode(mode)] = by_modes[mode];
+  }
+  return force;
+}
+
+void MarchedSurface::advance(LiftWorkspace& w) {
+  const Eigen::VectorXd before = velocity_;
+  velocity_ = velocity_of(w);
+  radiation_.carry(place_of(w) - start_);
+  radiation_.advance(0.5 * (before + velocity_));
+  ++steps_;
+  std::rotate(past_.begin(), past_.end() - 1, past_.end());
+  past_[0] = force();
+  prepare_force(w);
+}
+
+void MarchedSurface::prepare_force(LiftWorkspace& w) const {
+  auto& c = w.marched.coefficients;
+  // Hermite's cubic, slopes by the step.
+  const Eigen::VectorXd value = c.rowwise().sum();
+  const Eigen::VectorXd slope = c.col(1) + 2.0 * c.col(2) + 3.0 * c.col(3);
+  const Eigen::VectorXd end_value = 3.0 * (past_[0] - past_[1]) + past_[2];
+  const Eigen::VectorXd end_slope = 2.5 * past_[0] - 4.0 * past_[1] + 1.5 * past_[2];
+  c.col(0) = value;
+  c.col(1) = slope;
+  c.col(2) = 3.0 * (end_value - value) - 2.0 * slope - end_slope;
+  c.col(3) = 2.0 * (value - end_value) + slope + end_slope;
+  w.marched.from = static_cast<double>(steps_) * step_;
+}
+
+double marching_step(const DirectRadiation& radiation, double highest) {
+  return std::min(0.9 * radiation.step_limit(), 2.0 * std::numbers::pi / (25.0 * highest));
+}
+
+}  // namespace blocklift::dynamics
