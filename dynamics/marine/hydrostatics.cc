@@ -41,9 +41,10 @@ void add_wet_part(const HullClusters& hull, const HullClusters::Node& leaf, doub
   }
 }
 
-// Moments of the wetted surface: z0 is the height of Bo, u the vertical in B.
-SurfaceMoments calc_wetted_moments(const HullClusters& hull, double z0, const Vector3& u) {
-  SurfaceMoments moments = SurfaceMoments::zero();
+// Calls `whole(index)` for each box that is under water and `cut(leaf)` for each leaf that the surface
+// cuts: z0 is the height of Bo, u the vertical in B.
+template <class Whole, class Cut>
+void visit_wetted(const HullClusters& hull, double z0, const Vector3& u, Whole&& whole, Cut&& cut) {
   const Vector3 magnitude = u.cwiseAbs();
   hull.visit(
       [&](const HullClusters::Node& node, int index) {
@@ -51,11 +52,33 @@ SurfaceMoments calc_wetted_moments(const HullClusters& hull, double z0, const Ve
         const double reach = magnitude.dot(node.half_extent);
         if (height - reach >= 0.0) return false;
         if (height + reach >= 0.0) return true;
-        moments += hull.moments(index);
+        whole(index);
         return false;
       },
+      cut);
+}
+
+// Moments of the wetted surface: z0 is the height of Bo, u the vertical in B.
+SurfaceMoments calc_wetted_moments(const HullClusters& hull, double z0, const Vector3& u) {
+  SurfaceMoments moments = SurfaceMoments::zero();
+  visit_wetted(
+      hull, z0, u, [&](int index) { moments += hull.moments(index); },
       [&](const HullClusters::Node& leaf) { add_wet_part(hull, leaf, z0, u, moments); });
   return moments;
+}
+
+// Mean over a triangle of its height where that is negative, zero elsewhere; linear between the corners'
+// heights. A corner alone on its side cuts off the share h_i^2 / ((h_i - h_j)(h_i - h_k)) of the area.
+double wet_height(const std::array<double, 3>& h) {
+  const int wet = (h[0] < 0.0 ? 1 : 0) + (h[1] < 0.0 ? 1 : 0) + (h[2] < 0.0 ? 1 : 0);
+  const double mean = (h[0] + h[1] + h[2]) / 3.0;
+  if (wet == 0) return 0.0;
+  if (wet == 3) return mean;
+  std::size_t i = 0;
+  while ((h[i] < 0.0) != (wet == 1)) ++i;
+  const double share = h[i] * h[i] / ((h[i] - h[(i + 1) % 3]) * (h[i] - h[(i + 2) % 3]));
+  const double of_corner = share * h[i] / 3.0;
+  return wet == 1 ? of_corner : mean - of_corner;
 }
 
 struct VolumeIntegrals {
@@ -104,6 +127,30 @@ Buoyancy calc_buoyancy(const HullClusters& hull, const Pose& X_WB) {
   const VolumeIntegrals integrals = integrate(calc_wetted_moments(hull, z0, u), z0, u);
   const Vector3 S = X_WB.R * integrals.first_B;
   return {{{S.y(), -S.x(), 0.0}, {0.0, 0.0, integrals.volume}}, -integrals.height};
+}
+
+double calc_displaced_volume(const HullClusters& hull, const Pose& X_WB) {
+  const double z0 = X_WB.p.z();
+  const Vector3 u = X_WB.R.row(2);
+  double volume = 0.0;
+  const auto add_leaf = [&](const HullClusters::Node& leaf) {
+    std::array<double, HullClusters::most_points> height;
+    const std::span<const Vector3> points = hull.points(leaf);
+    for (std::size_t i = 0; i < points.size(); ++i) height[i] = z0 + u.dot(points[i]);
+    for (const HullClusters::Triangle& t : hull.triangles(leaf)) {
+      const std::array<double, 3> h = {height[t[0]], height[t[1]], height[t[2]]};
+      const double wet = wet_height(h);
+      if (wet == 0.0) continue;
+      const Vector3& a = points[t[0]];
+      volume += wet * 0.5 * u.dot((points[t[1]] - a).cross(points[t[2]] - a));
+    }
+  };
+  const auto add_whole = [&](int index) {
+    const SurfaceMoments& m = hull.moments(index);
+    volume += z0 * u.dot(m.N) + u.dot(m.Q * u);
+  };
+  visit_wetted(hull, z0, u, add_whole, add_leaf);
+  return volume;
 }
 
 Eigen::Matrix<double, 6, 6> calc_stiffness_over_rho_g(const Hydrostatics& h) {

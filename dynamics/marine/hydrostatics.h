@@ -46,6 +46,9 @@ struct Buoyancy {
 };
 Buoyancy calc_buoyancy(const HullClusters& hull, const Pose& X_WB);
 
+/// Displaced volume alone, m3: cheaper still. Does not allocate.
+double calc_displaced_volume(const HullClusters& hull, const Pose& X_WB);
+
 /// Exact derivative of the buoyancy about Bo: dF_Bo_W = -rho g K dX where dX = (rotation; displacement
 /// of Bo), both small and in W, and dF = (moment; force). K in m3, m2 and m4; it is symmetric but for
 /// the columns of yaw, since a moment that turns with the body has no potential.

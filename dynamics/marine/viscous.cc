@@ -148,7 +148,7 @@ QuadraticDamping::Drag QuadraticDamping::calc_drag(const MotionState& state) con
       X_WB.R.transpose() * drag.relative_W.linear;
   drag.wet = 1.0;
   if (d.hull) {
-    const double volume = calc_buoyancy(*d.hull, X_WB).F_Bo_W_over_rho_g.force.z();
+    const double volume = calc_displaced_volume(*d.hull, X_WB);
     drag.wet = std::clamp(volume / d.reference_volume, 0.0, 1.0);
   }
   drag.F_B = -(d.linear.array() * drag.V_B.array() +

@@ -134,6 +134,16 @@ TEST(Hydrostatics, StiffnessIsTheDerivativeOfTheForce) {
   }
 }
 
+// The volume alone, at attitudes that cut panels in every way.
+TEST(Hydrostatics, VolumeAloneIsTheSame) {
+  const HullClusters ship = sample_ship();
+  Poses poses;
+  for (int i = 0; i < 100; ++i) {
+    const Pose X_WB = poses.pose(4);
+    EXPECT_NEAR(calc_displaced_volume(ship, X_WB), calc_hydrostatics(ship, X_WB).volume, 1e-9);
+  }
+}
+
 // Buoyancy does not hang on yaw, place, or where the origin of the body's frame lies.
 TEST(Hydrostatics, DoesNotHangOnTheFrames) {
   const HullClusters ship = sample_ship();
