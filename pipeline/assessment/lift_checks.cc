@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "dynamics/marine/hydrostatics.h"
 #include "pipeline/assessment/loop_loads.h"
 #include "pipeline/assessment/result_file.h"
 
@@ -83,19 +85,57 @@ void add_capacities(const LiftCase& lift_case, const LiftRun& lift, std::vector<
   }
 }
 
+/// Where the load hangs: samples at which no pad bears it and, where it is a vessel, still water at its
+/// place would not bear nine tenths of its weight.
+std::vector<char> find_hanging(const LiftCase& lift_case, const LiftRun& lift,
+                               const dynamics::History& history) {
+  std::vector<char> hangs(static_cast<std::size_t>(history.sample_count()), 1);
+  std::optional<dynamics::HullClusters> hull;
+  if (lift_case.load.vessel) hull.emplace(lift_case.load.vessel->hull);
+  const dynamics::BodyHistory& load = history.bodies[static_cast<std::size_t>(lift.model.load - 1)];
+  for (Eigen::Index k = 0; k < history.sample_count(); ++k) {
+    char& here = hangs[static_cast<std::size_t>(k)];
+    for (const dynamics::SupportHistory& pad : history.supports) {
+      if (pad.normal_force[k] > 0) here = 0;
+    }
+    if (!hull || here == 0) continue;
+    const double displaced = lift_case.sea->density * calc_displaced_volume(*hull, load.X_WB(k));
+    if (displaced >= 0.9 * lift_case.load.vessel->model.mass) here = 0;
+  }
+  return hangs;
+}
+
+/// Ropes at lugs may lie slack while the load stands or floats; all others never.
 void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
+  const auto static_hangs = find_hanging(lift_case, lift, lift.static_history);
+  const auto dynamic_hangs = find_hanging(lift_case, lift, lift.dynamic_history());
+  std::vector<char> is_sling(lift.static_history.ropes.size(), 0);
+  for (const LiftRope& rope : lift.model.ropes) {
+    if (!rope.lug.empty()) is_sling[static_cast<std::size_t>(rope.rope)] = 1;
+  }
   Peak smallest{std::numeric_limits<double>::infinity(), 0};
   std::string rope;
   for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
-    const Peak peak = peak_of(lift, Kind::smallest, tension_of(static_cast<int>(i)));
+    const Peak peak = peak_of(lift, Kind::smallest, [&](const dynamics::History& history) {
+      Eigen::VectorXd tension = history.ropes[i].tension;
+      if (is_sling[i] == 0) return tension;
+      const auto& hangs = &history == &lift.static_history ? static_hangs : dynamic_hangs;
+      for (Eigen::Index k = 0; k < tension.size(); ++k) {
+        if (hangs[static_cast<std::size_t>(k)] == 0 && std::isfinite(tension[k])) {
+          tension[k] = std::numeric_limits<double>::infinity();
+        }
+      }
+      return tension;
+    });
     if (peak.value >= smallest.value) continue;
     smallest = peak;
     rope = lift.static_history.ropes[i].name;
     if (std::isnan(peak.value)) break;
   }
-  checks.push_back(at_time(check_at_least("slack: smallest tension of any rope, " + rope,
-                                          smallest.value, lift_case.checks.smallest_tension, "N"),
-                           smallest.time, "the demand must stay above the limit"));
+  checks.push_back(at_time(
+      check_at_least("slack: smallest tension of any rope, " + rope, smallest.value,
+                     lift_case.checks.smallest_tension, "N"),
+      smallest.time, "the demand must stay above the limit; ropes at lugs: while the load hangs"));
 }
 
 void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {

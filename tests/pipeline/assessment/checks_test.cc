@@ -75,6 +75,27 @@ const Check& find_check(const std::vector<Check>& checks, const std::string& sta
   throw std::runtime_error("no check begins with " + start);
 }
 
+TEST(LiftChecks, SlingsMayLieSlackWhileTheLoadStands) {
+  const SmallLift& lift = small_lift();
+  const auto slack = [&](const LiftRun& run) {
+    const std::vector<Check> checks = check_lift(lift.lift_case, run);
+    return find_check(checks, "slack: smallest tension of any rope").demand;
+  };
+  const double hanging = slack(lift.run);
+  ASSERT_GT(hanging, 0);
+  LiftRun run = lift.run;
+  dynamics::History& history = run.dynamic_result.history;
+  history.ropes[static_cast<std::size_t>(run.model.ropes[0].rope)].tension[3] = 0;
+  EXPECT_EQ(slack(run), 0);
+  history.supports.push_back({"pad", Eigen::VectorXd::Zero(history.sample_count())});
+  EXPECT_EQ(slack(run), 0);
+  history.supports.back().normal_force[3] = 1e3;
+  EXPECT_EQ(slack(run), hanging);
+  // A tackle may not, even then.
+  history.ropes[static_cast<std::size_t>(run.model.hoists[0].rope)].tension[3] = 0;
+  EXPECT_EQ(slack(run), 0);
+}
+
 TEST(LiftChecks, EveryLineHasItsDemandAndLimit) {
   const SmallLift& lift = small_lift();
   const std::vector<Check> checks = check_lift(lift.lift_case, lift.run);
