@@ -42,7 +42,7 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
   }
 }
 
-void add_sea_assumptions(const LiftCase& lift_case, const dynamics::LiftSystem& system,
+void add_sea_assumptions(const LiftCase& lift_case, const BuiltLift& model,
                          std::vector<std::string>& list) {
   list.emplace_back(
       "Buoyancy and the pressure of the undisturbed waves act on each hull as it lies at each "
@@ -53,14 +53,21 @@ void add_sea_assumptions(const LiftCase& lift_case, const dynamics::LiftSystem& 
         "The load floats by its hull where it reaches the water; it makes no waves, and no added "
         "mass of it is counted.");
   }
+  const dynamics::LiftSystem& system = model.system;
+  const MarchedWater& marched = model.marched;
   if (!system.water()) return;
   list.push_back(fmt::format(
       "Radiation and diffraction of the vessels, with their interaction: linear, by the Rankine "
       "panel method about their upright rest in still water, carried along as they move; their "
       "distance counts as unchanged. Natural periods hold the added mass of infinite frequency "
-      "alone. The memory of the water is fitted by {} states "
-      "to within {:.1f} % of its peak.",
-      system.memory_count(), 100 * system.water()->memory_error()));
+      "alone. {}",
+      marched.radiation
+          ? fmt::format(
+                "The water's surface, {} panels in all, is marched beside them by {:.3g} s.",
+                marched.unknowns, marched.step)
+          : fmt::format("The memory of the water is fitted by {} states to within {:.1f} % of its "
+                        "peak.",
+                        system.memory_count(), 100 * system.water()->memory_error())));
 }
 
 std::string flexibility_sentence(const DynamicsSettings& settings) {
@@ -140,7 +147,7 @@ std::vector<std::string> list_assumptions(const Assessment& assessment) {
   if (assessment.lift) {
     add_lift_assumptions(assessment.lift_case, list);
     if (assessment.lift_case.sea) {
-      add_sea_assumptions(assessment.lift_case, assessment.lift->model.system, list);
+      add_sea_assumptions(assessment.lift_case, assessment.lift->model, list);
     }
   } else {
     list.push_back(

@@ -63,6 +63,8 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
       keep_larger(model, time, w, elastic);
     };
   }
+  settings.surface = model.marched.radiation.get();
+  settings.surface_step = model.marched.step;
   dynamics::IntegrationResult dynamic_result =
       dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
   const double dynamic_s = watch.lap();
@@ -72,10 +74,10 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
                        const LoadFlexibility* flexibility) {
-  const auto database = find_radiation(radiation_problem(lift_case), [&](const std::string& what) {
-    progress("radiation of vessels", 0, what);
-  });
-  return build_lift(lift_case, load, database.get(), flexibility);
+  const RadiationProblem problem = radiation_problem(lift_case);
+  const auto database = find_radiation(
+      problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
+  return build_lift(lift_case, load, database.get(), flexibility, find_marched_water(problem));
 }
 
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,

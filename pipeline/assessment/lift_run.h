@@ -41,7 +41,7 @@ struct LiftRun {
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
 
 /// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the rest.
-/// @throws dynamics::ModelError, dynamics::SimulationError as find_radiation and build_lift.
+/// @throws InputError, dynamics::ModelError, dynamics::SimulationError as find_radiation and build_lift.
 /// @param flexibility of the load; null: it is rigid.
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
                        const LoadFlexibility* flexibility = nullptr);

@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/formats/content_hash.h"
+#include "dynamics/errors.h"
+#include "pipeline/formats/hull_hash.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {
@@ -18,13 +19,15 @@ namespace fs = std::filesystem;
 /// Grows when the panel method changes what it computes.
 constexpr std::int64_t method_version = 1;
 
-void add(ContentHash& hash, const Vector3& v) { hash.add(std::span<const double>(v.data(), 3)); }
-
-void add(ContentHash& hash, const dynamics::Hull& hull) {
-  for (const Vector3& vertex : hull.vertices()) add(hash, vertex);
-  for (int panel = 0; panel < hull.panel_count(); ++panel) {
-    hash.add(static_cast<std::int64_t>(hull.panel(panel).size()));
-    for (const int vertex : hull.panel(panel)) hash.add(static_cast<std::int64_t>(vertex));
+/// What `compute` makes of the problem; what is wrong with the problem is wrong input.
+template <class Compute>
+auto compute_or_refuse(const RadiationProblem& problem, const Compute& compute) {
+  try {
+    return compute(problem);
+  } catch (const dynamics::ModelError& error) {
+    Diagnostics diagnostics;
+    diagnostics.error(problem.place, error.what());
+    throw InputError(diagnostics);
   }
 }
 
@@ -65,7 +68,7 @@ std::string identity_of(const RadiationProblem& problem) {
 
 std::shared_ptr<const dynamics::HydrodynamicDatabase> find_radiation(
     const RadiationProblem& problem, const std::function<void(const std::string&)>& report) {
-  if (problem.bodies.empty()) return nullptr;
+  if (problem.bodies.empty() || problem.direct) return nullptr;
   const auto say = [&](const std::string& text) {
     if (report) report(text);
   };
@@ -83,8 +86,8 @@ std::shared_ptr<const dynamics::HydrodynamicDatabase> find_radiation(
     }
   }
   say("computing that of " + names_of_bodies(problem));
-  auto database =
-      std::make_shared<const dynamics::HydrodynamicDatabase>(compute_radiation(problem));
+  auto database = std::make_shared<const dynamics::HydrodynamicDatabase>(
+      compute_or_refuse(problem, [](const RadiationProblem& p) { return compute_radiation(p); }));
   if (folder.empty()) return database;
   try {
     std::error_code ignored;
@@ -95,6 +98,10 @@ std::shared_ptr<const dynamics::HydrodynamicDatabase> find_radiation(
     // What cannot be kept is computed again.
   }
   return database;
+}
+
+MarchedWater find_marched_water(const RadiationProblem& problem) {
+  return compute_or_refuse(problem, make_marched_water);
 }
 
 }  // namespace blocklift::pipeline

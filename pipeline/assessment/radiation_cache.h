@@ -20,9 +20,14 @@ std::string identity_of(const RadiationProblem& problem);
 /// The database of a problem: from the cache if it lies there, else computed and put there. A cache that
 /// cannot be written is no error: the database is computed again next time.
 /// @param report called with a sentence about what is done; may be empty.
-/// @returns null for a problem without bodies.
-/// @throws dynamics::ModelError, dynamics::SimulationError as compute_radiation.
+/// @returns null for a problem without bodies, or one whose surface is marched directly.
+/// @throws InputError if the panel method refuses the problem (a wave too short for the panels, hulls
+///   in each other's way, a surface that cannot be meshed), dynamics::SimulationError as compute_radiation.
 std::shared_ptr<const dynamics::HydrodynamicDatabase> find_radiation(
     const RadiationProblem& problem, const std::function<void(const std::string&)>& report);
+
+/// make_marched_water, what is wrong with the problem being wrong input.
+/// @throws InputError likewise, dynamics::SimulationError.
+MarchedWater find_marched_water(const RadiationProblem& problem);
 
 }  // namespace blocklift::pipeline

@@ -44,6 +44,8 @@ std::vector<HydrodynamicState> prepare(const HydrodynamicProblem& problem) {
     for (std::size_t k = 0; k < problem.state_count(); ++k) {
       states.push_back(prepare_state(problem, k));
     }
+  } catch (const InputError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     Diagnostics diagnostics;
     diagnostics.error(problem.place, error.what());

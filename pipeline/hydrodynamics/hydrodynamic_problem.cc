@@ -9,8 +9,9 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/response_amplitude.h"
 #include "dynamics/marine/wetted_body.h"
-#include "pipeline/formats/content_hash.h"
+#include "pipeline/formats/hull_hash.h"
 #include "pipeline/hydrodynamics/mirrored_bodies.h"
+#include "pipeline/input/hull_places.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -67,6 +68,28 @@ std::vector<dynamics::WettedBody> wetted_bodies(const HydrodynamicProblem& probl
   return bodies;
 }
 
+/// Above the water and below, which the water lines alone do not tell.
+void require_apart(const HydrodynamicProblem& problem, const std::vector<Pose>& poses) {
+  std::vector<PlacedHull> hulls;
+  for (std::size_t b = 0; b < poses.size(); ++b) {
+    const HydrodynamicBody& body = problem.bodies[b];
+    hulls.push_back({"vessel " + body.name, body.place, &body.hull, poses[b]});
+  }
+  Diagnostics diagnostics;
+  check_hulls_apart(hulls, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+}
+
+void require_panels(const HydrodynamicProblem& problem, const dynamics::PanelModel& model) {
+  try {
+    require_panels_for_waves(model, problem.frequencies.back());
+  } catch (const dynamics::ModelError& error) {
+    Diagnostics diagnostics;
+    diagnostics.error(problem.frequencies_place, error.what());
+    throw InputError(diagnostics);
+  }
+}
+
 void refuse_if_too_large(const HydrodynamicState& state, double limit) {
   if (state.bytes <= limit) return;
   throw dynamics::SimulationError(
@@ -102,6 +125,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
         dynamics::make_mass_matrix(body.body.mass, body.radii_of_gyration, X_WB.R);
     state.poses.push_back(X_WB);
   }
+  require_apart(problem, state.poses);
   const auto lowered = static_cast<std::size_t>(problem.lowered_body());
   state.draught = -lowest_point(problem.bodies[lowered].hull, state.poses[lowered]);
   std::vector<dynamics::WettedBody> bodies = wetted_bodies(problem, state.poses);
@@ -119,7 +143,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   state.settings.frequencies = problem.frequencies;
   state.settings.headings = problem.headings;
   state.settings.rankine.memory_limit = problem.memory_limit;
-  require_panels_for_waves(*state.model, problem.frequencies.back());
+  require_panels(problem, *state.model);
   state.bytes = database_bytes(*state.model, state.settings);
   refuse_if_too_large(
       state, problem.memory_limit > 0.0 ? problem.memory_limit : dynamics::usable_memory());
@@ -139,17 +163,13 @@ std::string identity_of(const HydrodynamicProblem& problem) {
   for (const HydrodynamicBody& body : problem.bodies) {
     hash.add(std::string_view(body.name));
     hash.add(body.body.mass);
-    for (const Vector3& v : {body.body.p_BoBcm_B, body.radii_of_gyration})
-      hash.add(std::span(v.data(), 3));
+    add(hash, body.body.p_BoBcm_B);
+    add(hash, body.radii_of_gyration);
     hash.add(std::span(body.position.data(), 2));
     hash.add(body.heading);
     hash.add(body.draughts);
     hash.add(static_cast<std::int64_t>(body.as_meshed));
-    for (const Vector3& vertex : body.hull.vertices()) hash.add(std::span(vertex.data(), 3));
-    for (int k = 0; k < body.hull.panel_count(); ++k) {
-      hash.add(static_cast<std::int64_t>(body.hull.panel(k).size()));
-      for (const int vertex : body.hull.panel(k)) hash.add(static_cast<std::int64_t>(vertex));
-    }
+    add(hash, body.hull);
   }
   return hash.digits();
 }

@@ -24,6 +24,7 @@ struct HydrodynamicBody {
   double heading = 0.0;                                ///< of its x axis, rad
   std::vector<double> draughts;  ///< upright, from the lowest point, m; empty: afloat by its weight
   bool as_meshed = false;        ///< z = 0 of its own frame is the water
+  Mark place;                    ///< where its file, or that of its group, gives it
 };
 
 /// All that a database follows from.
@@ -36,6 +37,7 @@ struct HydrodynamicProblem {
   bool symmetry = true;             ///< use what planes of symmetry there are
   double memory_limit = 0.0;        ///< bytes; 0: dynamics::usable_memory()
   Mark place;
+  Mark frequencies_place;
 
   /// The body with several draughts, or the first.
   int lowered_body() const;
@@ -60,9 +62,9 @@ struct HydrodynamicState {
 };
 
 /// Finds the position of rest, cuts the hulls at the water, meshes the surface.
-/// @throws dynamics::ModelError if a body cannot float or is wholly above the water, bodies intersect,
-///   the surface cannot be meshed, or a wave is too short for the panels; dynamics::SimulationError
-///   if the memory does not suffice, with the figures.
+/// @throws InputError, with the place in the file, if bodies intersect or a wave is too short for the
+///   panels; dynamics::ModelError if a body cannot float or is wholly above the water, or the surface
+///   cannot be meshed; dynamics::SimulationError if the memory does not suffice, with the figures.
 HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t index);
 
 /// Fingerprint of a problem: equal if and only if nothing that the database follows from differs.

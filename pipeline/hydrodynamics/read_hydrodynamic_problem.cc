@@ -24,6 +24,7 @@ std::optional<HydrodynamicBody> read_body(const fs::path& file, std::optional<do
   body.body = vessel->body();
   body.radii_of_gyration = vessel->model.radii_of_gyration;
   body.as_meshed = settings.as_meshed;
+  body.place = vessel->model.place;
   body.hull = std::move(vessel->hull);
   body.name = body.hull.name();
   if (panel_size && *panel_size != vessel->model.panel_size) {
@@ -45,6 +46,7 @@ std::optional<HydrodynamicBody> read_body(const fs::path& file, std::optional<do
 
 void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& problem) {
   problem.frequencies = settings.frequencies.list();
+  problem.frequencies_place = settings.frequencies.place;
   problem.headings = settings.headings;
   problem.water.density = settings.water_density;
   if (settings.water_depth) problem.water.depth = *settings.water_depth;
@@ -58,7 +60,7 @@ std::optional<HydrodynamicProblem> read_single(const fs::path& file, Diagnostics
   std::optional<HydrodynamicBody> body = read_body(file, {}, diagnostics, settings);
   if (!body) return std::nullopt;
   problem.title = body->name;
-  problem.place = {std::make_shared<const std::string>(shown_path(file)), 0, 0};
+  problem.place = body->place;
   body->draughts = settings.draughts;
   problem.bodies.push_back(std::move(*body));
   take_settings(settings, problem);
@@ -87,6 +89,7 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
         read_body(found, group.hydrodynamics.panel_size, diagnostics, own);
     if (!body) continue;
     body->name = placed.name.value;
+    body->place = placed.name.mark;
     body->hull.set_name(body->name);
     body->position = {placed.value.position[0], placed.value.position[1]};
     body->heading = placed.value.heading;

@@ -63,11 +63,13 @@ double mass_on(const LiftCase& lift_case, const std::string& vessel) {
 class LiftBuilder {
  public:
   LiftBuilder(const LiftCase& lift_case, const LoadMass& load,
-              const dynamics::HydrodynamicDatabase* database, const LoadFlexibility* flexibility)
+              const dynamics::HydrodynamicDatabase* database, const LoadFlexibility* flexibility,
+              MarchedWater marched)
       : case_(lift_case),
         load_(load),
         database_(database),
         flexibility_(flexibility),
+        marched_(std::move(marched)),
         marine_(lift_case, lift_case.gravity) {
     marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
   }
@@ -92,7 +94,7 @@ class LiftBuilder {
     std::vector<dynamics::ElasticBody> elastic_bodies = make_elastic_bodies(mechanism, ropes);
     Schedule schedule = make_schedule();
     dynamics::Operation operation = make_operation(mechanism, schedule);
-    const auto water = marine_.make_water(place(), database_);
+    const auto water = marine_.make_water(place(), database_, marched_);
     const auto system = [&](bool at_rest) {
       return dynamics::LiftSystem({mechanism, ropes, make_supports(),
                                    make_elements(mechanism, at_rest), operation, q_start_,
@@ -106,7 +108,8 @@ class LiftBuilder {
             std::move(hoists_),
             std::move(ropes_),
             std::move(schedule),
-            moves ? std::optional(system(true)) : std::nullopt};
+            moves ? std::optional(system(true)) : std::nullopt,
+            marched_};
   }
 
  private:
@@ -396,6 +399,7 @@ class LiftBuilder {
   const LoadMass& load_;
   const dynamics::HydrodynamicDatabase* database_;
   const LoadFlexibility* flexibility_;
+  MarchedWater marched_;
   MarineBuilder marine_;
   std::vector<BodyIndex> modes_;
   std::map<std::string, BodyIndex> body_of_;
@@ -426,12 +430,12 @@ RadiationProblem radiation_problem(const LiftCase& lift_case) {
 
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
                      const dynamics::HydrodynamicDatabase* database,
-                     const LoadFlexibility* flexibility) {
+                     const LoadFlexibility* flexibility, MarchedWater marched) {
   if (lift_case.load_table) {
     throw std::invalid_argument("case " + lift_case.name +
                                 " is a load table: it has no cranes whose motion could be built");
   }
-  return LiftBuilder(lift_case, load, database, flexibility).build();
+  return LiftBuilder(lift_case, load, database, flexibility, std::move(marched)).build();
 }
 
 }  // namespace blocklift::pipeline

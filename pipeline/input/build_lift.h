@@ -69,6 +69,8 @@ struct BuiltLift {
   Schedule schedule;
   /// The same lift without waves and in mean wind, where there are waves or gusts.
   std::optional<dynamics::LiftSystem> calm = {};
+  /// The water's surface that is marched beside `system`; none: its water has a memory of its own, or there is none.
+  MarchedWater marched = {};
 
   /// The lift whose static equilibria are asked.
   const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }
@@ -87,7 +89,7 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// A vessel that is the load floats by its hull where it reaches the water: buoyancy, wave pressure and
 /// damping, without radiation.
 ///
-/// @param database of radiation_problem(); null: vessels make no waves.
+/// @param database of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
 /// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints to the
 ///   world, see dynamics::ElasticBody.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.
@@ -95,7 +97,7 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 ///   complaints does.
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
                      const dynamics::HydrodynamicDatabase* database = nullptr,
-                     const LoadFlexibility* flexibility = nullptr);
+                     const LoadFlexibility* flexibility = nullptr, MarchedWater marched = {});
 
 /// Mass, centre of mass and inertia of a load that is a vessel.
 LoadMass load_mass(const VesselModel& vessel);

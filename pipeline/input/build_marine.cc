@@ -6,6 +6,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/wetted_body.h"
+#include "dynamics/simulation/marched_surface.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -41,14 +42,22 @@ std::vector<double> radiation_frequencies(const SeaInCase& sea) {
   return frequencies;
 }
 
+/// A wave of the world as a frame with the same axes has it whose origin is at p.
+dynamics::RegularWave seen_from(const Vector3& p, const dynamics::WaveComponent& wave,
+                                double wave_number) {
+  const double way = p.x() * std::cos(wave.heading) + p.y() * std::sin(wave.heading);
+  return {wave.omega, wave.heading, std::polar(wave.amplitude, -(wave.phase + wave_number * way))};
+}
+
 double wave_length(double frequency, const dynamics::Water& water) {
   return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, water);
 }
 
 }  // namespace
 
-dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
-                                                 dynamics::DatabaseReport* report) {
+namespace {
+
+dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
   std::vector<dynamics::WettedBody> bodies;
   for (const RadiationProblem::Body& body : problem.bodies) {
     bodies.push_back(make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B));
@@ -60,7 +69,31 @@ dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem
       lines,
       dynamics::surface_settings(lines, wave_length(problem.frequencies.back(), problem.water),
                                  wave_length(problem.frequencies.front(), problem.water)));
-  const dynamics::PanelModel model(std::move(bodies), surface, problem.water, symmetry);
+  dynamics::PanelModel model(std::move(bodies), surface, problem.water, symmetry);
+  require_panels_for_waves(model, problem.frequencies.back());
+  return model;
+}
+
+}  // namespace
+
+MarchedWater make_marched_water(const RadiationProblem& problem) {
+  if (!problem.direct || problem.bodies.empty()) return {};
+  const dynamics::PanelModel model = make_panel_model(problem);
+  dynamics::DirectRadiation::Settings settings;
+  settings.damping_strength = dynamics::damping_zone(problem.frequencies.front()).strength;
+  settings.waves = problem.waves;
+  settings.with_froude_krylov = false;  // HullForce's
+  settings.ramp = problem.ramp;
+  MarchedWater water;
+  water.radiation = std::make_shared<dynamics::DirectRadiation>(model, settings);
+  water.step = dynamics::marching_step(*water.radiation, problem.frequencies.back());
+  water.unknowns = model.body_mesh().size() + model.surface_mesh().size();
+  return water;
+}
+
+dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
+                                                 dynamics::DatabaseReport* report) {
+  const dynamics::PanelModel model = make_panel_model(problem);
   dynamics::DatabaseSettings settings;
   settings.frequencies = problem.frequencies;
   settings.headings = problem.headings;
@@ -97,7 +130,7 @@ void MarineBuilder::place(const std::function<double(const std::string&)>& carri
 std::vector<const VesselInCase*> MarineBuilder::radiating() const {
   std::vector<const VesselInCase*> vessels;
   for (const VesselInCase& vessel : parts_.vessels) {
-    if (vessel.radiation == RadiationMethod::database) vessels.push_back(&vessel);
+    if (vessel.radiation.value != RadiationMethod::none) vessels.push_back(&vessel);
   }
   return vessels;
 }
@@ -117,9 +150,18 @@ RadiationProblem MarineBuilder::radiation_problem() const {
         {vessel->name.value, vessel->model, {X_WB.R, X_WB.p - middle}, Vector3(0, 0, -X_WB.p.z())});
   }
   problem.water = water_of(*parts_.sea, gravity_);
+  problem.place = parts_.sea->radiation.place;
   problem.frequencies = radiation_frequencies(*parts_.sea);
   for (int i = 0; i < heading_count; ++i) {
     problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
+  }
+  problem.direct = vessels.front()->radiation.value == RadiationMethod::direct;
+  if (problem.direct && has_waves()) {
+    const dynamics::WaveField waves = make_sea(*parts_.sea, gravity_).waves;
+    problem.ramp = waves.ramp();
+    for (std::size_t k = 0; k < waves.component_count(); ++k) {
+      problem.waves.push_back(seen_from(middle, waves.component(k), waves.wave_number(k)));
+    }
   }
   return problem;
 }
@@ -228,14 +270,19 @@ void MarineBuilder::add_elements(const BodyOf& point,
 }
 
 std::shared_ptr<const dynamics::RadiatedWater> MarineBuilder::make_water(
-    const BodyOf& point, const dynamics::HydrodynamicDatabase* database) const {
-  if (!database) return nullptr;
+    const BodyOf& point, const dynamics::HydrodynamicDatabase* database,
+    const MarchedWater& marched) const {
+  if (!database && !marched.radiation) return nullptr;
   dynamics::RadiatedWater::Definition water;
-  water.database = std::make_shared<const dynamics::HydrodynamicDatabase>(*database);
   for (const VesselInCase* vessel : radiating()) {
     water.frames.push_back(
         radiation_frame(*vessel, point({vessel->name, Vector3::Zero(), {}}).body));
   }
+  if (marched.radiation) {
+    return std::make_shared<const dynamics::RadiatedWater>(
+        water.frames, marched.radiation->infinite_added_mass());
+  }
+  water.database = std::make_shared<const dynamics::HydrodynamicDatabase>(*database);
   try {
     water.memory_tolerance = close_fit;
     water.most_states = states_of_close_fit;

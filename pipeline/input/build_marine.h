@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/marine/hydrodynamic_database.h"
+#include "dynamics/marine/radiation.h"
 #include "dynamics/simulation/lift_system.h"
 #include "pipeline/input/marine_parts.h"
 
@@ -27,7 +28,22 @@ struct RadiationProblem {
   dynamics::Water water;
   std::vector<double> frequencies;  ///< rad/s, ascending
   std::vector<double> headings;     ///< rad, a whole turn
+  Mark place;                       ///< of what the file says about radiation
+  bool direct = false;              ///< the surface is marched beside the vessels: no database
+  std::vector<dynamics::RegularWave> waves;  ///< that they scatter meanwhile, in D
+  dynamics::WaveRamp ramp;
 };
+
+/// The water's surface about the vessels, to be marched beside them.
+struct MarchedWater {
+  std::shared_ptr<dynamics::DirectRadiation> radiation;  ///< null: there is none
+  double step = dynamics::not_a_number;                  ///< s
+  int unknowns = 0;                                      ///< panels, after symmetry
+};
+
+/// The surface of a problem that is direct; none for others.
+/// @throws dynamics::ModelError, dynamics::SimulationError as its meshes and DirectRadiation do.
+MarchedWater make_marched_water(const RadiationProblem& problem);
 
 /// Computes the database of a problem by the panel method.
 /// @throws dynamics::ModelError, dynamics::SimulationError as compute_database and its meshes do.
@@ -63,9 +79,11 @@ class MarineBuilder {
                 bool at_rest, dynamics::ForceElements& elements);
   /// The radiated water of the vessels; null without a database. Its memory is fitted to 2 % of its peak, or
   /// to 10 % where water that swings between hulls would take too many states.
+  /// With a surface that is marched the water has its added mass, and no memory of its own.
   /// @throws dynamics::ModelError if even that is not reached.
   std::shared_ptr<const dynamics::RadiatedWater> make_water(
-      const BodyOf& point, const dynamics::HydrodynamicDatabase* database) const;
+      const BodyOf& point, const dynamics::HydrodynamicDatabase* database,
+      const MarchedWater& marched) const;
 
   bool has_waves() const { return parts_.sea && parts_.sea->waves; }
 

@@ -49,9 +49,11 @@ double mass_on(const MechanismFile& file, const std::string& vessel) {
 /// Gathers a mechanism; the steps of `build` follow one another.
 class MechanismAssembler {
  public:
-  MechanismAssembler(const MechanismFile& file, const dynamics::HydrodynamicDatabase* database)
+  MechanismAssembler(const MechanismFile& file, const dynamics::HydrodynamicDatabase* database,
+                     MarchedWater marched)
       : file_(file),
         database_(database),
+        marched_(std::move(marched)),
         marine_(file, -file.gravity.z()),
         parts_(file, "", dynamics::Pose::identity()) {
     marine_.place([&](const std::string& vessel) { return mass_on(file, vessel); });
@@ -71,7 +73,7 @@ class MechanismAssembler {
     for (const JointModel& joint : file_.joints) {
       carried_by[joint.name.value] = parts_.carried_by(joint.name.value);
     }
-    const auto water = marine_.make_water(place(), database_);
+    const auto water = marine_.make_water(place(), database_, marched_);
     const auto system = [&](bool at_rest) {
       return dynamics::LiftSystem(
           {mechanism, ropes_, {}, make_elements(mechanism, at_rest), operation, q_, v_, water});
@@ -79,7 +81,7 @@ class MechanismAssembler {
     const bool gusts = file_.wind && file_.wind->gusts != dynamics::GustSpectrum::none;
     const bool moves = gusts || marine_.has_waves();
     return {system(false), std::move(carried_by),
-            moves ? std::optional(system(true)) : std::nullopt};
+            moves ? std::optional(system(true)) : std::nullopt, marched_};
   }
 
  private:
@@ -251,6 +253,7 @@ class MechanismAssembler {
 
   const MechanismFile& file_;
   const dynamics::HydrodynamicDatabase* database_;
+  MarchedWater marched_;
   MarineBuilder marine_;
   PartsBuilder parts_;
   Eigen::VectorXd q_, v_;
@@ -267,8 +270,9 @@ RadiationProblem radiation_problem(const MechanismFile& file) {
 }
 
 BuiltMechanism build_mechanism(const MechanismFile& file,
-                               const dynamics::HydrodynamicDatabase* database) {
-  return MechanismAssembler(file, database).build();
+                               const dynamics::HydrodynamicDatabase* database,
+                               MarchedWater marched) {
+  return MechanismAssembler(file, database, std::move(marched)).build();
 }
 
 std::string try_to_build(const MechanismFile& file) {

@@ -18,6 +18,8 @@ struct BuiltMechanism {
   std::map<std::string, dynamics::BodyIndex> carried_by;  ///< joint to the body that it carries
   /// The same without waves and in mean wind, where there are waves or gusts.
   std::optional<dynamics::LiftSystem> calm = {};
+  /// The water's surface that is marched beside `system`; none: its water has a memory of its own, or there is none.
+  MarchedWater marched = {};
 
   /// The mechanism whose static equilibrium is asked.
   const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }
@@ -28,11 +30,12 @@ RadiationProblem radiation_problem(const MechanismFile& file);
 
 /// Builds the dynamics of a sound mechanism file, with loops closed at the start as its initial state
 /// says.
-/// @param database of radiation_problem(); null: vessels make no waves.
+/// @param database of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
 /// @throws dynamics::ModelError, dynamics::SimulationError if the parts do not make a mechanism, the loops
 ///   cannot be closed, or are open where they must not be; a file that was read without complaints does.
 BuiltMechanism build_mechanism(const MechanismFile& file,
-                               const dynamics::HydrodynamicDatabase* database = nullptr);
+                               const dynamics::HydrodynamicDatabase* database = nullptr,
+                               MarchedWater marched = {});
 
 /// What build_mechanism says of a file that cannot be built; empty if it can.
 std::string try_to_build(const MechanismFile& file);

@@ -28,6 +28,7 @@ Format<FrequencyRange> frequency_range_format() {
                   "its wave must be at least three panels long")
       .by_default("count", &FrequencyRange::count, integer(Range::between(1, 1000)), "29",
                   "how many")
+      .place(&FrequencyRange::place)
       .rule(check_range);
   return table.format();
 }

@@ -13,6 +13,7 @@ struct FrequencyRange {
   double lowest = std::numeric_limits<double>::quiet_NaN();
   double highest = std::numeric_limits<double>::quiet_NaN();
   int count = 0;
+  Mark place;
 
   std::vector<double> list() const;
 };

@@ -406,6 +406,15 @@ void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
     diagnostics.error(lift_case.load.vessel_name->mark, "the load is a vessel, and there is no sea",
                       {"add sea: {} for calm deep sea water"});
   }
+  if (diagnostics.has_errors()) return;
+  std::vector<PlacedHull> hulls = place_hulls(lift_case);
+  if (lift_case.load.vessel) {
+    hulls.push_back({"the load",
+                     lift_case.load.vessel_name->mark,
+                     &lift_case.load.vessel->hull,
+                     {rotation_of(lift_case.load.attitude), lift_case.load.position}});
+  }
+  check_hulls_apart(hulls, diagnostics);
 }
 
 }  // namespace

@@ -159,6 +159,22 @@ void check_sea(const MarineParts& parts, double gravity, Diagnostics& diagnostic
   }
 }
 
+/// Of the vessel's frame, upright, by its own weight, m.
+double floating_height(const VesselInCase& vessel, const SeaInCase& sea) {
+  return dynamics::find_floating_height(dynamics::HullClusters(vessel.model->hull),
+                                        dynamics::Matrix3::Identity(),
+                                        vessel.model->model.mass / sea.density);
+}
+
+void check_floating(const VesselInCase& vessel, const SeaInCase& sea, Diagnostics& diagnostics) {
+  if (!vessel.model || vessel.draught) return;
+  try {
+    floating_height(vessel, sea);
+  } catch (const dynamics::ModelError& error) {
+    diagnostics.error(vessel.name.mark, error.what());
+  }
+}
+
 void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
   if (vessel.name.value == "world" || vessel.name.value == "load") {
     diagnostics.error(vessel.name.mark,
@@ -172,6 +188,22 @@ void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
       fmt::format("vessel {} would float at a draught of {:.4g} m, and its hull reaches "
                   "from {:.4g} m to {:.4g} m above its base",
                   vessel.name.value, vessel.draught->value, low.z(), high.z()));
+}
+
+/// There is one surface of the water.
+void check_radiation(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+  const VesselInCase* first = nullptr;
+  for (const VesselInCase& vessel : vessels) {
+    if (vessel.radiation.value == RadiationMethod::none) continue;
+    if (!first) first = &vessel;
+    if (vessel.radiation.value == first->radiation.value) continue;
+    diagnostics.error(
+        vessel.radiation.mark,
+        fmt::format("vessels {} and {} radiate in different ways", first->name.value,
+                    vessel.name.value),
+        {"they share one water: give all that make waves radiation: database, or all direct"});
+    return;
+  }
 }
 
 class LineChecker {
@@ -243,7 +275,13 @@ void check_marine_parts(const MarineParts& parts, double gravity,
                       {"add sea: {} for calm deep sea water"});
   }
   for (const VesselInCase& vessel : parts.vessels) check_vessel(vessel, diagnostics);
-  if (parts.sea && sound_so_far) check_sea(parts, gravity, diagnostics);
+  check_radiation(parts.vessels, diagnostics);
+  if (parts.sea && sound_so_far) {
+    check_sea(parts, gravity, diagnostics);
+    for (const VesselInCase& vessel : parts.vessels) {
+      check_floating(vessel, *parts.sea, diagnostics);
+    }
+  }
   LineChecker lines(parts, bodies, diagnostics);
   for (const MooringInCase& mooring : parts.moorings) {
     lines.check("mooring " + mooring.name.value, mooring.anchor, mooring.fairlead);
@@ -251,6 +289,21 @@ void check_marine_parts(const MarineParts& parts, double gravity,
   for (const TuggerInCase& tugger : parts.tuggers) {
     lines.check("tugger line " + tugger.name.value, tugger.from, tugger.to);
   }
+}
+
+std::vector<PlacedHull> place_hulls(const MarineParts& parts) {
+  std::vector<PlacedHull> hulls;
+  for (const VesselInCase& vessel : parts.vessels) {
+    const dynamics::Hull& hull = vessel.model->hull;
+    const double height =
+        vessel.draught ? -vessel.draught->value : floating_height(vessel, *parts.sea);
+    hulls.push_back({"vessel " + vessel.name.value,
+                     vessel.name.mark,
+                     &hull,
+                     {dynamics::rotation_about(Vector3::UnitZ(), vessel.heading),
+                      {vessel.position[0], vessel.position[1], height}}});
+  }
+  return hulls;
 }
 
 Sea make_sea(const SeaInCase& sea, double gravity, bool at_rest) {

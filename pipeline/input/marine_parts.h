@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/marine/sea.h"
+#include "pipeline/input/hull_places.h"
 #include "pipeline/input/mechanism_parts.h"
 #include "pipeline/input/table.h"
 #include "pipeline/input/vessel_model.h"
@@ -105,7 +106,7 @@ struct MemberInCase {
   double drag_coefficient = 0;
 };
 
-enum class RadiationMethod { none, database };
+enum class RadiationMethod { none, database, direct };
 
 /// A vessel afloat.
 struct VesselInCase {
@@ -115,7 +116,7 @@ struct VesselInCase {
   std::array<double, 2> position{};        ///< of its frame's origin, level, m
   double heading = 0;                      ///< of its x axis from the world's, rad
   std::optional<Located<double>> draught;  ///< of its frame's origin, m
-  RadiationMethod radiation = RadiationMethod::database;
+  Located<RadiationMethod> radiation{RadiationMethod::database, {}};
   DampingInCase damping, quadratic_damping;
   std::vector<MemberInCase> members;
 };
@@ -181,6 +182,10 @@ void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
 /// @param bodies names of all bodies besides the vessels; "world" exists always.
 void check_marine_parts(const MarineParts& parts, double gravity,
                         const std::vector<std::string>& bodies, Diagnostics& diagnostics);
+
+/// The vessels' hulls where they lie at the start, upright, at their draught or by their own weight. The
+/// parts are sound.
+std::vector<PlacedHull> place_hulls(const MarineParts& parts);
 
 /// The sea of the file; its waves at rest if `at_rest`. The parts are sound.
 /// @throws dynamics::ModelError if they are not.

@@ -236,11 +236,13 @@ Format<VesselInCase> vessel_in_case_format() {
                 "depth of its frame's origin at the start and for its radiation; by its weight and "
                 "that of what stands on it if left out")
       .by_default("radiation", &VesselInCase::radiation,
-                  choice<RadiationMethod>(
-                      {{"none", RadiationMethod::none}, {"database", RadiationMethod::database}}),
+                  located(choice<RadiationMethod>({{"none", RadiationMethod::none},
+                                                   {"database", RadiationMethod::database},
+                                                   {"direct", RadiationMethod::direct}})),
                   "database",
                   "waves that it makes and scatters: added mass, memory and diffraction from the "
-                  "panel method, with all such vessels together; or none")
+                  "panel method, with all such vessels together, from a database or with the "
+                  "water's surface marched directly beside; or none")
       .by_default("damping", &VesselInCase::damping, vessel_damping_format(), "{}",
                   "linear, relative to the current; in proportion to the wet volume")
       .by_default("quadratic_damping", &VesselInCase::quadratic_damping,

@@ -100,6 +100,7 @@ void check_afloat(const MechanismFile& mechanism, Diagnostics& diagnostics) {
     return;
   }
   check_marine_parts(mechanism, -g.z(), names_of(mechanism.bodies), diagnostics);
+  if (!diagnostics.has_errors()) check_hulls_apart(place_hulls(mechanism), diagnostics);
 }
 
 /// A robot description alone, as a mechanism: at rest, with all joints at zero, for ten seconds.

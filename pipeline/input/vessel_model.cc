@@ -46,8 +46,9 @@ std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics
   try {
     vessel.hull = make_vessel_hull(vessel.model, file.parent_path(), vessel.model.panel_size);
     vessel.hull.set_name(file.parent_path().filename().string());
-    for (const dynamics::HullDefect& defect :
-         dynamics::diagnose(vessel.hull, {.largest_warp = 0.5})) {
+    dynamics::HullDemands demands{.largest_warp = 0.5};
+    if (vessel.model.hydrodynamics.as_meshed) demands.water_level = 0.0;
+    for (const dynamics::HullDefect& defect : dynamics::diagnose(vessel.hull, demands)) {
       diagnostics.error(mark, defect.message);
     }
     if (diagnostics.error_count() == errors_before && !vessel.model.hydrodynamics.as_meshed) {

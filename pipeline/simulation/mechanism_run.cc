@@ -13,8 +13,9 @@ namespace blocklift::pipeline {
 MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress) {
   const auto start = std::chrono::steady_clock::now();
-  const auto database = find_radiation(radiation_problem(file), {});
-  BuiltMechanism mechanism = build_mechanism(file, database.get());
+  const RadiationProblem problem = radiation_problem(file);
+  const auto database = find_radiation(problem, {});
+  BuiltMechanism mechanism = build_mechanism(file, database.get(), find_marched_water(problem));
   std::vector<NaturalModes> natural_modes;
   std::vector<std::string> findings;
   const dynamics::LiftSystem& system = mechanism.system;
@@ -32,6 +33,8 @@ MechanismRun run_mechanism(const MechanismFile& file,
   settings.relative_tolerance = file.simulate.relative_tolerance;
   settings.sample_interval = file.sample_interval();
   settings.progress = progress;
+  settings.surface = mechanism.marched.radiation.get();
+  settings.surface_step = mechanism.marched.step;
   const Eigen::Index samples =
       dynamics::sample_times(system.operation().duration(), settings.sample_interval).size();
   OutputRecorder recorder(file, mechanism, samples);

@@ -95,12 +95,78 @@ TEST_F(HydroCommand, ComputesSeveralVesselsTogether) {
   folder_.write("crash.yaml", text.substr(0, text.find("  third")));
   const Outcome crash = run("crash.yaml -o crash.h5");
   EXPECT_EQ(crash.exit_code, 2);
-  EXPECT_THAT(crash.err, HasSubstr("intersect"));
+  EXPECT_THAT(crash.err, AllOf(HasSubstr("crash.yaml:4:3: error: vessel left and vessel right "
+                                         "intersect, at ("),
+                               HasSubstr("move one of them")));
+}
+
+// Apart at the water line, and in each other's way below it.
+TEST_F(HydroCommand, RefusesBodiesThatIntersectBelowTheWater) {
+  // A box from 1 m below the water's surface to 1 m above it, and one that is 8 m wide below 1.2 m.
+  folder_.write("bulb/hull.gdf",
+                "bulb\n1 9.80665\n0 0\n9\n"
+                "-2 -4 -3  -2 4 -3  2 4 -3  2 -4 -3\n"
+                "-2 -4 -3  2 -4 -3  2 -1 -1.2  -2 -1 -1.2\n"
+                "2 4 -3  -2 4 -3  -2 1 -1.2  2 1 -1.2\n"
+                "2 -4 -3  2 4 -3  2 1 -1.2  2 -1 -1.2\n"
+                "-2 4 -3  -2 -4 -3  -2 -1 -1.2  -2 1 -1.2\n"
+                "-2 -1 -1.2  2 -1 -1.2  2 -1 1  -2 -1 1\n"
+                "2 1 -1.2  -2 1 -1.2  -2 1 1  2 1 1\n"
+                "2 -1 -1.2  2 1 -1.2  2 1 1  2 -1 1\n"
+                "-2 1 -1.2  -2 -1 -1.2  -2 -1 1  -2 1 1\n");
+  folder_.write("bulb/vessel.yaml",
+                "kind: vessel\nhull: {mesh: {file: hull.gdf, close_openings: true}}\n"
+                "panel_size: 4 m\nmass: 50 t\n"
+                "centre_of_mass: [0 m, 0 m, -2 m]\nradii_of_gyration: [2 m, 1 m, 2 m]\n");
+  const auto pair = [&](const std::string& distance) {
+    folder_.write("pair.yaml",
+                  "kind: vessels\nvessels:\n"
+                  "  a: {vessel: bulb, position: [0 m, 0 m]}\n"
+                  "  b: {vessel: bulb, position: [0 m, " +
+                      distance +
+                      "]}\n"
+                      "hydrodynamics:\n"
+                      "  frequencies: {lowest: 0.8 rad/s, highest: 1 rad/s, count: 2}\n");
+    return run("pair.yaml -o pair.h5");
+  };
+  const Outcome outcome = pair("5 m");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+  EXPECT_THAT(outcome.err,
+              HasSubstr("pair.yaml:4:3: error: vessel a and vessel b intersect, at ("));
+  EXPECT_EQ(pair("9 m").exit_code, 0);
+}
+
+// Databases of other programs, spoilt.
+TEST_F(HydroCommand, RefusesImportsWithoutNumbersOrFrequencies) {
+  ASSERT_EQ(run("pontoon/vessel.yaml -o db.h5").exit_code, 0);
+  ASSERT_EQ(run("--import db.h5 --export wamit -o wec.1").exit_code, 0);
+  const std::string masses = test::text_of_file("wec.1");
+  const std::string forces = test::text_of_file("wec.3");
+  const auto import_with = [&](const std::string& changed_masses,
+                               const std::string& changed_forces) {
+    folder_.write("bad.1", changed_masses);
+    folder_.write("bad.3", changed_forces);
+    const Outcome outcome = run("--import bad.1 -o bad.h5");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    EXPECT_FALSE(fs::exists("bad.h5"));
+    return outcome.err;
+  };
+  // The fourth number of the third line.
+  std::string with_nan = masses;
+  const std::size_t third = with_nan.find('\n', with_nan.find('\n') + 1) + 1;
+  const std::size_t end = with_nan.find('\n', third);
+  with_nan.replace(with_nan.rfind(' ', end) + 1, end - with_nan.rfind(' ', end) - 1, "NaN");
+  EXPECT_THAT(import_with(with_nan, forces), HasSubstr("bad.1:3: \"NaN\" is not finite"));
+  // The excitation at one heading lacks its first frequency: six lines, one a mode.
+  std::size_t seventh = 0;
+  for (int line = 0; line < 6; ++line) seventh = forces.find('\n', seventh) + 1;
+  EXPECT_THAT(import_with(masses, forces.substr(seventh)), HasSubstr("frequencies are missing"));
 }
 
 TEST_F(HydroCommand, SaysWhatIsWrong) {
   EXPECT_THAT(complaint("highest: 3 rad/s", "highest: 9 rad/s"),
-              HasSubstr("at least three must go into a wave"));
+              AllOf(HasSubstr("vessel.yaml:8:16: error: at 9 rad/s waves are"),
+                    HasSubstr("at least three must go into a wave")));
   EXPECT_THAT(complaint("count: 4", "count: 0"), HasSubstr("vessel.yaml:8"));
   EXPECT_THAT(complaint("highest: 3 rad/s", "highest: 1 rad/s"),
               HasSubstr("the highest must lie above the lowest"));
@@ -150,7 +216,9 @@ TEST_F(HydroCommand, DiagnosesMeshes) {
   };
   EXPECT_THAT(complaint_about(box_panels(-2, true, false)), HasSubstr("open"));
   EXPECT_THAT(complaint_about(box_panels(-2, false, true)), HasSubstr("normals"));
-  EXPECT_THAT(complaint_about(box_panels(1, false, false)), HasSubstr("wholly above the water"));
+  EXPECT_THAT(complaint_about(box_panels(1, false, false)),
+              AllOf(HasSubstr("box/vessel.yaml:2:21: error: hull \"box\": it reaches from z = 1 m"),
+                    HasSubstr("all panels are above the water line; lower the hull")));
 }
 
 }  // namespace
