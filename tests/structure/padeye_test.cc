@@ -148,7 +148,9 @@ TEST(PadeyeModel, FollowsItsBase) {
   EXPECT_LT((padeye.solve(both).displacement - sum).norm(), 1e-10 * sum.norm());
 }
 
-// Far from the hole, the shank of a strip has the stress F / (D t) of a bar (Saint-Venant).
+// Far from the hole, the shank of a strip has the stress F / (D t) of a bar. What hole and clamped base disturb
+// of it dies away along the strip as exp(-2.1 y / c), c half its width (Fadle 1941): three half-widths from the
+// hole's edge and two from the base, 0.2 and 1.5 % of a disturbance of about the stress itself are left.
 TEST(PadeyeModel, ShankOfAStripIsABar) {
   const PadeyeGeometry g = strip();
   const PadeyeModel padeye(g, steel, 24);
@@ -159,7 +161,7 @@ TEST(PadeyeModel, ShankOfAStripIsABar) {
   for (std::size_t c = 0; c < padeye.columns().size(); ++c) {
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();
     for (const auto& corner : padeye.columns()[c].corners) centre += corner / 4;
-    if (centre.y() > -0.3 || centre.y() < -0.45) continue;
+    if (centre.y() > -0.35 || centre.y() < -0.5) continue;
     EXPECT_NEAR(result.column_von_mises[static_cast<Eigen::Index>(c)], bar, 0.03 * bar);
   }
 }
