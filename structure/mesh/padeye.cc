@@ -39,6 +39,8 @@ class Outline {
     return angles;
   }
 
+  static bool is_straight(int side) { return side != 2; }
+
   /// The place where the ray leaves the plate, on a side (0 base, 1 right, 2 arc, 3 left).
   Vector2d place(int side, double angle) const {
     const Vector2d direction(std::cos(angle), std::sin(angle));
@@ -74,13 +76,29 @@ class Outline {
   Vector2d left_, right_, left_touch_, right_touch_;
 };
 
-/// A ray of the plane mesh.
+/// A line of the plane mesh from the hole to the outline; radial as far as the hole is concerned.
 struct Ray {
-  double angle = 0;
+  double angle = 0;                 ///< at the hole
   Vector2d end = Vector2d::Zero();  ///< on the outline
 };
 
-/// Rays at whole numbers bound elements, those between at mid-edges: 2 x elements around.
+/// Where lines at equal angles end on a side, from its first corner to its last. On a straight side, which a
+/// slender plate shows to the hole at a small angle, they are moved half-way to equal distances.
+std::vector<Vector2d> side_ends(const Outline& outline, int side, double from, double to,
+                                int count) {
+  std::vector<Vector2d> ends;
+  const Vector2d first = outline.place(side, from), last = outline.place(side, to);
+  for (int i = 0; i <= count; ++i) {
+    const double share = static_cast<double>(i) / count;
+    const Vector2d by_angle = outline.place(side, from + (to - from) * share);
+    const Vector2d by_length = first + share * (last - first);
+    ends.push_back(Outline::is_straight(side) ? Vector2d((by_angle + by_length) / 2) : by_angle);
+  }
+  return ends;
+}
+
+/// Rays at whole numbers bound elements, those between at mid-edges: 2 x elements around. Mid-edges lie in
+/// the middle, so that elements however long stay regular.
 std::vector<Ray> make_rays(const Outline& outline, int divisions, int& base_elements) {
   const std::array<double, 5> corners = outline.corners();
   std::vector<Ray> rays;
@@ -89,9 +107,15 @@ std::vector<Ray> make_rays(const Outline& outline, int divisions, int& base_elem
     const int count =
         std::max(2, static_cast<int>(std::lround((to - from) / (2 * pi) * divisions)));
     if (side == 0) base_elements = count;
+    const std::vector<Vector2d> ends = side_ends(outline, side, from, to, count);
     for (int half = 0; half < 2 * count; ++half) {
       const double angle = from + (to - from) * half / (2 * count);
-      rays.push_back({angle, outline.place(side, angle)});
+      const Vector2d& end = ends[at(half / 2)];
+      const bool middle = half % 2 == 1;
+      const Vector2d between = Outline::is_straight(side)
+                                   ? Vector2d((end + ends[at(half / 2 + 1)]) / 2)
+                                   : outline.place(side, angle);
+      rays.push_back({angle, middle ? between : end});
     }
   }
   return rays;
