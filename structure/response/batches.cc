@@ -14,15 +14,20 @@ void in_batches(int count, int batch_size, int threads,
   if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::atomic<int> next{0};
   std::exception_ptr failure;
+  int failed = count;  // first number of the lowest batch that has failed
   std::mutex failing;
   const auto run = [&] {
+    int first = 0;
     try {
-      for (int first = next.fetch_add(batch_size); first < count;
-           first = next.fetch_add(batch_size))
+      for (first = next.fetch_add(batch_size); first < count; first = next.fetch_add(batch_size))
         work(first, std::min(batch_size, count - first));
     } catch (...) {
+      // Batches below this one have all been dealt out before it: the lowest that fails is always known.
       const std::lock_guard lock(failing);
-      if (!failure) failure = std::current_exception();
+      if (first < failed) {
+        failed = first;
+        failure = std::current_exception();
+      }
       next = count;
     }
   };
