@@ -58,10 +58,10 @@ TEST_F(AssessCommand, WritesResultsAndSaysWhereTheReportIs) {
   EXPECT_THAT(outcome.out, HasSubstr("natural periods at the start: load: pendulum along "));
   EXPECT_THAT(outcome.out, HasSubstr(" Jacobians\n"));
   EXPECT_TRUE(outcome.out.ends_with("\nreport: results/small-lift/report.html\n")) << outcome.out;
-  for (const char* file :
-       {"results.h5", "summary.json", "report.html", "block-static.vtu", "block-dynamic.vtu"})
+  for (const char* file : {"results.h5", "summary.json", "report.html", "block-static.vtu",
+                           "block-dynamic.vtu", "lug-L1.vtu"})
     EXPECT_TRUE(fs::is_regular_file(fs::path("results/small-lift") / file)) << file;
-  EXPECT_EQ(written().size(), 7u);  // two folders and the five files
+  EXPECT_EQ(written().size(), 8u);  // two folders and the six files
 }
 
 TEST_F(AssessCommand, PutsResultsWhereItIsTold) {
@@ -142,7 +142,7 @@ TEST_F(AssessCommand, ASecondRunReplacesTheFirst) {
   const auto second = nlohmann::json::parse(text_of_file("out/summary.json"));
   EXPECT_NE(first["ropes"], second["ropes"]);
   EXPECT_EQ(text_of_file("out/notes.txt"), "mine");
-  EXPECT_EQ(written().size(), 7u);  // the folder, its five files and the notes
+  EXPECT_EQ(written().size(), 8u);  // the folder, its six files and the notes
 }
 
 TEST_F(AssessCommand, TheSameCaseGivesTheSameFigures) {
