@@ -11,7 +11,7 @@ namespace blocklift::dynamics {
 /// (the shorter way round, at most half a turn) and w_FT the angular velocity, the moment on T is
 ///   m = -k theta - c w_FT    (N m), the opposite on F.
 /// Its potential is k theta^2 / 2: the rate of theta^2 / 2 is theta . w, since w differs from dtheta/dt by
-/// what is perpendicular to theta only (Shuster 1993, J. Astronaut. Sci. 41, eq. 287 f.).
+/// what is perpendicular to theta only (Shuster 1993, J. Astronaut. Sci. 41(4), rates of the rotation vector).
 class TorsionalSpring {
  public:
   struct Definition {

@@ -13,7 +13,7 @@ using dynamics::BodyIndex;
 /// Points of interest of each body, in its own frame, m.
 using BodyPoints = std::map<BodyIndex, std::vector<Vector3>>;
 
-// Bars are this part of their length thick, but not thinner than the other part of the largest bar.
+// All bars are this part of the longest one thick.
 constexpr double slenderness = 1.0 / 25.0;
 
 BodyPoints find_points(const dynamics::LiftSystem& system) {
