@@ -11,6 +11,7 @@
 
 #include "pipeline/command_line/assess_command.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/hydro_command.h"
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/simulate_command.h"
@@ -185,6 +186,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  return_freed_memory();
   use_all_of_the_processor(argc, argv);
   try {
     return run(argc, argv);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kernels = "OPENBLAS_CORETYPE";
 constexpr const char* tunables = "GLIBC_TUNABLES";
+constexpr const char* patience = "OPENBLAS_THREAD_TIMEOUT";
 
 // Kernels for AVX2 only, on a processor that has what Skylake's server kernels need.
 bool runs_below_its_kernels() {
@@ -34,13 +35,14 @@ void use_all_of_the_processor(int count, char** arguments) {
   const std::string_view command = count > 1 ? arguments[1] : "";
   if (command != "assess" && command != "stress") return;
   bool changed = false;
+  if (std::getenv(patience) == nullptr) changed = ::setenv(patience, "18", 0) == 0;
   if (std::getenv(kernels) == nullptr && runs_below_its_kernels())
-    changed = ::setenv(kernels, "SKYLAKEX", 0) == 0;
+    changed = ::setenv(kernels, "SKYLAKEX", 0) == 0 || changed;
 #if defined(__GLIBC__)
   if (std::getenv(tunables) == nullptr)
     changed = ::setenv(tunables, "glibc.malloc.hugetlb=1", 0) == 0 || changed;
 #endif
-  // Both are set from now on, so that this happens once. Where it fails the program runs as it is.
+  // All are set from now on, so that this happens once. Where it fails the program runs as it is.
   if (changed) ::execv("/proc/self/exe", arguments);
 }
 

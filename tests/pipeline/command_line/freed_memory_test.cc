@@ -1,0 +1,43 @@
+// Linked with the structural library, whose SuperLU_DIST keeps all memory that was ever allocated.
+#include "pipeline/command_line/freed_memory.h"
+
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "structure/elasticity/linear_solver.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+double resident_megabytes() {
+  std::ifstream file("/proc/self/statm");
+  double size = 0, resident = 0;
+  file >> size >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+// A large block beneath a smaller one that lives on, as the stiffness lies beneath its factor.
+TEST(FreedMemory, GoesBackFromBeneathWhatLivesOn) {
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "another allocator";
+#else
+  ASSERT_GT(structure::available_memory(), 0);  // keeps the library among those that are loaded
+  return_freed_memory();
+  constexpr std::size_t size = 200'000'000;
+  auto below = std::make_unique<char[]>(size);
+  std::memset(below.get(), 1, size);
+  const auto above = std::make_unique<char[]>(size / 4);
+  std::memset(above.get(), 1, size / 4);
+  const double before = resident_megabytes();
+  below.reset();
+  EXPECT_LT(resident_megabytes(), before - 190);
+#endif
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
