@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/point_text.h"
 
 namespace blocklift::dynamics {
 
@@ -284,12 +285,6 @@ Hull turned_outwards(const Hull& hull) {
 
 namespace {
 
-std::string text_of(const Vector3& p) {
-  std::ostringstream text;
-  text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ") m";
-  return text.str();
-}
-
 // Edges that one panel has and no other has in the opposite sense: from vertex to vertex.
 std::map<int, std::vector<int>> find_rim(const Hull& hull) {
   std::map<std::array<int, 2>, int> balance;
@@ -318,7 +313,8 @@ std::vector<int> take_loop(const Hull& hull, std::map<int, std::vector<int>>& ri
     const auto next = rim.find(vertex);
     if (next == rim.end()) {
       throw ModelError("hull \"" + hull.name() + "\": the rim of an opening ends at the vertex " +
-                       text_of(hull.vertex(vertex)) + " and does not come back to where it began");
+                       text_of_point(hull.vertex(vertex)) +
+                       " and does not come back to where it began");
     }
     loop.push_back(vertex);
     vertex = next->second.back();
@@ -341,7 +337,7 @@ void require_flat(const Hull& hull, const std::vector<int>& loop, const Vector3&
     if (distance <= tolerance) continue;
     throw ModelError("hull \"" + hull.name() +
                      "\": the rim of an opening is not flat, its vertex " +
-                     text_of(hull.vertex(vertex)) + " lies " + std::to_string(distance) +
+                     text_of_point(hull.vertex(vertex)) + " lies " + std::to_string(distance) +
                      " m off its plane; close the hull in the program that made the mesh");
   }
 }

@@ -6,16 +6,11 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/point_text.h"
 
 namespace blocklift::dynamics {
 
 namespace {
-
-std::string text_of(const Vector3& p) {
-  std::ostringstream text;
-  text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
-  return text.str();
-}
 
 // Collects defects, a few of each kind.
 class Findings {
@@ -53,7 +48,7 @@ void check_vertices(const Hull& hull, Findings& findings) {
   for (std::size_t i = 0; i < hull.vertices().size(); ++i) {
     if (hull.vertices()[i].allFinite()) continue;
     findings.add(HullDefectKind::not_finite, -1, hull.vertices()[i],
-                 "vertex " + std::to_string(i) + " is " + text_of(hull.vertices()[i]) +
+                 "vertex " + std::to_string(i) + " is " + text_of_point(hull.vertices()[i]) +
                      "; three finite coordinates are due");
   }
   if (hull.panel_count() == 0) {
@@ -77,8 +72,8 @@ void check_shapes(const Hull& hull, double largest_warp, Findings& findings) {
     const Vector3 middle = hull.panel_midpoint(panel);
     if (is_degenerate(hull, panel)) {
       findings.add(HullDefectKind::degenerate_panel, panel, middle,
-                   "it has no area, or a vertex twice, at " + text_of(middle) +
-                       " m; remove it, or merge the vertices that coincide");
+                   "it has no area, or a vertex twice, at " + text_of_point(middle) +
+                       "; remove it, or merge the vertices that coincide");
       continue;
     }
     const Vector3 normal = hull.panel_area_vector(panel).normalized();
@@ -90,7 +85,7 @@ void check_shapes(const Hull& hull, double largest_warp, Findings& findings) {
     if (relative <= largest_warp) continue;
     std::ostringstream text;
     text << "its vertices lie up to " << warp << " m off its plane, " << 100.0 * relative
-         << " % of its diameter, at " << text_of(middle) << " m; divide it into triangles";
+         << " % of its diameter, at " << text_of_point(middle) << "; divide it into triangles";
     findings.add(HullDefectKind::warped_panel, panel, middle, text.str());
   }
 }
@@ -123,7 +118,7 @@ void check_doubled(const Hull& hull, Findings& findings) {
     if (is_new) continue;
     findings.add(HullDefectKind::doubled_panel, panel, hull.panel_midpoint(panel),
                  "it has the same vertices as panel " + std::to_string(known->second) + ", at " +
-                     text_of(hull.panel_midpoint(panel)) + " m; remove one of them");
+                     text_of_point(hull.panel_midpoint(panel)) + "; remove one of them");
   }
 }
 
@@ -132,7 +127,7 @@ void check_edges(const Hull& hull, Findings& findings) {
     const Vector3& a = hull.vertex(edge[0]);
     const Vector3& b = hull.vertex(edge[1]);
     const Vector3 middle = 0.5 * (a + b);
-    const std::string where = "the edge from " + text_of(a) + " to " + text_of(b) + " m ";
+    const std::string where = "the edge from " + text_of_point(a) + " to " + text_of_point(b) + " ";
     const std::size_t count = use.forward.size() + use.backward.size();
     const int panel = use.forward.empty() ? use.backward.front() : use.forward.front();
     if (count == 1) {
@@ -191,8 +186,8 @@ void check_panel_sizes(const Hull& hull, const HullDemands& demands, Findings& f
     }
     if (edge <= largest) continue;
     std::ostringstream text;
-    text << "its longest edge is " << edge << " m, at " << text_of(hull.panel_midpoint(panel))
-         << " m; the shortest wave of " << *demands.shortest_wave_length << " m needs panels of at "
+    text << "its longest edge is " << edge << " m, at " << text_of_point(hull.panel_midpoint(panel))
+         << "; the shortest wave of " << *demands.shortest_wave_length << " m needs panels of at "
          << "most " << largest << " m (" << demands.panels_per_wave_length
          << " a wave length). Refine the hull or leave out waves so short";
     findings.add(HullDefectKind::large_panel, panel, hull.panel_midpoint(panel), text.str());

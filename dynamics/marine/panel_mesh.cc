@@ -9,15 +9,10 @@
 #include <utility>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/point_text.h"
 
 namespace blocklift::dynamics {
 namespace {
-
-std::string describe(const Vector3& p) {
-  std::ostringstream text;
-  text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ") m";
-  return text.str();
-}
 
 /// Vertices of a quadrangle moved along the normal into its mean plane.
 void flatten(Panel& panel) {
@@ -112,7 +107,7 @@ Panel make_panel(std::span<const Vector3> points) {
   const double diameter = panel.diameter();
   if (!normal.allFinite()) throw ModelError("a panel's vertex is not a finite number");
   if (!(normal.norm() > 1e-12 * diameter * diameter)) {
-    throw ModelError("the panel at " + describe(points[0]) +
+    throw ModelError("the panel at " + text_of_point(points[0]) +
                      " has no area: remove it, or repair the surface there");
   }
   panel.normal = normal.normalized();
@@ -155,7 +150,7 @@ PanelMesh restrict_to_symmetry(const PanelMesh& whole, const Symmetry& symmetry)
         highest = std::max(highest, vertex[axis]);
       }
       if (lowest < -tolerance && highest > tolerance) {
-        throw ModelError("the panel at " + describe(panel.centroid) +
+        throw ModelError("the panel at " + text_of_point(panel.centroid) +
                          " crosses the plane of symmetry " + (axis == 0 ? "x" : "y") +
                          " = 0: panels must end at the plane, or do without that symmetry");
       }
@@ -203,7 +198,7 @@ std::vector<WaterLine> find_water_lines(const PanelMesh& hull) {
       Edge* next = continue_at(edges, edge->to, tolerance);
       if (next == nullptr) {
         throw ModelError("the hull's panels leave a gap in the water line at " +
-                         describe(edge->to) + ": each edge at z = 0 must meet the next");
+                         text_of_point(edge->to) + ": each edge at z = 0 must meet the next");
       }
       edge = next;
     } while (true);

@@ -6,15 +6,10 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull_intersection.h"
+#include "dynamics/marine/point_text.h"
 
 namespace blocklift::dynamics {
 namespace {
-
-std::string describe(const Vector3& p) {
-  std::ostringstream text;
-  text << "(" << p.x() << ", " << p.y() << ", " << p.z() << ") m";
-  return text.str();
-}
 
 /// Is each panel the image of another under a reflection?
 bool is_symmetric(const std::vector<Panel>& panels, const Symmetry& reflection) {
@@ -75,7 +70,7 @@ void require_apart(const std::vector<WettedBody>& bodies) {
       const std::optional<Vector3> place = find_intersection(surfaces[a], surfaces[b]);
       if (!place) continue;
       throw ModelError("bodies " + bodies[a].name + " and " + bodies[b].name +
-                       " intersect under water, at " + describe(*place) + ": move them apart");
+                       " intersect under water, at " + text_of_point(*place) + ": move them apart");
     }
   }
 }
@@ -136,12 +131,13 @@ void PanelModel::check(const WettedBody& body) const {
     for (const Vector3& vertex : panel.vertices) {
       if (vertex.z() > 1e-6 * size) {
         throw ModelError("body " + body.name + " has a panel above the water at " +
-                         describe(vertex) + ": cut the hull at z = 0 first");
+                         text_of_point(vertex) + ": cut the hull at z = 0 first");
       }
       if (vertex.z() < -water_.depth + 1e-6 * size) stands_on_bottom = true;
       if (vertex.z() < -water_.depth - 1e-6 * size) {
-        throw ModelError("body " + body.name + " reaches below the bottom at " + describe(vertex) +
-                         ": the water is " + std::to_string(water_.depth) + " m deep");
+        throw ModelError("body " + body.name + " reaches below the bottom at " +
+                         text_of_point(vertex) + ": the water is " + std::to_string(water_.depth) +
+                         " m deep");
       }
     }
   }

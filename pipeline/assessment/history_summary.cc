@@ -4,20 +4,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/assessment/json_values.h"
+
 namespace blocklift::pipeline {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json point(const structure::Vector3& p) { return {p.x(), p.y(), p.z()}; }
-
 Json extreme_json(const HistoryExtreme& extreme) {
-  Json json{{"value", number(extreme.at.value)},
+  Json json{{"value", json_number(extreme.at.value)},
             {"time_s", extreme.time},
-            {"point_m", point(extreme.at.point_B)}};
+            {"point_m", json_point(extreme.at.point_B)}};
   if (!extreme.at.part.empty()) json["part"] = extreme.at.part;
   if (!extreme.rope.empty()) {
     json["rope"] = extreme.rope;
@@ -29,11 +27,11 @@ Json extreme_json(const HistoryExtreme& extreme) {
 /// With the names that every state of the structure has, so that readers take it as one of them.
 Json state_json(const HistoryState& state) {
   const HistoryExtreme& checked = state.checked_von_mises;
-  Json json{{"checked_von_mises_Pa", number(checked.at.value)},
-            {"peak_von_mises_Pa", number(state.peak_von_mises.at.value)},
-            {"max_displacement_m", number(state.displacement.at.value)},
-            {"largest_principal_Pa", number(state.largest_principal.at.value)},
-            {"smallest_principal_Pa", number(state.smallest_principal.at.value)},
+  Json json{{"checked_von_mises_Pa", json_number(checked.at.value)},
+            {"peak_von_mises_Pa", json_number(state.peak_von_mises.at.value)},
+            {"max_displacement_m", json_number(state.displacement.at.value)},
+            {"largest_principal_Pa", json_number(state.largest_principal.at.value)},
+            {"smallest_principal_Pa", json_number(state.smallest_principal.at.value)},
             {"force_residual", state.largest_force_residual},
             {"moment_residual", state.largest_moment_residual},
             {"instants", state.time.size()},
@@ -41,10 +39,10 @@ Json state_json(const HistoryState& state) {
             {"rope_share", checked.share},
             {"time_s", checked.time},
             {"checked_group", checked.at.part},
-            {"checked_point_m", point(checked.at.point_B)},
+            {"checked_point_m", json_point(checked.at.point_B)},
             {"peak_group", state.peak_von_mises.at.part},
-            {"peak_point_m", point(state.peak_von_mises.at.point_B)},
-            {"max_displacement_point_m", point(state.displacement.at.point_B)},
+            {"peak_point_m", json_point(state.peak_von_mises.at.point_B)},
+            {"max_displacement_point_m", json_point(state.displacement.at.point_B)},
             {"max_displacement_time_s", state.displacement.time},
             {"peak", extreme_json(state.peak_von_mises)},
             {"largest_principal", extreme_json(state.largest_principal)},
@@ -61,10 +59,10 @@ Json state_json(const HistoryState& state) {
 
 Json practice_json(const PracticeComparison& practice) {
   return {{"safe", practice.largest_percent >= 0},
-          {"largest_difference_percent", number(practice.largest_percent)},
-          {"worst_difference_percent", number(practice.worst_percent)},
+          {"largest_difference_percent", json_number(practice.largest_percent)},
+          {"worst_difference_percent", json_number(practice.worst_percent)},
           {"worst_part", practice.worst.part},
-          {"worst_point_m", point(practice.worst.point_B)},
+          {"worst_point_m", json_point(practice.worst.point_B)},
           {"worst_envelope_Pa", practice.worst.value},
           {"share_of_patches_short", practice.patches_short}};
 }
@@ -79,7 +77,7 @@ Json points_json(const std::vector<StressHistory>& points, double lifts) {
     }
     rows.push_back({{"name", one.name},
                     {"part", one.part},
-                    {"point_m", point(one.point_B)},
+                    {"point_m", json_point(one.point_B)},
                     {"max_static_von_mises_Pa", one.static_von_mises.maxCoeff()},
                     {"max_dynamic_von_mises_Pa", one.dynamic_von_mises.maxCoeff()},
                     {"cycles_per_lift", count},

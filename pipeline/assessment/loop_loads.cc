@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/assessment/json_values.h"
 #include "pipeline/formats/results_layout.h"
 
 namespace blocklift::pipeline {
@@ -22,8 +23,6 @@ const std::vector<Loop>& loops_of(const LiftRun& lift) {
 }
 
 bool holds_turns(const Loop& loop) { return loop.rotation != Loop::Rotation::none; }
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// Largest value of a series and when it occurs.
 struct Largest {
@@ -47,21 +46,22 @@ Json loop_json(const Loop& loop, const LoopHistory& at_rest, const LoopHistory& 
   const std::string quantity = loop_load_unit(loop) == "N" ? "load_N" : "load_Nm";
   Json row{{"name", loop.name},
            {"kind", dynamics::loop_kind_name(loop.kind)},
-           {"max_static_" + quantity, number(still.value)},
+           {"max_static_" + quantity, json_number(still.value)},
            {"time_of_max_static_s", still.time},
-           {"max_dynamic_" + quantity, number(moving.value)},
+           {"max_dynamic_" + quantity, json_number(moving.value)},
            {"time_of_max_dynamic_s", moving.time},
-           {"dynamic_over_static", number(moving.value / still.value)}};
+           {"dynamic_over_static", json_number(moving.value / still.value)}};
   if (holds_turns(loop)) {
-    row["max_static_moment_Nm"] = number(moments(at_rest).maxCoeff<Eigen::PropagateNaN>());
-    row["max_dynamic_moment_Nm"] = number(moments(in_motion).maxCoeff<Eigen::PropagateNaN>());
+    row["max_static_moment_Nm"] = json_number(moments(at_rest).maxCoeff<Eigen::PropagateNaN>());
+    row["max_dynamic_moment_Nm"] = json_number(moments(in_motion).maxCoeff<Eigen::PropagateNaN>());
   }
   if (loop.kind == LoopKind::rope_length) {
-    row["min_static_tension_N"] = number(loop_load(loop, at_rest).minCoeff());
-    row["min_dynamic_tension_N"] = number(loop_load(loop, in_motion).minCoeff());
+    row["min_static_tension_N"] = json_number(loop_load(loop, at_rest).minCoeff());
+    row["min_dynamic_tension_N"] = json_number(loop_load(loop, in_motion).minCoeff());
   }
-  row["largest_residual"] = number(std::max(at_rest.residual.maxCoeff<Eigen::PropagateNaN>(),
-                                            in_motion.residual.maxCoeff<Eigen::PropagateNaN>()));
+  row["largest_residual"] =
+      json_number(std::max(at_rest.residual.maxCoeff<Eigen::PropagateNaN>(),
+                           in_motion.residual.maxCoeff<Eigen::PropagateNaN>()));
   return row;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dynamics/simulation/history.h"
+#include "pipeline/assessment/json_values.h"
 #include "pipeline/formats/results_layout.h"
 
 namespace blocklift::pipeline {
@@ -63,8 +64,6 @@ std::vector<Instant> instants_of(const BuiltLift& model, const dynamics::History
   return instants;
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json mode_json(const dynamics::Mechanism& mechanism, const Mode& mode) {
   Json shares = Json::object();
   for (const BodyModeMotion& body : mode.bodies) {
@@ -74,7 +73,7 @@ Json mode_json(const dynamics::Mechanism& mechanism, const Mode& mode) {
   }
   return {{"name", mode.name},
           {"kind", dynamics::mode_kind_name(mode.kind)},
-          {"period_s", number(mode.period())},
+          {"period_s", json_number(mode.period())},
           {"frequency_Hz", mode.natural_frequency() / (2 * std::numbers::pi)},
           {"damping_ratio", mode.damping_ratio()},
           {"elastic_share", mode.elastic_share},

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/assessment/json_values.h"
 #include "pipeline/formats/results_layout.h"
 
 namespace blocklift::pipeline {
@@ -13,17 +14,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json point(const structure::Vector3& p) { return {p.x(), p.y(), p.z()}; }
-
 Json formula_json(const PadeyeFormulaAtWorst& at_worst) {
   const PadeyeFormula& formula = at_worst.formula;
   Json json{{"name", formula.name},
-            {"demand", number(formula.demand)},
-            {"limit", number(formula.limit)},
+            {"demand", json_number(formula.demand)},
+            {"limit", json_number(formula.limit)},
             {"unit", formula.unit},
-            {"utilisation", number(formula.utilisation)},
+            {"utilisation", json_number(formula.utilisation)},
             {"pass", formula.utilisation <= 1},
             {"source", formula.source}};
   if (at_worst.time) json["time_s"] = *at_worst.time;
@@ -37,11 +34,11 @@ Json state_json(const PadeyeState& state) {
           ? result.cheeks.peak_von_mises
           : result.main_plate.peak_von_mises;
   Json json{{"name", state.name},
-            {"force_N", point(state.force_P)},
+            {"force_N", json_point(state.force_P)},
             {"main_plate_checked_von_mises_Pa", result.main_plate.checked_von_mises.value},
             {"cheeks_checked_von_mises_Pa", result.cheeks.checked_von_mises.value},
             {"peak_von_mises_Pa", peak.value},
-            {"peak_point_m", point(peak.point_B)},
+            {"peak_point_m", json_point(peak.point_B)},
             {"force_residual", result.force_residual},
             {"moment_residual", result.moment_residual}};
   if (state.time) json["time_s"] = *state.time;

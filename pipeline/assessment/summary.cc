@@ -10,6 +10,7 @@
 
 #include "pipeline/assessment/assumptions.h"
 #include "pipeline/assessment/history_summary.h"
+#include "pipeline/assessment/json_values.h"
 #include "pipeline/assessment/loop_loads.h"
 #include "pipeline/assessment/padeye_summary.h"
 #include "pipeline/assessment/result_file.h"
@@ -23,18 +24,14 @@ using Json = nlohmann::ordered_json;
 using dynamics::LinkedMaximum;
 
 /// Null in place of what JSON cannot write.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json point(const structure::Vector3& p) { return {p.x(), p.y(), p.z()}; }
-
 double percent_above(double value, double reference) { return 100 * (value / reference - 1); }
 
 Json check_json(const Check& check) {
   Json json{{"name", check.name},
-            {"demand", number(check.demand)},
-            {"limit", number(check.limit)},
+            {"demand", json_number(check.demand)},
+            {"limit", json_number(check.limit)},
             {"unit", check.unit},
-            {"utilisation", number(check.utilisation)},
+            {"utilisation", json_number(check.utilisation)},
             {"pass", check.pass}};
   if (check.time) json["time_s"] = *check.time;
   if (!check.note.empty()) json["note"] = check.note;
@@ -49,7 +46,7 @@ Json maxima_json(const std::string& name, double static_value, double static_tim
           {"time_of_max_static_s", static_time},
           {"max_dynamic_" + quantity, dynamic_value},
           {"time_of_max_dynamic_s", dynamic_time},
-          {"dynamic_over_static", number(dynamic_value / static_value)}};
+          {"dynamic_over_static", json_number(dynamic_value / static_value)}};
 }
 
 /// The ropes, hoists and cranes of a lift with their largest loads.
@@ -150,8 +147,8 @@ class LoadTables {
       }
       rows.push_back({{"name", named.name.value},
                       {"points", points},
-                      {"mean_difference_percent", number(points > 0 ? sum / points : NAN)},
-                      {"largest_difference_percent", number(points > 0 ? most : NAN)},
+                      {"mean_difference_percent", json_number(points > 0 ? sum / points : NAN)},
+                      {"largest_difference_percent", json_number(points > 0 ? most : NAN)},
                       {"time_of_largest_s", when}});
     }
     return rows;
@@ -200,10 +197,10 @@ Json state_json(const BlockState& state, double displacement) {
   if (!state.rope.empty()) json["rope"] = state.rope;
   if (state.time) json["time_s"] = *state.time;
   json["checked_group"] = result.checked_von_mises.part;
-  json["checked_point_m"] = point(result.checked_von_mises.point_B);
+  json["checked_point_m"] = json_point(result.checked_von_mises.point_B);
   json["peak_group"] = result.peak_von_mises.part;
-  json["peak_point_m"] = point(result.peak_von_mises.point_B);
-  json["max_displacement_point_m"] = point(result.displacement.point_B);
+  json["peak_point_m"] = json_point(result.peak_von_mises.point_B);
+  json["max_displacement_point_m"] = json_point(result.displacement.point_B);
   return json;
 }
 
@@ -219,7 +216,7 @@ Json lug_way_json(const LoadComparison& way, std::size_t lug) {
   const double in_motion = way.dynamic_state.result.lugs[lug].checked_von_mises.value;
   return {{"static_checked_von_mises_Pa", at_rest},
           {"dynamic_checked_von_mises_Pa", in_motion},
-          {"stress_increase_percent", number(percent_above(in_motion, at_rest))}};
+          {"stress_increase_percent", json_number(percent_above(in_motion, at_rest))}};
 }
 
 Json lugs_json(const Assessment& assessment) {
@@ -247,7 +244,7 @@ Json lugs_json(const Assessment& assessment) {
 Json error_json(const structure::BlockMesh& mesh, const structure::BlockError& error) {
   Json json{{"relative", error.relative},
             {"worst_part", error.worst_part},
-            {"worst_point_m", point(error.worst_point)},
+            {"worst_point_m", json_point(error.worst_point)},
             {"groups", Json::object()}};
   for (std::size_t g = 0; g < mesh.groups.size(); ++g)
     json["groups"][mesh.groups[g].name] = error.of_groups[g];
@@ -280,8 +277,8 @@ Json structure_json(const Assessment& assessment) {
              {{"total_kg", mass.mass},
               {"steel_kg", mass.steel_mass},
               {"outfitting_kg", mass.outfitting_mass},
-              {"centre_of_mass_m", point(mass.centre_of_mass_B)},
-              {"steel_centre_of_mass_m", point(mass.steel_centre_B)},
+              {"centre_of_mass_m", json_point(mass.centre_of_mass_B)},
+              {"steel_centre_of_mass_m", json_point(mass.steel_centre_B)},
               {"smallest_density_factor", mass.smallest_density_factor},
               {"largest_density_factor", mass.largest_density_factor}}}};
   json["estimated_error"] = error_json(model.mesh(), assessment.block.error);
@@ -320,7 +317,7 @@ Json energy_json(const LiftRun& lift) {
   const double imbalance = energy_imbalance(energy).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   return {{"largest_energy_J", largest},
           {"largest_imbalance_J", imbalance},
-          {"relative_imbalance", number(imbalance / largest)}};
+          {"relative_imbalance", json_number(imbalance / largest)}};
 }
 
 }  // namespace
@@ -336,7 +333,7 @@ Json solver_json(const dynamics::IntegrationStatistics& s, double simulated_s, d
           {"nonlinear_failures", s.nonlinear_failures},
           {"restarts", s.restarts},
           {"ropes_slack_or_taut_again", s.contact_changes},
-          {"times_faster_than_real_time", number(simulated_s / elapsed_s)}};
+          {"times_faster_than_real_time", json_number(simulated_s / elapsed_s)}};
 }
 
 namespace {

@@ -17,12 +17,11 @@
 #include <deal.II/grid/tria.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Node numbers of deal.II's FE_Q on the mesh, a cell after another.
 std::vector<int> number_nodes(const HexMesh& mesh, int degree, int& node_count) {

@@ -11,12 +11,11 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Eigen::Matrix3d cross_matrix(const Vector3& v) {
   Eigen::Matrix3d m;

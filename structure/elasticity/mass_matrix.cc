@@ -7,11 +7,11 @@
 
 #include <Eigen/Dense>
 
+#include "structure/index.h"
+
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Elements as lists of their nodes.
 struct Elements {

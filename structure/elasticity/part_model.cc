@@ -12,12 +12,11 @@
 
 #include "structure/elasticity/bearing_load.h"
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 const PartGroup& group_of(const PartMesh& mesh, const std::string& owner, const std::string& name) {
   const PartGroup* group = mesh.find_group(name);

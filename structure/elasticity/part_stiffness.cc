@@ -11,12 +11,11 @@
 
 #include "structure/elasticity/part_model.h"
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void in_threads(int threads, const std::function<void(int)>& work) {
   std::vector<std::thread> others;

@@ -13,13 +13,12 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/mesh/abaqus_file.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Twist = Eigen::Matrix<double, 6, 1>;  // rotation times length, translation
 

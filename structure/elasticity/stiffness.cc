@@ -9,11 +9,11 @@
 
 #include <Eigen/Dense>
 
+#include "structure/index.h"
+
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // d_a N_i d_b N_j integrals (entry 3 a + b) -> stiffness.
 Eigen::MatrixXd hooke_sum(const std::array<Eigen::MatrixXd, 9>& products, double lambda,

@@ -13,14 +13,13 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/mesh/plate_grid.h"
 #include "structure/mesh/sheets.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int material_index(const BlockDescription& block, const std::string& name) {
   for (std::size_t i = 0; i < block.materials.size(); ++i)

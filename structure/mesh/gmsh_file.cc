@@ -12,13 +12,12 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/mesh/gmsh_session.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int linear_hexahedron = 5;  // Gmsh's element types
 constexpr int quadratic_hexahedron = 12;

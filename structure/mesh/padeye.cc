@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -17,8 +18,6 @@ namespace {
 
 using Eigen::Vector2d;
 using std::numbers::pi;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The edge of the main plate as seen from the middle of the hole: where each ray leaves the plate.
 class Outline {

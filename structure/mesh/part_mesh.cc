@@ -9,14 +9,9 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 Eigen::Matrix3Xd PartMesh::places(int element) const {
   Eigen::Matrix3Xd result(3, kind(element).nodes);

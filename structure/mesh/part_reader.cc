@@ -15,6 +15,7 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/mesh/abaqus_model.h"
 #include "structure/mesh/gmsh_session.h"
 #include "structure/mesh/plate_collector.h"
@@ -22,8 +23,6 @@
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 const std::array<const char*, 4> entity_nouns = {"point", "curve", "surface", "volume"};
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -21,8 +22,6 @@ namespace {
 constexpr double snap = 0.5e-3;  // m: cuts nearer than this are one
 constexpr double slice_excess = 0.3;
 constexpr double most_boxes = 5e7;  // of the grid before merging: 0.2 GB
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -20,8 +21,6 @@ namespace {
 
 using Vector3 = Eigen::Vector3d;
 using Edge = std::pair<int, int>;  // smaller node first
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 

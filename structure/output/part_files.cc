@@ -13,14 +13,13 @@
 #include <fmt/ostream.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/output/vtk_array.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<int> shared_order(const ElementKind& kind) {
   std::vector<int> order = kind.corner_order;

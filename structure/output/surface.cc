@@ -12,14 +12,13 @@
 
 #include <Eigen/Dense>
 
+#include "structure/index.h"
 #include "structure/response/cell_stress.h"
 #include "structure/response/envelope.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Grid of points on a face of the unit cube; the two free axes in ascending order.
 Eigen::Matrix3Xd face_points(int face, const std::array<int, 2>& parts) {

@@ -11,14 +11,13 @@
 #include <Eigen/Dense>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/output/vtk_array.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Division of a cell into parts[0] x parts[1] x parts[2] boxes.
 struct Division {

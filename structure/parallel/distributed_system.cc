@@ -10,13 +10,12 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/stopwatch.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void check(PetscErrorCode code) {
   if (code == 0) return;

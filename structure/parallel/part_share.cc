@@ -8,12 +8,11 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<int> deal_out(const PartMesh& mesh, int processes) {
   const auto count = static_cast<int>(mesh.solids.size());

@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/output/part_files.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 enum class Order { solve, write, end };
 

@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "structure/index.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 // The place and instant of an extreme; everything else about it is looked up once it is known.
 struct Running {

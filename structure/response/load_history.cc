@@ -9,14 +9,9 @@
 #include <Eigen/Dense>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
-
-namespace {
-
-std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 LoadHistory::LoadHistory(const Eigen::MatrixXd& factors, const Eigen::VectorXd& weights)
     : instants_(static_cast<int>(factors.cols())) {

@@ -9,14 +9,13 @@
 
 #include <Eigen/Dense>
 
+#include "structure/index.h"
 #include "structure/response/batches.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr Eigen::Index rows_per_panel = 5;
 

@@ -7,14 +7,13 @@
 
 #include <Eigen/Dense>
 
+#include "structure/index.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 using Stress6 = Eigen::Matrix<double, 6, 1>;

@@ -12,6 +12,7 @@
 
 #include "structure/elasticity/rigid_freedom.h"
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/response/cell_stress.h"
 #include "structure/response/part_error.h"
@@ -20,8 +21,6 @@
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 

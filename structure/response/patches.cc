@@ -10,11 +10,11 @@
 
 #include <Eigen/Dense>
 
+#include "structure/index.h"
+
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Start and end of the patches along an edge of a given length, as fractions of it.
 std::vector<Interval> patch_intervals(double length, double size) {

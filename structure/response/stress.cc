@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "structure/index.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Extreme whose part is named at the end, once.
 struct Running {
