@@ -40,7 +40,7 @@ double find_floating_height(const HullClusters& hull, const Matrix3& R_WB, doubl
          << " m3, so a volume between zero and that is due: lighten the body or deepen the hull";
     throw ModelError(text.str());
   }
-  const HullClusters::Node& box = hull.node(HullClusters::root);
+  const TriangleTree::Node& box = hull.faces().node(TriangleTree::root);
   const Vector3 up = R_WB.row(2);
   const double reach = up.cwiseAbs().dot(box.half_extent);
   double low = -up.dot(box.centre) - reach;   // all under water

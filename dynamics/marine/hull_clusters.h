@@ -1,90 +1,29 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "dynamics/marine/hull.h"
-#include "dynamics/marine/surface_moments.h"
+#include "dynamics/marine/triangle_tree.h"
 
 namespace blocklift::dynamics {
 
-/// A hull made ready for fast evaluation: its triangles in a tree of boxes, each box with the
-/// moments of what it holds, so that only boxes that the water surface crosses are opened.
-/// Immutable; may be shared by threads.
+/// A hull made ready for fast evaluation. Immutable; may be shared by threads.
 class HullClusters {
  public:
-  static constexpr int most_triangles = 24;               ///< in a leaf
-  static constexpr int most_points = 3 * most_triangles;  ///< in a leaf
-
-  /// A box of the tree.
-  struct Node {
-    Vector3 centre;       ///< of the box around its triangles, in B, m
-    Vector3 half_extent;  ///< m
-    int left = -1;        ///< children; -1: a leaf
-    int right = -1;
-    int first_triangle = 0;
-    int triangle_count = 0;  ///< of a leaf
-    int first_point = 0;
-    int point_count = 0;  ///< of a leaf
-  };
-  /// Corners of a triangle, counted from the first point of its leaf.
-  using Triangle = std::array<std::uint8_t, 3>;
-
   /// @throws ModelError if the hull has no panels, is open or turned inwards, or has vertices that
   ///   are not finite (see diagnose).
   explicit HullClusters(const Hull& hull);
 
   const Hull& hull() const { return hull_; }
   const EnclosedVolume& enclosed() const { return enclosed_; }
-  int triangle_count() const { return static_cast<int>(triangles_.size()); }
 
-  const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
-  const SurfaceMoments& moments(int node) const { return moments_[static_cast<std::size_t>(node)]; }
-  static constexpr int root = 0;
-  std::span<const Triangle> triangles(const Node& leaf) const {
-    return {triangles_.data() + leaf.first_triangle, static_cast<std::size_t>(leaf.triangle_count)};
-  }
-  /// Points of a leaf in B, m.
-  std::span<const Vector3> points(const Node& leaf) const {
-    return {points_.data() + leaf.first_point, static_cast<std::size_t>(leaf.point_count)};
-  }
-
-  /// Calls `leaf(node)` for each leaf and, before, `open(node, index)` for each box on the way to
-  /// it; a box for which `open` returns false stays closed. Does not allocate.
-  template <class Open, class Leaf>
-  void visit(Open&& open, Leaf&& leaf) const {
-    std::array<int, most_depth> stack;
-    int size = 0;
-    stack[0] = root;
-    size = 1;
-    while (size > 0) {
-      const int index = stack[static_cast<std::size_t>(--size)];
-      const Node& node = this->node(index);
-      if (!open(node, index)) continue;
-      if (node.left < 0) {
-        leaf(node);
-        continue;
-      }
-      stack[static_cast<std::size_t>(size++)] = node.right;
-      stack[static_cast<std::size_t>(size++)] = node.left;
-    }
-  }
+  /// The hull's panels: for what varies over them, as the pressure of waves does.
+  const TriangleTree& panels() const { return panels_; }
+  /// The same surface of fewer triangles, panels of one plane joined (join_flat_panels): for what is exact
+  /// on any triangle, as the pressure of still water is.
+  const TriangleTree& faces() const { return faces_; }
 
  private:
-  // The tree halves the number of triangles at each level: 2^62 would be needed to overflow.
-  static constexpr std::size_t most_depth = 64;
-  struct Item;
-  int build(std::span<Item> items);
-  void add_leaf(std::span<Item> items, Node& node, SurfaceMoments& moments);
-
   Hull hull_;
   EnclosedVolume enclosed_;
-  std::vector<Node> nodes_;
-  std::vector<SurfaceMoments> moments_;
-  std::vector<Triangle> triangles_;
-  std::vector<Vector3> points_;
+  TriangleTree panels_, faces_;
 };
 
 }  // namespace blocklift::dynamics

@@ -4,7 +4,7 @@
 
 namespace blocklift::dynamics {
 
-static_assert(HullClusters::most_points <= static_cast<int>(WaveField::most_points));
+static_assert(TriangleTree::most_points <= static_cast<int>(WaveField::most_points));
 
 HullForce::HullForce(Definition definition) : definition_(std::move(definition)) {
   if (!definition_.hull || !definition_.sea) {
@@ -16,73 +16,102 @@ HullForce::HullForce(Definition definition) : definition_(std::move(definition))
   }
   const Water& water = definition_.sea->water();
   rho_g_ = water.density * water.gravity;
+  if (!in_waves()) return;
+  boxes_ = std::make_shared<const PressureBoxes>(definition_.hull->panels(), definition_.sea->waves,
+                                                 box_tolerance);
 }
 
 namespace {
 
-// A corner of a wetted triangle: place from Bo in W, and pressure over rho g there.
-struct WetPoint {
-  Vector3 r_W;
-  double head;
-};
+using Values = std::array<double, WaveField::most_points>;
 
-// Pressure linear over the triangle: int p dA n and int r x n p dA.
-void add_triangle(const WetPoint& a, const WetPoint& b, const WetPoint& c, ForceVector& F) {
-  const Vector3 n = 0.5 * (b.r_W - a.r_W).cross(c.r_W - a.r_W);
-  const double sum = a.head + b.head + c.head;
-  F.force -= sum / 3.0 * n;
-  const Vector3 arm = (a.head + sum) * a.r_W + (b.head + sum) * b.r_W + (c.head + sum) * c.r_W;
-  F.moment -= (arm / 12.0).cross(n);
-}
-
-// The place on the edge from a to b where the height above the water, ha and hb, is zero.
-WetPoint at_surface(const WetPoint& a, double ha, const WetPoint& b, double hb) {
-  return {a.r_W + ha / (ha - hb) * (b.r_W - a.r_W), 0.0};
-}
-
-void add_wet_part(const std::array<WetPoint, 3>& p, const std::array<double, 3>& h,
-                  ForceVector& F) {
-  const int wet = (h[0] < 0.0 ? 1 : 0) + (h[1] < 0.0 ? 1 : 0) + (h[2] < 0.0 ? 1 : 0);
-  if (wet == 0) return;
-  if (wet == 3) {
-    add_triangle(p[0], p[1], p[2], F);
-    return;
+// Places of points of the body in the world.
+void locate(const Pose& X_WB, std::span<const Vector3> points_B, double* x, double* y, double* z) {
+  for (std::size_t i = 0; i < points_B.size(); ++i) {
+    const Vector3 place = X_WB.apply(points_B[i]);
+    x[i] = place.x();
+    y[i] = place.y();
+    z[i] = place.z();
   }
+}
+
+// The wetted part of a triangle of the given area that the surface cuts, h being the heights of its
+// corners p above the water and q the pressure over rho g there, which is linear from the wet ones to zero
+// at the surface: int q dA n and int p x n q dA.
+void add_cut(const std::array<const Vector3*, 3>& p, const std::array<double, 3>& h,
+             const std::array<double, 3>& q, int wet, const Vector3& area, ForceVector& F) {
+  // The corner that is alone on its side comes first; the order round the triangle is kept.
   std::size_t i = 0;
   while ((h[i] < 0.0) != (wet == 1)) ++i;
   const std::size_t j = (i + 1) % 3;
   const std::size_t k = (i + 2) % 3;
-  const WetPoint ij = at_surface(p[i], h[i], p[j], h[j]);
-  const WetPoint ik = at_surface(p[i], h[i], p[k], h[k]);
+  const double to_j = h[i] / (h[i] - h[j]);
+  const double to_k = h[i] / (h[i] - h[k]);
+  const Vector3 ij = *p[i] + to_j * (*p[j] - *p[i]);
+  const Vector3 ik = *p[i] + to_k * (*p[k] - *p[i]);
+  double sum;   // of q over the corners of each wet piece, times its share of the area
+  Vector3 arm;  // 12 int p q dA over the area
   if (wet == 1) {
-    add_triangle(p[i], ij, ik, F);
+    const double share = to_j * to_k;
+    sum = share * q[i];
+    arm = sum * (2.0 * *p[i] + ij + ik);
   } else {
-    add_triangle(ij, p[j], p[k], F);
-    add_triangle(ij, p[k], ik, F);
+    // The triangles (ij, j, k) and (ij, k, ik).
+    const double share = 1.0 - to_j, rest = to_j * (1.0 - to_k);
+    const double both = share * (q[j] + q[k]), upper = rest * q[k];
+    sum = both + upper;
+    arm = both * (ij + *p[j] + *p[k]) + share * (q[j] * *p[j] + q[k] * *p[k]) +
+          upper * (ij + 2.0 * *p[k] + ik);
   }
+  F.force -= sum / 3.0 * area;
+  F.moment -= (arm / 12.0).cross(area);
 }
 
 }  // namespace
 
-void HullForce::add_leaf(double time, const Pose& X_WB, const HullClusters::Node& leaf,
+void HullForce::add_leaf(double time, const Pose& X_WB, const TriangleTree::Node& leaf,
                          ForceVector& F) const {
-  std::array<Vector3, HullClusters::most_points> place;
-  std::array<WetPoint, HullClusters::most_points> wet;
-  std::array<double, HullClusters::most_points> elevation, head, height;
-  const std::span<const Vector3> points = definition_.hull->points(leaf);
+  const TriangleTree& tree = definition_.hull->panels();
+  const std::span<const Vector3> points = tree.points(leaf);
   const std::size_t count = points.size();
+  Values x, y, z, height, head;
+  locate(X_WB, points, x.data(), y.data(), z.data());
+  definition_.sea->waves.calc_surface(time, count, x.data(), y.data(), z.data(), height.data(),
+                                      head.data());
   for (std::size_t i = 0; i < count; ++i) {
-    wet[i].r_W = X_WB.R * points[i];
-    place[i] = X_WB.p + wet[i].r_W;
+    height[i] = z[i] - height[i];
+    head[i] -= z[i];
   }
-  definition_.sea->waves.calc_surface(time, {place.data(), count}, elevation, head);
-  for (std::size_t i = 0; i < count; ++i) {
-    height[i] = place[i].z() - elevation[i];
-    wet[i].head = head[i] - place[i].z();
+  for (const TriangleTree::Triangle& triangle : tree.triangles(leaf)) {
+    const auto [a, b, c] = triangle.corners;
+    const int wet =
+        (height[a] < 0.0 ? 1 : 0) + (height[b] < 0.0 ? 1 : 0) + (height[c] < 0.0 ? 1 : 0);
+    if (wet == 0) continue;
+    if (wet < 3) {
+      add_cut({&points[a], &points[b], &points[c]}, {height[a], height[b], height[c]},
+              {head[a], head[b], head[c]}, wet, triangle.area, F);
+      continue;
+    }
+    const double sum = head[a] + head[b] + head[c];
+    const Vector3 arm =
+        (head[a] + sum) * points[a] + (head[b] + sum) * points[b] + (head[c] + sum) * points[c];
+    F.force -= sum / 3.0 * triangle.area;
+    F.moment -= (arm / 12.0).cross(triangle.area);
   }
-  for (const HullClusters::Triangle& t : definition_.hull->triangles(leaf)) {
-    add_wet_part({wet[t[0]], wet[t[1]], wet[t[2]]}, {height[t[0]], height[t[1]], height[t[2]]}, F);
-  }
+}
+
+void HullForce::add_box(double time, const Pose& X_WB, int box, ForceVector& F) const {
+  const std::span<const Vector3> points = boxes_->points(box);
+  const std::size_t count = points.size();
+  Values x, y, z, elevation, head;
+  locate(X_WB, points, x.data(), y.data(), z.data());
+  definition_.sea->waves.calc_surface(time, count, x.data(), y.data(), z.data(), elevation.data(),
+                                      head.data());
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+  const std::span<const PressureBoxes::Weight> weights = boxes_->weights(box);
+  for (std::size_t i = 0; i < count; ++i) sum += (head[i] - z[i]) * weights[i];
+  F.moment += sum.head<3>();
+  F.force += sum.tail<3>();
 }
 
 ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const {
@@ -90,14 +119,18 @@ ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const 
   const double crest = waves.highest_elevation() * waves.ramp().factor(time);
   const Vector3 up = X_WB.R.row(2);
   const Vector3 magnitude = up.cwiseAbs();
-  ForceVector F = ForceVector::zero();
-  definition_.hull->visit(
-      [&](const HullClusters::Node& node, int /*index*/) {
-        const double lowest = X_WB.p.z() + up.dot(node.centre) - magnitude.dot(node.half_extent);
-        return lowest < crest;
+  ForceVector F_B = ForceVector::zero();
+  definition_.hull->panels().visit(
+      [&](const TriangleTree::Node& node, int index) {
+        const double middle = X_WB.p.z() + up.dot(node.centre);
+        const double reach = magnitude.dot(node.half_extent);
+        if (middle - reach >= crest) return false;
+        if (middle + reach >= -crest || !boxes_->has(index)) return true;
+        add_box(time, X_WB, index, F_B);
+        return false;
       },
-      [&](const HullClusters::Node& leaf) { add_leaf(time, X_WB, leaf, F); });
-  return rho_g_ * F;
+      [&](const TriangleTree::Node& leaf) { add_leaf(time, X_WB, leaf, F_B); });
+  return {rho_g_ * (X_WB.R * F_B.moment), rho_g_ * (X_WB.R * F_B.force)};
 }
 
 ForceVector HullForce::calc_force(const MotionState& state) const {

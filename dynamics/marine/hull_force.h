@@ -4,9 +4,13 @@
 
 #include "dynamics/force/force_element.h"
 #include "dynamics/marine/hydrostatics.h"
+#include "dynamics/marine/pressure_boxes.h"
 #include "dynamics/marine/sea.h"
 
 namespace blocklift::dynamics {
+
+/// Of the waves' pressure, allowed in boxes of a hull that are taken whole.
+inline constexpr double box_tolerance = 2e-4;
 
 /// How incident waves act on a hull.
 enum class WaveLoading {
@@ -17,13 +21,15 @@ enum class WaveLoading {
 /// Buoyancy of a hull, and the Froude-Krylov force of the waves, on the instantaneous wetted surface.
 ///
 /// In still water: the exact force of hydrostatics.h (paper eq. 19). In waves: the surface is where
-/// the incident wave stands; over each panel its height, and the pressure
+/// the incident wave stands, and the pressure is
 ///
-///   p = rho g (p_d/(rho g) - z),   p = 0 at the surface (waves.h, Wheeler's stretching),
+///   p = rho g (p_d/(rho g) - z),   p = 0 at the surface (waves.h, Wheeler's stretching).
 ///
-/// are linear between the vertices and the points where the edges leave the water, and are
-/// integrated exactly. For a panel of size d in a wave of number k the error is of the order
-/// (k d)^2/8 of the dynamic part; the hydrostatic part is exact for the hull so cut.
+/// Near the surface its height, and p, are linear over each panel between the vertices and the points
+/// where the edges leave the water, and are integrated exactly. For a panel of size d in a wave of number
+/// k the error is of the order (k d)^2/8 of the dynamic part; the hydrostatic part is exact for the hull
+/// so cut. Boxes of panels that lie below the deepest trough are taken whole (PressureBoxes): there the
+/// hydrostatic part is exact, and p_d right to a share of `box_tolerance` however large the panels.
 /// Energy: rho g times the energy of hydrostatics.h is stored; what waves add is supplied.
 class HullForce {
  public:
@@ -58,10 +64,12 @@ class HullForce {
            !definition_.sea->waves.is_still();
   }
   ForceVector calc_force_in_waves(double time, const Pose& X_WB) const;
-  void add_leaf(double time, const Pose& X_WB, const HullClusters::Node& leaf,
-                ForceVector& F_over_rho_g) const;
+  void add_leaf(double time, const Pose& X_WB, const TriangleTree::Node& leaf,
+                ForceVector& F_B_over_rho_g) const;
+  void add_box(double time, const Pose& X_WB, int box, ForceVector& F_B_over_rho_g) const;
 
   Definition definition_;
+  std::shared_ptr<const PressureBoxes> boxes_;  ///< null in still water
   double rho_g_;
 };
 

@@ -30,24 +30,24 @@ void add_wet_part(const std::array<const Vector3*, 3>& p, const std::array<doubl
   }
 }
 
-void add_wet_part(const HullClusters& hull, const HullClusters::Node& leaf, double z0,
+void add_wet_part(const TriangleTree& tree, const TriangleTree::Node& leaf, double z0,
                   const Vector3& u, SurfaceMoments& moments) {
-  std::array<double, HullClusters::most_points> height;
-  const std::span<const Vector3> points = hull.points(leaf);
+  std::array<double, TriangleTree::most_points> height;
+  const std::span<const Vector3> points = tree.points(leaf);
   for (std::size_t i = 0; i < points.size(); ++i) height[i] = z0 + u.dot(points[i]);
-  for (const HullClusters::Triangle& t : hull.triangles(leaf)) {
-    add_wet_part({&points[t[0]], &points[t[1]], &points[t[2]]},
-                 {height[t[0]], height[t[1]], height[t[2]]}, moments);
+  for (const TriangleTree::Triangle& triangle : tree.triangles(leaf)) {
+    const auto [a, b, c] = triangle.corners;
+    add_wet_part({&points[a], &points[b], &points[c]}, {height[a], height[b], height[c]}, moments);
   }
 }
 
 // Calls `whole(index)` for each box that is under water and `cut(leaf)` for each leaf that the surface
 // cuts: z0 is the height of Bo, u the vertical in B.
 template <class Whole, class Cut>
-void visit_wetted(const HullClusters& hull, double z0, const Vector3& u, Whole&& whole, Cut&& cut) {
+void visit_wetted(const TriangleTree& tree, double z0, const Vector3& u, Whole&& whole, Cut&& cut) {
   const Vector3 magnitude = u.cwiseAbs();
-  hull.visit(
-      [&](const HullClusters::Node& node, int index) {
+  tree.visit(
+      [&](const TriangleTree::Node& node, int index) {
         const double height = z0 + u.dot(node.centre);
         const double reach = magnitude.dot(node.half_extent);
         if (height - reach >= 0.0) return false;
@@ -60,10 +60,11 @@ void visit_wetted(const HullClusters& hull, double z0, const Vector3& u, Whole&&
 
 // Moments of the wetted surface: z0 is the height of Bo, u the vertical in B.
 SurfaceMoments calc_wetted_moments(const HullClusters& hull, double z0, const Vector3& u) {
+  const TriangleTree& tree = hull.faces();
   SurfaceMoments moments = SurfaceMoments::zero();
   visit_wetted(
-      hull, z0, u, [&](int index) { moments += hull.moments(index); },
-      [&](const HullClusters::Node& leaf) { add_wet_part(hull, leaf, z0, u, moments); });
+      tree, z0, u, [&](int index) { moments += tree.moments(index); },
+      [&](const TriangleTree::Node& leaf) { add_wet_part(tree, leaf, z0, u, moments); });
   return moments;
 }
 
@@ -132,24 +133,23 @@ Buoyancy calc_buoyancy(const HullClusters& hull, const Pose& X_WB) {
 double calc_displaced_volume(const HullClusters& hull, const Pose& X_WB) {
   const double z0 = X_WB.p.z();
   const Vector3 u = X_WB.R.row(2);
+  const TriangleTree& tree = hull.faces();
   double volume = 0.0;
-  const auto add_leaf = [&](const HullClusters::Node& leaf) {
-    std::array<double, HullClusters::most_points> height;
-    const std::span<const Vector3> points = hull.points(leaf);
+  const auto add_leaf = [&](const TriangleTree::Node& leaf) {
+    std::array<double, TriangleTree::most_points> height;
+    const std::span<const Vector3> points = tree.points(leaf);
     for (std::size_t i = 0; i < points.size(); ++i) height[i] = z0 + u.dot(points[i]);
-    for (const HullClusters::Triangle& t : hull.triangles(leaf)) {
-      const std::array<double, 3> h = {height[t[0]], height[t[1]], height[t[2]]};
-      const double wet = wet_height(h);
-      if (wet == 0.0) continue;
-      const Vector3& a = points[t[0]];
-      volume += wet * 0.5 * u.dot((points[t[1]] - a).cross(points[t[2]] - a));
+    for (const TriangleTree::Triangle& triangle : tree.triangles(leaf)) {
+      const auto [a, b, c] = triangle.corners;
+      const double wet = wet_height({height[a], height[b], height[c]});
+      if (wet != 0.0) volume += wet * u.dot(triangle.area);
     }
   };
   const auto add_whole = [&](int index) {
-    const SurfaceMoments& m = hull.moments(index);
+    const SurfaceMoments& m = tree.moments(index);
     volume += z0 * u.dot(m.N) + u.dot(m.Q * u);
   };
-  visit_wetted(hull, z0, u, add_whole, add_leaf);
+  visit_wetted(tree, z0, u, add_whole, add_leaf);
   return volume;
 }
 

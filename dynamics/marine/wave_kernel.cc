@@ -83,10 +83,12 @@ constexpr double rounding = 0x1.8p52;
 
 namespace {
 
-// Phase of a component at the origin, within half a turn: the arguments of the cosine stay small
-// however long the simulation lasts.
+// Phase of a component at the origin, within half a turn where it would grow large: the arguments of the
+// cosine stay small however long the simulation lasts.
 double phase_at(const WaveTerms& waves, std::size_t c, double time) {
-  return std::remainder(waves.phase[c] - waves.omega[c] * time, 2.0 * std::numbers::pi);
+  const double phase = waves.phase[c] - waves.omega[c] * time;
+  constexpr double large = 1e5;
+  return std::abs(phase) < large ? phase : std::remainder(phase, 2.0 * std::numbers::pi);
 }
 
 }  // namespace
@@ -130,6 +132,39 @@ void add_wave_head(const WaveTerms& waves, double depth, double time, double sca
           polynomial_exponential(k * z[i]) + polynomial_exponential(-k * (z[i] + 2.0 * depth));
       sum[i] += a * decay * polynomial_cosine(kx * x[i] + ky * y[i] + phase);
     }
+  }
+}
+
+BLOCKLIFT_CLONES
+void calc_single_wave(const WaveTerms& wave, double depth, double time, double scale,
+                      std::size_t count, const double* __restrict x, const double* __restrict y,
+                      const double* __restrict z, double* __restrict elevation,
+                      double* __restrict head) {
+  const double k = wave.k[0];
+  const double kx = wave.kx[0];
+  const double ky = wave.ky[0];
+  const double phase = phase_at(wave, 0, time);
+  const double bottom = std::exp(-2.0 * k * depth);
+  const double a = scale * wave.a[0];
+  if (bottom < 1e-17) {
+    const double per_depth = 1.0 / depth;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double eta = a * polynomial_cosine(kx * x[i] + ky * y[i] + phase);
+      const double below = (z[i] - eta) / (1.0 + eta * per_depth);
+      elevation[i] = eta;
+      head[i] = eta * polynomial_exponential(k * (below < 0.0 ? below : 0.0));
+    }
+    return;
+  }
+  const double level = 1.0 / (1.0 + bottom);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double eta = a * polynomial_cosine(kx * x[i] + ky * y[i] + phase);
+    const double stretched = (z[i] - eta) / (1.0 + eta / depth);
+    const double below = stretched < 0.0 ? stretched : 0.0;
+    elevation[i] = eta;
+    head[i] =
+        eta * level *
+        (polynomial_exponential(k * below) + polynomial_exponential(-k * (below + 2.0 * depth)));
   }
 }
 

@@ -29,4 +29,10 @@ void add_wave_head(const WaveTerms& waves, double depth, double time, double sca
                    std::size_t count, const double* x, const double* y, const double* z,
                    double* sum);
 
+/// Both at once, of a sea of one component, at heights z before stretching: its cosine serves both.
+/// Overwrites elevation and head.
+void calc_single_wave(const WaveTerms& wave, double depth, double time, double scale,
+                      std::size_t count, const double* x, const double* y, const double* z,
+                      double* elevation, double* head);
+
 }  // namespace blocklift::dynamics

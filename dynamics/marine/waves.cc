@@ -165,18 +165,26 @@ void WaveField::calc_surface(double time, std::span<const Vector3> points_W,
   for (std::size_t i = 0; i < count; ++i) {
     x[i] = points_W[i].x();
     y[i] = points_W[i].y();
-    elevation[i] = 0.0;
-    dynamic_head[i] = 0.0;
+    z[i] = points_W[i].z();
   }
+  calc_surface(time, count, x.data(), y.data(), z.data(), elevation.data(), dynamic_head.data());
+}
+
+void WaveField::calc_surface(double time, std::size_t count, const double* x, const double* y,
+                             const double* z, double* elevation, double* dynamic_head) const {
+  std::fill_n(elevation, count, 0.0);
+  std::fill_n(dynamic_head, count, 0.0);
   const WaveTerms terms = {amplitude_.size(), amplitude_.data(), k_.data(),    kx_.data(),
                            ky_.data(),        omega_.data(),     phase_.data()};
   const double ramp = ramp_.factor(time);
-  add_wave_elevation(terms, time, ramp, count, x.data(), y.data(), elevation.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    z[i] = stretched(points_W[i].z(), elevation[i], water_.depth);
+  if (terms.count == 1) {
+    calc_single_wave(terms, water_.depth, time, ramp, count, x, y, z, elevation, dynamic_head);
+    return;
   }
-  add_wave_head(terms, water_.depth, time, ramp, count, x.data(), y.data(), z.data(),
-                dynamic_head.data());
+  std::array<double, most_points> below;
+  add_wave_elevation(terms, time, ramp, count, x, y, elevation);
+  for (std::size_t i = 0; i < count; ++i) below[i] = stretched(z[i], elevation[i], water_.depth);
+  add_wave_head(terms, water_.depth, time, ramp, count, x, y, below.data(), dynamic_head);
 }
 
 double WaveField::significant_height() const {

@@ -80,6 +80,9 @@ class WaveField {
   static constexpr std::size_t most_points = 72;
   void calc_surface(double time, std::span<const Vector3> points_W, std::span<double> elevation,
                     std::span<double> dynamic_head) const;
+  /// The same of `count` points by their coordinates.
+  void calc_surface(double time, std::size_t count, const double* x, const double* y,
+                    const double* z, double* elevation, double* dynamic_head) const;
 
   /// No elevation is ever higher: sum of the amplitudes, m.
   double highest_elevation() const { return amplitude_sum_; }

@@ -158,7 +158,7 @@ void add_memory_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
 
 }  // namespace
 
-void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w) {
+void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, LiftWorkspace& w) {
   compute_kinematics(system.mechanism(), w.q, w.v, w.kinematics);
   w.loads.set_zero();
   const std::vector<Rope>& ropes = system.ropes();
@@ -181,6 +181,10 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
                     : supports[i].calc_load(w.kinematics);
     supports[i].add_force(w.kinematics, load, w.loads);
   }
+}
+
+void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w) {
+  calc_contact_loads(system, contacts, w);
   const MotionState state{t, w.q, w.v, w.kinematics};
   for_each_element(system.elements(),
                    [&](const auto& element) { element.add_forces(state, w.loads); });

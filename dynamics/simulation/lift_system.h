@@ -182,6 +182,10 @@ void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w);
 /// Free coordinates and velocities of whole vectors q and v into a state; its memory stays as it is.
 void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, VectorRef y);
 
+/// Kinematics of the workspace's q, v and feeds, and the loads of ropes, elastic bodies and pads alone: all
+/// that calc_contact_indicators asks for. `contacts` as below.
+void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, LiftWorkspace& w);
+
 /// Kinematics and loads of the workspace's q, v and feeds. `contacts`: which one-sided elements
 /// act; null: each as its own law says.
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w);
@@ -194,7 +198,8 @@ void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
                           const Contacts* contacts, LiftWorkspace& w, VectorRef ydot);
 
 /// For each one-sided element a value (kN) that is positive where it acts and negative where it does
-/// not, continuous between, of the instant that calc_loads has just evaluated. Size contact_count.
+/// not, continuous between, of the instant that calc_loads or calc_contact_loads has just evaluated. Size
+/// contact_count.
 void calc_contact_indicators(const LiftWorkspace& w, VectorRef indicators);
 
 /// Which one-sided elements act at a state. One that is just at the change is judged by where it

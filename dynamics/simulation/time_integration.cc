@@ -241,7 +241,7 @@ int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
       self.loaded_time_ = not_a_number;
       set_state(self.system_, state, self.w_);
       set_drives(self.system_, self.within_interval(t), true, self.w_);
-      calc_loads(self.system_, self.within_interval(t), &self.contacts_, self.w_);
+      calc_contact_loads(self.system_, &self.contacts_, self.w_);
     }
     calc_contact_indicators(self.w_, self.indicators_);
     Eigen::Map<Eigen::VectorXd>(g, self.system_.contact_count()) = self.indicators_;
