@@ -80,25 +80,79 @@ double largest_error(const ScaledSamples& samples, const MatrixXd& A, const Matr
 
 }  // namespace
 
+namespace {
+
+/// Coupling of two modes, over their peaks, that counts as none.
+constexpr double no_coupling = 1e-3;
+
+/// Columns (u_1 + S u_2)/sqrt 2 and (u_1 - S u_2)/sqrt 2 of two bodies that are each other's mirror image
+/// in a plane x or y = constant, or turned by half a turn, S being the signs that their modes take by it:
+/// what both do alike does not couple with what they do against each other. Else the identity.
+MatrixXd pair_mirrored_bodies(const std::vector<MatrixXd>& K) {
+  const Eigen::Index modes = K[0].rows(), n = modes_per_body;
+  if (modes != 2 * n) return MatrixXd::Identity(modes, modes);
+  using Signs = Eigen::Matrix<double, modes_per_body, 1>;
+  const Signs in_x{-1, 1, 1, 1, -1, -1}, in_y{1, -1, 1, -1, 1, -1};
+  for (const Signs& signs : {in_x, in_y, Signs(in_x.cwiseProduct(in_y))}) {
+    const auto S = signs.asDiagonal();
+    const bool mirrored = std::all_of(K.begin(), K.end(), [&](const MatrixXd& k) {
+      const MatrixXd own = k.topLeftCorner(n, n) - S * k.bottomRightCorner(n, n) * S;
+      const MatrixXd other = k.topRightCorner(n, n) - S * k.bottomLeftCorner(n, n) * S;
+      return own.cwiseAbs().maxCoeff() < no_coupling && other.cwiseAbs().maxCoeff() < no_coupling;
+    });
+    if (!mirrored) continue;
+    MatrixXd pairs(modes, modes);
+    const MatrixXd one = MatrixXd::Identity(n, n), image = S;
+    pairs << one, one, image, -image;
+    return pairs / std::sqrt(2.0);
+  }
+  return MatrixXd::Identity(modes, modes);
+}
+
+/// Orthonormal combinations of modes in groups that do not couple: a matrix (modes x members) for each.
+std::vector<MatrixXd> find_groups(const std::vector<MatrixXd>& K) {
+  const MatrixXd pairs = pair_mirrored_bodies(K);
+  const Eigen::Index modes = pairs.rows();
+  MatrixXd coupling = MatrixXd::Zero(modes, modes);
+  for (const MatrixXd& k : K) {
+    coupling = coupling.cwiseMax((pairs.transpose() * k * pairs).cwiseAbs());
+  }
+  std::vector<Eigen::Index> group(static_cast<std::size_t>(modes), -1);
+  std::vector<MatrixXd> groups;
+  for (Eigen::Index first = 0; first < modes; ++first) {
+    if (group[static_cast<std::size_t>(first)] >= 0) continue;
+    std::vector<Eigen::Index> members = {first};
+    group[static_cast<std::size_t>(first)] = first;
+    for (std::size_t next = 0; next < members.size(); ++next) {
+      for (Eigen::Index other = 0; other < modes; ++other) {
+        Eigen::Index& of_other = group[static_cast<std::size_t>(other)];
+        if (of_other >= 0 || coupling(members[next], other) < no_coupling) continue;
+        of_other = first;
+        members.push_back(other);
+      }
+    }
+    groups.emplace_back(pairs(Eigen::all, members));
+  }
+  return groups;
+}
+
+/// x' = A x + B v, F = C x; A block-diagonal.
+struct System {
+  MatrixXd A, B, C;
+};
+
 /// Balanced discrete-time system of the leading states, all that the Hankel matrix gives.
-struct MemoryStateSpace::Realisation {
+struct Realisation {
   MatrixXd advance;  ///< V^T H1 V, before scaling
   MatrixXd vectors;  ///< leading eigenvectors, columns by falling size of their eigenvalues
   VectorXd values;   ///< eigenvalues
   Eigen::Index modes = 0;
+  double step = 0.0;  ///< s
 };
 
-MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double tolerance,
-                                   int most_states) {
-  if (database.retardation.size() < 16) {
-    throw ModelError(
-        "a state space needs retardation functions at 16 instants at least; the "
-        "database holds " +
-        std::to_string(database.retardation.size()));
-  }
-  const ScaledSamples samples = scale_samples(database);
-  const Eigen::Index modes = samples.scale.size();
-  const auto count = static_cast<Eigen::Index>(samples.K.size());
+Realisation realise(const std::vector<MatrixXd>& K, double time_step, int most_states) {
+  const Eigen::Index modes = K[0].rows();
+  const auto count = static_cast<Eigen::Index>(K.size());
   // Every stride-th sample. K is taken as zero behind its end: with all of it in the matrix the leading
   // states of a finite response form a stable system, however few are taken (Kung 1978).
   const Eigen::Index stride =
@@ -106,7 +160,7 @@ MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double 
   const Eigen::Index rows = (count + stride - 1) / stride;
   const MatrixXd nothing = MatrixXd::Zero(modes, modes);
   const auto sample = [&](Eigen::Index k) -> const MatrixXd& {
-    return k * stride < count ? samples.K[static_cast<std::size_t>(k * stride)] : nothing;
+    return k * stride < count ? K[static_cast<std::size_t>(k * stride)] : nothing;
   };
   MatrixXd hankel(rows * modes, rows * modes), shifted = hankel;
   for (Eigen::Index i = 0; i < rows; ++i) {
@@ -123,34 +177,21 @@ MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double 
     return std::abs(values[a]) > std::abs(values[b]);
   });
   order.resize(std::min(order.size(), static_cast<std::size_t>(most_states)));
+  // States that rounding alone makes are none.
+  while (!(std::abs(values[order.back()]) > 1e-13 * std::abs(values[order.front()]))) {
+    order.pop_back();
+  }
   Realisation realisation;
   realisation.modes = modes;
+  realisation.step = time_step * static_cast<double>(stride);
   realisation.vectors = eigen.eigenvectors()(Eigen::all, order);
   realisation.values = values(order);
   realisation.advance = realisation.vectors.transpose() * shifted * realisation.vectors;
-
-  const double step = samples.step * static_cast<double>(stride);
-  const VectorXd unscaled = VectorXd::Ones(modes);
-  double best = std::numeric_limits<double>::infinity();
-  const auto most = static_cast<Eigen::Index>(order.size());
-  for (Eigen::Index states = 2; states <= most; states += std::max<Eigen::Index>(1, states / 8)) {
-    take_modal_form(realisation, states, step, unscaled);
-    const double error = largest_error(samples, A_, B_, C_);
-    best = std::min(best, error);
-    if (!(error <= tolerance)) continue;
-    error_ = error;
-    C_ = (samples.scale.asDiagonal() * C_).eval();
-    B_ = (B_ * samples.scale.asDiagonal()).eval();
-    return;
-  }
-  throw ModelError("no state space of up to " + std::to_string(most_states) +
-                   " states meets the tolerance " + std::to_string(tolerance) +
-                   " of the retardation functions; the best came to " + std::to_string(best));
+  return realisation;
 }
 
 /// Continuous-time system of the leading states in real modal form.
-void MemoryStateSpace::take_modal_form(const Realisation& realisation, Eigen::Index states,
-                                       double step, const VectorXd& scale) {
+System take_modal_form(const Realisation& realisation, Eigen::Index states) {
   const Eigen::Index modes = realisation.modes;
   // H0 = V D V^T = (V |D|^1/2) (sign |D|^1/2 V^T): observability times controllability.
   const VectorXd root = realisation.values.head(states).cwiseAbs().cwiseSqrt();
@@ -160,9 +201,8 @@ void MemoryStateSpace::take_modal_form(const Realisation& realisation, Eigen::In
                             realisation.advance.topLeftCorner(states, states) *
                             (inverse.array() * sign.array()).matrix().asDiagonal();
   const MatrixXd first = realisation.vectors.topLeftCorner(modes, states);
-  const MatrixXd output = scale.asDiagonal() * first * root.asDiagonal();
-  const MatrixXd input =
-      (sign.array() * root.array()).matrix().asDiagonal() * first.transpose() * scale.asDiagonal();
+  const MatrixXd output = first * root.asDiagonal();
+  const MatrixXd input = (sign.array() * root.array()).matrix().asDiagonal() * first.transpose();
 
   const Eigen::EigenSolver<MatrixXd> eigen(discrete);
   const MatrixXcd vectors = eigen.eigenvectors();
@@ -178,29 +218,91 @@ void MemoryStateSpace::take_modal_form(const Realisation& realisation, Eigen::In
     kept.push_back(k);
     size += pole.imag() > 0.0 ? 2 : 1;
   }
-  A_ = MatrixXd::Zero(size, size);
-  B_ = MatrixXd::Zero(size, modes);
-  C_ = MatrixXd::Zero(modes, size);
+  System system{MatrixXd::Zero(size, size), MatrixXd::Zero(size, modes),
+                MatrixXd::Zero(modes, size)};
   Eigen::Index row = 0;
   for (const Eigen::Index k : kept) {
-    const Complex rate = std::log(eigen.eigenvalues()[k]) / step;
+    const Complex rate = std::log(eigen.eigenvalues()[k]) / realisation.step;
     if (rate.imag() == 0.0) {
-      A_(row, row) = rate.real();
-      B_.row(row) = modal_input.row(k).real();
-      C_.col(row) = modal_output.col(k).real();
+      system.A(row, row) = rate.real();
+      system.B.row(row) = modal_input.row(k).real();
+      system.C.col(row) = modal_output.col(k).real();
       ++row;
       continue;
     }
     // c z + conj(c z) with z' = rate z + b v, z = x1 - i x2... in real numbers: x = (Re z, -Im z).
-    A_.block<2, 2>(row, row) << rate.real(), rate.imag(), -rate.imag(), rate.real();
-    B_.row(row) = modal_input.row(k).real();
-    B_.row(row + 1) = -modal_input.row(k).imag();
-    C_.col(row) = 2.0 * modal_output.col(k).real();
-    C_.col(row + 1) = 2.0 * modal_output.col(k).imag();
+    system.A.block<2, 2>(row, row) << rate.real(), rate.imag(), -rate.imag(), rate.real();
+    system.B.row(row) = modal_input.row(k).real();
+    system.B.row(row + 1) = -modal_input.row(k).imag();
+    system.C.col(row) = 2.0 * modal_output.col(k).real();
+    system.C.col(row + 1) = 2.0 * modal_output.col(k).imag();
     row += 2;
   }
+  return system;
 }
 
+/// The least system that meets the tolerance; where none does, the best with its error.
+System fit(const ScaledSamples& samples, double tolerance, int most_states) {
+  const Eigen::Index modes = samples.K[0].rows();
+  System best{{}, MatrixXd::Zero(0, modes), MatrixXd::Zero(modes, 0)};
+  // What is hardly there needs no state.
+  if (largest_error(samples, best.A, best.B, best.C) <= tolerance) return best;
+  const Realisation realisation = realise(samples.K, samples.step, most_states);
+  const Eigen::Index most = realisation.values.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index states = 2; states <= most; states += std::max<Eigen::Index>(1, states / 8)) {
+    System system = take_modal_form(realisation, states);
+    const double error = largest_error(samples, system.A, system.B, system.C);
+    if (error < least) {
+      least = error;
+      best = std::move(system);
+    }
+    if (least <= tolerance) break;
+  }
+  return best;
+}
+
+/// One more of the groups joins those before it, its modes given by `group`.
+void append(System& all, const System& part, const MatrixXd& group) {
+  const Eigen::Index before = all.A.rows(), size = part.A.rows();
+  all.A.conservativeResizeLike(MatrixXd::Zero(before + size, before + size));
+  all.A.bottomRightCorner(size, size) = part.A;
+  all.B.conservativeResize(before + size, group.rows());
+  all.B.bottomRows(size) = part.B * group.transpose();
+  all.C.conservativeResize(group.rows(), before + size);
+  all.C.rightCols(size) = group * part.C;
+}
+
+}  // namespace
+
+MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double tolerance,
+                                   int most_states) {
+  if (database.retardation.size() < 16) {
+    throw ModelError(
+        "a state space needs retardation functions at 16 instants at least; the "
+        "database holds " +
+        std::to_string(database.retardation.size()));
+  }
+  const ScaledSamples samples = scale_samples(database);
+  System all;
+  // Beside the small couplings between groups, which are left out.
+  const double within = std::max(0.5 * tolerance, tolerance - no_coupling);
+  for (const MatrixXd& group : find_groups(samples.K)) {
+    ScaledSamples own{{}, {}, samples.step};
+    for (const MatrixXd& K : samples.K) own.K.emplace_back(group.transpose() * K * group);
+    append(all, fit(own, within, most_states), group);
+  }
+  error_ = largest_error(samples, all.A, all.B, all.C);
+  if (!(error_ <= tolerance) || all.A.rows() > most_states) {
+    throw ModelError("no state space of up to " + std::to_string(most_states) +
+                     " states meets the tolerance " + std::to_string(tolerance) +
+                     " of the retardation functions; " + std::to_string(all.A.rows()) +
+                     " came to " + std::to_string(error_));
+  }
+  A_ = std::move(all.A);
+  C_ = samples.scale.asDiagonal() * all.C;
+  B_ = all.B * samples.scale.asDiagonal();
+}
 MatrixXd MemoryStateSpace::calc_retardation(double time) const {
   MatrixXd state = B_;
   for (Eigen::Index i = 0; i < A_.rows(); ++i) {

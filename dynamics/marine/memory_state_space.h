@@ -9,10 +9,11 @@ namespace blocklift::dynamics {
 ///   x' = A x + B v,   F = -C x,      K(t) = C exp(A t) B,
 ///
 /// an ordinary differential equation that any integrator takes with any step. The poles are common to
-/// all modes; each real pole has one state and each complex pair two, A being block-diagonal. All
+/// all modes that couple; each real pole has one state and each complex pair two, A being block-diagonal. All
 /// poles decay. Found from the samples of K by the eigensystem realisation algorithm: the block Hankel
-/// matrix of K(i + j) is symmetric, its leading eigenvectors are the states. The number of states is
-/// the least that meets the tolerance.
+/// matrix of K(i + j) is symmetric, its leading eigenvectors are the states. Modes that do not couple, to
+/// a thousandth of their peaks, are fitted apart, and so are two bodies that mirror each other, by what
+/// they do alike and against each other. The number of states is the least that meets the tolerance.
 /// Sources: Kung (1978); Kristiansen, Hjulstad and Egeland (2005), Ocean Engineering 32, for Cummins'
 /// equation.
 class MemoryStateSpace {
@@ -41,10 +42,6 @@ class MemoryStateSpace {
   void calc_force(const Eigen::VectorXd& x, Eigen::VectorXd& force) const;
 
  private:
-  struct Realisation;
-  void take_modal_form(const Realisation& realisation, Eigen::Index states, double step,
-                       const Eigen::VectorXd& scale);
-
   Eigen::MatrixXd A_, B_, C_;
   double error_ = not_a_number;
 };

@@ -16,8 +16,8 @@ using dynamics::Pose;
 
 constexpr int heading_count = 72;  // every 5 degrees
 // Errors of the fitted memory over its peak, and the states that may be spent on them.
-constexpr double close_fit = 0.02, loose_fit = 0.1;
-constexpr int states_of_close_fit = 160, states_of_loose_fit = 400;
+constexpr double close_fit = 0.005, loose_fit = 0.1;
+constexpr int states_of_close_fit = 400, states_of_loose_fit = 600;
 
 dynamics::Water water_of(const SeaInCase& sea, double gravity) {
   dynamics::Water water;

@@ -117,6 +117,51 @@ TEST(MemoryStateSpace, ForceAgreesWithTheConvolution) {
   EXPECT_NEAR(force[0], reference[0], 5e-3);
 }
 
+/// Two bodies that mirror each other in x = 0: surge couples with pitch, heave stands alone, and each body
+/// feels what the other does a while ago.
+HydrodynamicDatabase mirrored_pair() {
+  Eigen::Matrix<double, 6, 1> signs;
+  signs << -1, 1, 1, 1, -1, -1;
+  const auto S = signs.asDiagonal();
+  HydrodynamicDatabase database;
+  database.time_step = 0.25;
+  for (int n = 0; n < 160; ++n) {
+    const double t = 0.25 * n;
+    const double a = std::exp(-0.5 * t) * std::cos(t), b = std::exp(-0.3 * t) * std::cos(0.7 * t);
+    Eigen::Matrix<double, 6, 6> own = Eigen::Matrix<double, 6, 6>::Zero();
+    own(0, 0) = 10 * a;
+    own(0, 4) = own(4, 0) = 20 * a;
+    own(4, 4) = 60 * a + 30 * b;
+    own(2, 2) = 5 * b;
+    const Eigen::Matrix<double, 6, 6> other =
+        0.4 * std::exp(-0.2 * t) * std::sin(1.3 * t) / (1.0 + own.norm()) * own;
+    Eigen::MatrixXd K(12, 12);
+    K << own, other * S, S * other, S * own * S;
+    database.retardation.push_back(K);
+  }
+  return database;
+}
+
+// What does not couple is fitted apart, so that it stays apart; and the pair keeps its mirror image.
+TEST(MemoryStateSpace, FitsMirroredBodiesByWhatTheyDoAlike) {
+  const HydrodynamicDatabase database = mirrored_pair();
+  const MemoryStateSpace memory(database, 0.005);
+  EXPECT_LE(memory.error(), 0.005);
+  for (const std::size_t n : {0U, 9U, 40U}) {
+    const Eigen::MatrixXd K = memory.calc_retardation(0.25 * static_cast<double>(n));
+    EXPECT_NEAR(K(0, 0), database.retardation[n](0, 0), 0.005 * 10);
+    EXPECT_NEAR(K(0, 0), K(6, 6), 1e-9);
+    EXPECT_NEAR(K(0, 4), K(6, 10), 1e-9);
+    EXPECT_EQ(K(0, 2), 0);
+    EXPECT_EQ(K(2, 10), 0);
+  }
+  // No damping is left at rest that the retardation functions do not have: int K dt.
+  Eigen::MatrixXd integral = 0.5 * database.retardation[0];
+  for (std::size_t n = 1; n < database.retardation.size(); ++n) integral += database.retardation[n];
+  const Eigen::MatrixXd fitted = -memory.C() * memory.A().partialPivLu().solve(memory.B());
+  EXPECT_NEAR(fitted(0, 0), 0.25 * integral(0, 0), 0.01 * 10);
+}
+
 TEST(MemoryStateSpace, SaysWhatItCannotReach) {
   EXPECT_THAT([] { MemoryStateSpace(analytic_memory(0.1, 10.0), 1e-9, 4); },
               ThrowsMessage<ModelError>(HasSubstr("no state space of up to 4 states")));
