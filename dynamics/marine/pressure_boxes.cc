@@ -102,7 +102,9 @@ PressureBoxes::PressureBoxes(const TriangleTree& tree, const WaveField& waves, d
 void PressureBoxes::add_box(const TriangleTree& tree, int node, const Grid& grid) {
   static const std::array<TrianglePoint, 7> rule = radon_points();
   const TriangleTree::Node& box = tree.node(node);
-  const auto& [sx, sy, sz] = grid.sides;
+  const Side& sx = grid.sides[0];
+  const Side& sy = grid.sides[1];
+  const Side& sz = grid.sides[2];
   const std::size_t first = points_.size();
   first_[static_cast<std::size_t>(node)] = first;
   count_[static_cast<std::size_t>(node)] = grid.size();
