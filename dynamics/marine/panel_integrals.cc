@@ -101,7 +101,8 @@ template <std::size_t count>
 }
 
 /// Angle (rad) of the point (x, y) without branches: an octant's arctangent with the argument
-/// reduced to |t| <= tan(pi/8); polynomial as above, relative error 4e-17.
+/// reduced to |t| <= tan(pi/8); polynomial as above, relative error 4e-17. At the origin, where a rectangle's
+/// centroid lies exactly on its diagonal, any angle would do: zero.
 [[gnu::always_inline]] inline double angle_of(double y, double x) {
   constexpr std::array<double, 11> arctangent = {
       1.0,
@@ -123,7 +124,8 @@ template <std::size_t count>
   const bool reduced = smaller > tangent_of_eighth * larger;
   const double numerator = reduced ? smaller - larger : smaller;
   const double denominator = reduced ? smaller + larger : larger;
-  const double t = numerator / denominator;
+  constexpr double least = 1e-300;
+  const double t = numerator / (denominator + least);
   double angle = t * polynomial(arctangent, t * t);
   angle = reduced ? angle + std::numbers::pi / 4 : angle;
   angle = abs_y > abs_x ? std::numbers::pi / 2 - angle : angle;

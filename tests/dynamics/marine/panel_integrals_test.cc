@@ -34,6 +34,21 @@ TEST(PanelIntegrals, AgreeWithQuadrature) {
   }
 }
 
+// A rectangle whose numbers are exact: its centroid lies on its diagonal to the last digit, where the solid
+// angle of either half has no direction. Seen from there: 2 a arsinh(b/a) + 2 b arsinh(a/b).
+TEST(PanelIntegrals, ExactRectangleFromItsCentroid) {
+  const Panel side = make_panel(
+      std::array{Vector3(0, 10, -2), Vector3(0, 10, 0), Vector3(2.5, 10, 0), Vector3(2.5, 10, -2)});
+  const double a = 2.5, b = 2;
+  const double exact = 2 * a * std::asinh(b / a) + 2 * b * std::asinh(a / b);
+  EXPECT_NEAR(calc_panel_potentials(side, side.centroid).source, exact, 1e-12 * exact);
+  const PointColumns points(PanelMesh{{side}, {}});
+  double source = 0, dipole = 0;
+  add_panel_potentials(side, points, PanelIntegral::both, 1.0, &source, &dipole);
+  EXPECT_NEAR(source, exact, 1e-12 * exact);
+  EXPECT_TRUE(std::isfinite(dipole));
+}
+
 // Unit square, seen from its centre: 4 arsinh 1. From a height h above it: 4 arctan(1/(4 h sqrt(h^2
 // + 1/2))) sr.
 TEST(PanelIntegrals, UnitSquareByHand) {
