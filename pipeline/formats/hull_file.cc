@@ -8,26 +8,10 @@
 #include <gmsh.h>
 
 #include "dynamics/errors.h"
+#include "structure/mesh/gmsh_session.h"
 
 namespace blocklift::pipeline {
 namespace {
-
-// Gmsh keeps one global session; this opens it for a scope, quietly.
-class GmshSession {
- public:
-  GmshSession() {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-  }
-  ~GmshSession() {
-    try {
-      gmsh::finalize();
-    } catch (...) {  // a destructor must not throw; the session is lost anyhow
-    }
-  }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-};
 
 // The panels of all surfaces in the session.
 dynamics::Hull collect_panels(const std::string& name) {
@@ -67,7 +51,7 @@ dynamics::Hull collect_panels(const std::string& name) {
 
 dynamics::Hull read_by_gmsh(const std::filesystem::path& path, bool is_geometry,
                             const HullReading& reading) {
-  const GmshSession session;
+  const structure::GmshSession session;
   try {
     gmsh::open(path.string());
     if (is_geometry) {

@@ -51,6 +51,7 @@ struct PartMesh {
   std::vector<int> element_nodes;  ///< an element after another
   std::vector<int> solids;         ///< places of the elements of dimension 3
   std::vector<PartGroup> groups;
+  bool meshed_here = false;  ///< the file held a geometry
 
   const ElementKind& kind(int element) const {
     return kinds[static_cast<std::size_t>(elements[static_cast<std::size_t>(element)].kind)];

@@ -1,12 +1,33 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "structure/mesh/abaqus_file.h"
 #include "structure/mesh/part_mesh.h"
 
 namespace blocklift::structure {
+
+/// The outer faces that lie in a box become a group of faces.
+struct FaceChoice {
+  std::string name;
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< smallest and largest corner, m
+};
+
+/// The node nearest to a place becomes a group of one point; an empty one if it is farther away than a
+/// hundredth of the part's diagonal.
+struct PointChoice {
+  std::string name;
+  Vector3 at = Vector3::Zero();  ///< m
+};
+
+/// Sizes that a geometry's elements shall have, linear in each of some tetrahedra that fill the part.
+struct SizeField {
+  Eigen::Matrix3Xd places;  ///< four corners a tetrahedron, m
+  Eigen::VectorXd sizes;    ///< edges wanted there, m
+};
 
 /// How a file becomes a mesh.
 struct PartReading {
@@ -19,10 +40,13 @@ struct PartReading {
   /// Thicknesses of plates, m, by groups of surfaces: where there are any, the file holds mid-surfaces,
   /// which are thickened (see thicken).
   std::map<std::string, double> plates;
+  std::optional<SizeField> sizes;  ///< of a geometry's elements; a file's own mesh stays as it is
+  std::vector<FaceChoice> faces;
+  std::vector<PointChoice> points;
 };
 
-/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .bdf, .unv, ...), and Abaqus' .inp by
-/// read_abaqus: a mesh as it is, a geometry after meshing it.
+/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .unv, ...), Abaqus' .inp by read_abaqus and the
+/// solids of Nastran's .bdf by read_nastran: a mesh as it is, a geometry after meshing it.
 ///
 /// Groups are the physical groups by their names, or "volume group 3" and so on where they have none;
 /// besides them each geometric entity is a group of its own: "volume 1", "surface 4", "curve 2",

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -221,12 +222,16 @@ void write_calculix(const std::string& path, const PartModel& model) {
       fmt::print(file, "\n");
     }
   }
-  for (const Material& material : model.materials)
+  std::set<int> used;  // CalculiX refuses a section of no elements
+  for (const auto& [set, solids] : sets) used.insert(set.first);
+  for (const int number : used) {
+    const Material& material = model.materials[at(number)];
     fmt::print(file,
                "*MATERIAL, NAME={0}\n*ELASTIC\n{1:.12g}, {2:.12g}\n*DENSITY\n{3:.12g}\n"
                "*SOLID SECTION, ELSET={0}, MATERIAL={0}\n",
                name_of(material.name), material.youngs_modulus, material.poisson_ratio,
                material.density);
+  }
   std::vector<int> support_of;
   fmt::print(file, "*STEP\n*STATIC\n*BOUNDARY\n");
   for (const FixedUnknown& fixed : part_supports(model, support_of))

@@ -8,8 +8,8 @@
 #include "structure/elasticity/linear_solver.h"
 #include "structure/elasticity/part_model.h"
 #include "structure/mesh/padeye.h"
+#include "structure/response/padeye_stress.h"
 #include "structure/response/part_solution.h"
-#include "structure/response/stress.h"
 
 namespace blocklift::structure {
 
@@ -21,29 +21,16 @@ struct PadeyeLoad {
   Eigen::VectorXd base_displacement;
 };
 
-/// Stress of a plate of the padeye, of both cheek plates together.
-struct PadeyePlateStress {
-  Extreme checked_von_mises;  ///< Pa, in P
-  Extreme peak_von_mises;     ///< largest of any element at any of its nodes, nothing averaged, Pa
-};
-
 /// A padeye under a load.
-struct PadeyeResult {
+struct PadeyeResult : PadeyeStress {
   Eigen::VectorXd displacement;  ///< 3 a node, m
   Wrench reaction;               ///< that the base exerts, moment about the middle of the hole
   double force_residual = 0;     ///< |loads + reactions| over the sum of the loads' magnitudes
   double moment_residual = 0;    ///< likewise, over that sum times the padeye's height
-  PadeyePlateStress main_plate, cheeks;
-  Eigen::VectorXd column_von_mises;  ///< of the mean over each of PadeyeMesh::columns, Pa
 };
 
 /// A padeye meshed finely, cut from the block along its base: a sub-model that is driven by the block's
 /// displacement there, or held. Factorised once for any number of loads.
-///
-/// The checked stress is the membrane von Mises stress averaged over 50 x 50 mm (a disc of that area, or
-/// of half the hole's radius if that is less), as IACS CSR (part 1, chapter 7) has it, of each plate for
-/// itself. What is nearer to the cut than the main plate's thickness is left to the block's own stress
-/// (Saint-Venant): there the sub-model shows the coarse model's displacement, not stress.
 class PadeyeModel {
  public:
   /// @param divisions elements around the hole. @throws ModelError as make_padeye_mesh does.
@@ -64,8 +51,6 @@ class PadeyeModel {
   Eigen::VectorXd load_vector(const PadeyeLoad& load) const;
   void find_balance(const Eigen::VectorXd& load, const Eigen::VectorXd& reactions,
                     PadeyeResult& result) const;
-  void find_stress(PadeyeResult& result) const;
-  bool is_checked(int column) const;
 
   PadeyeGeometry geometry_;
   std::vector<PadeyeMesh::Column> columns_;

@@ -68,11 +68,12 @@ PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
   return stress;
 }
 
-// Averaged stress at the nodes of a solid.
-StressColumns averaged_at(const PartStress& stress, int solid, int nodes) {
+// Of columns at the points of a stress, those at the nodes of a solid.
+StressColumns at_nodes_of(int solid, int nodes, const PartStress& stress,
+                          const StressColumns& at_points) {
   StressColumns result(6, nodes);
   for (int i = 0; i < nodes; ++i)
-    result.col(i) = stress.averaged.col(stress.point_of[at(stress.first_of[at(solid)] + i)]);
+    result.col(i) = at_points.col(stress.point_of[at(stress.first_of[at(solid)] + i)]);
   return result;
 }
 
@@ -114,7 +115,7 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
 
 void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_solids,
                  PartSolution& solution) {
-  const PartError error = estimate_part_error(model, solution.stress, solution.displacement);
+  PartError error = estimate_part_error(model, solution.stress, solution.displacement);
   solution.strain_energy = error.squared_norm.sum() / 2;
   std::map<int, int> solid_of_element;
   std::vector<int> all;
@@ -133,6 +134,8 @@ void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_so
     for (const int element : group.elements) solids.push_back(solid_of_element.at(element));
     solution.groups.push_back(largest_of(model, solution, of_solids, error, group.name, solids));
   }
+  solution.squared_error = std::move(error.squared_error);
+  solution.recovered = std::move(error.recovered);
 }
 
 void find_balance(const PartModel& model, const Eigen::VectorXd& load,
@@ -265,7 +268,11 @@ PartProbe probe_part(const PartModel& model, const PartSolution& solution, const
     if (!shape->locate(places, point, 1e-6, xi)) continue;
     const Eigen::VectorXd values = shape->values(xi);
     probe.inside = true;
-    probe.stress = averaged_at(solution.stress, solid, static_cast<int>(values.size())) * values;
+    const auto nodes = static_cast<int>(values.size());
+    const PartStress& stress = solution.stress;
+    probe.stress = at_nodes_of(solid, nodes, stress, stress.averaged) * values;
+    probe.von_mises_error =
+        von_mises(at_nodes_of(solid, nodes, stress, solution.recovered) * values - probe.stress);
     for (int i = 0; i < values.size(); ++i)
       probe.displacement +=
           values[i] * solution.displacement.segment<3>(3 * model.mesh.node(element, i));

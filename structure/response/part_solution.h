@@ -78,6 +78,8 @@ struct PartSolution {
   double strain_energy = 0;               ///< J
   double estimated_error = 0;             ///< of the whole part, as for a group
   Vector3 worst_point = Vector3::Zero();  ///< centre of the solid with the largest error, m
+  Eigen::VectorXd squared_error;          ///< of each solid in the energy norm, J (see PartError)
+  Eigen::Matrix<double, 6, Eigen::Dynamic> recovered;  ///< PartError::recovered, Pa
   SolverAccount solver;
   double recovery_s = 0;  ///< wall-clock time of the stresses
 };
@@ -88,6 +90,8 @@ struct PartProbe {
   bool inside = false;              ///< false: it lies in no solid; the rest says nothing then
   Vector3 displacement = Vector3::Zero();
   Eigen::Matrix<double, 6, 1> stress = Eigen::Matrix<double, 6, 1>::Zero();  ///< averaged, Pa
+  /// Von Mises stress of the difference between averaged and recovered stress, Pa.
+  double von_mises_error = 0;
 };
 
 /// Solves a part. @throws ModelError if the supports leave a rigid motion (named), an element is

@@ -122,6 +122,25 @@ TEST_F(MeshFiles, AbaqusSetsBecomeGroups) {
   expect_group("bottom", 2, 2);
 }
 
+// Gmsh itself would end the program here.
+TEST_F(MeshFiles, ElementsWithoutTheirNodesAreNamed) {
+  const std::string mesh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+      "$EndNodes\n$Elements\n1\n17 4 2 1 1 1 2 3 ";
+  EXPECT_EQ(error_of(write("whole.msh", mesh + "4\n$EndElements\n")), "");
+  EXPECT_THAT(error_of(write("torn.msh", mesh + "9\n$EndElements\n")),
+              HasSubstr("element 17 names node 9, which does not exist"));
+}
+
+// Gmsh counts its errors beyond the end of a session, and raises no elements while there are any.
+TEST_F(MeshFiles, ErrorsOfOneFileDoNotTouchTheNext) {
+  write("wrong.msh", "$MeshFormat\n4.1 0 8\n$Nonsense\n");
+  EXPECT_NE(error_of(path("wrong.msh")), "");
+  write("upper.inc", upper_nodes);
+  const PartMesh mesh = read_part_mesh(write("bricks.inp", two_bricks), {});
+  EXPECT_EQ(mesh.kind(mesh.solids[0]).nodes, 20);
+}
+
 TEST_F(MeshFiles, AbaqusPartIsSolved) {
   write("upper.inc", upper_nodes);
   PartReading reading;
@@ -224,6 +243,70 @@ TEST_F(MeshFiles, NastranIsRead) {
   PartMesh mesh = read_part_mesh(path("box.bdf"), reading);
   EXPECT_EQ(mesh.kind(mesh.solids[0]).name, "Tetrahedron 10");
   pull(std::move(mesh));
+}
+
+// A hexahedron and a wedge beside it, of all three kinds of fields, with middles, a coat, loads and constraints.
+const char* const bulk = R"(SOL 101
+CEND
+BEGIN BULK
+$ lower, upper, between
+GRID,1,,0.,0.,0.
+GRID,2,,2.,0.,0.
+GRID,3,,2.,2.,0.
+GRID,4,,0.,2.,0.
+GRID    5               0.      0.      2.
+GRID    6               2.      0.      2.0+0
+GRID    7               2.      2.      2.
+GRID    8               0.      2.      2.D0
+GRID*   9                               4.              0.              *
+*       0.
+GRID*   10                              4.              0.              *
+*       2.
+CHEXA   7       3       1       2       3       4       5       6       +
++       7       8
+CPENTA,8,4,2,9,3,6,10,7
+CQUAD4,20,11,1,4,8,5
+SPC1,5,123,1,4,5,8
+SPC,6,9,3,0.
+PLOAD4,9,8,1.,,,,2,10
+PLOAD4,10,8,1.,,,,6
+ENDDATA
+)";
+
+TEST_F(MeshFiles, NastranSetsBecomeGroups) {
+  const PartMesh mesh = read_part_mesh(write("bulk.bdf", bulk), {});
+  EXPECT_EQ(mesh.solids.size(), 2u);
+  EXPECT_NEAR(find_part_mass(model_of(mesh)).volume, 12, 1e-12);
+  const auto expect_group = [&](const std::string& name, int dimension, std::size_t elements) {
+    const PartGroup* group = mesh.find_group(name);
+    ASSERT_NE(group, nullptr) << name;
+    EXPECT_EQ(group->dimension, dimension) << name;
+    EXPECT_EQ(group->elements.size(), elements) << name;
+  };
+  expect_group("property 3", 3, 1);
+  expect_group("property 4", 3, 1);
+  expect_group("property 11", 2, 1);
+  expect_group("constraint 5", 2, 1);
+  expect_group("constraint 6", 0, 1);
+  expect_group("load 9", 2, 1);
+  expect_group("load 10", 2, 1);
+}
+
+TEST_F(MeshFiles, NastranMessagesNameFileAndLine) {
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = bulk;
+    text.replace(text.find(from), from.size(), to);
+    return error_of(write("wrong.bdf", text));
+  };
+  EXPECT_THAT(changed("GRID,2,,2.", "GRID,2,7,2."),
+              AllOf(HasSubstr("wrong.bdf:6: "), HasSubstr("coordinate system 7")));
+  EXPECT_THAT(changed("GRID,2,,2.", "GRID,2,,2.x"), HasSubstr("\"2.x\" is no coordinate"));
+  EXPECT_THAT(changed("GRID,2,", "GRID,1,"), HasSubstr("GRID 1 is there twice"));
+  EXPECT_THAT(changed("2,9,3,6,10,7", "2,9,3,6,10,12"),
+              AllOf(HasSubstr("wrong.bdf:19: "), HasSubstr("grid 12, which does not exist")));
+  EXPECT_THAT(changed("6,10,7\n", "6,10,7\n,1\n"), HasSubstr("1 of its 9 grids between corners"));
+  EXPECT_THAT(changed("1,4,8,5", "1,4,7,5"), HasSubstr("lies on no solid"));
+  EXPECT_THAT(changed("1.,,,,2,10", "1.,,,,1,10"), HasSubstr("name no face of element 8"));
 }
 
 // Every kind comes back from our own file for CalculiX node by node; the file holds 12 digits, so that a

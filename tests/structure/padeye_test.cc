@@ -179,7 +179,7 @@ TEST(PadeyeModel, ShankOfAStripIsABar) {
 TEST(PadeyeModel, RoundEndConcentratesMoreThanALongOne) {
   const PadeyeGeometry g = strip();
   double last = 0;
-  for (const int divisions : {24, 48}) {
+  for (const int divisions : {16, 32}) {
     const PadeyeModel padeye(g, steel, divisions);
     PadeyeLoad load;
     load.force = {0, 1e5, 0};
@@ -194,7 +194,7 @@ TEST(PadeyeModel, RoundEndConcentratesMoreThanALongOne) {
     const double net = 1e5 / ((2 * g.radius - g.hole_diameter) * g.thickness);
     EXPECT_GT(hoop / net, 2.51);
     EXPECT_LT(hoop / net, 1.5 * 2.51);
-    if (divisions == 48) {
+    if (divisions == 32) {
       EXPECT_NEAR(hoop / last, 1, 0.03);
     }
     last = hoop;

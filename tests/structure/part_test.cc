@@ -28,7 +28,8 @@ enum class Shape { hexahedra, wedges, tetrahedra };
 
 /// A box [0, a] x [0, b] x [0, c] meshed through a .geo file; its faces are named "x0", "x1", ..., the
 /// whole is "box". The circle's middle is a point that no element has.
-PartMesh box(Shape shape, int order, const Vector3& size, const std::array<int, 3>& counts) {
+PartMesh box(Shape shape, int order, const Vector3& size, const std::array<int, 3>& counts,
+             PartReading reading = {}) {
   const auto path = std::filesystem::temp_directory_path() /
                     ("blocklift-part-" + std::to_string(::getpid()) + ".geo");
   std::ofstream file(path);
@@ -47,7 +48,6 @@ PartMesh box(Shape shape, int order, const Vector3& size, const std::array<int, 
        << "Physical Surface(\"x1\") = {out[3]};\nPhysical Surface(\"y1\") = {out[4]};\n"
        << "Physical Surface(\"x0\") = {out[5]};\nPhysical Curve(\"edge\") = {1};\n";
   file.close();
-  PartReading reading;
   reading.element_order = order;
   PartMesh mesh = read_part_mesh(path.string(), reading);
   std::filesystem::remove(path);
@@ -118,6 +118,38 @@ TEST_P(Kinds, ShapeFunctionsAgreeWithGmsh) {
         (own.gradients(xi).transpose() - kind.gradients.middleRows<3>(3 * q)).cwiseAbs().maxCoeff(),
         1e-11);
   }
+}
+
+// Faces by a box are those of the mesh's own group: the same load. Inner faces never count.
+TEST_P(Kinds, FacesAndPointsAreChosenByPlace) {
+  const auto [shape, order] = GetParam();
+  const Vector3 size(1, 0.8, 0.6);
+  PartReading reading;
+  reading.faces = {{"top", Vector3(0, 0, 0.6), size},
+                   {"upper", Vector3(0, 0, 0.3), size},
+                   {"none", Vector3(0.1, 0.1, 0.1), Vector3(0.2, 0.7, 0.5)}};
+  reading.points = {{"corner", size}, {"nowhere", Vector3(1, 0.8, 0.7)}};
+  PartModel model = part(box(shape, order, size, {2, 2, 2}, reading));
+  const auto load_on = [&](const std::string& group, SurfaceLoad::Kind kind) {
+    model.surface_loads = {{"load", group, kind, 2e6, Vector3(1e3, 2e3, 3e3)}};
+    return part_load(model);
+  };
+  for (const auto kind : {SurfaceLoad::Kind::pressure, SurfaceLoad::Kind::force}) {
+    const Eigen::VectorXd own = load_on("z1", kind);
+    EXPECT_LT((load_on("top", kind) - own).norm(), 1e-12 * own.norm());
+  }
+  const auto faces = [&](const char* group) {
+    return model.mesh.find_group(group)->elements.size();
+  };
+  EXPECT_EQ(faces("upper"),
+            faces("z1") + (faces("x0") + faces("x1") + faces("y0") + faces("y1")) / 2);
+  EXPECT_EQ(faces("none"), 0u);
+  EXPECT_EQ(faces("nowhere"), 0u);
+  ASSERT_EQ(faces("corner"), 1u);
+  const int corner = model.mesh.node(model.mesh.find_group("corner")->elements[0], 0);
+  EXPECT_EQ(Vector3(model.mesh.nodes.col(corner)), size);
+  reading.faces = {{"box", Vector3::Zero(), size}};
+  EXPECT_THROW(box(shape, order, size, {2, 2, 2}, reading), ModelError);
 }
 
 // A bar pulled at its end: stress F/A everywhere, elongation F L / (E A), reaction -F.
