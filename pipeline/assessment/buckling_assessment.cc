@@ -27,24 +27,31 @@ BlockPanels make_panels(const LiftCase& lift_case, const structure::UnitResponse
   return {responses.model(), responses.displacements(), stiffening};
 }
 
-/// The worse of a static and a dynamic history, panel by panel.
-BucklingAssessment worse_of(const BlockPanels& panels, const Eigen::MatrixXd& static_factors,
-                            const Eigen::MatrixXd& dynamic_factors,
-                            const Eigen::VectorXd* static_time,
-                            const Eigen::VectorXd* dynamic_time) {
-  const auto at_rest = panels.find_worst(static_factors);
-  const auto in_motion = panels.find_worst(dynamic_factors);
+/// States of the block: factors of the unit responses, a column a state, and times if there are any.
+struct States {
+  const Eigen::MatrixXd& factors;
+  const Eigen::VectorXd* time = nullptr;  ///< s
+};
+
+/// The worse of static and dynamic states, panel by panel.
+BucklingAssessment worse_of(const LiftCase& lift_case, const structure::UnitResponses& responses,
+                            const States& static_states, const States& dynamic_states) {
+  Stopwatch watch;
+  const BlockPanels panels = make_panels(lift_case, responses);
+  const auto at_rest = panels.find_worst(static_states.factors);
+  const auto in_motion = panels.find_worst(dynamic_states.factors);
   BucklingAssessment result;
   for (std::size_t p = 0; p < panels.panels().size(); ++p) {
     const bool moving = in_motion[p].utilisation.critical >= at_rest[p].utilisation.critical;
     BuckledPanel panel{panels.panels()[p], moving ? in_motion[p] : at_rest[p], moving, {}};
-    if (const Eigen::VectorXd* time = moving ? dynamic_time : static_time)
+    if (const Eigen::VectorXd* time = (moving ? dynamic_states : static_states).time)
       panel.time = (*time)[panel.worst.instant];
     result.panels.push_back(std::move(panel));
   }
   std::stable_sort(result.panels.begin(), result.panels.end(), [](const auto& a, const auto& b) {
     return a.worst.utilisation.critical > b.worst.utilisation.critical;
   });
+  result.evaluation_s = watch.lap();
   return result;
 }
 
@@ -60,25 +67,16 @@ std::string field_text(const structure::Panel& panel) {
 BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const structure::UnitResponses& responses,
                                    const HistoryAssessment& history) {
-  Stopwatch watch;
-  const BlockPanels panels = make_panels(lift_case, responses);
-  BucklingAssessment result =
-      worse_of(panels, history.static_state.factors, history.dynamic_state.factors,
-               &history.static_state.time, &history.dynamic_state.time);
-  result.evaluation_s = watch.lap();
-  return result;
+  return worse_of(lift_case, responses, {history.static_state.factors, &history.static_state.time},
+                  {history.dynamic_state.factors, &history.dynamic_state.time});
 }
 
 BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const structure::UnitResponses& responses,
                                    const BlockAssessment& block) {
-  Stopwatch watch;
-  const BlockPanels panels = make_panels(lift_case, responses);
-  BucklingAssessment result =
-      worse_of(panels, responses.coefficients(block.simultaneous.static_state.load),
-               responses.coefficients(block.simultaneous.dynamic_state.load), nullptr, nullptr);
-  result.evaluation_s = watch.lap();
-  return result;
+  const Eigen::MatrixXd at_rest = responses.coefficients(block.simultaneous.static_state.load);
+  const Eigen::MatrixXd in_motion = responses.coefficients(block.simultaneous.dynamic_state.load);
+  return worse_of(lift_case, responses, {at_rest}, {in_motion});
 }
 
 std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAssessment& buckling) {

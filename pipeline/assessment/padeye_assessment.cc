@@ -218,19 +218,24 @@ std::string rope_at(const LiftCase& lift_case, const std::string& lug) {
   return {};
 }
 
-PadeyesAssessment finish(const LiftCase& lift_case, std::vector<PadeyeRun>& runs,
-                         const std::vector<std::vector<PadeyeInstant>>& instants) {
+/// @param find_instants_of the instants of a padeye that finite elements look at, formulae considered on the
+///   way; none where nothing pulls at it.
+template <typename Find>
+PadeyesAssessment assess_at(const LiftCase& lift_case, const UnitResponses& responses,
+                            const Find& find_instants_of) {
+  Stopwatch watch;
   PadeyesAssessment result;
   Models models;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    PadeyeRun& run = runs[i];
-    if (instants[i].empty()) continue;
+  for (PadeyeRun& run : make_runs(lift_case, responses)) {
+    const std::vector<PadeyeInstant> instants = find_instants_of(run);
+    if (instants.empty()) continue;
     run.add_rules();
     run.result().rope = rope_at(lift_case, run.result().lug);
     run.solve(models.of(run.result().input, divisions_of(lift_case, run.result().padeye)),
-              instants[i]);
+              instants);
     result.padeyes.push_back(std::move(run.result()));
   }
+  result.evaluation_s = watch.lap();
   return result;
 }
 
@@ -249,38 +254,28 @@ PadeyesAssessment assess_padeyes(const LiftCase& lift_case, const UnitResponses&
                                  const BlockAttachment& attachment,
                                  const dynamics::History& static_history,
                                  const dynamics::History& dynamic_history) {
-  Stopwatch watch;
-  std::vector<PadeyeRun> runs = make_runs(lift_case, responses);
-  std::vector<std::vector<PadeyeInstant>> instants(runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const bool is_pulled =
-        std::any_of(attachment.ropes.begin(), attachment.ropes.end(),
-                    [&](const LugRope& rope) { return rope.lug == runs[i].lug(); });
-    if (is_pulled)
-      instants[i] = find_instants(runs[i], attachment, static_history, dynamic_history,
-                                  responses.model().mass_properties());
-  }
-  PadeyesAssessment result = finish(lift_case, runs, instants);
-  result.evaluation_s = watch.lap();
-  return result;
+  return assess_at(lift_case, responses, [&](PadeyeRun& run) -> std::vector<PadeyeInstant> {
+    const bool is_pulled = std::any_of(attachment.ropes.begin(), attachment.ropes.end(),
+                                       [&](const LugRope& rope) { return rope.lug == run.lug(); });
+    if (!is_pulled) return {};
+    return find_instants(run, attachment, static_history, dynamic_history,
+                         responses.model().mass_properties());
+  });
 }
 
 PadeyesAssessment assess_padeyes(const LiftCase& lift_case, const UnitResponses& responses,
                                  const BlockAssessment& block) {
-  Stopwatch watch;
-  std::vector<PadeyeRun> runs = make_runs(lift_case, responses);
-  std::vector<std::vector<PadeyeInstant>> instants(runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i)
+  return assess_at(lift_case, responses, [&](PadeyeRun& run) {
+    std::vector<PadeyeInstant> instants;
     for (const BlockState* state :
          {&block.simultaneous.static_state, &block.simultaneous.dynamic_state}) {
-      const Vector3& force = state->load.lug_forces_B[static_cast<std::size_t>(runs[i].lug())];
+      const Vector3& force = state->load.lug_forces_B[static_cast<std::size_t>(run.lug())];
       if (!(force.norm() > 0)) continue;
-      runs[i].consider(runs[i].force_P(force), std::nullopt);
-      instants[i].push_back({state->load.name, std::nullopt, state->load});
+      run.consider(run.force_P(force), std::nullopt);
+      instants.push_back({state->load.name, std::nullopt, state->load});
     }
-  PadeyesAssessment result = finish(lift_case, runs, instants);
-  result.evaluation_s = watch.lap();
-  return result;
+    return instants;
+  });
 }
 
 std::vector<Check> check_padeyes(const LiftCase& lift_case, const PadeyesAssessment& padeyes) {

@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+}  // namespace
+
 Json formula_json(const PadeyeFormulaAtWorst& at_worst) {
   const PadeyeFormula& formula = at_worst.formula;
   Json json{{"name", formula.name},
@@ -26,6 +28,8 @@ Json formula_json(const PadeyeFormulaAtWorst& at_worst) {
   if (at_worst.time) json["time_s"] = *at_worst.time;
   return json;
 }
+
+namespace {
 
 Json state_json(const PadeyeState& state) {
   const structure::PadeyeResult& result = state.result;

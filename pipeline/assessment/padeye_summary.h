@@ -7,6 +7,9 @@
 
 namespace blocklift::pipeline {
 
+/// A hand formula, likewise. Not finite numbers are null.
+nlohmann::ordered_json formula_json(const PadeyeFormulaAtWorst& at_worst);
+
 /// `structure.padeyes` of summary.json, as results_layout.h says.
 nlohmann::ordered_json padeyes_json(const PadeyesAssessment& padeyes);
 

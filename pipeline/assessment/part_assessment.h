@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/assessment/part_padeye.h"
 #include "pipeline/input/part_file.h"
 #include "structure/elasticity/natural_modes.h"
+#include "structure/mesh/part_reader.h"
 #include "structure/parallel/part_team.h"
 #include "structure/response/hot_spot.h"
 #include "structure/response/part_solution.h"
@@ -36,6 +38,7 @@ struct RefinementStep {
   double estimated_error = 0;  ///< in the energy norm, as a share of it
   double von_mises = 0;        ///< largest averaged, Pa
   double von_mises_error = 0;  ///< of that, Pa
+  double checked_error = 0;    ///< largest of the checked stresses, as a share of each
 };
 
 /// A part with its solution.
@@ -45,6 +48,7 @@ struct PartAssessment {
   structure::PartMass mass;
   structure::PartSolution solution;  ///< empty without loads
   std::optional<structure::NaturalModes> modes;
+  std::optional<PartPadeye> padeye;        ///< of a padeye under load
   std::vector<RefinementStep> refinement;  ///< the last is the mesh of the solution
   std::vector<ProbeResult> probes;
   std::vector<HotSpotResult> hot_spots;
@@ -55,8 +59,10 @@ struct PartAssessment {
 /// Reads the mesh and puts the model together.
 /// @returns the model, or after complaints an empty one: files that cannot be read, groups that the
 ///   mesh does not have or that hold no element, solids of no material or of two, a size that makes
-///   a wrong unit of length likely.
-structure::PartModel make_part_model(const PartFile& file, Diagnostics& diagnostics);
+///   a wrong unit of length likely, boxes without faces and places without a node.
+/// @param sizes of the elements, where the file is a geometry.
+structure::PartModel make_part_model(const PartFile& file, Diagnostics& diagnostics,
+                                     const std::optional<structure::SizeField>& sizes = {});
 
 /// Runs a part. @throws InputError if the model cannot be made or solved: inverted elements, rigid
 ///   motions that the supports leave, probes outside the part, memory that does not suffice, an

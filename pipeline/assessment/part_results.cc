@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/assessment/padeye_summary.h"
 #include "pipeline/assessment/part_assessment.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/formats/atomic_file.h"
@@ -42,6 +43,23 @@ Json probe_json(const structure::PartProbe& probe) {
   json["stress_Pa"] = {{"xx", s[0]}, {"yy", s[1]}, {"zz", s[2]},
                        {"xy", s[3]}, {"yz", s[4]}, {"zx", s[5]}};
   json["von_mises_Pa"] = structure::von_mises(s);
+  json["von_mises_error_Pa"] = probe.von_mises_error;
+  return json;
+}
+
+Json plate_json(const structure::PadeyePlateStress& plate) {
+  return {{"checked_von_mises_Pa", plate.checked_von_mises.value},
+          {"checked_point_m", vector(plate.checked_von_mises.point_B)},
+          {"peak_von_mises_Pa", plate.peak_von_mises.value},
+          {"peak_point_m", vector(plate.peak_von_mises.point_B)}};
+}
+
+Json part_padeye_json(const PartPadeye& padeye) {
+  Json json{{"force_N", vector(padeye.force_P)},
+            {"main_plate", plate_json(padeye.stress.main_plate)}};
+  if (padeye.input.geometry.has_cheeks()) json["cheeks"] = plate_json(padeye.stress.cheeks);
+  for (const PadeyeFormulaAtWorst& formula : padeye.formulas)
+    json["formulas"].push_back(formula_json(formula));
   return json;
 }
 
@@ -68,11 +86,13 @@ void add_solution(const PartAssessment& assessment, Json& summary) {
                                      {"unknowns", step.unknowns},
                                      {"estimated_error", step.estimated_error},
                                      {"von_mises_Pa", step.von_mises},
-                                     {"von_mises_error_Pa", step.von_mises_error}});
+                                     {"von_mises_error_Pa", step.von_mises_error},
+                                     {"checked_error", step.checked_error}});
   summary["strain_energy_J"] = solution.strain_energy;
   summary["all"] = group_json(solution.all);
   for (const structure::PartGroupResult& group : solution.groups)
     summary["groups"][group.group] = group_json(group);
+  if (assessment.padeye) summary["padeye"] = part_padeye_json(*assessment.padeye);
   for (const HotSpotResult& spot : assessment.hot_spots)
     summary["hot_spots"][spot.name] = {{"toe_m", vector(spot.spot.toe)},
                                        {"normal_Pa", spot.stress.normal},

@@ -27,6 +27,45 @@ void print_probe(const std::string& name, const structure::PartProbe& probe) {
   fmt::print("{:>10.4g}\n", structure::von_mises(probe.stress) / 1e6);
 }
 
+void print_padeye(const PartPadeye& padeye) {
+  const structure::Vector3& force = padeye.force_P;
+  fmt::print("\npadeye under {:.6g}, {:.6g}, {:.6g} kN\n", force.x() / 1e3, force.y() / 1e3,
+             force.z() / 1e3);
+  fmt::print("{:<52}{:>12}{:>12}   {:<4}{:>10}   {}\n", "hand formula", "demand", "limit", "",
+             "utilised", "source");
+  for (const PadeyeFormulaAtWorst& at_worst : padeye.formulas) {
+    const PadeyeFormula& formula = at_worst.formula;
+    const std::string unit = formula.unit;
+    const double scale = unit == "Pa" ? 1e6 : unit == "N" ? 1e3 : unit == "m" ? 1e-3 : 1;
+    fmt::print("{:<52}{:>12.4g}{:>12.4g}   {:<4}{:>10.3f}   {}\n", formula.name,
+               formula.demand / scale, formula.limit / scale,
+               unit == "Pa"  ? "MPa"
+               : unit == "N" ? "kN"
+               : unit == "m" ? "mm"
+                             : "",
+               formula.utilisation, formula.source);
+  }
+  fmt::print("{:<24}{:>24}{:>24}{:>20}\n", "finite elements", "checked von Mises MPa",
+             "largest von Mises MPa", "of yield, checked");
+  const auto print_plate = [&](const char* name, const structure::PadeyePlateStress& plate) {
+    fmt::print("{:<24}{:>24.4g}{:>24.4g}{:>20.3f}\n", name, plate.checked_von_mises.value / 1e6,
+               plate.peak_von_mises.value / 1e6,
+               plate.checked_von_mises.value / padeye.input.material.yield_stress);
+  };
+  print_plate("main plate", padeye.stress.main_plate);
+  if (padeye.input.geometry.has_cheeks()) print_plate("cheek plates", padeye.stress.cheeks);
+}
+
+void print_refinement(const PartAssessment& assessment) {
+  if (!assessment.file.accuracy && !assessment.file.checked_stress) return;
+  fmt::print("\n{:<12}{:>12}{:>12}{:>12}{:>15}{:>12}{:>12}\n", "elements", "order", "unknowns",
+             "error %", "v. Mises MPa", "+- MPa", "checked %");
+  for (const RefinementStep& step : assessment.refinement)
+    fmt::print("{:<12}{:>12}{:>12}{:>12.3g}{:>15.5g}{:>12.3g}{:>12.3g}\n", step.elements,
+               step.element_order, step.unknowns, 100 * step.estimated_error, step.von_mises / 1e6,
+               step.von_mises_error / 1e6, 100 * step.checked_error);
+}
+
 void print_solution(const PartAssessment& assessment) {
   const structure::PartSolution& solution = assessment.solution;
   fmt::print("\n{:<18}{:>14}{:>14}   {}\n", "group", "von Mises MPa", "displaced mm",
@@ -55,14 +94,8 @@ void print_solution(const PartAssessment& assessment) {
   print_force("loads", solution.applied.force);
   for (std::size_t s = 0; s < assessment.model.supports.size(); ++s)
     print_force(assessment.model.supports[s].name, solution.reactions[s].force);
-  if (assessment.file.accuracy) {
-    fmt::print("\n{:<12}{:>12}{:>12}{:>12}{:>15}{:>12}\n", "elements", "order", "unknowns",
-               "error %", "v. Mises MPa", "+- MPa");
-    for (const RefinementStep& step : assessment.refinement)
-      fmt::print("{:<12}{:>12}{:>12}{:>12.3g}{:>15.5g}{:>12.3g}\n", step.elements,
-                 step.element_order, step.unknowns, 100 * step.estimated_error,
-                 step.von_mises / 1e6, step.von_mises_error / 1e6);
-  }
+  if (assessment.padeye) print_padeye(*assessment.padeye);
+  print_refinement(assessment);
   const structure::SolverAccount& solver = solution.solver;
   fmt::print("\n{}{}{}{}\n", solver.name,
              solver.iterations > 0 ? fmt::format(", {} iterations", solver.iterations) : "",

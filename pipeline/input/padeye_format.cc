@@ -34,18 +34,11 @@ std::vector<Outwards> find_outwards(const PadModel& pad, const LugModel& lug) {
   return ways;
 }
 
-}  // namespace
-
-Format<PadeyeDesign> padeye_format() {
+/// Keys of a padeye wherever it is.
+template <class T>
+void add_padeye_keys(Table<T>& table) {
   const auto length = quantity(Dimension::length, Range::positive());
   const auto length_or_none = quantity(Dimension::length, Range::not_negative());
-  Table<PadeyeDesign> table(
-      "padeye",
-      "A padeye that lugs are made as: a main plate with a hole, round about it, with straight "
-      "edges down "
-      "to the pad's edge, and a round cheek plate on each side or none. `assess` checks it by hand "
-      "formulae "
-      "at every instant and meshes it finely, driven by the block's displacement at its base.");
   table.required("radius", &PadeyeDesign::radius, length, "of the main plate about the hole")
       .required("thickness", &PadeyeDesign::thickness, length, "of the main plate")
       .required("hole", &PadeyeDesign::hole, length, "diameter of the hole")
@@ -66,12 +59,53 @@ Format<PadeyeDesign> padeye_format() {
                   "N_d of ASME BTH-1: 2 in design category A, 3 in B")
       .by_default("divisions", &PadeyeDesign::divisions, integer(Range::between(16, 256)), "32",
                   "finite elements around the hole")
-      .rule([](const PadeyeDesign& design, Reading& reading, const Mark& mark) {
+      .rule([](const T& design, Reading& reading, const Mark& mark) {
         if (design.cheek_thickness > 0 && !(design.cheek_weld > 0))
           reading.error(mark, fmt::format("{} has cheek plates without a weld", reading.owner()),
                         {"give the leg of their fillet: cheek_weld: 20 mm"});
       });
+}
+
+}  // namespace
+
+Format<PadeyeDesign> padeye_format() {
+  Table<PadeyeDesign> table(
+      "padeye",
+      "A padeye that lugs are made as: a main plate with a hole, round about it, with straight "
+      "edges down "
+      "to the pad's edge, and a round cheek plate on each side or none. `assess` checks it by hand "
+      "formulae "
+      "at every instant and meshes it finely, driven by the block's displacement at its base.");
+  add_padeye_keys(table);
   return table.format();
+}
+
+Format<PadeyePart> padeye_part_format() {
+  const auto length = quantity(Dimension::length, Range::positive());
+  Table<PadeyePart> table(
+      "padeye",
+      "A padeye by itself, meshed here with quadratic hexahedra. Its frame: the origin in the "
+      "middle "
+      "of the hole, x along the base, y away from it, z along the pin. Its groups: the solids "
+      "\"main\" and \"cheeks\", the faces \"hole\" and \"base\". The hand formulae of the pin's "
+      "force stand beside the finite elements' stress.");
+  table.required("height", &PadeyePart::height, length, "of the hole's middle above the base")
+      .required("base", &PadeyePart::base, array_of<double, 2>(length),
+                "how far it runs to -x and to +x from below the hole")
+      .by_default("side_load", &PadeyePart::side_load, number(Range::between(0, 1)), "0.05",
+                  "least force along the pin in the hand formulae, as a share of the pin's force "
+                  "(API RP 2A)");
+  add_padeye_keys(table);
+  table.rule([](const PadeyePart& padeye, Reading& reading, const Mark& mark) {
+    if (reading.diagnostics().has_errors()) return;
+    for (const std::string& fault : structure::padeye_faults(padeye.geometry()))
+      reading.error(mark, fault);
+  });
+  return table.format();
+}
+
+structure::PadeyeGeometry PadeyePart::geometry() const {
+  return {radius, thickness, hole, pin, cheek_radius, cheek_thickness, height, base[0], base[1]};
 }
 
 std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const BlockModel& block,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -32,6 +33,16 @@ struct PadeyeDesign {
   int divisions = 32;                      ///< elements around the hole
 };
 
+/// Padeye by itself, for a part: with its base, and without a lug.
+struct PadeyePart : PadeyeDesign {
+  double height =
+      std::numeric_limits<double>::quiet_NaN();  ///< of the hole's middle above the base
+  std::array<double, 2> base = {};               ///< to -x and +x from below the hole
+  double side_load = 0.05;  ///< least force along the pin in the hand formulae, share of the whole
+
+  structure::PadeyeGeometry geometry() const;
+};
+
 /// A lug's padeye in the block: its measures and its frame P (see structure::PadeyeGeometry).
 struct PlacedPadeye {
   structure::PadeyeGeometry geometry;
@@ -40,6 +51,7 @@ struct PlacedPadeye {
 };
 
 Format<PadeyeDesign> padeye_format();
+Format<PadeyePart> padeye_part_format();
 
 /// Places a padeye where its lug is: the base is the edge of the pad that the lug juts out from, as wide
 /// as the lug; the hole is about the pin.

@@ -27,15 +27,50 @@ Format<PartPlate> plate_format() {
   return table.format();
 }
 
+Format<PartFacesInFile> faces_format() {
+  Table<PartFacesInFile> table("faces", "The outer faces of the solids that lie in a box.");
+  table.required("from", &PartFacesInFile::from, position_format(), "corner of smallest x, y and z")
+      .required("to", &PartFacesInFile::to, position_format(), "corner of largest x, y and z")
+      .rule([](const PartFacesInFile& faces, Reading& reading, const Mark& mark) {
+        if ((faces.to - faces.from).minCoeff() < 0)
+          reading.error(mark, "the box ends before it begins: to is smaller than from");
+      });
+  return table.format();
+}
+
+Format<PartPointInFile> point_format() {
+  Table<PartPointInFile> table("point", "The node at a place.");
+  table.required("at", &PartPointInFile::at, position_format(),
+                 "where it is, to a hundredth of the part's diagonal");
+  return table.format();
+}
+
+void check_mesh(const PartMeshInFile& mesh, Reading& reading, const Mark& mark) {
+  if (mesh.file.has_value() == mesh.padeye.has_value()) {
+    reading.error(mark,
+                  mesh.file ? "the mesh is both a file and a padeye"
+                            : "the mesh is neither a file nor a padeye",
+                  {"a file: file: part.step", "or a padeye: padeye: {radius: 300 mm, ...}"});
+    return;
+  }
+  if (mesh.padeye && (mesh.length_unit || mesh.element_size || mesh.element_order != 2 ||
+                      !mesh.plates.empty() || !mesh.faces.empty() || !mesh.points.empty()))
+    reading.error(
+        mark, "of a padeye's mesh only its divisions and refinements can be chosen",
+        {"length_unit, element_size, element_order, plates, faces and points are for files"});
+}
+
 Format<PartMeshInFile> mesh_format() {
   const std::vector<std::pair<std::string, double>> units = {
       {"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
-  Table<PartMeshInFile> table("mesh", "The part's mesh, or a geometry that is meshed.");
+  Table<PartMeshInFile> table("mesh", "The part's mesh, a geometry that is meshed, or a padeye.");
   table
-      .required(
+      .optional(
           "file", &PartMeshInFile::file, located(text()),
           "what Gmsh opens (.msh, .geo, .step, .brep, .bdf, .unv), or .inp of Abaqus or CalculiX; "
           "relative to this file")
+      .optional("padeye", &PartMeshInFile::padeye, located(padeye_part_format()),
+                "in the place of a file; a refinement doubles its divisions")
       .optional("length_unit", &PartMeshInFile::length_unit, choice<double>(units),
                 "of the file's coordinates; m if left out, and then doubted where the part comes "
                 "out too large or too small")
@@ -50,7 +85,12 @@ Format<PartMeshInFile> mesh_format() {
       .optional(
           "plates", &PartMeshInFile::plates, named_tables(plate_format()),
           "by group of surfaces: the file holds mid-surfaces of quadrangles, which are "
-          "thickened into solids; each plate's sides are the groups \"NAME +\" and \"NAME -\"");
+          "thickened into solids; each plate's sides are the groups \"NAME +\" and \"NAME -\"")
+      .optional("faces", &PartMeshInFile::faces, named_tables(faces_format()),
+                "groups of faces by name, for meshes without names: a box around them chooses")
+      .optional("points", &PartMeshInFile::points, named_tables(point_format()),
+                "groups of one node each by name")
+      .rule(check_mesh);
   return table.format();
 }
 
@@ -217,6 +257,19 @@ Format<PartReferences> references_format() {
   return table.format();
 }
 
+Format<CheckedStress> checked_stress_format() {
+  Table<CheckedStress> table(
+      "checked stress",
+      "How accurate the von Mises stress shall be where it is checked. Its error is estimated by "
+      "superconvergent patch recovery; it does not fall at a sharp corner or under a point load.");
+  table
+      .required("accuracy", &CheckedStress::accuracy,
+                quantity(Dimension::ratio, Range::between(1e-6, 1)), "its largest error, as 3 %")
+      .optional("probes", &CheckedStress::probes, list_of(located(reference()), 1),
+                "point probes; the largest stress of the part if left out");
+  return table.format();
+}
+
 Format<structure::SolverChoice> solver_format() {
   using Choice = structure::SolverChoice;
   using Method = structure::SolverMethod;
@@ -234,21 +287,33 @@ Format<structure::SolverChoice> solver_format() {
   return table.format();
 }
 
-void check_references(const PartFile& part, Reading& reading, const Mark&) {
-  if (!part.references) return;
+/// Complains unless the name is that of a point probe.
+bool is_point_probe(const PartFile& part, const Located<std::string>& name, Reading& reading) {
   std::vector<std::string> names;
   for (const PartProbeInFile& probe : part.probes)
     if (probe.at) names.push_back(probe.name.value);
+  if (std::find(names.begin(), names.end(), name.value) != names.end()) return true;
+  reading.error(name.mark, fmt::format("there is no point probe \"{}\"", name.value),
+                {names_hint("the point probes are", names, name.value)});
+  return false;
+}
+
+void check_checked_stress(const PartFile& part, Reading& reading, const Mark& mark) {
+  if (!part.checked_stress) return;
+  if (part.loads.empty())
+    reading.error(mark, "the accuracy of a stress is asked for, but there are no loads");
+  for (const Located<std::string>& name : part.checked_stress->probes)
+    is_point_probe(part, name, reading);
+}
+
+void check_references(const PartFile& part, Reading& reading, const Mark&) {
+  if (!part.references) return;
   for (const PartReference& figure : part.references->figures) {
     if (figure.mode && *figure.mode > part.modes.value_or(0))
       reading.error(figure.value.mark, fmt::format("mode {} is not asked for", *figure.mode),
                     {fmt::format("ask for it: modes: {}", *figure.mode)});
     if (!figure.probe) continue;
-    const std::string& wanted = figure.probe->value;
-    if (std::find(names.begin(), names.end(), wanted) == names.end())
-      reading.error(figure.probe->mark, fmt::format("there is no point probe \"{}\"", wanted),
-                    {names_hint("the point probes are", names, wanted)});
-    else if (part.loads.empty())
+    if (is_point_probe(part, *figure.probe, reading) && part.loads.empty())
       reading.error(figure.probe->mark, "a part without loads has no stresses");
   }
 }
@@ -285,7 +350,7 @@ const std::string& name_of(PartQuantity quantity) {
 }
 
 std::filesystem::path PartFile::mesh_path() const {
-  return file.parent_path() / std::filesystem::path(mesh.file.value);
+  return file.parent_path() / std::filesystem::path(mesh.file ? mesh.file->value : std::string());
 }
 
 Format<PartFile> part_file_format() {
@@ -308,11 +373,15 @@ Format<PartFile> part_file_format() {
                 "natural modes to find, the lowest, those of rigid motion counted")
       .optional("accuracy", &PartFile::accuracy,
                 quantity(Dimension::ratio, Range::between(1e-6, 1)),
-                "largest estimated error of the stress field, such as 5 %; elements are raised to "
-                "quadratic ones and halved until it is met")
+                "largest estimated error of the stress field in the energy norm, such as 5 %; "
+                "elements are raised to quadratic ones and made smaller until it is met: those of "
+                "a geometry of tetrahedra where the error is, others all by half")
+      .optional("checked_stress", &PartFile::checked_stress, checked_stress_format(),
+                "likewise, of the stress that matters")
       .optional("references", &PartFile::references, references_format(),
                 "published figures to hold against ours")
       .rule(check_part)
+      .rule(check_checked_stress)
       .rule(check_references);
   return table.format();
 }

@@ -9,6 +9,7 @@
 #include "pipeline/input/format.h"
 #include "pipeline/input/geometry_format.h"
 #include "pipeline/input/hot_spot_format.h"
+#include "pipeline/input/padeye_format.h"
 #include "structure/elasticity/solver_choice.h"
 
 namespace blocklift::pipeline {
@@ -19,14 +20,32 @@ struct PartPlate {
   double thickness = 0;       ///< m
 };
 
-/// Where a part's mesh comes from.
+/// Outer faces of a mesh that lie in a box; they become a group.
+struct PartFacesInFile {
+  Located<std::string> name;
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< smallest and largest corner, m
+};
+
+/// The node at a place; it becomes a group.
+struct PartPointInFile {
+  Located<std::string> name;
+  Vector3 at = Vector3::Zero();  ///< m
+};
+
+/// Where a part's mesh comes from: a file or a padeye.
 struct PartMeshInFile {
-  Located<std::string> file;
+  std::optional<Located<std::string>> file;
+  std::optional<Located<PadeyePart>> padeye;
   std::optional<double> length_unit;  ///< of the file's coordinates, m; absent: m, and doubted
   int element_order = 2;
   std::optional<double> element_size;  ///< m
   int refinements = 0;                 ///< halvings of all elements
   std::vector<PartPlate> plates;       ///< none: the mesh is one of solids
+  std::vector<PartFacesInFile> faces;
+  std::vector<PartPointInFile> points;
+
+  /// Where the file or the padeye stands.
+  const Mark& mark() const { return file ? file->mark : padeye->mark; }
 };
 
 /// A material of a part with the groups of solids that are of it.
@@ -102,6 +121,12 @@ struct PartReferences {
   std::vector<PartReference> figures;
 };
 
+/// How accurate the stress shall be where it is checked.
+struct CheckedStress {
+  double accuracy = 0;  ///< largest estimated error of the von Mises stress, share
+  std::vector<Located<std::string>> probes;  ///< point probes; none: the part's largest stress
+};
+
 /// What `blocklift stress` computes: any mesh with materials, supports, loads and probes. SI units.
 struct PartFile {
   std::string name;
@@ -115,12 +140,13 @@ struct PartFile {
   std::optional<int> modes;  ///< natural modes asked for
   /// Largest estimated error of the stress field in the energy norm, as a share of the norm.
   std::optional<double> accuracy;
+  std::optional<CheckedStress> checked_stress;
   std::optional<PartReferences> references;
   structure::SolverChoice solver;
   std::string yaml;            ///< the file as it stands
   std::filesystem::path file;  ///< where it is
 
-  /// The mesh's path: relative ones count from the part's file.
+  /// The mesh file's path, if there is one: relative ones count from the part's file.
   std::filesystem::path mesh_path() const;
 };
 

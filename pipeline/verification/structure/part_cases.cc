@@ -82,8 +82,9 @@ std::vector<VerificationCase> part_cases(const ModelLibrary& library) {
   for (const fs::path& folder : library.folders()) {
     std::vector<fs::path> files;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder / "parts", error))
-      if (fs::exists(entry.path() / "part.yaml")) files.push_back(entry.path() / "part.yaml");
+    for (const char* kind : {"parts", "lugs"})
+      for (const auto& entry : fs::directory_iterator(folder / kind, error))
+        if (fs::exists(entry.path() / "part.yaml")) files.push_back(entry.path() / "part.yaml");
     std::sort(files.begin(), files.end());
     for (const fs::path& path : files) {
       Diagnostics diagnostics;

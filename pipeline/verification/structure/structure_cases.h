@@ -12,7 +12,7 @@ namespace blocklift::pipeline {
 /// @throws InputError if one of them cannot be read.
 std::vector<VerificationCase> structure_cases(const ModelLibrary& library);
 
-/// One case for each parts/<name>/part.yaml of the models that has references.
+/// One case for each parts/<name>/part.yaml and lugs/<name>/part.yaml of the models that has references.
 std::vector<VerificationCase> part_cases(const ModelLibrary& library);
 
 /// A smooth field on distorted hexahedra: orders of convergence.

@@ -247,6 +247,87 @@ TEST_F(StressCommand, ProbesOutsideAndMissingMeshes) {
   expect_refused(HasSubstr("there is no file"));
 }
 
+// A file without names: the faces of the bar's ends are chosen by boxes.
+TEST_F(StressCommand, FacesAreChosenByBoxes) {
+  change("length_unit: mm}",
+         "length_unit: mm, faces: {left: {from: [0 m, 0 m, 0 m], to: [0 m, 0.3 m, 0.2 m]}}}");
+  std::string text = text_of_file("bar.yaml");
+  text.replace(text.find("groups: [root]"), 14, "groups: [left]");
+  folder_.write("bar.yaml", text);
+  const Outcome outcome = run("stress bar.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
+  EXPECT_NEAR(summary["reactions"]["root"]["force_N"][0], -600e3, 1e-3);
+  text.replace(text.find("to: [0 m, 0.3 m"), 15, "to: [0 m, 0.1 m");
+  folder_.write("bar.yaml", text);
+  const Outcome missed = run("stress bar.yaml -o elsewhere");
+  EXPECT_EQ(missed.exit_code, 2);
+  EXPECT_THAT(missed.err, AllOf(HasSubstr("bar.yaml:3:"),
+                                HasSubstr("no outer face of the part lies in the box"),
+                                HasSubstr("from (0, 0, 0) m to (2, 0.3, 0.2) m")));
+}
+
+// A bent bar's largest stress is at its root's corner, where it is singular: it never gets accurate. That in
+// its middle does.
+TEST_F(StressCommand, RefinesWhereTheStressIsChecked) {
+  change("[600 kN, 0 kN, 0 kN]", "[0 kN, -60 kN, 0 kN]");
+  std::string text = text_of_file("bar.yaml");
+  text.replace(text.find("at: [1 m, 0.1 m, 0.1 m]"), 23, "at: [1 m, 0.3 m, 0.1 m]");
+  folder_.write("bar.yaml", text + "checked_stress: {accuracy: 4 %, probes: [middle]}\n");
+  const Outcome outcome = run("stress bar.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
+  const double exact = 60e3 * 1 * 6 / (0.2 * 0.3 * 0.3);
+  EXPECT_NEAR(summary["probes"]["middle"]["stress_Pa"]["xx"], exact, 0.04 * exact);
+  EXPECT_LT(summary["refinement"].back()["checked_error"], 0.04);
+  folder_.write("bar.yaml", text + "checked_stress: {accuracy: 4 %, probes: [axis]}\n");
+  const Outcome line = run("stress bar.yaml -o elsewhere");
+  EXPECT_EQ(line.exit_code, 2);
+  EXPECT_THAT(line.err, HasSubstr("there is no point probe \"axis\""));
+}
+
+const char* const padeye_part = R"(
+part: eye
+mesh:
+  padeye: {radius: 100 mm, thickness: 20 mm, hole: 52 mm, pin: 50 mm, cheek_radius: 80 mm, cheek_thickness: 10 mm, cheek_weld: 8 mm, height: 180 mm, base: [150 mm, 150 mm], divisions: 16}
+materials: {steel: {youngs_modulus: 206 GPa, poisson_ratio: 0.3, yield_stress: 355 MPa}}
+supports: {base: {groups: [base]}}
+loads:
+  pin: {groups: [hole], bearing: {force: [0 kN, 100 kN, 0 kN], axis: [0, 0, 1], point: [0 m, 0 m, 0 m]}}
+)";
+
+// Bearing of the pin is F / (D_p T) = 100 kN / (50 x 40 mm) = 50 MPa; what reacts at the base is the force.
+TEST_F(StressCommand, APadeyeHasItsHandFormulaeBesideIt) {
+  folder_.write("eye.yaml", padeye_part);
+  const Outcome outcome = run("stress eye.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("hand formula"), HasSubstr("cheek plates")));
+  const auto summary = nlohmann::json::parse(text_of_file("results/eye/summary.json"));
+  EXPECT_NEAR(summary["reactions"]["base"]["force_N"][1], -100e3, 1e-3);
+  const auto& padeye = summary["padeye"];
+  EXPECT_NEAR(padeye["formulas"][0]["demand"], 50e6, 1);
+  EXPECT_GT(padeye["main_plate"]["peak_von_mises_Pa"],
+            padeye["main_plate"]["checked_von_mises_Pa"]);
+  EXPECT_GT(padeye["cheeks"]["checked_von_mises_Pa"], 5e6);
+}
+
+TEST_F(StressCommand, PadeyesThatDoNotFitAreRefused) {
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string text = padeye_part;
+    text.replace(text.find(from), from.size(), to);
+    folder_.write("eye.yaml", text);
+    const Outcome outcome = run("stress eye.yaml");
+    EXPECT_EQ(outcome.exit_code, 2);
+    return outcome.err;
+  };
+  EXPECT_THAT(refused("pin: 50 mm", "pin: 60 mm"),
+              AllOf(HasSubstr("eye.yaml:4:"), HasSubstr("larger than its hole")));
+  EXPECT_THAT(refused("  padeye:", "  file: eye.geo\n  padeye:"),
+              HasSubstr("both a file and a padeye"));
+  EXPECT_THAT(refused("  padeye:", "  element_size: 5 mm\n  padeye:"), HasSubstr("are for files"));
+  EXPECT_THAT(refused("  padeye:", "  refinements: 5\n  padeye:"), HasSubstr("256 are the most"));
+}
+
 TEST_F(StressCommand, IsValidated) {
   const Outcome outcome = run("validate bar.yaml");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
