@@ -3,7 +3,7 @@
 //   case_regression_test PROGRAM CASE RESULTS
 //
 // Each figure names a place in summary.json, with dots between keys and the rows of a list by their
-// names ("ropes.R1.max_static_tension_N"), and one of
+// names, lugs or plates ("ropes.R1.max_static_tension_N"), and one of
 //   value with tolerance (relative) or absolute_tolerance;  at_least;  at_most;  magnitude_at_most;
 //   equals.
 // With BLOCKLIFT_ACCEPT=1 in the environment the values that are out of tolerance are written anew.
@@ -41,7 +41,7 @@ bool accepting() {
 const Json* member(const Json& parent, const std::string& key) {
   if (parent.is_object()) return parent.contains(key) ? &parent.at(key) : nullptr;
   for (const Json& row : parent) {
-    for (const char* name : {"name", "rope"}) {
+    for (const char* name : {"name", "lug", "plate", "rope"}) {
       if (row.is_object() && row.contains(name) && row.at(name) == key) return &row;
     }
   }
