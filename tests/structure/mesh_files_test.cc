@@ -49,6 +49,14 @@ class MeshFiles : public ::testing::Test {
     return model;
   }
 
+  static void expect_group(const PartMesh& mesh, const std::string& name, int dimension,
+                           std::size_t elements) {
+    const PartGroup* group = mesh.find_group(name);
+    ASSERT_NE(group, nullptr) << name;
+    EXPECT_EQ(group->dimension, dimension) << name;
+    EXPECT_EQ(group->elements.size(), elements) << name;
+  }
+
   static std::string error_of(const std::string& path) {
     try {
       read_part_mesh(path, {});
@@ -105,21 +113,15 @@ TEST_F(MeshFiles, AbaqusSetsBecomeGroups) {
   const PartMesh mesh = read_part_mesh(write("bricks.inp", two_bricks), {});
   EXPECT_EQ(mesh.solids.size(), 2u);
   EXPECT_EQ(mesh.kind(mesh.solids[0]).nodes, 20);  // raised
-  const auto expect_group = [&](const std::string& name, int dimension, std::size_t elements) {
-    const PartGroup* group = mesh.find_group(name);
-    ASSERT_NE(group, nullptr) << name;
-    EXPECT_EQ(group->dimension, dimension) << name;
-    EXPECT_EQ(group->elements.size(), elements) << name;
-  };
-  expect_group("Bricks", 3, 2);
-  expect_group("second", 3, 1);
-  expect_group("root", 2, 1);    // its nodes are those of a face
-  expect_group("corner", 0, 1);  // these are not
-  expect_group("both", 0, 5);
-  expect_group("of_second", 2, 5);  // its sixth face lies inside
-  expect_group("All", 2, 2);        // those of the first *NODE
-  expect_group("end", 2, 1);
-  expect_group("bottom", 2, 2);
+  expect_group(mesh, "Bricks", 3, 2);
+  expect_group(mesh, "second", 3, 1);
+  expect_group(mesh, "root", 2, 1);    // its nodes are those of a face
+  expect_group(mesh, "corner", 0, 1);  // these are not
+  expect_group(mesh, "both", 0, 5);
+  expect_group(mesh, "of_second", 2, 5);  // its sixth face lies inside
+  expect_group(mesh, "All", 2, 2);        // those of the first *NODE
+  expect_group(mesh, "end", 2, 1);
+  expect_group(mesh, "bottom", 2, 2);
 }
 
 // Gmsh itself would end the program here.
@@ -277,19 +279,13 @@ TEST_F(MeshFiles, NastranSetsBecomeGroups) {
   const PartMesh mesh = read_part_mesh(write("bulk.bdf", bulk), {});
   EXPECT_EQ(mesh.solids.size(), 2u);
   EXPECT_NEAR(find_part_mass(model_of(mesh)).volume, 12, 1e-12);
-  const auto expect_group = [&](const std::string& name, int dimension, std::size_t elements) {
-    const PartGroup* group = mesh.find_group(name);
-    ASSERT_NE(group, nullptr) << name;
-    EXPECT_EQ(group->dimension, dimension) << name;
-    EXPECT_EQ(group->elements.size(), elements) << name;
-  };
-  expect_group("property 3", 3, 1);
-  expect_group("property 4", 3, 1);
-  expect_group("property 11", 2, 1);
-  expect_group("constraint 5", 2, 1);
-  expect_group("constraint 6", 0, 1);
-  expect_group("load 9", 2, 1);
-  expect_group("load 10", 2, 1);
+  expect_group(mesh, "property 3", 3, 1);
+  expect_group(mesh, "property 4", 3, 1);
+  expect_group(mesh, "property 11", 2, 1);
+  expect_group(mesh, "constraint 5", 2, 1);
+  expect_group(mesh, "constraint 6", 0, 1);
+  expect_group(mesh, "load 9", 2, 1);
+  expect_group(mesh, "load 10", 2, 1);
 }
 
 TEST_F(MeshFiles, NastranMessagesNameFileAndLine) {
