@@ -76,34 +76,28 @@ ElasticBody::Workspace::Workspace(const ElasticBody& body, const Mechanism& mech
   const auto ends = static_cast<Eigen::Index>(3 * body.d_.ends.size());
   const auto points = static_cast<Eigen::Index>(3 * body.points_);
   const Eigen::Index nv = mechanism.nv();
-  stretched.assign(body.ropes_.size(), 1);
-  for (auto* vector : {&modal, &modal_rate, &u, &next_u, &force}) vector->setZero(ends);
-  for (auto* vector : {&length, &length_rate, &elongation, &rate, &elastic, &damping, &scratch,
-                       &flexibility, &rope_damping})
-    vector->setZero(n);
-  for (auto* square : {&matrix, &inverse, &damper}) square->setIdentity(n, n);
+  const auto zero = [](Eigen::Index rows, Eigen::Index columns, auto&... matrices) {
+    (matrices.setZero(rows, columns), ...);
+  };
+  const auto unit = [](Eigen::Index rows, auto&... squares) {
+    (squares.setIdentity(rows, rows), ...);
+  };
+  zero(ends, 1, modal, modal_rate, u, next_u, force);
+  zero(n, 1, length, length_rate, elongation, rate, elastic, damping, scratch, flexibility,
+       rope_damping, spring);
+  zero(ends, n, gradient, compliance_gradient);
+  zero(points, n, stretch, pulling, rate_stretch, scaled_stretch);
+  zero(points, points, geometric, geometric_all, stiffness);
+  zero(points, nv, motion, velocity_q, moved, df_dq, df_dv);
+  zero(3, nv, turn, moment);
+  zero(ends, nv, relaxed, end_force);
+  zero(n, nv, by_rope, rope_rows);
+  zero(nv, nv, dtau_dq, dtau_dv);
+  unit(n, matrix, inverse, damper);
+  unit(ends, compliance_W, inner, end_stiffness);
   factor.compute(matrix);
-  gradient.setZero(ends, n);
-  compliance_gradient.setZero(ends, n);
-  for (auto* square : {&compliance_W, &inner, &end_stiffness}) square->setIdentity(ends, ends);
   relaxer.compute(inner);
-  stretch.setZero(points, n);
-  pulling.setZero(points, n);
-  rate_stretch.setZero(points, n);
-  scaled_stretch.setZero(points, n);
-  geometric.setZero(points, points);
-  geometric_all.setZero(points, points);
-  stiffness.setZero(points, points);
-  spring.setZero(n);
-  for (auto* columns : {&motion, &velocity_q, &moved, &df_dq, &df_dv}) columns->setZero(points, nv);
-  turn.setZero(3, nv);
-  moment.setZero(3, nv);
-  relaxed.setZero(ends, nv);
-  end_force.setZero(ends, nv);
-  by_rope.setZero(n, nv);
-  rope_rows.setZero(n, nv);
-  dtau_dq.setZero(nv, nv);
-  dtau_dv.setZero(nv, nv);
+  stretched.assign(body.ropes_.size(), 1);
   rate_W.assign(body.points_, Vector3::Zero());
 }
 
