@@ -81,7 +81,9 @@ Format<PartMeshInFile> mesh_format() {
                 quantity(Dimension::length, Range::positive()),
                 "largest edge where the file is a geometry")
       .by_default("refinements", &PartMeshInFile::refinements, integer(Range::between(0, 6)), "0",
-                  "how often every element is halved along each of its edges")
+                  "how often every element is halved along each of its edges; curved sides of a "
+                  "mesh that is "
+                  "not made here get straight between its nodes")
       .optional(
           "plates", &PartMeshInFile::plates, named_tables(plate_format()),
           "by group of surfaces: the file holds mid-surfaces of quadrangles, which are "
