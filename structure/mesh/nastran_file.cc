@@ -4,7 +4,6 @@
 #include <cctype>
 #include <charconv>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -264,7 +263,7 @@ class Reader {
   }
 
   void add_single_constraints(const Card& card) {
-    for (const std::size_t field : {1, 4})
+    for (const std::size_t field : {std::size_t{1}, std::size_t{4}})
       if (!card.fields[field].empty()) add_to_constraint(card, grid(card, field));
   }
 
@@ -277,8 +276,8 @@ class Reader {
                                   card.fields[1]));
     const AbaqusElement& element = mesh_.elements[place->second];
     const std::size_t first = grid(card, 6);
-    const std::optional<std::size_t> second =
-        card.fields[7].empty() ? std::nullopt : std::optional(grid(card, 7));
+    const bool has_second = !card.fields[7].empty();
+    const std::size_t second = has_second ? grid(card, 7) : 0;
     for (int face = 1; face <= face_count(element); ++face) {
       const Tags corners = corners_of(element, face);
       const auto has = [&](std::size_t tag) {
@@ -286,10 +285,9 @@ class Reader {
       };
       const bool is_triangle = corners.size() == 3;
       const bool is_tetrahedron = face_count(element) == 4;
-      const bool matches = is_tetrahedron ? second && has(first) && !has(*second)
-                           : second       ? !is_triangle && has(first) && has(*second) &&
-                                          are_opposite(corners, first, *second)
-                                    : is_triangle && has(first);
+      const bool matches = is_tetrahedron ? has_second && has(first) && !has(second)
+                           : has_second   ? !is_triangle && are_opposite(corners, first, second)
+                                          : is_triangle && has(first);
       if (!matches) continue;
       mesh_.surfaces[fmt::format("load {}", number(card, 0, "set number"))].push_back(
           {element.tag, face});
