@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "structure/error.h"
@@ -69,28 +70,28 @@ SizeField find_sizes(const PartModel& model, const PartSolution& solution,
   if (!takes_sizes(mesh)) throw ModelError("only a geometry of tetrahedra can be meshed again");
   const auto solids = static_cast<Eigen::Index>(mesh.solids.size());
   const Eigen::VectorXd shares = factors(model, solution, aim);
-  Eigen::VectorXd edges(solids), sum = Eigen::VectorXd::Zero(mesh.nodes.cols()),
-                                 count = Eigen::VectorXd::Zero(mesh.nodes.cols());
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd edges(solids), sizes = Eigen::VectorXd::Constant(mesh.nodes.cols(), none);
   for (Eigen::Index s = 0; s < solids; ++s) {
     const int element = mesh.solids[at(static_cast<int>(s))];
     edges[s] = mean_edge(mesh, element);
     for (int i = 0; i < corners; ++i) {
-      sum[mesh.node(element, i)] += shares[s] * edges[s];
-      count[mesh.node(element, i)] += 1;
+      double& size = sizes[mesh.node(element, i)];  // a mean would spare the solids at a sharp edge
+      size = std::min(size, shares[s] * edges[s]);
     }
   }
   constexpr double growth = 0.3;
   for (const Vector3& place : aim.places) {
     const double there = edge_near(mesh, place, edges) / 2;
     for (Eigen::Index n = 0; n < mesh.nodes.cols(); ++n)
-      sum[n] = std::min(sum[n], count[n] * (there + growth * (mesh.nodes.col(n) - place).norm()));
+      sizes[n] = std::min(sizes[n], there + growth * (mesh.nodes.col(n) - place).norm());
   }
   SizeField field{Eigen::Matrix3Xd(3, corners * solids), Eigen::VectorXd(corners * solids)};
   for (Eigen::Index s = 0; s < solids; ++s)
     for (int i = 0; i < corners; ++i) {
       const int node = mesh.node(mesh.solids[at(static_cast<int>(s))], i);
       field.places.col(corners * s + i) = mesh.nodes.col(node);
-      field.sizes[corners * s + i] = sum[node] / count[node];
+      field.sizes[corners * s + i] = sizes[node];
     }
   return field;
 }
