@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include "structure/index.h"
+
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 using Pairs = std::vector<std::array<int, 2>>;
 

@@ -8,13 +8,12 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/mesh/element_tables.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 const std::array<const char*, 4> entity_nouns = {"point", "curve", "surface", "volume"};
 

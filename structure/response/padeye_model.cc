@@ -9,12 +9,6 @@
 
 namespace blocklift::structure {
 
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 PadeyeModel::PadeyeModel(const PadeyeGeometry& padeye, const Material& material, int divisions)
     : geometry_(padeye) {
   PadeyeMesh mesh = make_padeye_mesh(padeye, divisions);

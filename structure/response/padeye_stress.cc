@@ -7,14 +7,13 @@
 
 #include <Eigen/Dense>
 
+#include "structure/index.h"
 #include "structure/response/cell_stress.h"
 #include "structure/response/part_solution.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr double patch_side = 0.05;  // m, of the checked stress
 

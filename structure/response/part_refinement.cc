@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int corners = 4;
 
