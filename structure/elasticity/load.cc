@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -134,13 +135,21 @@ MassProperties find_mass_properties(const HexMesh& mesh, const Discretisation& s
 
 NodalMoments nodal_moments(const HexMesh& mesh, const Discretisation& space,
                            const std::function<double(int, const Vector3&)>& density) {
+  std::vector<int> cells(static_cast<std::size_t>(space.cell_count()));
+  std::iota(cells.begin(), cells.end(), 0);
+  return nodal_moments(mesh, space, cells, density);
+}
+
+NodalMoments nodal_moments(const HexMesh& mesh, const Discretisation& space,
+                           const std::vector<int>& cells,
+                           const std::function<double(int, const Vector3&)>& density) {
   NodalMoments moments = NodalMoments::Zero(space.node_count(), 4);
   // Exact for a density linear in x: shape p, place 1, density 1 and Jacobian determinant 2 make
   // degree p + 4 along an axis, which n points integrate up to 2n - 1.
   const auto rule = cube_rule((space.element.degree() + 6) / 2);
   const Eigen::MatrixXd shapes = space.element.values(rule.topRows<3>());
   Eigen::Matrix<double, Eigen::Dynamic, 4> weights(rule.cols(), 4);
-  for (int cell = 0; cell < space.cell_count(); ++cell) {
+  for (const int cell : cells) {
     for (Eigen::Index q = 0; q < rule.cols(); ++q) {
       const Vector3 xi = rule.col(q).head<3>(), x = position(mesh, cell, xi);
       const double rho = density(cell, x);
@@ -175,36 +184,42 @@ Eigen::MatrixXd inertia_loads(const NodalMoments& m) {
   return loads;
 }
 
-Eigen::MatrixXd pin_loads(const NodalMoments& moments, const Eigen::Matrix3Xd& nodes,
-                          const Vector3& pin) {
+void add_spread_wrenches(const NodalMoments& moments, const Eigen::Matrix3Xd& nodes,
+                         const Vector3& point, const Eigen::MatrixXd& wrenches,
+                         Eigen::Ref<Eigen::MatrixXd> loads) {
   const double volume = moments.col(0).sum();
-  if (!(volume > 0)) throw ModelError("a lug has no volume to spread its rope's force over");
-  // Nodal force of c and d: w c + d x s with s = int N (x - pin) dV.
+  if (!(volume > 0)) throw ModelError("a force has no volume to be spread over");
+  // Nodal force of c and d: w c + d x s with s = int N (x - point) dV.
   Eigen::Matrix<double, 6, 6> balance = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<Eigen::Index> loaded;
   for (Eigen::Index n = 0; n < moments.rows(); ++n) {
     if (moments.row(n).isZero(0)) continue;
     loaded.push_back(n);
     const double w = moments(n, 0);
-    const Eigen::Matrix3d s = cross_matrix(moments.row(n).tail<3>().transpose() - w * pin);
-    const Eigen::Matrix3d arm = cross_matrix(nodes.col(n) - pin);
+    const Eigen::Matrix3d s = cross_matrix(moments.row(n).tail<3>().transpose() - w * point);
+    const Eigen::Matrix3d arm = cross_matrix(nodes.col(n) - point);
     balance.topLeftCorner<3, 3>() += w * Eigen::Matrix3d::Identity();
     balance.topRightCorner<3, 3>() -= s;
     balance.bottomLeftCorner<3, 3>() += w * arm;
     balance.bottomRightCorner<3, 3>() -= arm * s;
   }
-  const Eigen::Matrix<double, 6, 3> wanted =
-      (Eigen::Matrix<double, 6, 3>() << Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero())
-          .finished();
   const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> solver(balance);
-  Eigen::Matrix<double, 6, 3> cd = solver.solve(wanted);
-  cd += solver.solve(wanted - balance * cd);
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * moments.rows(), 3);
+  Eigen::MatrixXd cd = solver.solve(wrenches);
+  cd += solver.solve(wrenches - balance * cd);
   for (const Eigen::Index n : loaded) {
     const double w = moments(n, 0);
-    const Vector3 s = moments.row(n).tail<3>().transpose() - w * pin;
-    loads.middleRows<3>(3 * n) = w * cd.topRows<3>() - cross_matrix(s) * cd.bottomRows<3>();
+    const Vector3 s = moments.row(n).tail<3>().transpose() - w * point;
+    loads.middleRows<3>(3 * n) += w * cd.topRows<3>() - cross_matrix(s) * cd.bottomRows<3>();
   }
+}
+
+Eigen::MatrixXd pin_loads(const NodalMoments& moments, const Eigen::Matrix3Xd& nodes,
+                          const Vector3& pin) {
+  if (!(moments.col(0).sum() > 0))
+    throw ModelError("a lug has no volume to spread its rope's force over");
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * moments.rows(), 3);
+  const Eigen::Matrix<double, 6, 3> forces = Eigen::Matrix<double, 6, 3>::Identity();
+  add_spread_wrenches(moments, nodes, pin, forces, loads);
   return loads;
 }
 

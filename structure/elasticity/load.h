@@ -67,6 +67,10 @@ MassProperties find_mass_properties(const HexMesh& mesh, const Discretisation& s
 using NodalMoments = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
 NodalMoments nodal_moments(const HexMesh& mesh, const Discretisation& space,
                            const std::function<double(int cell, const Vector3&)>& density);
+/// The same over some of the cells.
+NodalMoments nodal_moments(const HexMesh& mesh, const Discretisation& space,
+                           const std::vector<int>& cells,
+                           const std::function<double(int cell, const Vector3&)>& density);
 
 /// Load vectors of the twelve unit inertia fields (columns, in the order of
 /// InertiaField::coefficients), N.
@@ -78,6 +82,14 @@ Eigen::MatrixXd inertia_loads(const NodalMoments& mass_moments);
 /// @throws ModelError if the volume is empty.
 Eigen::MatrixXd pin_loads(const NodalMoments& volume_moments, const Eigen::Matrix3Xd& nodes,
                           const Vector3& pin);
+
+/// Adds to load vectors (a column each) wrenches about a point (force, moment; a column each), spread over
+/// the volume of the moments likewise: c and d such that the resultant is the wrench. Over a flat plate a
+/// force across it is a pressure linear in place.
+/// @throws ModelError if the volume is empty.
+void add_spread_wrenches(const NodalMoments& volume_moments, const Eigen::Matrix3Xd& nodes,
+                         const Vector3& point, const Eigen::MatrixXd& wrenches,
+                         Eigen::Ref<Eigen::MatrixXd> loads);
 
 /// Load vector of a body force, N, by Gauss points (`extra` more an axis than the degree plus 1).
 Eigen::VectorXd body_load(const HexMesh& mesh, const Discretisation& space,

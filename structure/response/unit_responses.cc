@@ -44,31 +44,62 @@ UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(mo
   timing_.analysis_s = watch.lap();
   system_->equations.factorise();
   timing_.factorisation_s = watch.lap();
-  const Eigen::MatrixXd loads = basis_loads();
-  displacements_ = system_->equations.solve(loads);
-  reactions_ = system_->equations.reactions(displacements_, loads);
+  added_loads_.resize(model_.unknowns(), 0);
+  solve_basis();
   timing_.solve_s = watch.lap();
 }
 
-Eigen::MatrixXd UnitResponses::basis_loads() {
-  const Eigen::Index lug_forces = 3 * model_.lug_count();
-  Eigen::MatrixXd loads(model_.unknowns(), lug_forces + 12);
-  loads << model_.lug_loads(), model_.inertia_loads().rightCols<6>(),
-      model_.inertia_loads().leftCols<6>();
-  balancing_.resize(6, lug_forces + 6);
-  for (Eigen::Index k = 0; k < lug_forces + 6; ++k) {
+void UnitResponses::balance_loads(Eigen::MatrixXd& loads,
+                                  Eigen::Ref<Eigen::MatrixXd> accelerations) const {
+  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
     // Twice: the second pass removes the rounding of the first.
-    balancing_.col(k).setZero();
+    accelerations.col(k).setZero();
     for (int pass = 0; pass < 2; ++pass) {
       const Eigen::Matrix<double, 6, 1> field =
           balancing_field(model_.mass_properties(), resultant(model_.space().nodes, loads.col(k)))
               .coefficients()
               .head<6>();
       loads.col(k) += model_.inertia_loads().leftCols<6>() * field;
-      balancing_.col(k) += field;
+      accelerations.col(k) += field;
     }
   }
-  return loads;
+}
+
+void UnitResponses::solve_basis() {
+  const Eigen::Index lug_forces = 3 * model_.lug_count();
+  Eigen::MatrixXd loads(model_.unknowns(), lug_forces + 6);
+  loads << model_.lug_loads(), model_.inertia_loads().rightCols<6>();
+  balancing_.resize(6, lug_forces + 6);
+  balance_loads(loads, balancing_);
+  loads.conservativeResize(Eigen::NoChange, lug_forces + 12);
+  loads.rightCols<6>() = model_.inertia_loads().leftCols<6>();
+  displacements_ = system_->equations.solve(loads);
+  reactions_ = system_->equations.reactions(displacements_, loads);
+}
+
+void UnitResponses::add_loads(const Eigen::MatrixXd& added) {
+  if (added.cols() == 0) return;
+  Stopwatch watch;
+  Eigen::MatrixXd loads = added, accelerations(6, added.cols());
+  balance_loads(loads, accelerations);
+  const Eigen::MatrixXd displacements = system_->equations.solve(loads);
+  const Eigen::MatrixXd reactions = system_->equations.reactions(displacements, loads);
+  // The plain accelerations stay at the end.
+  const auto insert = [](Eigen::MatrixXd& all, const Eigen::MatrixXd& more) {
+    const Eigen::MatrixXd plain = all.rightCols<6>();
+    all.conservativeResize(Eigen::NoChange, all.cols() + more.cols());
+    all.middleCols(all.cols() - 6 - more.cols(), more.cols()) = more;
+    all.rightCols<6>() = plain;
+  };
+  insert(displacements_, displacements);
+  insert(reactions_, reactions);
+  const auto append = [](Eigen::MatrixXd& all, const Eigen::MatrixXd& more) {
+    all.conservativeResize(Eigen::NoChange, all.cols() + more.cols());
+    all.rightCols(more.cols()) = more;
+  };
+  append(balancing_, accelerations);
+  append(added_loads_, added);
+  timing_.solve_s += watch.lap();
 }
 
 Eigen::VectorXd UnitResponses::coefficients(const LoadCase& load_case) const {
@@ -76,13 +107,17 @@ Eigen::VectorXd UnitResponses::coefficients(const LoadCase& load_case) const {
     throw ModelError(fmt::format("load case \"{}\" has {} lug forces; the block has {} lugs",
                                  load_case.name, load_case.lug_forces_B.size(),
                                  model_.lug_count()));
-  const Eigen::Index lug_forces = 3 * model_.lug_count();
-  Eigen::VectorXd all(lug_forces + 12);
+  if (load_case.added.size() != 0 && load_case.added.size() != added_loads_.cols())
+    throw ModelError(fmt::format("load case \"{}\" has factors of {} added loads; there are {}",
+                                 load_case.name, load_case.added.size(), added_loads_.cols()));
+  const Eigen::Index lug_forces = 3 * model_.lug_count(), balanced = balancing_.cols();
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(balanced + 6);
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
     all.segment<3>(static_cast<Eigen::Index>(3 * lug)) = load_case.lug_forces_B[lug];
   const Eigen::Matrix<double, 12, 1> field = load_case.field.coefficients();
   all.segment<6>(lug_forces) = field.tail<6>();
-  all.tail<6>() = field.head<6>() - balancing_ * all.head(lug_forces + 6);
+  all.segment(lug_forces + 6, load_case.added.size()) = load_case.added;
+  all.tail<6>() = field.head<6>() - balancing_ * all.head(balanced);
   return all;
 }
 
@@ -92,6 +127,7 @@ Eigen::VectorXd UnitResponses::load_vector(const LoadCase& load_case) const {
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
     load += model_.lug_loads().middleCols<3>(static_cast<Eigen::Index>(3 * lug)) *
             load_case.lug_forces_B[lug];
+  if (load_case.added.size() > 0) load += added_loads_ * load_case.added;
   return load;
 }
 

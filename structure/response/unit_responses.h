@@ -15,6 +15,8 @@ struct LoadCase {
   std::string name;
   std::vector<Vector3> lug_forces_B;  ///< on the block at each lug's pin, in the mesh's order, N
   InertiaField field;
+  /// Factors of the loads that UnitResponses::add_loads brought; empty: none of them acts.
+  Eigen::VectorXd added = {};
 };
 
 /// How well a load case is in balance.
@@ -37,8 +39,8 @@ struct SolutionTiming {
 
 /// Linear response of the free block to its unit loads, one factorisation for all.
 ///
-/// The basis is 3 unit forces a lug and 12 unit inertia fields. Each lug force and each product of
-/// angular velocities is solved together with the rigid acceleration that balances it, so that
+/// The basis is 3 unit forces a lug, 12 unit inertia fields and what is added. Each lug force, added load
+/// and product of angular velocities is solved together with the rigid acceleration that balances it, so that
 /// the block floats freely on its 3-2-1 support and nothing large cancels on superposition; six
 /// plain acceleration fields complete the span and carry what a load case lacks in balance.
 class UnitResponses {
@@ -52,12 +54,17 @@ class UnitResponses {
   const ElasticModel& model() const { return model_; }
   const SolutionTiming& timing() const { return timing_; }
 
-  /// Number of basis loads, 3 lugs + 12.
+  /// Adds loads to the basis (a column each, N), such as pressures on the shell.
+  void add_loads(const Eigen::MatrixXd& loads);
+
+  /// Number of basis loads, 3 lugs + 12 + those added.
   int count() const { return static_cast<int>(displacements_.cols()); }
   /// Displacements of the basis, unknowns x count, m.
   const Eigen::MatrixXd& displacements() const { return displacements_; }
   /// Factors of the basis that make up a load case.
-  /// @throws ModelError if the number of lug forces is not that of the lugs.
+  /// In the order: lug forces, products of angular velocities, added loads, the six plain accelerations.
+  /// @throws ModelError if the number of lug forces is not that of the lugs, or factors are given for
+  ///   other than the added loads.
   Eigen::VectorXd coefficients(const LoadCase& load_case) const;
 
   /// Load vector of a load case, N.
@@ -80,12 +87,14 @@ class UnitResponses {
 
  private:
   struct System;
-  Eigen::MatrixXd basis_loads();
+  void balance_loads(Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> accelerations) const;
+  void solve_basis();
 
   const ElasticModel& model_;
   SolutionTiming timing_;
   std::unique_ptr<System> system_;
-  Eigen::MatrixXd balancing_;      ///< 6 x (lug forces + products): rigid accelerations added
+  Eigen::MatrixXd added_loads_;    ///< as they came, unknowns x added, N
+  Eigen::MatrixXd balancing_;      ///< 6 x (lug forces + products + added): rigid accelerations
   Eigen::MatrixXd displacements_;  ///< of the basis
   Eigen::MatrixXd reactions_;      ///< 6 x count, N
 };

@@ -280,5 +280,35 @@ TEST(MembraneStress, BendingDropsOut) {
   EXPECT_LT(membrane.von_mises(Eigen::Vector2d(0, 1)).maxCoeff(), 1e-3);
 }
 
+// Pressure on the bottom joins the basis: superposed it is what a solution of its own gives, with or without
+// lug forces and a spin beside it, and nothing reacts.
+TEST_F(SmallBlock, AddedLoadsAreSuperposedLikeAllOthers) {
+  UnitResponses responses(*model_);
+  const int before = responses.count();
+  Eigen::MatrixXd loads(model_->unknowns(), 2);
+  for (int k = 0; k < 2; ++k)
+    loads.col(k) = traction_load(
+        model_->mesh(), model_->space(),
+        [](const Vector3&, const Vector3& n) { return n.z() < -0.9; },
+        [k](const Vector3& place, const Vector3& n) -> Vector3 { return -(k + place.x()) * n; });
+  responses.add_loads(loads);
+  EXPECT_EQ(responses.count(), before + 2);
+  LoadCase load_case = lift(0.3);
+  const Eigen::VectorXd dry = responses.displacement(load_case);
+  EXPECT_LT((dry - responses_->displacement(load_case)).norm(), 1e-9 * dry.norm());
+  load_case.added = Eigen::Vector2d(4e3, -1e3);
+  const Wrench pressed = resultant(model_->space().nodes, loads * load_case.added);
+  const InertiaField given_way = balancing_field(model_->mass_properties(), pressed);
+  load_case.field.acceleration_less_gravity += given_way.acceleration_less_gravity;
+  load_case.field.angular_acceleration += given_way.angular_acceleration;
+  const Eigen::VectorXd superposed = responses.displacement(load_case);
+  const Eigen::VectorXd direct = responses.solve_directly(load_case);
+  EXPECT_LT((superposed - direct).norm(), 1e-8 * direct.norm());
+  EXPECT_GT((superposed - dry).norm(), 0.01 * dry.norm());
+  EXPECT_LT(responses.balance(load_case).reaction_over_weight, 1e-9);
+  load_case.added = Eigen::Vector3d::Zero();
+  EXPECT_THROW(responses.coefficients(load_case), ModelError);
+}
+
 }  // namespace
 }  // namespace blocklift::structure
