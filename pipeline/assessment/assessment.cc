@@ -33,6 +33,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Regions of the shell, each of which takes the water's pressure as one, over the block's length.
+constexpr double regions_along_the_shell = 20;
+
 /// Forces of a load table in the order of the mesh's lugs, N, in the block frame.
 std::vector<structure::Vector3> table_forces(const LoadTable& table,
                                              const std::vector<Named<double>>& loads,
@@ -90,6 +93,42 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
   file.finish();
 }
 
+/// Water that presses on the block's shell joins its loads.
+void find_pressure(const LiftRun& lift, BlockRun& block) {
+  const dynamics::HullForce* in_motion = find_hull(lift.model.system, lift.model.load);
+  const dynamics::HullForce* at_rest = find_hull(lift.model.at_rest(), lift.model.load);
+  if (!in_motion || !at_rest) return;
+  const Eigen::Matrix3Xd& nodes = block.model->space().nodes;
+  PressureSettings settings;
+  settings.region_size = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff() /
+                         regions_along_the_shell;
+  block.pressure = find_pressure_basis(*block.model, *at_rest, lift.static_history, *in_motion,
+                                       lift.dynamic_history(), settings);
+  if (block.pressure) block.responses->add_loads(block.pressure->loads);
+}
+
+/// Stresses of a block that was lifted.
+void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
+                         const structure::StressRecovery& recovery, const Progress& progress,
+                         BlockRun& block) {
+  BlockAttachment attachment =
+      attach_block(lift.model.system, lift.model.load, block.model->mesh().lugs);
+  BlockHistory at_rest = lift.static_history, in_motion = lift.dynamic_history();
+  if (block.pressure) {
+    attachment.pressure_resultants = block.pressure->resultants;
+    at_rest.pressure = block.pressure->static_factors;
+    in_motion.pressure = block.pressure->dynamic_factors;
+  }
+  block.assessment = assess_block(*block.responses, recovery, attachment, at_rest, in_motion);
+  progress("block: every instant", 0.7, "");
+  block.history = assess_history(*block.responses, recovery, attachment, at_rest, in_motion,
+                                 block.assessment, history_settings(the_case.structure));
+  progress("block: panels", 0.85, "");
+  block.buckling = assess_buckling(the_case, *block.responses, *block.history);
+  progress("block: padeyes", 0.9, "");
+  block.padeyes = assess_padeyes(the_case, *block.responses, attachment, at_rest, in_motion);
+}
+
 }  // namespace
 
 Assessment assess(LiftCase lift_case, const Progress& progress) {
@@ -131,24 +170,11 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     assessment.checks = check_lift(the_case, *assessment.lift);
   }
   if (!block.responses) respond();
+  if (assessment.lift) find_pressure(*assessment.lift, block);
   progress("block: stresses", 0.5, "");
   const structure::StressRecovery recovery(*block.responses);
   if (assessment.lift) {
-    const BlockAttachment attachment =
-        attach_block(assessment.lift->model.system, assessment.lift->model.load, lugs);
-    block.assessment =
-        assess_block(*block.responses, recovery, attachment, assessment.lift->static_history,
-                     assessment.lift->dynamic_history());
-    progress("block: every instant", 0.7, "");
-    block.history = assess_history(
-        *block.responses, recovery, attachment, assessment.lift->static_history,
-        assessment.lift->dynamic_history(), block.assessment, history_settings(the_case.structure));
-    progress("block: panels", 0.85, "");
-    block.buckling = assess_buckling(the_case, *block.responses, *block.history);
-    progress("block: padeyes", 0.9, "");
-    block.padeyes =
-        assess_padeyes(the_case, *block.responses, attachment, assessment.lift->static_history,
-                       assessment.lift->dynamic_history());
+    assess_lifted_block(the_case, *assessment.lift, recovery, progress, block);
   } else {
     const LoadTable& table = *the_case.load_table;
     block.assessment =

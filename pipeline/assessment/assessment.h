@@ -12,6 +12,7 @@
 #include "pipeline/assessment/history_assessment.h"
 #include "pipeline/assessment/lift_run.h"
 #include "pipeline/assessment/padeye_assessment.h"
+#include "pipeline/coupling/shell_pressure.h"
 #include "structure/response/block_error.h"
 
 namespace blocklift::pipeline {
@@ -26,6 +27,7 @@ struct BlockRun {
   structure::BlockError error;               ///< estimated, at the load that governs the stress
   BucklingAssessment buckling;               ///< of every panel
   PadeyesAssessment padeyes;                 ///< of lugs that are made as padeyes
+  std::optional<PressureBasis> pressure;     ///< of the water on its shell; none: it stays dry
   double mesh_s = 0;                         ///< wall-clock time of meshing and mass properties
 };
 

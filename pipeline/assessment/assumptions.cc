@@ -104,6 +104,16 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
   if (assessment.lift)
     list.push_back(flexibility_sentence(assessment.lift_case.dynamics) +
                    displacement_sentence(*assessment.lift));
+  if (const auto& pressure = assessment.block.pressure)
+    list.push_back(
+        fmt::format("Water presses on the shell: the pressure on each piece of the hull acts, with "
+                    "its resultant "
+                    "and its centre, on the nearest of {} regions of the block's outer plates; {} "
+                    "fields make up "
+                    "the pressure of every instant to within {:.2g} % of the largest. Pads that "
+                    "bear the block, "
+                    "and drag of the water, are spread over its mass.",
+                    pressure->regions, pressure->count(), 100 * pressure->error));
   list.push_back(fmt::format(
       "Inertia relief: the first elastic period of the free block is about {:.2f} s; loads that "
       "rise within a few of these periods shake the block itself, which is not part of the "

@@ -100,23 +100,24 @@ double LoadComparison::deformation_increase_percent() const {
 
 BlockAssessment assess_block(const structure::UnitResponses& responses,
                              const structure::StressRecovery& recovery,
-                             const BlockAttachment& attachment,
-                             const dynamics::History& static_history,
-                             const dynamics::History& dynamic_history) {
+                             const BlockAttachment& attachment, const BlockHistory& static_history,
+                             const BlockHistory& dynamic_history) {
   Stopwatch watch;
   const structure::MassProperties& mass = responses.model().mass_properties();
-  const auto static_maxima = dynamics::find_largest_tensions(static_history);
-  const auto dynamic_maxima = dynamics::find_largest_tensions(dynamic_history);
+  const auto static_maxima = dynamics::find_largest_tensions(static_history.motion);
+  const auto dynamic_maxima = dynamics::find_largest_tensions(dynamic_history.motion);
 
   // Pairs of a static and a dynamic state: the ropes' maxima at once, then rope after rope.
   std::vector<BlockState> states;
-  states.push_back(make_state(map_rope_maxima(static_history, static_maxima, attachment, mass),
-                              "every rope at its own largest static load"));
-  states.push_back(make_state(map_rope_maxima(dynamic_history, dynamic_maxima, attachment, mass),
-                              "every rope at its own largest dynamic load"));
-  const auto at_maximum = [&](const dynamics::History& history,
-                              const dynamics::LinkedMaximum& maximum, const char* state) {
-    const std::string& rope = history.ropes[static_cast<std::size_t>(maximum.rope)].name;
+  states.push_back(
+      make_state(map_rope_maxima(static_history.motion, static_maxima, attachment, mass),
+                 "every rope at its own largest static load"));
+  states.push_back(
+      make_state(map_rope_maxima(dynamic_history.motion, dynamic_maxima, attachment, mass),
+                 "every rope at its own largest dynamic load"));
+  const auto at_maximum = [&](const BlockHistory& history, const dynamics::LinkedMaximum& maximum,
+                              const char* state) {
+    const std::string& rope = history.motion.ropes[static_cast<std::size_t>(maximum.rope)].name;
     return make_state(map_instant(history, maximum.sample, attachment, mass),
                       fmt::format("largest {} load of rope {}", state, rope), rope, maximum.time);
   };

@@ -57,9 +57,8 @@ inline constexpr double largest_reaction = 1e-6;
 ///   contradict each other and no stress can be trusted.
 BlockAssessment assess_block(const structure::UnitResponses& responses,
                              const structure::StressRecovery& recovery,
-                             const BlockAttachment& attachment,
-                             const dynamics::History& static_history,
-                             const dynamics::History& dynamic_history);
+                             const BlockAttachment& attachment, const BlockHistory& static_history,
+                             const BlockHistory& dynamic_history);
 
 /// The same for a load table: one static and one dynamic set of forces (N, in B, one a lug) that act
 /// at once, balanced by inertia. All ways of combining them are this one.

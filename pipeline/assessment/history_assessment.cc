@@ -31,7 +31,7 @@ double percent_above(double value, double reference) {
 class StateMaker {
  public:
   StateMaker(const UnitResponses& responses, const BlockAttachment& attachment,
-             const dynamics::History& history, std::string name)
+             const BlockHistory& history, std::string name)
       : responses_(responses),
         mass_(responses.model().mass_properties()),
         attachment_(attachment),
@@ -62,7 +62,7 @@ class StateMaker {
 
  private:
   void load() {
-    state_.time = history_.time;
+    state_.time = history_.motion.time;
     state_.factors.resize(responses_.count(), history_.sample_count());
     for (Eigen::Index sample = 0; sample < history_.sample_count(); ++sample) {
       const structure::LoadCase load_case = map_instant(history_, sample, attachment_, mass_);
@@ -87,14 +87,14 @@ class StateMaker {
       throw std::runtime_error(fmt::format(
           "the {} loads on the block at {:g} s are not in balance: force residual {:.1e}, moment "
           "residual {:.1e} (allowed {:.0e})",
-          name_, history_.time(sample), force, moment, largest_balance_residual));
+          name_, history_.motion.time(sample), force, moment, largest_balance_residual));
     state_.largest_force_residual = std::max(state_.largest_force_residual, force);
     state_.largest_moment_residual = std::max(state_.largest_moment_residual, moment);
   }
 
   // The rope with the largest share in a stress, as its place in the attachment.
   std::pair<int, double> governing_rope(const Eigen::MatrixXd& unit_stress, int instant) const {
-    const std::vector<Vector3> forces = rope_forces(history_, instant, attachment_);
+    const std::vector<Vector3> forces = rope_forces(history_.motion, instant, attachment_);
     Eigen::MatrixXd parts =
         Eigen::MatrixXd::Zero(responses_.count(), static_cast<Eigen::Index>(forces.size()));
     for (std::size_t i = 0; i < forces.size(); ++i)
@@ -109,11 +109,11 @@ class StateMaker {
   HistoryExtreme named(const TimedExtreme& extreme) const {
     HistoryExtreme result{extreme, 0, {}, 0};
     if (extreme.instant < 0) return result;
-    result.time = history_.time(extreme.instant);
+    result.time = history_.motion.time(extreme.instant);
     if (extreme.unit_stress.size() == 0) return result;
     const auto [rope, share] = governing_rope(extreme.unit_stress, extreme.instant);
     if (rope < 0) return result;
-    result.rope = rope_name(history_, attachment_.ropes[static_cast<std::size_t>(rope)]);
+    result.rope = rope_name(history_.motion, attachment_.ropes[static_cast<std::size_t>(rope)]);
     result.share = share;
     return result;
   }
@@ -125,7 +125,7 @@ class StateMaker {
     state_.patch_rope.resize(von_mises.value.size());
     const auto take = [&](int first, int count) {
       for (int p = first; p < first + count; ++p) {
-        state_.patch_time[p] = history_.time(von_mises.instant[p]);
+        state_.patch_time[p] = history_.motion.time(von_mises.instant[p]);
         state_.patch_rope[p] =
             governing_rope(structure::unit_stress_of_patch(membrane, p), von_mises.instant[p])
                 .first;
@@ -137,7 +137,7 @@ class StateMaker {
   const UnitResponses& responses_;
   const structure::MassProperties& mass_;
   const BlockAttachment& attachment_;
-  const dynamics::History& history_;
+  const BlockHistory& history_;
   std::string name_;
   HistoryState state_;
 };
@@ -270,16 +270,16 @@ double HistoryAssessment::deformation_increase_percent() const {
 HistoryAssessment assess_history(const structure::UnitResponses& responses,
                                  const structure::StressRecovery& recovery,
                                  const BlockAttachment& attachment,
-                                 const dynamics::History& static_history,
-                                 const dynamics::History& dynamic_history,
-                                 const BlockAssessment& block, const HistorySettings& settings) {
+                                 const BlockHistory& static_history,
+                                 const BlockHistory& dynamic_history, const BlockAssessment& block,
+                                 const HistorySettings& settings) {
   Stopwatch watch;
   HistoryAssessment result;
   result.curve = structure::fatigue_curve(settings.fatigue_curve);
   result.stress_concentration = settings.stress_concentration;
   result.lifts = settings.lifts;
   for (const LugRope& end : attachment.ropes)
-    result.ropes.push_back(rope_name(dynamic_history, end));
+    result.ropes.push_back(rope_name(dynamic_history.motion, end));
   result.static_state = StateMaker(responses, attachment, static_history, "static").make(recovery);
   result.dynamic_state =
       StateMaker(responses, attachment, dynamic_history, "dynamic").make(recovery);

@@ -119,8 +119,8 @@ struct HistorySettings {
 HistoryAssessment assess_history(const structure::UnitResponses& responses,
                                  const structure::StressRecovery& recovery,
                                  const BlockAttachment& attachment,
-                                 const dynamics::History& static_history,
-                                 const dynamics::History& dynamic_history,
-                                 const BlockAssessment& block, const HistorySettings& settings);
+                                 const BlockHistory& static_history,
+                                 const BlockHistory& dynamic_history, const BlockAssessment& block,
+                                 const HistorySettings& settings);
 
 }  // namespace blocklift::pipeline

@@ -100,7 +100,8 @@ std::vector<char> find_hanging(const LiftCase& lift_case, const LiftRun& lift,
     }
     if (!hull || here == 0) continue;
     const double displaced = lift_case.sea->density * calc_displaced_volume(*hull, load.X_WB(k));
-    if (displaced >= 0.9 * lift_case.load.vessel->model.mass) here = 0;
+    if (displaced >= 0.9 * lift.model.system.mechanism().body(lift.model.load).inertia.mass)
+      here = 0;
   }
   return hangs;
 }

@@ -169,11 +169,11 @@ int divisions_of(const LiftCase& lift_case, const std::string& design) {
 /// What is looked for in the history of one lug.
 struct Candidate {
   double value = -1;
-  const dynamics::History* history = nullptr;
+  const BlockHistory* history = nullptr;
   Eigen::Index sample = 0;
   std::string name;
 
-  void take(double other, const dynamics::History& of, Eigen::Index at, const std::string& called) {
+  void take(double other, const BlockHistory& of, Eigen::Index at, const std::string& called) {
     if (other <= value) return;
     *this = {other, &of, at, called};
   }
@@ -181,20 +181,20 @@ struct Candidate {
 
 /// The instants of a lug that finite elements look at; formulae at all instants on the way.
 std::vector<PadeyeInstant> find_instants(PadeyeRun& run, const BlockAttachment& attachment,
-                                         const dynamics::History& static_history,
-                                         const dynamics::History& dynamic_history,
+                                         const BlockHistory& static_history,
+                                         const BlockHistory& dynamic_history,
                                          const structure::MassProperties& mass) {
   std::array<Candidate, 4> candidates;
   auto& [at_rest, in_motion, sideways, at_base] = candidates;
-  for (const dynamics::History* history : {&static_history, &dynamic_history}) {
+  for (const BlockHistory* history : {&static_history, &dynamic_history}) {
     const bool moving = history == &dynamic_history;
     for (Eigen::Index sample = 0; sample < history->sample_count(); ++sample) {
-      const std::vector<Vector3> forces = rope_forces(*history, sample, attachment);
+      const std::vector<Vector3> forces = rope_forces(history->motion, sample, attachment);
       Vector3 sum = Vector3::Zero();
       for (std::size_t r = 0; r < forces.size(); ++r)
         if (attachment.ropes[r].lug == run.lug()) sum += forces[r];
       const Vector3 force = run.force_P(sum);
-      run.consider(force, history->time(sample));
+      run.consider(force, history->motion.time(sample));
       (moving ? in_motion : at_rest)
           .take(force.norm(), *history, sample,
                 moving ? "largest dynamic load" : "largest static load");
@@ -206,8 +206,8 @@ std::vector<PadeyeInstant> find_instants(PadeyeRun& run, const BlockAttachment& 
   std::vector<PadeyeInstant> instants;
   for (const Candidate& c : candidates) {
     if (!c.history) continue;
-    instants.push_back(
-        {c.name, c.history->time(c.sample), map_instant(*c.history, c.sample, attachment, mass)});
+    instants.push_back({c.name, c.history->motion.time(c.sample),
+                        map_instant(*c.history, c.sample, attachment, mass)});
   }
   return instants;
 }
@@ -252,8 +252,8 @@ const PadeyeFormulaAtWorst& PadeyeAssessment::worst_formula() const {
 
 PadeyesAssessment assess_padeyes(const LiftCase& lift_case, const UnitResponses& responses,
                                  const BlockAttachment& attachment,
-                                 const dynamics::History& static_history,
-                                 const dynamics::History& dynamic_history) {
+                                 const BlockHistory& static_history,
+                                 const BlockHistory& dynamic_history) {
   return assess_at(lift_case, responses, [&](PadeyeRun& run) -> std::vector<PadeyeInstant> {
     const bool is_pulled = std::any_of(attachment.ropes.begin(), attachment.ropes.end(),
                                        [&](const LugRope& rope) { return rope.lug == run.lug(); });

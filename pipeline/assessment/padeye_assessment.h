@@ -65,8 +65,8 @@ struct PadeyesAssessment {
 PadeyesAssessment assess_padeyes(const LiftCase& lift_case,
                                  const structure::UnitResponses& responses,
                                  const BlockAttachment& attachment,
-                                 const dynamics::History& static_history,
-                                 const dynamics::History& dynamic_history);
+                                 const BlockHistory& static_history,
+                                 const BlockHistory& dynamic_history);
 
 /// The same for the two states of a load table.
 PadeyesAssessment assess_padeyes(const LiftCase& lift_case,

@@ -283,6 +283,12 @@ Json structure_json(const Assessment& assessment) {
               {"largest_density_factor", mass.largest_density_factor}}}};
   json["estimated_error"] = error_json(model.mesh(), assessment.block.error);
   json["buckling"] = buckling_json(assessment.block.buckling);
+  if (const auto& pressure = assessment.block.pressure) {
+    json["pressure"] = {{"regions", pressure->regions},
+                        {"fields", pressure->count()},
+                        {"error", pressure->error},
+                        {"largest_force_N", pressure->largest_force}};
+  }
   if (!assessment.block.padeyes.padeyes.empty())
     json["padeyes"] = padeyes_json(assessment.block.padeyes);
   if (assessment.block.history) json["history"] = history_json(*assessment.block.history);

@@ -85,21 +85,27 @@ BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyI
   return attachment;
 }
 
-LoadCase map_instant(const History& history, Eigen::Index sample, const BlockAttachment& attachment,
-                     const structure::MassProperties& mass) {
-  const dynamics::BodyHistory& block = block_history(history, attachment);
+LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
+                     const BlockAttachment& attachment, const structure::MassProperties& mass) {
+  const dynamics::BodyHistory& block = block_history(history.motion, attachment);
   const Pose X_WB = block.X_WB(sample);
   LoadCase result;
   result.lug_forces_B.assign(attachment.lugs.size(), Vector3::Zero());
-  // All that acts on the body, less the ropes at lugs, is left for the spread load.
+  // All that acts on the body, less ropes at lugs and pressure on the shell, is left for the spread load.
   Wrench rest;
   rest.moment = X_WB.R.transpose() * Vector3(block.load.row(sample).head<3>());
   rest.force = X_WB.R.transpose() * Vector3(block.load.row(sample).tail<3>());
   for (const LugRope& end : attachment.ropes) {
-    const Vector3 f_B = lug_force(history, end, sample, X_WB);
+    const Vector3 f_B = lug_force(history.motion, end, sample, X_WB);
     result.lug_forces_B[static_cast<std::size_t>(end.lug)] += f_B;
     rest.force -= f_B;
     rest.moment -= attachment.lugs[static_cast<std::size_t>(end.lug)].p_BPin.cross(f_B);
+  }
+  result.added = history.pressure_at(sample);
+  if (result.added.size() > 0) {
+    const Eigen::Matrix<double, 6, 1> pressure = attachment.pressure_resultants * result.added;
+    rest.force -= pressure.head<3>();
+    rest.moment -= pressure.tail<3>();
   }
   result.field =
       field_of_motion(block, sample, attachment.gravity_W) + spread_over_mass(mass, rest);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/simulation/history.h"
@@ -26,6 +27,27 @@ struct BlockAttachment {
   std::vector<LugRope> ropes;
   std::vector<structure::LugRegion> lugs;  ///< all of the block's, loaded or not
   dynamics::Vector3 gravity_W = dynamics::Vector3::Constant(dynamics::not_a_number);  ///< m/s2
+  /// Resultants of the fields of water pressure on its shell (PressureBasis), 6 x fields.
+  Eigen::MatrixXd pressure_resultants = {};
+};
+
+/// A history of the lift with the pressure of water on the block's shell.
+struct BlockHistory {
+  /// A block that stays dry.
+  BlockHistory(const dynamics::History& motion) : motion(motion) {}  // NOLINT: it is one
+  BlockHistory(const dynamics::History& motion, Eigen::MatrixXd pressure)
+      : motion(motion), pressure(std::move(pressure)) {}
+
+  const dynamics::History& motion;
+  Eigen::MatrixXd pressure =
+      {};  ///< factors of the fields of pressure, fields x samples; empty: dry
+
+  Eigen::Index sample_count() const { return motion.sample_count(); }
+  /// Factors of the fields at a sample.
+  Eigen::VectorXd pressure_at(Eigen::Index sample) const {
+    if (pressure.cols() == 0) return {};
+    return pressure.col(sample);
+  }
 };
 
 /// Finds the ropes that end at a lug: those whose first or last point is a point of the body that
@@ -35,10 +57,11 @@ BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyI
                              const std::vector<structure::LugRegion>& lugs);
 
 /// Loads on the block at one sample: every rope's force at that instant, gravity, and the inertia
-/// of the motion that the dynamics found. What else acts on the body (wind, tugger lines that end
-/// elsewhere) is spread over the block's mass. Nothing is adjusted: the balance of the result
+/// of the motion that the dynamics found. Water presses on the shell. What else acts on the body (wind,
+/// pads that it stands on, drag of the water, tugger lines that end elsewhere) is spread over the block's
+/// mass. Nothing is adjusted: the balance of the result
 /// measures how well the two stages agree.
-structure::LoadCase map_instant(const dynamics::History& history, Eigen::Index sample,
+structure::LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
                                 const BlockAttachment& attachment,
                                 const structure::MassProperties& mass);
 

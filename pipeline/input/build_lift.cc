@@ -177,8 +177,9 @@ class LiftBuilder {
     load.mass = load_.mass;
     load.p_BoBcm_B = load_.p_BoBcm_B;
     load.I_BBcm_B = load_.I_BBcm_B;
-    register_body(builder, load, "load",
-                  {case_.load.model ? drawn_box(*case_.load.model) : hull_box(*case_.load.vessel)});
+    register_body(
+        builder, load, "load",
+        {case_.load.vessel ? hull_box(*case_.load.vessel) : drawn_box(*case_.load.model)});
   }
 
   /// The load's natural modes: each a body of the load's mass that slides level.
@@ -304,7 +305,7 @@ class LiftBuilder {
     const LoadInCase& load = case_.load;
     if (!load.vessel) return elements;
     marine_.add_hull("load", body_of_.at("load"), *load.vessel, load.damping,
-                     load.quadratic_damping, load.vessel->model.mass, at_rest, elements);
+                     load.quadratic_damping, load_.mass, at_rest, elements);
     return elements;
   }
 

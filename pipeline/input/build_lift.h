@@ -86,7 +86,7 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// centre. The load is free; its start and that of the hook blocks (plumb below their sheaves, by
 /// the unstretched length) are guesses from which the equilibrium is found.
 ///
-/// A vessel that is the load floats by its hull where it reaches the water: buoyancy, wave pressure and
+/// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave pressure and
 /// damping, without radiation.
 ///
 /// @param database of radiation_problem(), or `marched` made of it; neither: vessels make no waves.

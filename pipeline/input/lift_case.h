@@ -33,12 +33,13 @@ struct CraneInCase {
   const Located<Quantity>* find_start(const std::string& drive_or_hoist) const;
 };
 
-/// What is lifted: a block, whose stress is asked, or a vessel, which may float.
+/// What is lifted: a block, whose stress is asked; a vessel, which may float; or both, one ship.
 struct LoadInCase {
   Located<std::string> model_name;          ///< of the block; empty for a vessel
   std::shared_ptr<const BlockModel> model;  ///< after the look-up; null if it failed
   std::optional<Located<std::string>> vessel_name;
-  std::shared_ptr<const Vessel> vessel;      ///< after the look-up; null if it failed
+  std::shared_ptr<const Vessel>
+      vessel;  ///< after the look-up; null if it failed; beside a block its hull
   std::vector<Named<Vector3>> lugs;          ///< of a vessel, in its frame, m
   DampingInCase damping, quadratic_damping;  ///< of a vessel in the water
   Vector3 position = Vector3::Zero();  ///< of the block's frame at the start, a first guess, m

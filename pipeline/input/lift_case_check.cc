@@ -118,7 +118,7 @@ class PointResolver {
   }
 
   std::optional<ResolvedPoint> resolve_lug(const Located<std::string>& name) {
-    if (case_.load.vessel_name) return resolve_vessel_lug(name);
+    if (case_.load.model_name.value.empty()) return resolve_vessel_lug(name);
     if (!case_.load.model) return std::nullopt;
     const LugModel* lug = case_.load.model->find_lug(name.value);
     if (!lug) {
@@ -389,6 +389,20 @@ void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostic
   refuse(dynamics.modal_damping, "modal_damping");
 }
 
+/// A ship that is given as a block and as a vessel is one.
+void check_weights(const LoadInCase& load, Diagnostics& diagnostics) {
+  if (!load.model || !load.vessel || !load.model->mass) return;
+  constexpr double allowed = 0.01;
+  const double of_block = load.model->mass->value, of_vessel = load.vessel->model.mass;
+  if (std::abs(of_block - of_vessel) <= allowed * of_vessel) return;
+  diagnostics.error(
+      load.vessel_name->mark,
+      fmt::format("block {} weighs {}, and vessel {}, whose hull bears it, {}",
+                  short_name(load.model_name.value), format_quantity(of_block, Dimension::mass),
+                  short_name(load.vessel_name->value), format_quantity(of_vessel, Dimension::mass)),
+      {"they are one ship: the block's mass moves, the vessel's must agree with it to 1 %"});
+}
+
 /// Vessels, sea and lines, and the lugs and the water of a load that is a vessel.
 void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
   std::vector<std::string> bodies = {"load"};
@@ -397,7 +411,8 @@ void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
     for (const std::string& part : parts_of(crane, true)) bodies.push_back(part);
   }
   check_marine_parts(lift_case, lift_case.gravity, bodies, diagnostics);
-  if (lift_case.load.vessel_name && lift_case.dynamics.flexibility != Flexibility::rigid) {
+  if (lift_case.load.vessel_name && lift_case.load.model_name.value.empty() &&
+      lift_case.dynamics.flexibility != Flexibility::rigid) {
     diagnostics.error(lift_case.load.vessel_name->mark,
                       "the load is a vessel, whose structure is not known; it cannot be flexible",
                       {"leave flexibility out, or give a block as the load"});
@@ -406,6 +421,7 @@ void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
     diagnostics.error(lift_case.load.vessel_name->mark, "the load is a vessel, and there is no sea",
                       {"add sea: {} for calm deep sea water"});
   }
+  check_weights(lift_case.load, diagnostics);
   if (diagnostics.has_errors()) return;
   std::vector<PlacedHull> hulls = place_hulls(lift_case);
   if (lift_case.load.vessel) {

@@ -29,9 +29,10 @@ Format<CraneInCase> crane_format() {
 
 void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
   const bool block = !load.model_name.value.empty();
-  if (block == load.vessel_name.has_value()) {
-    reading.error(mark, block ? "the load is a block and a vessel" : "the load is not described",
-                  {"give either model, a block, or vessel with its lugs"});
+  if (!block && !load.vessel_name) {
+    reading.error(mark, "the load is not described",
+                  {"give model, a block; or vessel with its lugs; or both, a block that floats by "
+                   "the hull of the vessel"});
   }
   for (const Named<Vector3>& lug : load.lugs) check_name(lug.name.mark, lug.name.value, reading);
   if (block && !load.lugs.empty()) {
@@ -41,16 +42,19 @@ void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
 
 Format<LoadInCase> load_format() {
   Table<LoadInCase> table("load",
-                          "What is lifted: a block, one model for its motion and its stress, or a "
+                          "What is lifted: a block, one model for its motion and its stress; a "
                           "vessel, which floats where it reaches the water and whose stress is not "
-                          "asked.");
+                          "asked; or both, one ship: the block that she is built as, afloat by "
+                          "the hull of the vessel.");
   table
       .optional("model", &LoadInCase::model_name, located(reference()),
                 "name of the block's model file")
-      .optional("vessel", &LoadInCase::vessel_name, located(reference()),
-                "in place of model: name of a vessel's model file")
+      .optional(
+          "vessel", &LoadInCase::vessel_name, located(reference()),
+          "name of a vessel's model file: in place of model, or beside it for its hull, in the "
+          "frame of the block; the two weigh the same")
       .optional("lugs", &LoadInCase::lugs, names_to(position_format()),
-                "of a vessel: places of its lugs in its frame")
+                "of a vessel without a block: places of its lugs in its frame")
       .by_default("damping", &LoadInCase::damping, vessel_damping_format(), "{}",
                   "of a vessel in the water: linear, in proportion to the wet volume")
       .by_default("quadratic_damping", &LoadInCase::quadratic_damping,

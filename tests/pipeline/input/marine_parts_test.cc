@@ -314,7 +314,7 @@ TEST(MarineParts, ComplainsAboutFloatingCranes) {
               HasSubstr("crane F1 stands on vessel \"B3\", which the case does not have"));
   EXPECT_THAT(about("to: L1", "to: L7"), HasSubstr("its lugs are L1, L2"));
   EXPECT_THAT(about("vessel: vessels/boat", "vessel: vessels/boat, model: x"),
-              HasSubstr("the load is a block and a vessel"));
+              HasSubstr("a block's lugs stand in its model file"));
   EXPECT_THAT(about("sea: {}\n", ""), HasSubstr("vessel B1 floats in no sea"));
 }
 
