@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull_shapes.h"
+#include "structure/error.h"
 #include "tests/dynamics/force/one_body.h"
 
 namespace blocklift::pipeline {
@@ -161,11 +162,14 @@ dynamics::History lowering(const dynamics::LiftSystem& system, int instants, dou
 
 TEST(ShellPressure, FewFieldsMakeUpThePressureOfEveryInstant) {
   const structure::ElasticModel model = structure::make_elastic_model(box_block(3), 1);
-  dynamics::LiftDefinition definition{dynamics::testing::OneBody::make()};
-  std::get<std::vector<HullForce>>(definition.elements)
-      .push_back(hull_force(box_hull(4), WaveField(deep, {{0.3, 0.9, 0.7, 0}})));
-  definition.q_start = definition.mechanism.zero_configuration();
-  const dynamics::LiftSystem system(std::move(definition));
+  dynamics::ForceElements elements;
+  std::get<std::vector<HullForce>>(elements).push_back(
+      hull_force(box_hull(4), WaveField(deep, {{0.3, 0.9, 0.7, 0}})));
+  const dynamics::Mechanism mechanism = dynamics::testing::OneBody::make();
+  const dynamics::LiftSystem system({.mechanism = mechanism,
+                                     .elements = std::move(elements),
+                                     .operation = dynamics::OperationBuilder().build(1.0),
+                                     .q_start = mechanism.zero_configuration()});
   const HullForce* hull = find_hull(system, 1);
   ASSERT_NE(hull, nullptr);
   EXPECT_EQ(find_hull(system, 0), nullptr);
