@@ -250,7 +250,7 @@ System fit(const ScaledSamples& samples, double tolerance, int most_states) {
   const Realisation realisation = realise(samples.K, samples.step, most_states);
   const Eigen::Index most = realisation.values.size();
   double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index states = 2; states <= most; states += std::max<Eigen::Index>(1, states / 8)) {
+  for (Eigen::Index states = 1; states <= most; states += std::max<Eigen::Index>(1, states / 8)) {
     System system = take_modal_form(realisation, states);
     const double error = largest_error(samples, system.A, system.B, system.C);
     if (error < least) {
