@@ -1,6 +1,7 @@
 #include "dynamics/marine/hull_force.h"
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/wet_triangle.h"
 
 namespace blocklift::dynamics {
 
@@ -35,38 +36,6 @@ void locate(const Pose& X_WB, std::span<const Vector3> points_B, double* x, doub
   }
 }
 
-// The wetted part of a triangle of the given area that the surface cuts, h being the heights of its
-// corners p above the water and q the pressure over rho g there, which is linear from the wet ones to zero
-// at the surface: int q dA n and int p x n q dA.
-void add_cut(const std::array<const Vector3*, 3>& p, const std::array<double, 3>& h,
-             const std::array<double, 3>& q, int wet, const Vector3& area, ForceVector& F) {
-  // The corner that is alone on its side comes first; the order round the triangle is kept.
-  std::size_t i = 0;
-  while ((h[i] < 0.0) != (wet == 1)) ++i;
-  const std::size_t j = (i + 1) % 3;
-  const std::size_t k = (i + 2) % 3;
-  const double to_j = h[i] / (h[i] - h[j]);
-  const double to_k = h[i] / (h[i] - h[k]);
-  const Vector3 ij = *p[i] + to_j * (*p[j] - *p[i]);
-  const Vector3 ik = *p[i] + to_k * (*p[k] - *p[i]);
-  double sum;   // of q over the corners of each wet piece, times its share of the area
-  Vector3 arm;  // 12 int p q dA over the area
-  if (wet == 1) {
-    const double share = to_j * to_k;
-    sum = share * q[i];
-    arm = sum * (2.0 * *p[i] + ij + ik);
-  } else {
-    // The triangles (ij, j, k) and (ij, k, ik).
-    const double share = 1.0 - to_j, rest = to_j * (1.0 - to_k);
-    const double both = share * (q[j] + q[k]), upper = rest * q[k];
-    sum = both + upper;
-    arm = both * (ij + *p[j] + *p[k]) + share * (q[j] * *p[j] + q[k] * *p[k]) +
-          upper * (ij + 2.0 * *p[k] + ik);
-  }
-  F.force -= sum / 3.0 * area;
-  F.moment -= (arm / 12.0).cross(area);
-}
-
 }  // namespace
 
 void HullForce::add_leaf(double time, const Pose& X_WB, const TriangleTree::Node& leaf,
@@ -84,19 +53,8 @@ void HullForce::add_leaf(double time, const Pose& X_WB, const TriangleTree::Node
   }
   for (const TriangleTree::Triangle& triangle : tree.triangles(leaf)) {
     const auto [a, b, c] = triangle.corners;
-    const int wet =
-        (height[a] < 0.0 ? 1 : 0) + (height[b] < 0.0 ? 1 : 0) + (height[c] < 0.0 ? 1 : 0);
-    if (wet == 0) continue;
-    if (wet < 3) {
-      add_cut({&points[a], &points[b], &points[c]}, {height[a], height[b], height[c]},
-              {head[a], head[b], head[c]}, wet, triangle.area, F);
-      continue;
-    }
-    const double sum = head[a] + head[b] + head[c];
-    const Vector3 arm =
-        (head[a] + sum) * points[a] + (head[b] + sum) * points[b] + (head[c] + sum) * points[c];
-    F.force -= sum / 3.0 * triangle.area;
-    F.moment -= (arm / 12.0).cross(triangle.area);
+    add_wet_part({&points[a], &points[b], &points[c]}, {height[a], height[b], height[c]},
+                 {head[a], head[b], head[c]}, triangle.area, F);
   }
 }
 

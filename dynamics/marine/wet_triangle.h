@@ -7,49 +7,56 @@
 
 namespace blocklift::dynamics {
 
-/// A corner of a wetted triangle.
-struct WetPoint {
-  Vector3 r;    ///< place from the origin that moments are about, m
-  double head;  ///< pressure over rho g, m
-};
+/// Adds -int q dA n and -int p x n q dA of a wet triangle, the pressure q over rho g (m) being linear between
+/// its corners p (m, from the origin that moments are about). `area`: n times its area, m2.
+inline void add_wet_triangle(const std::array<const Vector3*, 3>& p, const std::array<double, 3>& q,
+                             const Vector3& area, ForceVector& F) {
+  const double sum = q[0] + q[1] + q[2];
+  const Vector3 arm = (q[0] + sum) * *p[0] + (q[1] + sum) * *p[1] + (q[2] + sum) * *p[2];
+  F.force -= sum / 3.0 * area;
+  F.moment -= (arm / 12.0).cross(area);
+}
 
-/// Adds -int h n dA and -int r x n h dA of a triangle whose head h is linear between its corners; n points
-/// to the side from which they run counter-clockwise.
-inline void add_wet_triangle(const WetPoint& a, const WetPoint& b, const WetPoint& c,
+/// The same of what is wet of a triangle that the surface cuts, h being the heights of its corners above the
+/// water (m) and `wet` the number of those below; q falls to zero at the surface. Does not allocate.
+inline void add_cut_triangle(const std::array<const Vector3*, 3>& p, const std::array<double, 3>& h,
+                             const std::array<double, 3>& q, int wet, const Vector3& area,
                              ForceVector& F) {
-  const Vector3 n = 0.5 * (b.r - a.r).cross(c.r - a.r);
-  const double sum = a.head + b.head + c.head;
-  F.force -= sum / 3.0 * n;
-  const Vector3 arm = (a.head + sum) * a.r + (b.head + sum) * b.r + (c.head + sum) * c.r;
-  F.moment -= (arm / 12.0).cross(n);
-}
-
-/// The place on the edge from a to b where the height above the water, ha and hb, is zero.
-inline WetPoint at_surface(const WetPoint& a, double ha, const WetPoint& b, double hb) {
-  return {a.r + ha / (ha - hb) * (b.r - a.r), 0.0};
-}
-
-/// The same of the part of a triangle that lies below the water. Does not allocate.
-/// @param p corners. @param h their heights above the water's surface, m, linear between them.
-inline void add_wet_part(const std::array<WetPoint, 3>& p, const std::array<double, 3>& h,
-                         ForceVector& F) {
-  const int wet = (h[0] < 0.0 ? 1 : 0) + (h[1] < 0.0 ? 1 : 0) + (h[2] < 0.0 ? 1 : 0);
-  if (wet == 0) return;
-  if (wet == 3) {
-    add_wet_triangle(p[0], p[1], p[2], F);
-    return;
-  }
+  // The corner that is alone on its side comes first; the order round the triangle is kept.
   std::size_t i = 0;
   while ((h[i] < 0.0) != (wet == 1)) ++i;
   const std::size_t j = (i + 1) % 3;
   const std::size_t k = (i + 2) % 3;
-  const WetPoint ij = at_surface(p[i], h[i], p[j], h[j]);
-  const WetPoint ik = at_surface(p[i], h[i], p[k], h[k]);
+  const double to_j = h[i] / (h[i] - h[j]);
+  const double to_k = h[i] / (h[i] - h[k]);
+  const Vector3 ij = *p[i] + to_j * (*p[j] - *p[i]);
+  const Vector3 ik = *p[i] + to_k * (*p[k] - *p[i]);
+  double sum;   // of q over the corners of each wet piece, times its share of the area
+  Vector3 arm;  // 12 int p q dA over the area
   if (wet == 1) {
-    add_wet_triangle(p[i], ij, ik, F);
+    const double share = to_j * to_k;
+    sum = share * q[i];
+    arm = sum * (2.0 * *p[i] + ij + ik);
   } else {
-    add_wet_triangle(ij, p[j], p[k], F);
-    add_wet_triangle(ij, p[k], ik, F);
+    // The triangles (ij, j, k) and (ij, k, ik).
+    const double share = 1.0 - to_j, rest = to_j * (1.0 - to_k);
+    const double both = share * (q[j] + q[k]), upper = rest * q[k];
+    sum = both + upper;
+    arm = both * (ij + *p[j] + *p[k]) + share * (q[j] * *p[j] + q[k] * *p[k]) +
+          upper * (ij + 2.0 * *p[k] + ik);
+  }
+  F.force -= sum / 3.0 * area;
+  F.moment -= (arm / 12.0).cross(area);
+}
+
+/// The same of any triangle: dry, wet or cut.
+inline void add_wet_part(const std::array<const Vector3*, 3>& p, const std::array<double, 3>& h,
+                         const std::array<double, 3>& q, const Vector3& area, ForceVector& F) {
+  const int wet = (h[0] < 0.0 ? 1 : 0) + (h[1] < 0.0 ? 1 : 0) + (h[2] < 0.0 ? 1 : 0);
+  if (wet == 3) {
+    add_wet_triangle(p, q, area, F);
+  } else if (wet > 0) {
+    add_cut_triangle(p, h, q, wet, area, F);
   }
 }
 

@@ -105,17 +105,18 @@ void ShellPressure::calc_wrenches(const dynamics::Sea& sea, bool in_waves, doubl
   if (height.minCoeff() >= 0) return;
   const double rho_g = sea.water().density * sea.water().gravity;
   for (const Panel& panel : panels_) {
-    std::array<dynamics::WetPoint, 3> corners;
-    std::array<double, 3> heights{};
+    std::array<Vector3, 3> p;
+    std::array<double, 3> heights{}, heads{};
     for (std::size_t i = 0; i < 3; ++i) {
       const int point = panel.points[i];
-      corners[i] = {points_B_[static_cast<std::size_t>(point)] -
-                        centres_B_[static_cast<std::size_t>(panel.region)],
-                    head[point]};
+      p[i] = points_B_[static_cast<std::size_t>(point)] -
+             centres_B_[static_cast<std::size_t>(panel.region)];
       heights[i] = height[point];
+      heads[i] = head[point];
     }
+    const Vector3 area = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]);
     dynamics::ForceVector F = dynamics::ForceVector::zero();
-    dynamics::add_wet_part(corners, heights, F);
+    dynamics::add_wet_part({&p[0], &p[1], &p[2]}, heights, heads, area, F);
     wrenches.segment<3>(6 * panel.region) += rho_g * F.force;
     wrenches.segment<3>(6 * panel.region + 3) += rho_g * F.moment;
   }
