@@ -29,6 +29,11 @@ Check make_check(std::string name, double demand, double limit, std::string unit
   return check;
 }
 
+std::string text_of_utilisation(const Check& check) {
+  if (check.utilisation >= beyond_any_limit) return fmt::format("{}: beyond any limit", check.name);
+  return fmt::format("{}: utilisation {:.2f}", check.name, check.utilisation);
+}
+
 }  // namespace
 
 Check check_at_most(std::string name, double demand, double limit, std::string unit) {
@@ -59,12 +64,10 @@ const Check* governing_check(const std::vector<Check>& checks) {
 std::vector<std::string> verdict_reasons(const std::vector<Check>& checks) {
   std::vector<std::string> reasons;
   for (const Check& check : checks) {
-    if (!check.pass)
-      reasons.push_back(fmt::format("{}: utilisation {:.2f}", check.name, check.utilisation));
+    if (!check.pass) reasons.push_back(text_of_utilisation(check));
   }
   if (const Check* governing = governing_check(checks); reasons.empty() && governing) {
-    reasons.push_back(
-        fmt::format("governed by {}: utilisation {:.2f}", governing->name, governing->utilisation));
+    reasons.push_back("governed by " + text_of_utilisation(*governing));
   }
   return reasons;
 }

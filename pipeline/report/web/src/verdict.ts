@@ -4,6 +4,9 @@ import { Child, h, table } from "./dom";
 import type { Section } from "./main";
 import { change, inReportUnit, kilonewtons, megapascals, millimetres, missing, ratio, seconds, share, tonnesForce } from "./numbers";
 
+// What stands for the utilisation where nothing finite describes it: a rope that has gone slack.
+const beyondAnyLimit = 999;
+
 function bar(utilisation: unknown, pass: boolean): Child {
   if (!known(utilisation)) return missing;
   const full = 1.25;  // the bar ends at 125 %, so that an excess shows
@@ -12,7 +15,7 @@ function bar(utilisation: unknown, pass: boolean): Child {
     h("span", { class: "bar", "aria-hidden": "true" },
       h("span", { class: pass ? "fill" : "fill failed", style: `width:${width}%` }),
       h("span", { class: "limit", style: `left:${100 / full}%` })),
-    h("span", { class: "value" }, share(utilisation)));
+    h("span", { class: "value" }, utilisation < beyondAnyLimit ? share(utilisation) : "beyond any limit"));
 }
 
 function mark(pass: boolean): Child {
