@@ -15,7 +15,8 @@ namespace blocklift::pipeline {
 /// region nearest to it that looks the same way, with its own force at its own place.
 ///
 /// The pressure is that of dynamics::HullForce on the same triangles, so that the wrenches of all regions
-/// sum up to the force that moved the body.
+/// sum up to the force that moved the body: to rounding in still water, in waves to the share by which that
+/// force takes boxes of panels whole.
 class ShellPressure {
  public:
   ShellPressure(const dynamics::Hull& hull, const structure::ShellRegions& shell);

@@ -173,7 +173,7 @@ TEST(PadeyeModel, ShankOfAStripIsABar) {
   EXPECT_GT(seen, 4);
 }
 
-// Pilkey (2005), Formulas for Stress, Strain, and Structural Matrices, table 6-1, has K = 2.51 on the net
+// Pilkey (2005), Formulas for Stress, Strain, and Structural Matrices, has K = 2.51 on the net
 // section of a strip of D = 2 d with a closely fitting pin whose middle lies D or more from the end. Here
 // the end is round and lies at D / 2: it bends over the pin, and the hole's edge sees more.
 TEST(PadeyeModel, RoundEndConcentratesMoreThanALongOne) {

@@ -131,6 +131,8 @@ TEST(DirectRadiation, AgreesWithTheDatabaseInWavesAsPanelsGrowSmaller) {
     TwoWays barge(waves, 0.0, panel_size);
     const Heave direct = barge.march("direct", 2);
     const Heave database = barge.march("database");
+    // The surface's step moves less than the panels do: 0.4 %.
+    EXPECT_LT(difference(barge.march("direct"), direct), 0.02);
     apart.push_back(difference(direct, database, 200));
     std::printf("in waves, %d unknowns: %.5f\n", direct.unknowns, apart.back());
   }
