@@ -25,9 +25,6 @@ const Hull& usable(const Hull& hull) {
 }  // namespace
 
 HullClusters::HullClusters(const Hull& hull)
-    : hull_(usable(hull)),
-      enclosed_(calc_enclosed_volume(hull)),
-      panels_(hull),
-      faces_(join_flat_panels(hull)) {}
+    : hull_(usable(hull)), enclosed_(calc_enclosed_volume(hull)), faces_(join_flat_panels(hull)) {}
 
 }  // namespace blocklift::dynamics

@@ -14,16 +14,14 @@ class HullClusters {
   const Hull& hull() const { return hull_; }
   const EnclosedVolume& enclosed() const { return enclosed_; }
 
-  /// The hull's panels: for what varies over them, as the pressure of waves does.
-  const TriangleTree& panels() const { return panels_; }
-  /// The same surface of fewer triangles, panels of one plane joined (join_flat_panels): for what is exact
+  /// Its surface of few triangles, panels of one plane joined (join_flat_panels): for what is exact
   /// on any triangle, as the pressure of still water is.
   const TriangleTree& faces() const { return faces_; }
 
  private:
   Hull hull_;
   EnclosedVolume enclosed_;
-  TriangleTree panels_, faces_;
+  TriangleTree faces_;
 };
 
 }  // namespace blocklift::dynamics

@@ -1,7 +1,9 @@
 #include "dynamics/marine/hull_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -117,6 +119,100 @@ Hull join_flat_panels(const Hull& hull) {
   Hull result(hull.name());
   for (const Vector3& vertex : hull.vertices()) result.add_vertex(vertex);
   for (const Face& face : faces) result.add_panel(face.corners);
+  return result;
+}
+
+namespace {
+
+using Polygon = std::vector<Vector3>;
+
+/// What of a convex polygon lies where direction . p <= limit.
+Polygon clipped(const Polygon& polygon, const Vector3& direction, double limit) {
+  Polygon result;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vector3& from = polygon[k];
+    const Vector3& to = polygon[(k + 1) % polygon.size()];
+    const double a = direction.dot(from) - limit, b = direction.dot(to) - limit;
+    if (a <= 0.0) result.push_back(from);
+    if ((a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0)) {
+      result.push_back(from + a / (a - b) * (to - from));
+    }
+  }
+  return result.size() < 3 ? Polygon{} : result;
+}
+
+struct Extent {
+  double low, high;
+  double length() const { return high - low; }
+};
+
+Extent extent_of(const Polygon& polygon, const Vector3& direction) {
+  const auto along = [&](const Vector3& a, const Vector3& b) {
+    return direction.dot(a) < direction.dot(b);
+  };
+  const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(), along);
+  return {direction.dot(*low), direction.dot(*high)};
+}
+
+/// The polygon in strips of equal width across a direction.
+std::vector<Polygon> strips(const Polygon& polygon, const Vector3& direction, int count) {
+  const Extent extent = extent_of(polygon, direction);
+  std::vector<Polygon> result;
+  Polygon rest = polygon;
+  for (int i = 1; i < count && !rest.empty(); ++i) {
+    const double limit = extent.low + extent.length() * i / count;
+    Polygon strip = clipped(rest, direction, limit);
+    if (!strip.empty()) result.push_back(std::move(strip));
+    rest = clipped(rest, -direction, -limit);
+  }
+  if (!rest.empty()) result.push_back(std::move(rest));
+  return result;
+}
+
+int pieces_of(double length, double piece) {
+  return std::max(1, static_cast<int>(std::ceil(length / piece)));
+}
+
+std::vector<Polygon> divided(const Polygon& polygon, double size) {
+  Vector3 along = Vector3::Zero();
+  Vector3 doubled_area = Vector3::Zero();
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vector3& next = polygon[(k + 1) % polygon.size()];
+    const Vector3 edge = next - polygon[k];
+    if (edge.squaredNorm() > along.squaredNorm()) along = edge;
+    doubled_area += (polygon[k] - polygon[0]).cross(next - polygon[0]);
+  }
+  if (doubled_area.norm() == 0.0) return {polygon};
+  const Vector3 u = along.normalized();
+  const Vector3 v = doubled_area.normalized().cross(u);
+  const double length = extent_of(polygon, u).length(), width = extent_of(polygon, v).length();
+  if (std::hypot(length, width) <= size) return {polygon};
+  // Squares, or rectangles as long as allowed where the panel is narrower than these.
+  const double side = size / std::numbers::sqrt2;
+  const int across =
+      pieces_of(width, length < side ? std::sqrt(size * size - length * length) : side);
+  const double height = width / across;
+  const int lengthwise = pieces_of(length, std::sqrt(size * size - height * height));
+  std::vector<Polygon> result;
+  for (const Polygon& strip : strips(polygon, v, across)) {
+    for (Polygon& piece : strips(strip, u, lengthwise)) result.push_back(std::move(piece));
+  }
+  return result;
+}
+
+}  // namespace
+
+Hull divide_flat_panels(const Hull& hull, double size) {
+  Hull result(hull.name());
+  for (int panel = 0; panel < hull.panel_count(); ++panel) {
+    Polygon polygon;
+    for (const int vertex : hull.panel(panel)) polygon.push_back(hull.vertex(vertex));
+    for (const Polygon& piece : divided(polygon, size)) {
+      std::vector<int> corners;
+      for (const Vector3& corner : piece) corners.push_back(result.add_vertex(corner));
+      result.add_panel(corners);
+    }
+  }
   return result;
 }
 

@@ -10,4 +10,8 @@ namespace blocklift::dynamics {
 /// integrals over the surface, which stay the same to that share.
 Hull join_flat_panels(const Hull& hull);
 
+/// The same surface, each flat and convex panel divided by lines along and across its longest edge into
+/// pieces no longer than `size` from corner to corner (m). Edges need not match those of neighbours.
+Hull divide_flat_panels(const Hull& hull, double size);
+
 }  // namespace blocklift::dynamics

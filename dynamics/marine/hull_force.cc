@@ -5,7 +5,7 @@
 
 namespace blocklift::dynamics {
 
-static_assert(TriangleTree::most_points <= static_cast<int>(WaveField::most_points));
+static_assert(TriangleTree::most_points <= WaveField::most_points);
 
 HullForce::HullForce(Definition definition) : definition_(std::move(definition)) {
   if (!definition_.hull || !definition_.sea) {
@@ -18,13 +18,15 @@ HullForce::HullForce(Definition definition) : definition_(std::move(definition))
   const Water& water = definition_.sea->water();
   rho_g_ = water.density * water.gravity;
   if (!in_waves()) return;
-  boxes_ = std::make_shared<const PressureBoxes>(definition_.hull->panels(), definition_.sea->waves,
-                                                 box_tolerance);
+  surface_ = std::make_shared<const WaveSurface>(definition_.hull->hull(), definition_.sea->waves);
 }
 
 namespace {
 
 using Values = std::array<double, WaveField::most_points>;
+using WetPoints = WetTrianglePoints<2 * WaveSurface::faces_in_leaf>;
+
+static_assert(WetPoints::most <= WaveField::most_points);
 
 // Places of points of the body in the world.
 void locate(const Pose& X_WB, std::span<const Vector3> points_B, double* x, double* y, double* z) {
@@ -38,9 +40,8 @@ void locate(const Pose& X_WB, std::span<const Vector3> points_B, double* x, doub
 
 }  // namespace
 
-void HullForce::add_leaf(double time, const Pose& X_WB, const TriangleTree::Node& leaf,
-                         ForceVector& F) const {
-  const TriangleTree& tree = definition_.hull->panels();
+void HullForce::add_panels(double time, const Pose& X_WB, const TriangleTree& tree,
+                           const TriangleTree::Node& leaf, ForceVector& F) const {
   const std::span<const Vector3> points = tree.points(leaf);
   const std::size_t count = points.size();
   Values x, y, z, height, head;
@@ -58,36 +59,79 @@ void HullForce::add_leaf(double time, const Pose& X_WB, const TriangleTree::Node
   }
 }
 
-void HullForce::add_box(double time, const Pose& X_WB, int box, ForceVector& F) const {
-  const std::span<const Vector3> points = boxes_->points(box);
+void HullForce::add_faces(double time, const Pose& X_WB, const TriangleTree& tree,
+                          const TriangleTree::Node& leaf, ForceVector& F) const {
+  const WaveField& waves = definition_.sea->waves;
+  const std::span<const Vector3> points = tree.points(leaf);
+  const std::size_t count = points.size();
+  Values x, y, z, height, head;
+  locate(X_WB, points, x.data(), y.data(), z.data());
+  waves.calc_elevations(time, count, x.data(), y.data(), height.data());
+  for (std::size_t i = 0; i < count; ++i) height[i] = z[i] - height[i];
+  WetPoints wet;
+  for (const TriangleTree::Triangle& triangle : tree.triangles(leaf)) {
+    const auto [a, b, c] = triangle.corners;
+    wet.add_wet_part({&points[a], &points[b], &points[c]}, {height[a], height[b], height[c]},
+                     triangle.area);
+  }
+  const std::size_t wet_count = wet.count();
+  locate(X_WB, wet.points(), x.data(), y.data(), z.data());
+  waves.calc_surface(time, wet_count, x.data(), y.data(), z.data(), height.data(), head.data());
+  for (std::size_t i = 0; i < wet_count; ++i) {
+    const Vector3 push = (head[i] - z[i]) * wet.area(i);
+    F.force -= push;
+    F.moment -= wet.points()[i].cross(push);
+  }
+}
+
+void HullForce::add_box(double time, const Pose& X_WB, const PressureBoxes& boxes, int box,
+                        ForceVector& F) const {
+  const std::span<const Vector3> points = boxes.points(box);
   const std::size_t count = points.size();
   Values x, y, z, elevation, head;
   locate(X_WB, points, x.data(), y.data(), z.data());
   definition_.sea->waves.calc_surface(time, count, x.data(), y.data(), z.data(), elevation.data(),
                                       head.data());
   Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
-  const std::span<const PressureBoxes::Weight> weights = boxes_->weights(box);
+  const std::span<const PressureBoxes::Weight> weights = boxes.weights(box);
   for (std::size_t i = 0; i < count; ++i) sum += (head[i] - z[i]) * weights[i];
   F.moment += sum.head<3>();
   F.force += sum.tail<3>();
 }
 
-ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const {
+template <class AddLeaf>
+void HullForce::add_part(double time, const Pose& X_WB, const WaveSurface::Part& part,
+                         AddLeaf&& add_leaf, ForceVector& F) const {
   const WaveField& waves = definition_.sea->waves;
   const double crest = waves.highest_elevation() * waves.ramp().factor(time);
   const Vector3 up = X_WB.R.row(2);
   const Vector3 magnitude = up.cwiseAbs();
-  ForceVector F_B = ForceVector::zero();
-  definition_.hull->panels().visit(
+  part.tree.visit(
       [&](const TriangleTree::Node& node, int index) {
         const double middle = X_WB.p.z() + up.dot(node.centre);
         const double reach = magnitude.dot(node.half_extent);
         if (middle - reach >= crest) return false;
-        if (middle + reach >= -crest || !boxes_->has(index)) return true;
-        add_box(time, X_WB, index, F_B);
+        if (middle + reach >= -crest || !part.boxes.has(index)) return true;
+        add_box(time, X_WB, part.boxes, index, F);
         return false;
       },
-      [&](const TriangleTree::Node& leaf) { add_leaf(time, X_WB, leaf, F_B); });
+      [&](const TriangleTree::Node& leaf) { add_leaf(part.tree, leaf); });
+}
+
+ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const {
+  ForceVector F_B = ForceVector::zero();
+  if (surface_->panels()) {
+    const auto add_leaf = [&](const TriangleTree& tree, const TriangleTree::Node& leaf) {
+      add_panels(time, X_WB, tree, leaf, F_B);
+    };
+    add_part(time, X_WB, *surface_->panels(), add_leaf, F_B);
+  }
+  if (surface_->faces()) {
+    const auto add_leaf = [&](const TriangleTree& tree, const TriangleTree::Node& leaf) {
+      add_faces(time, X_WB, tree, leaf, F_B);
+    };
+    add_part(time, X_WB, *surface_->faces(), add_leaf, F_B);
+  }
   return {rho_g_ * (X_WB.R * F_B.moment), rho_g_ * (X_WB.R * F_B.force)};
 }
 

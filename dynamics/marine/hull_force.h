@@ -4,13 +4,10 @@
 
 #include "dynamics/force/force_element.h"
 #include "dynamics/marine/hydrostatics.h"
-#include "dynamics/marine/pressure_boxes.h"
 #include "dynamics/marine/sea.h"
+#include "dynamics/marine/wave_surface.h"
 
 namespace blocklift::dynamics {
-
-/// Of the waves' pressure, allowed in boxes of a hull that are taken whole.
-inline constexpr double box_tolerance = 2e-4;
 
 /// How incident waves act on a hull.
 enum class WaveLoading {
@@ -25,11 +22,14 @@ enum class WaveLoading {
 ///
 ///   p = rho g (p_d/(rho g) - z),   p = 0 at the surface (waves.h, Wheeler's stretching).
 ///
-/// Near the surface its height, and p, are linear over each panel between the vertices and the points
-/// where the edges leave the water, and are integrated exactly. For a panel of size d in a wave of number
-/// k the error is of the order (k d)^2/8 of the dynamic part; the hydrostatic part is exact for the hull
-/// so cut. Boxes of panels that lie below the deepest trough are taken whole (PressureBoxes): there the
-/// hydrostatic part is exact, and p_d right to a share of `box_tolerance` however large the panels.
+/// The hull is taken in two parts (WaveSurface). Over small and curved panels the height of the surface,
+/// and p, are linear between the vertices and the points where the edges leave the water, and are
+/// integrated exactly: for a panel of size d in a wave of number k the error is of the order (k d)^2/8 of
+/// the dynamic part. Flat faces to the scale of the waves are cut along the chord of the surface, and p is
+/// integrated over what is wet by three points a triangle, exact to the second degree (Strang and Fix
+/// 1973). In both the hydrostatic part is exact for the hull so cut. Boxes of either that lie below the
+/// deepest trough are taken whole (PressureBoxes): there the hydrostatic part is exact, and p_d right to a
+/// share of WaveSurface::box_tolerance.
 /// Energy: rho g times the energy of hydrostatics.h is stored; what waves add is supplied.
 class HullForce {
  public:
@@ -64,12 +64,18 @@ class HullForce {
            !definition_.sea->waves.is_still();
   }
   ForceVector calc_force_in_waves(double time, const Pose& X_WB) const;
-  void add_leaf(double time, const Pose& X_WB, const TriangleTree::Node& leaf,
+  template <class AddLeaf>
+  void add_part(double time, const Pose& X_WB, const WaveSurface::Part& part, AddLeaf&& add_leaf,
                 ForceVector& F_B_over_rho_g) const;
-  void add_box(double time, const Pose& X_WB, int box, ForceVector& F_B_over_rho_g) const;
+  void add_panels(double time, const Pose& X_WB, const TriangleTree& tree,
+                  const TriangleTree::Node& leaf, ForceVector& F_B_over_rho_g) const;
+  void add_faces(double time, const Pose& X_WB, const TriangleTree& tree,
+                 const TriangleTree::Node& leaf, ForceVector& F_B_over_rho_g) const;
+  void add_box(double time, const Pose& X_WB, const PressureBoxes& boxes, int box,
+               ForceVector& F_B_over_rho_g) const;
 
   Definition definition_;
-  std::shared_ptr<const PressureBoxes> boxes_;  ///< null in still water
+  std::shared_ptr<const WaveSurface> surface_;  ///< null in still water
   double rho_g_;
 };
 

@@ -79,7 +79,8 @@ struct PressureBoxes::Grid {
   std::size_t size() const { return sides[0].count() * sides[1].count() * sides[2].count(); }
 };
 
-PressureBoxes::PressureBoxes(const TriangleTree& tree, const WaveField& waves, double tolerance)
+PressureBoxes::PressureBoxes(const TriangleTree& tree, const WaveField& waves, double tolerance,
+                             std::size_t per_triangle)
     : first_(static_cast<std::size_t>(tree.node_count()), 0), count_(first_) {
   std::vector<std::size_t> cost(first_.size(), 0);
   // Children stand behind their parents.
@@ -90,9 +91,13 @@ PressureBoxes::PressureBoxes(const TriangleTree& tree, const WaveField& waves, d
     };
     const Grid grid{{needed(0), needed(1), needed(2)}};
     std::size_t& least = cost[static_cast<std::size_t>(node)];
-    least = box.is_leaf() ? static_cast<std::size_t>(box.point_count)
-                          : cost[static_cast<std::size_t>(box.left)] +
-                                cost[static_cast<std::size_t>(box.right)];
+    if (!box.is_leaf()) {
+      least = cost[static_cast<std::size_t>(box.left)] + cost[static_cast<std::size_t>(box.right)];
+    } else if (per_triangle > 0) {
+      least = per_triangle * static_cast<std::size_t>(box.triangle_count);
+    } else {
+      least = static_cast<std::size_t>(box.point_count);
+    }
     if (grid.size() > std::min(least, WaveField::most_points)) continue;
     least = grid.size();
     add_box(tree, node, grid);

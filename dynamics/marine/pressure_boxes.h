@@ -19,7 +19,9 @@ class PressureBoxes {
  public:
   using Weight = Eigen::Matrix<double, 6, 1>;  ///< -w_i: moment (m3), force (m2)
 
-  PressureBoxes(const TriangleTree& tree, const WaveField& waves, double tolerance);
+  /// `per_triangle`: values that a triangle takes where it is not in a box; 0: one at each point of its leaf.
+  PressureBoxes(const TriangleTree& tree, const WaveField& waves, double tolerance,
+                std::size_t per_triangle = 0);
 
   /// Is the box of this node held?
   bool has(int node) const { return count_[static_cast<std::size_t>(node)] > 0; }

@@ -14,8 +14,8 @@ namespace blocklift::dynamics {
 /// boxes that the water surface crosses are opened. Immutable; may be shared by threads.
 class TriangleTree {
  public:
-  static constexpr int most_triangles = 24;               ///< in a leaf
-  static constexpr int most_points = 3 * most_triangles;  ///< in a leaf
+  static constexpr std::size_t most_triangles = 24;               ///< in a leaf, at most
+  static constexpr std::size_t most_points = 3 * most_triangles;  ///< in a leaf, at most
 
   /// A box of the tree.
   struct Node {
@@ -35,8 +35,8 @@ class TriangleTree {
     Vector3 area;                         ///< times the unit normal, in B, m2
   };
 
-  /// The hull must have a panel.
-  explicit TriangleTree(const Hull& hull);
+  /// The hull must have a panel. `leaf_size`: triangles in a leaf, from 1 to `most_triangles`.
+  explicit TriangleTree(const Hull& hull, std::size_t leaf_size = most_triangles);
 
   int triangle_count() const { return static_cast<int>(triangles_.size()); }
   int node_count() const { return static_cast<int>(nodes_.size()); }
@@ -72,10 +72,11 @@ class TriangleTree {
   }
 
  private:
-  // The tree halves the number of triangles at each level: 2^62 would be needed to overflow.
+  // A box holds three quarters of the triangles of its parent at most: 2^26 would be needed to overflow.
   static constexpr std::size_t most_depth = 64;
   struct Item;
-  int build(std::span<Item> items);
+  int build(std::span<Item> items, std::size_t leaf_size);
+  static std::size_t split(std::span<Item> items);
   void add_leaf(std::span<Item> items, Node& node, SurfaceMoments& moments);
 
   std::vector<Node> nodes_;

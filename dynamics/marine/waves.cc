@@ -158,6 +158,11 @@ Vector3 WaveField::calc_acceleration(double time, const Vector3& p_W) const {
   return point.ramp * sum;
 }
 
+WaveTerms WaveField::terms() const {
+  return {amplitude_.size(), amplitude_.data(), k_.data(),    kx_.data(),
+          ky_.data(),        omega_.data(),     phase_.data()};
+}
+
 void WaveField::calc_surface(double time, std::span<const Vector3> points_W,
                              std::span<double> elevation, std::span<double> dynamic_head) const {
   const std::size_t count = points_W.size();
@@ -174,8 +179,7 @@ void WaveField::calc_surface(double time, std::size_t count, const double* x, co
                              const double* z, double* elevation, double* dynamic_head) const {
   std::fill_n(elevation, count, 0.0);
   std::fill_n(dynamic_head, count, 0.0);
-  const WaveTerms terms = {amplitude_.size(), amplitude_.data(), k_.data(),    kx_.data(),
-                           ky_.data(),        omega_.data(),     phase_.data()};
+  const WaveTerms terms = this->terms();
   const double ramp = ramp_.factor(time);
   if (terms.count == 1) {
     calc_single_wave(terms, water_.depth, time, ramp, count, x, y, z, elevation, dynamic_head);
@@ -185,6 +189,12 @@ void WaveField::calc_surface(double time, std::size_t count, const double* x, co
   add_wave_elevation(terms, time, ramp, count, x, y, elevation);
   for (std::size_t i = 0; i < count; ++i) below[i] = stretched(z[i], elevation[i], water_.depth);
   add_wave_head(terms, water_.depth, time, ramp, count, x, y, below.data(), dynamic_head);
+}
+
+void WaveField::calc_elevations(double time, std::size_t count, const double* x, const double* y,
+                                double* elevation) const {
+  std::fill_n(elevation, count, 0.0);
+  add_wave_elevation(terms(), time, ramp_.factor(time), count, x, y, elevation);
 }
 
 double WaveField::significant_height() const {

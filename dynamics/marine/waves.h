@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/marine/wave_kernel.h"
 #include "dynamics/spatial/pose.h"
 
 namespace blocklift::dynamics {
@@ -84,6 +85,10 @@ class WaveField {
   void calc_surface(double time, std::size_t count, const double* x, const double* y,
                     const double* z, double* elevation, double* dynamic_head) const;
 
+  /// Elevation alone of `count` points, of any number.
+  void calc_elevations(double time, std::size_t count, const double* x, const double* y,
+                       double* elevation) const;
+
   /// No elevation is ever higher: sum of the amplitudes, m.
   double highest_elevation() const { return amplitude_sum_; }
   /// 4 sqrt(m0), m; m0 = sum a^2/2.
@@ -97,6 +102,7 @@ class WaveField {
 
  private:
   struct Point;
+  WaveTerms terms() const;
   Point locate(double time, const Vector3& p_W) const;
 
   Water water_;

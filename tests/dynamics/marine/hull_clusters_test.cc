@@ -8,6 +8,7 @@
 #include "dynamics/marine/hull_faces.h"
 #include "dynamics/marine/hull_shapes.h"
 #include "dynamics/marine/pressure_boxes.h"
+#include "dynamics/marine/wave_surface.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -52,6 +53,40 @@ TEST(HullFaces, CurvedPanelsStayApart) {
                               {12, 4, 4, 2});
   const SurfaceMoments a = moments_of(ship), b = moments_of(join_flat_panels(ship));
   EXPECT_LT((a.T - b.T).norm(), 1e-8 * 20 * 6 * 100);
+}
+
+// Divided to a size, a surface is as it was.
+TEST(HullFaces, DivideToASizeAndStayTheSame) {
+  const Hull joined = join_flat_panels(sample_barge());
+  const Hull divided = divide_flat_panels(joined, 15);
+  const SurfaceMoments a = moments_of(joined), b = moments_of(divided);
+  EXPECT_LT((a.T - b.T).norm(), 1e-9 * 110 * 46 * 50 * 50);
+  double longest = 0;
+  for (int panel = 0; panel < divided.panel_count(); ++panel) {
+    longest = std::max(longest, divided.panel_diameter(panel));
+  }
+  EXPECT_LT(longest, 15 * (1 + 1e-9));
+  EXPECT_GT(longest, 12);
+}
+
+TEST(WaveSurface, SagsBetweenCorners) {
+  const WaveField regular(Water{}, {{0.5, 0.628, 0.785, 0}});
+  const double d = calc_sagging_length(regular, 0.08);
+  EXPECT_NEAR(regular.wave_number(0) * d, 0.8, 1e-9);  // (k d)^2 / 8 = 0.08
+  // Half the energy in ripples: sqrt(1/2) of the amplitude is past recall whatever the length.
+  const WaveField ripples(Water{}, {{0.5, 0.628, 0, 0}, {0.5, 30, 0, 0}});
+  EXPECT_LT(calc_sagging_length(ripples, 0.08), 0.1);
+  EXPECT_TRUE(std::isinf(calc_sagging_length(WaveField(Water{}, {{0, 1, 0, 0}}), 0.08)));
+}
+
+TEST(WaveSurface, JoinsWhatIsFlatInLongWavesAlone) {
+  const Hull barge = sample_barge();
+  const WaveSurface swell(barge, WaveField(Water{}, {{0.5, 0.628, 0.785, 0}}));
+  ASSERT_TRUE(swell.faces());
+  EXPECT_LT(4 * swell.faces()->tree.triangle_count(), 2 * barge.panel_count());
+  const WaveSurface chop(barge, WaveField(Water{}, {{0.1, 3, 0.785, 0}}));
+  EXPECT_FALSE(chop.faces());
+  ASSERT_TRUE(chop.panels());
 }
 
 ForceVector force_of(const PressureBoxes& boxes, int node, const auto& pressure) {

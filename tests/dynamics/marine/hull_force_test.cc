@@ -81,23 +81,79 @@ TEST(HullForce, LongWavesAreAChangeOfDraught) {
   EXPECT_NEAR(F.force.x(), -rho_g * 72 * draught * a * k, 0.02 * rho_g * 72 * draught * a * k);
 }
 
-// Froude-Krylov force on a small box by its closed form: p_d integrated over a flat bottom,
-// sin(kL/2)/(kL/2) along the wave; the sides add nothing upright. Panels converge with order 2.
-TEST(HullForce, FroudeKrylovConvergesToItsClosedForm) {
-  OneBody body;
-  const double a = 1e-4, k = 2 * std::numbers::pi / 24, omega = std::sqrt(9.81 * k);
-  const auto sea = sea_of(WaveField(deep, {{a, omega, 0, 0}}));
-  const double draught = 1.5;
-  const double exact = rho_g * a * std::exp(-k * draught) * 72 * std::sin(6 * k) / (6 * k);
-  std::vector<double> errors;
-  for (const int n : {1, 2, 4}) {
-    const HullForce hull({"box", 1, box_of({12, 6, 3}, n), sea});
-    body.update();
-    const double force = hull.calc_force(body.state()).force.z() - rho_g * 72 * draught;
-    errors.push_back(std::abs(force - exact) / exact);
+// Vertices moved by so little that nothing is felt, but no panels lie in one plane any more.
+Hull unevened(const Hull& hull) {
+  Hull result;
+  double i = 0;
+  for (const Vector3& vertex : hull.vertices()) {
+    i += 1;
+    result.add_vertex(vertex + 1e-6 * Vector3(std::sin(i), std::sin(2 * i), std::sin(3.7 * i)));
   }
-  EXPECT_LT(errors[2], 0.01);
-  EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2.0, 0.1);
+  for (int panel = 0; panel < hull.panel_count(); ++panel) result.add_panel(hull.panel(panel));
+  return result;
+}
+
+// Froude-Krylov force on a small box by its closed form: p_d integrated over a flat bottom,
+// sin(kL/2)/(kL/2) along the wave; the sides add nothing upright.
+class SmallBox : public ::testing::Test {
+ protected:
+  double error_of(const Hull& hull) {
+    const double a = 1e-4, k = 2 * std::numbers::pi / 24, omega = std::sqrt(9.81 * k);
+    const double draught = 1.5;
+    const double exact = rho_g * a * std::exp(-k * draught) * 72 * std::sin(6 * k) / (6 * k);
+    const HullForce force({"box", 1, std::make_shared<const HullClusters>(hull),
+                           sea_of(WaveField(deep, {{a, omega, 0, 0}}))});
+    body_.update();
+    const double from_waves = force.calc_force(body_.state()).force.z() - rho_g * 72 * draught;
+    return std::abs(from_waves - exact) / exact;
+  }
+  static Hull box(int n) { return make_box({12, 6, 3}, {4 * n, 2 * n, 2 * n, 1}); }
+
+ private:
+  OneBody body_;
+};
+
+// Few panels converge with order 2; of many the bottom becomes a box that is taken whole, to its tolerance,
+// as it is of faces whatever the panels that they were joined of.
+TEST_F(SmallBox, MeetsTheClosedForm) {
+  EXPECT_NEAR(std::log2(error_of(unevened(box(1))) / error_of(unevened(box(2)))), 2.0, 0.1);
+  EXPECT_LT(error_of(unevened(box(4))), WaveSurface::box_tolerance);
+  for (const int n : {2, 4}) EXPECT_LT(error_of(box(n)), WaveSurface::box_tolerance);
+}
+
+// A barge in waves: faces against ever finer panels, whose distance falls with the square of their size until
+// the faces' own error shows, below 1e-4 of the buoyancy.
+TEST(HullForce, FacesAreWherePanelsConvergeTo) {
+  OneBody body;
+  const auto sea = sea_of(WaveField(deep, {{0.8, 0.628, 0.785, 0}}));
+  body.q.head<3>() << 0, 0, -1;
+  body.q.tail<4>() << 1, 0.02, 0.03, 0.1;
+  body.q.tail<4>().normalize();
+  const auto force_of = [&](const Hull& hull) {
+    const HullForce force({"barge", 1, std::make_shared<const HullClusters>(hull), sea});
+    Eigen::Matrix<double, 6, 4> forces;
+    for (int i = 0; i < 4; ++i) {
+      body.time = 2.6 * i;
+      body.update();
+      const ForceVector F = force.calc_force(body.state());
+      forces.col(i) << F.moment / 20, F.force;
+    }
+    return forces;
+  };
+  const auto barge_of = [](double size) {
+    return make_barge(
+        {.length = 40, .breadth = 20, .depth = 5, .bow_rake_length = 4, .bow_rake_height = 2},
+        PanelDivision::of_size(size, 40, 20, 5));
+  };
+  const auto faces = force_of(barge_of(1));
+  const double buoyancy = faces.row(5).maxCoeff();
+  std::vector<double> distances;
+  for (const double size : {4.0, 2.0, 1.0}) {
+    const auto panels = force_of(unevened(barge_of(size)));
+    distances.push_back((panels - faces).cwiseAbs().maxCoeff() / buoyancy);
+  }
+  EXPECT_GT(std::log2(distances[0] / distances[2]) / 2, 1.8);  // more where boxes take over
+  EXPECT_LT(distances[2], 1e-4);
 }
 
 TEST(HullForce, BalancesInWavesAndCanLeaveThemToOthers) {

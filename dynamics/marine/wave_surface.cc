@@ -1,0 +1,87 @@
+#include "dynamics/marine/wave_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/marine/hull_faces.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+// Three points on each of two triangles against about one point for each panel of the same area: faces
+// pay from here on.
+constexpr double least_face_length = 3.0;  // diameters of a panel
+// A polygon that is longer was joined of several panels.
+constexpr double longest_panel = 1.5;  // diameters of a panel in the mean
+
+double mean_panel_diameter(const Hull& hull) {
+  double sum = 0.0;
+  for (int panel = 0; panel < hull.panel_count(); ++panel) sum += hull.panel_diameter(panel);
+  return sum / hull.panel_count();
+}
+
+void add_panel(const Hull& from, int panel, Hull& to) {
+  std::vector<int> corners;
+  for (const int vertex : from.panel(panel)) corners.push_back(to.add_vertex(from.vertex(vertex)));
+  to.add_panel(corners);
+}
+
+}  // namespace
+
+double calc_sagging_length(const WaveField& waves, double sag) {
+  double energy = 0.0;
+  for (std::size_t c = 0; c < waves.component_count(); ++c) {
+    energy += std::pow(waves.component(c).amplitude, 2);
+  }
+  if (energy == 0.0) return std::numeric_limits<double>::infinity();
+  const auto mean_square_at = [&](double length) {
+    double sum = 0.0;
+    for (std::size_t c = 0; c < waves.component_count(); ++c) {
+      const double share = std::min(1.0, std::pow(waves.wave_number(c) * length, 2) / 8.0);
+      sum += std::pow(waves.component(c).amplitude * share, 2);
+    }
+    return sum / energy;
+  };
+  // At this length even the longest wave has sagged by as much.
+  double longest = 0.0;
+  for (std::size_t c = 0; c < waves.component_count(); ++c) {
+    longest = std::max(longest, std::sqrt(8.0 * sag) / waves.wave_number(c));
+  }
+  double low = 0.0;
+  double high = longest;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (mean_square_at(middle) <= sag * sag ? low : high) = middle;
+  }
+  return low;
+}
+
+WaveSurface::WaveSurface(const Hull& hull, const WaveField& waves) {
+  const double diameter = mean_panel_diameter(hull);
+  const double length = calc_sagging_length(waves, face_sag);
+  if (length < least_face_length * diameter) {
+    TriangleTree tree(hull);
+    PressureBoxes boxes(tree, waves, box_tolerance);
+    panels_ = {std::move(tree), std::move(boxes)};
+    return;
+  }
+  const Hull joined = join_flat_panels(hull);
+  Hull small, large;
+  for (int panel = 0; panel < joined.panel_count(); ++panel) {
+    const bool is_panel = joined.panel_diameter(panel) <= longest_panel * diameter;
+    add_panel(joined, panel, is_panel ? small : large);
+  }
+  if (small.panel_count() > 0) {
+    TriangleTree tree(small);
+    PressureBoxes boxes(tree, waves, box_tolerance);
+    panels_ = {std::move(tree), std::move(boxes)};
+  }
+  if (large.panel_count() > 0) {
+    TriangleTree tree(divide_flat_panels(large, length), faces_in_leaf);
+    PressureBoxes boxes(tree, waves, box_tolerance, 3);
+    faces_ = {std::move(tree), std::move(boxes)};
+  }
+}
+
+}  // namespace blocklift::dynamics
