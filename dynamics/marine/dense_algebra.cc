@@ -15,6 +15,9 @@ void dgetrf_(const int* rows, const int* columns, double* a, const int* lda, int
              int* info);
 void dgetrs_(const char* transposed, const int* n, const int* right_sides, const double* a,
              const int* lda, const int* pivots, double* b, const int* ldb, int* info);
+void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
+             double* values, double* work, const int* work_size, int* integers,
+             const int* integer_count, int* info);
 void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
             const int* k, const double* alpha, const double* a, const int* lda, const double* b,
             const int* ldb, const double* beta, double* c, const int* ldc);
@@ -51,6 +54,27 @@ void LuFactorisation::solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) co
   int info = 0;
   dgetrs_("N", &n, &columns, factors_.data(), &n, pivots_.data(), right_sides.data(), &stride,
           &info);
+}
+
+Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix) {
+  const int n = to_int(matrix.rows());
+  Eigen::VectorXd values(n);
+  if (n == 0) return values;
+  double work_size = 0.0;
+  int integer_count = 0, info = 0;
+  const int ask = -1;
+  dsyevd_("V", "L", &n, matrix.data(), &n, values.data(), &work_size, &ask, &integer_count, &ask,
+          &info);
+  std::vector<double> work(static_cast<std::size_t>(work_size));
+  std::vector<int> integers(static_cast<std::size_t>(integer_count));
+  const int size = static_cast<int>(work.size());
+  dsyevd_("V", "L", &n, matrix.data(), &n, values.data(), work.data(), &size, integers.data(),
+          &integer_count, &info);
+  if (info != 0) {
+    throw SimulationError("the eigenvalues of a symmetric matrix of " + std::to_string(n) +
+                          " rows do not converge");
+  }
+  return values;
 }
 
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,

@@ -24,6 +24,10 @@ class LuFactorisation {
   std::vector<int> pivots_;
 };
 
+/// Eigenvalues, ascending, of a symmetric matrix, whose place its eigenvectors take as columns; by LAPACK.
+/// @throws SimulationError if the iteration does not converge.
+Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix);
+
 /// C = alpha A B + beta C, by BLAS.
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
               Eigen::MatrixXd& C);

@@ -18,13 +18,19 @@ constexpr double largest_gap = std::numbers::pi / 4.0;  // between headings, rad
 
 void check(const DiffractionForce::Definition& d) {
   const std::string start = "the diffraction force " + d.name;
-  if (!d.database || !d.sea) throw ModelError(start + " lacks its database or its sea");
+  if (!d.series || d.series->databases.empty() || !d.sea) {
+    throw ModelError(start + " lacks its database or its sea");
+  }
   if (d.frame.body <= world_index) throw ModelError(start + " acts on no body");
-  if (d.database_body < 0 || d.database_body >= d.database->body_count()) {
+  const HydrodynamicDatabase& first = d.series->databases.front();
+  if (d.database_body < 0 || d.database_body >= first.body_count()) {
     throw ModelError(start + " asks for a body that the database does not hold");
   }
+  if (d.series->databases.size() > 1 && d.mark.body <= world_index) {
+    throw ModelError(start + " has databases of several draughts, and no body whose draught it is");
+  }
   if (d.sea->waves.is_still()) return;
-  if (d.database->headings.empty() || d.database->frequencies.empty()) {
+  if (first.headings.empty() || first.frequencies.empty()) {
     throw ModelError(start + ": the database holds no diffraction");
   }
 }
@@ -37,10 +43,16 @@ double wrapped(double angle, double lowest) {
 }  // namespace
 
 DiffractionForce::DiffractionForce(Definition definition) : definition_(std::move(definition)) {
+  if (!definition_.series && definition_.database) {
+    definition_.series = std::make_shared<const HydrodynamicSeries>(
+        HydrodynamicSeries{0, {0.0}, {*definition_.database}});
+  }
+  definition_.database.reset();
   check(definition_);
   const WaveField& field = definition_.sea->waves;
   if (field.is_still()) return;
-  headings_ = definition_.database->headings;
+  if (state_count() > 1) interpolation_ = DraughtInterpolation(definition_.series->draughts);
+  headings_ = definition_.series->databases.front().headings;
   headings_.push_back(headings_.front() + turn);
   for (std::size_t i = 1; i < headings_.size(); ++i) {
     const double gap = headings_[i] - headings_[i - 1];
@@ -59,7 +71,7 @@ DiffractionForce::DiffractionForce(Definition definition) : definition_(std::mov
 }
 
 void DiffractionForce::add_component(const WaveComponent& wave, double wave_number) {
-  const std::vector<double>& known = definition_.database->frequencies;
+  const std::vector<double>& known = definition_.series->databases.front().frequencies;
   if (wave.omega < known.front() * (1.0 - 1e-9) || wave.omega > known.back() * (1.0 + 1e-9)) {
     std::ostringstream text;
     text << "the sea has a wave of " << wave.omega << " rad/s, and the database holds "
@@ -70,17 +82,19 @@ void DiffractionForce::add_component(const WaveComponent& wave, double wave_numb
   waves_.push_back(wave);
   wave_number_.push_back(wave_number);
   const std::size_t count = headings_.size() - 1;
-  const std::size_t first = amplitudes_.size();
-  for (std::size_t j = 0; j < count; ++j) {
-    amplitudes_.push_back(wave.amplitude * amplitude_at(wave.omega, j));
+  for (const HydrodynamicDatabase& database : definition_.series->databases) {
+    const std::size_t first = amplitudes_.size();
+    for (std::size_t j = 0; j < count; ++j) {
+      amplitudes_.push_back(wave.amplitude * amplitude_at(database, wave.omega, j));
+    }
+    amplitudes_.push_back(Amplitude(amplitudes_[first]));
   }
-  amplitudes_.push_back(Amplitude(amplitudes_[first]));
 }
 
 // X at one of the database's headings, its phase taken at the reference point.
-DiffractionForce::Amplitude DiffractionForce::amplitude_at(double frequency,
+DiffractionForce::Amplitude DiffractionForce::amplitude_at(const HydrodynamicDatabase& database,
+                                                           double frequency,
                                                            std::size_t heading) const {
-  const HydrodynamicDatabase& database = *definition_.database;
   const std::vector<double>& known = database.frequencies;
   const auto body = static_cast<std::size_t>(definition_.database_body);
   const Vector3& p_0 = database.reference_points[body];
@@ -114,7 +128,11 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
   const BodyFrame& frame = definition_.frame;
   const Pose X_WH = state.kinematics.X_WB[static_cast<std::size_t>(frame.body)] * frame.X_BH;
   const double yaw = std::atan2(X_WH.R(1, 0), X_WH.R(0, 0));
-  const std::size_t count = headings_.size();
+  const std::size_t count = headings_.size(), states = state_count();
+  DraughtShares shares;
+  if (states > 1) {
+    shares = interpolation_.calc_shares(definition_.mark.calc_draught(state.kinematics));
+  }
   Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
   for (std::size_t c = 0; c < waves_.size(); ++c) {
     const WaveComponent& wave = waves_[c];
@@ -126,10 +144,14 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
                          wave_number_[c] * (std::cos(wave.heading) * X_WH.p.x() +
                                             std::sin(wave.heading) * X_WH.p.y());
     const Complex at_now = std::polar(1.0, phase);
-    const Amplitude& before = amplitudes_[c * count + j - 1];
-    const Amplitude& after = amplitudes_[c * count + j];
-    for (Eigen::Index m = 0; m < 6; ++m) {
-      force[m] += (((1.0 - s) * before[m] + s * after[m]) * at_now).real();
+    for (std::size_t k = 0; k < states; ++k) {
+      const double weight = shares.weight[static_cast<Eigen::Index>(k)];
+      if (weight == 0.0) continue;
+      const Amplitude& before = amplitudes_[(c * states + k) * count + j - 1];
+      const Amplitude& after = amplitudes_[(c * states + k) * count + j];
+      for (Eigen::Index m = 0; m < 6; ++m) {
+        force[m] += weight * (((1.0 - s) * before[m] + s * after[m]) * at_now).real();
+      }
     }
   }
   force *= definition_.sea->waves.ramp().factor(state.time);

@@ -3,7 +3,8 @@
 #include <memory>
 
 #include "dynamics/force/force_element.h"
-#include "dynamics/marine/hydrodynamic_database.h"
+#include "dynamics/marine/draught_shares.h"
+#include "dynamics/marine/hydrodynamic_series.h"
 #include "dynamics/marine/sea.h"
 #include "dynamics/multibody/added_inertia.h"
 
@@ -19,6 +20,7 @@ namespace blocklift::dynamics {
 /// under another heading. X is linear between the database's frequencies and headings, its phase taken
 /// at R. With `with_froude_krylov` the force of the incident wave comes from the database as well, on the
 /// mean wetted surface; else it is left to HullForce. The waves' ramp acts on it.
+/// While a body is lowered X is interpolated between its draughts (DraughtInterpolation).
 class DiffractionForce {
  public:
   struct Definition {
@@ -28,6 +30,9 @@ class DiffractionForce {
     int database_body = 0;  ///< which of the database's bodies it is
     std::shared_ptr<const Sea> sea;
     bool with_froude_krylov = false;
+    /// In place of a single database: several, the first of a dry body (draught 0).
+    std::shared_ptr<const HydrodynamicSeries> series = {};
+    DraughtMark mark = {};  ///< where the draught of the series' lowered body is read
   };
 
   /// @throws ModelError if something is missing, a wave is outside the database's frequencies, or its
@@ -47,14 +52,18 @@ class DiffractionForce {
 
  private:
   using Amplitude = Eigen::Matrix<std::complex<double>, 6, 1>;
+  std::size_t state_count() const { return definition_.series->databases.size(); }
   void add_component(const WaveComponent& wave, double wave_number);
-  Amplitude amplitude_at(double frequency, std::size_t heading) const;
+  Amplitude amplitude_at(const HydrodynamicDatabase& database, double frequency,
+                         std::size_t heading) const;
 
   Definition definition_;
+  DraughtInterpolation interpolation_;
   std::vector<double> headings_;  ///< ascending, the first repeated after a turn
   std::vector<WaveComponent> waves_;
-  std::vector<double> wave_number_;    ///< rad/m
-  std::vector<Amplitude> amplitudes_;  ///< by wave, then heading: times the amplitude, phase at R
+  std::vector<double> wave_number_;  ///< rad/m
+  /// By wave, then draught, then heading: times the amplitude, phase at R.
+  std::vector<Amplitude> amplitudes_;
 };
 
 static_assert(ForceElement<DiffractionForce>);

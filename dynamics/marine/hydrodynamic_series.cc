@@ -115,6 +115,31 @@ void bring_to_one_step(std::vector<HydrodynamicDatabase>& databases) {
   }
 }
 
+/// Each entry of the others' modes at its place among those of all bodies.
+template <class Matrix>
+Matrix with_gap(const Matrix& of_others, int body, Eigen::Index modes, bool square) {
+  const Eigen::Index before = modes_per_body * body;
+  const auto place = [&](Eigen::Index k) { return k < before ? k : k + modes_per_body; };
+  Matrix all = Matrix::Zero(modes, square ? modes : of_others.cols());
+  for (Eigen::Index j = 0; j < of_others.cols(); ++j) {
+    for (Eigen::Index i = 0; i < of_others.rows(); ++i) {
+      all(place(i), square ? place(j) : j) = of_others(i, j);
+    }
+  }
+  return all;
+}
+
+/// No flow at all.
+void dry_out(HydrodynamicDatabase& database) {
+  database.infinite_added_mass.setZero();
+  for (auto* matrices : {&database.retardation, &database.added_mass, &database.damping}) {
+    for (MatrixXd& matrix : *matrices) matrix.setZero();
+  }
+  for (auto* matrices : {&database.froude_krylov, &database.diffraction}) {
+    for (Eigen::MatrixXcd& matrix : *matrices) matrix.setZero();
+  }
+}
+
 void require_alike(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b,
                    std::size_t number) {
   const auto differ = [&](const std::string& what) {
@@ -134,6 +159,7 @@ void require_alike(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b,
 HydrodynamicDatabase HydrodynamicSeries::at(double draught) const {
   if (databases.size() == 1) return databases[0];
   if (draught <= draughts.front()) {
+    if (draughts.front() == 0.0) return databases.front();
     return lessen(databases.front(), lowered_body, std::max(0.0, draught / draughts.front()));
   }
   if (draught >= draughts.back()) return databases.back();
@@ -141,6 +167,35 @@ HydrodynamicDatabase HydrodynamicSeries::at(double draught) const {
   const auto k = static_cast<std::size_t>(above - draughts.begin());
   return mix(databases[k - 1], databases[k],
              (draught - draughts[k - 1]) / (draughts[k] - draughts[k - 1]));
+}
+
+HydrodynamicDatabase with_dry_body(const HydrodynamicDatabase& wet, int body,
+                                   const HydrodynamicDatabase* others) {
+  HydrodynamicDatabase dry = wet;
+  dry_out(dry);
+  dry.hydrostatic_stiffness = {};
+  dry.centres_of_buoyancy.clear();
+  dry.displaced_volumes[static_cast<std::size_t>(body)] = 0.0;
+  if (!others) return dry;
+  std::vector<std::string> names = wet.body_names;
+  names.erase(names.begin() + body);
+  if (others->body_names != names) {
+    throw ModelError("the database for " + wet.body_names[static_cast<std::size_t>(body)] +
+                     " out of the water holds other bodies than that in the water");
+  }
+  const Eigen::Index modes = wet.mode_count();
+  const auto take = [&](const auto& from, auto& to, bool square) {
+    to.clear();
+    for (const auto& matrix : from) to.push_back(with_gap(matrix, body, modes, square));
+  };
+  dry.time_step = others->time_step;
+  dry.infinite_added_mass = with_gap(others->infinite_added_mass, body, modes, true);
+  take(others->retardation, dry.retardation, true);
+  take(others->added_mass, dry.added_mass, true);
+  take(others->damping, dry.damping, true);
+  take(others->froude_krylov, dry.froude_krylov, false);
+  take(others->diffraction, dry.diffraction, false);
+  return dry;
 }
 
 HydrodynamicSeries make_series(int lowered_body, std::vector<double> draughts,
@@ -154,8 +209,8 @@ HydrodynamicSeries make_series(int lowered_body, std::vector<double> draughts,
     require_sound(databases[k]);
     require_alike(databases[0], databases[k], k + 1);
     if (databases.size() == 1) break;
-    if (!(draughts[k] > 0.0) || !std::isfinite(draughts[k]) ||
-        (k > 0 && draughts[k] <= draughts[k - 1])) {
+    const bool in_order = k == 0 ? draughts[k] >= 0.0 : draughts[k] > draughts[k - 1];
+    if (!in_order || !std::isfinite(draughts[k])) {
       throw ModelError("draught " + std::to_string(k + 1) + " of the series is " +
                        std::to_string(draughts[k]) + " m: draughts must be positive and ascend");
     }

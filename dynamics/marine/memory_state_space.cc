@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/dense_algebra.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -15,8 +16,9 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rows of the Hankel matrix at most: its eigenvectors cost the cube of them.
-constexpr Eigen::Index most_rows = 1200;
+/// Rows of the Hankel matrix at most, its eigenvectors cost the cube of them; but this many samples in any
+/// case, so that what swings fast is seen.
+constexpr Eigen::Index most_rows = 1200, least_samples = 130;
 
 /// Modes weaker than this share of the strongest of their kind are not measured by their own peak.
 constexpr double least_share = 1e-3;
@@ -55,25 +57,30 @@ ScaledSamples scale_samples(const HydrodynamicDatabase& database) {
 /// Largest difference between the samples and C exp(A t) B, stepping through the samples.
 double largest_error(const ScaledSamples& samples, const MatrixXd& A, const MatrixXd& B,
                      const MatrixXd& C) {
-  // A is block-diagonal: its exponential over a step by blocks of one or two rows.
-  MatrixXd advance = MatrixXd::Zero(A.rows(), A.cols());
+  // A is block-diagonal: its exponential over a step by blocks of one or two rows, [c, s; -s, c].
+  VectorXd c(A.rows()), s = VectorXd::Zero(A.rows());
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
     const double decay = std::exp(A(i, i) * samples.step);
     const bool pair = i + 1 < A.rows() && A(i, i + 1) != 0.0;
-    if (!pair) {
-      advance(i, i) = decay;
-      continue;
-    }
-    const double angle = A(i, i + 1) * samples.step;
-    advance.block<2, 2>(i, i) << decay * std::cos(angle), decay * std::sin(angle),
-        -decay * std::sin(angle), decay * std::cos(angle);
+    const double angle = pair ? A(i, i + 1) * samples.step : 0.0;
+    c[i] = decay * std::cos(angle);
+    if (!pair) continue;
+    s[i] = decay * std::sin(angle);
+    c[i + 1] = c[i];
     ++i;
   }
   double error = 0.0;
-  MatrixXd state = B;
+  MatrixXd state = B, before = B;
   for (const MatrixXd& K : samples.K) {
     error = std::max(error, (K - C * state).cwiseAbs().maxCoeff());
-    state = (advance * state).eval();
+    state.swap(before);
+    state.noalias() = c.asDiagonal() * before;
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      if (s[i] == 0.0) continue;
+      state.row(i) += s[i] * before.row(i + 1);
+      state.row(i + 1) -= s[i] * before.row(i);
+      ++i;
+    }
   }
   return error;
 }
@@ -85,28 +92,45 @@ namespace {
 /// Coupling of two modes, over their peaks, that counts as none.
 constexpr double no_coupling = 1e-3;
 
-/// Columns (u_1 + S u_2)/sqrt 2 and (u_1 - S u_2)/sqrt 2 of two bodies that are each other's mirror image
-/// in a plane x or y = constant, or turned by half a turn, S being the signs that their modes take by it:
-/// what both do alike does not couple with what they do against each other. Else the identity.
+/// Bodies that feel or make anything.
+std::vector<Eigen::Index> moving_bodies(const std::vector<MatrixXd>& K) {
+  std::vector<Eigen::Index> bodies;
+  for (Eigen::Index first = 0; first < K[0].rows(); first += modes_per_body) {
+    const Eigen::Index count = std::min<Eigen::Index>(modes_per_body, K[0].rows() - first);
+    const bool moves = std::any_of(K.begin(), K.end(), [&](const MatrixXd& k) {
+      return !k.middleRows(first, count).isZero(0.0);
+    });
+    if (moves) bodies.push_back(first / modes_per_body);
+  }
+  return bodies;
+}
+
+/// Columns (u_1 + S u_2)/sqrt 2 and (u_1 - S u_2)/sqrt 2 of two bodies, the only ones that move, that are each
+/// other's mirror image in a plane x or y = constant, or turned by half a turn, S being the signs that their
+/// modes take by it: what both do alike does not couple with what they do against each other. Else the identity.
 MatrixXd pair_mirrored_bodies(const std::vector<MatrixXd>& K) {
-  const Eigen::Index modes = K[0].rows(), n = modes_per_body;
-  if (modes != 2 * n) return MatrixXd::Identity(modes, modes);
+  const Eigen::Index n = modes_per_body;
+  MatrixXd pairs = MatrixXd::Identity(K[0].rows(), K[0].rows());
+  const std::vector<Eigen::Index> bodies = moving_bodies(K);
+  if (bodies.size() != 2) return pairs;
+  const Eigen::Index a = n * bodies[0], b = n * bodies[1];
   using Signs = Eigen::Matrix<double, modes_per_body, 1>;
   const Signs in_x{-1, 1, 1, 1, -1, -1}, in_y{1, -1, 1, -1, 1, -1};
   for (const Signs& signs : {in_x, in_y, Signs(in_x.cwiseProduct(in_y))}) {
     const auto S = signs.asDiagonal();
     const bool mirrored = std::all_of(K.begin(), K.end(), [&](const MatrixXd& k) {
-      const MatrixXd own = k.topLeftCorner(n, n) - S * k.bottomRightCorner(n, n) * S;
-      const MatrixXd other = k.topRightCorner(n, n) - S * k.bottomLeftCorner(n, n) * S;
+      const MatrixXd own = k.block(a, a, n, n) - S * k.block(b, b, n, n) * S;
+      const MatrixXd other = k.block(a, b, n, n) - S * k.block(b, a, n, n) * S;
       return own.cwiseAbs().maxCoeff() < no_coupling && other.cwiseAbs().maxCoeff() < no_coupling;
     });
     if (!mirrored) continue;
-    MatrixXd pairs(modes, modes);
-    const MatrixXd one = MatrixXd::Identity(n, n), image = S;
-    pairs << one, one, image, -image;
-    return pairs / std::sqrt(2.0);
+    const MatrixXd one = MatrixXd::Identity(n, n) / std::sqrt(2.0), image = S * one;
+    pairs.block(a, a, n, n) = pairs.block(a, b, n, n) = one;
+    pairs.block(b, a, n, n) = image;
+    pairs.block(b, b, n, n) = -image;
+    break;
   }
-  return MatrixXd::Identity(modes, modes);
+  return pairs;
 }
 
 /// Orthonormal combinations of modes in groups that do not couple: a matrix (modes x members) for each.
@@ -155,8 +179,8 @@ Realisation realise(const std::vector<MatrixXd>& K, double time_step, int most_s
   const auto count = static_cast<Eigen::Index>(K.size());
   // Every stride-th sample. K is taken as zero behind its end: with all of it in the matrix the leading
   // states of a finite response form a stable system, however few are taken (Kung 1978).
-  const Eigen::Index stride =
-      std::max<Eigen::Index>(1, (count * modes + most_rows - 1) / most_rows);
+  const Eigen::Index allowed = std::max(most_rows, least_samples * modes);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, (count * modes + allowed - 1) / allowed);
   const Eigen::Index rows = (count + stride - 1) / stride;
   const MatrixXd nothing = MatrixXd::Zero(modes, modes);
   const auto sample = [&](Eigen::Index k) -> const MatrixXd& {
@@ -169,10 +193,9 @@ Realisation realise(const std::vector<MatrixXd>& K, double time_step, int most_s
       shifted.block(i * modes, j * modes, modes, modes) = sample(i + j + 1);
     }
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(hankel);
+  const VectorXd values = decompose_symmetric(hankel);
   std::vector<Eigen::Index> order(static_cast<std::size_t>(hankel.rows()));
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
-  const VectorXd& values = eigen.eigenvalues();
   std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
     return std::abs(values[a]) > std::abs(values[b]);
   });
@@ -184,9 +207,11 @@ Realisation realise(const std::vector<MatrixXd>& K, double time_step, int most_s
   Realisation realisation;
   realisation.modes = modes;
   realisation.step = time_step * static_cast<double>(stride);
-  realisation.vectors = eigen.eigenvectors()(Eigen::all, order);
+  realisation.vectors = hankel(Eigen::all, order);
   realisation.values = values(order);
-  realisation.advance = realisation.vectors.transpose() * shifted * realisation.vectors;
+  MatrixXd product(shifted.rows(), realisation.vectors.cols());
+  multiply(1.0, shifted, realisation.vectors, 0.0, product);
+  realisation.advance = realisation.vectors.transpose() * product;
   return realisation;
 }
 
@@ -276,7 +301,7 @@ void append(System& all, const System& part, const MatrixXd& group) {
 }  // namespace
 
 MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double tolerance,
-                                   int most_states) {
+                                   int most_states, double acceptable) {
   if (database.retardation.size() < 16) {
     throw ModelError(
         "a state space needs retardation functions at 16 instants at least; the "
@@ -293,11 +318,11 @@ MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double 
     append(all, fit(own, within, most_states), group);
   }
   error_ = largest_error(samples, all.A, all.B, all.C);
-  if (!(error_ <= tolerance) || all.A.rows() > most_states) {
-    throw ModelError("no state space of up to " + std::to_string(most_states) +
-                     " states meets the tolerance " + std::to_string(tolerance) +
-                     " of the retardation functions; " + std::to_string(all.A.rows()) +
-                     " came to " + std::to_string(error_));
+  if (!(error_ <= std::max(tolerance, acceptable)) || all.A.rows() > most_states) {
+    throw ModelError(
+        "no state space of up to " + std::to_string(most_states) + " states meets the tolerance " +
+        std::to_string(std::max(tolerance, acceptable)) + " of the retardation functions; " +
+        std::to_string(all.A.rows()) + " came to " + std::to_string(error_));
   }
   A_ = std::move(all.A);
   C_ = samples.scale.asDiagonal() * all.C;

@@ -20,10 +20,11 @@ class MemoryStateSpace {
  public:
   /// `tolerance`: largest error of any K_ij over the root of the peaks of K_ii and K_jj, each taken
   /// as at least a thousandth of the strongest displacement's (or rotation's).
+  /// `acceptable`: a larger error that is put up with where the states do not suffice for the tolerance.
   /// @throws ModelError if the database holds fewer than 16 samples, or no number of states up to
-  /// `most_states` meets the tolerance: what was reached.
+  /// `most_states` meets either: what was reached.
   explicit MemoryStateSpace(const HydrodynamicDatabase& database, double tolerance = 0.01,
-                            int most_states = 400);
+                            int most_states = 400, double acceptable = 0.0);
 
   int state_count() const { return static_cast<int>(A_.rows()); }
   int mode_count() const { return static_cast<int>(B_.cols()); }

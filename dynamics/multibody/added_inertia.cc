@@ -89,7 +89,8 @@ void AddedInertia::calc_jacobian(const Mechanism& mechanism, const Kinematics& k
 }
 
 void AddedInertia::calc_force(const Kinematics& kinematics, const std::vector<MotionVector>& A_WB,
-                              ConstVectorRef u, VectorRef momentum, VectorRef force) const {
+                              const Eigen::MatrixXd& matrix, ConstVectorRef u, VectorRef momentum,
+                              VectorRef force) const {
   // du/dt goes into `momentum` first.
   Eigen::Index row = 0;
   for (const BodyFrame& frame : frames_) {
@@ -102,8 +103,8 @@ void AddedInertia::calc_force(const Kinematics& kinematics, const std::vector<Mo
         R_WH.transpose() * acceleration - w.cross(Vector3(u.segment<3>(row + 3)));
     row += 6;
   }
-  force.noalias() = matrix_ * momentum;
-  momentum.noalias() = matrix_ * u;
+  force.noalias() = matrix * momentum;
+  momentum.noalias() = matrix * u;
   for (row = 0; row < size(); row += 6) {
     const Vector3 w = u.segment<3>(row), v = u.segment<3>(row + 3);
     const Vector3 h = momentum.segment<3>(row), l = momentum.segment<3>(row + 3);
@@ -126,7 +127,8 @@ void add_frame_forces(const std::vector<BodyFrame>& frames, const Kinematics& ki
 
 AddedInertiaWorkspace::AddedInertiaWorkspace(const Mechanism& mechanism,
                                              const AddedInertia& inertia)
-    : jacobian(Eigen::MatrixXd::Zero(inertia.size(), mechanism.nv())),
+    : matrix(inertia.matrix()),
+      jacobian(Eigen::MatrixXd::Zero(inertia.size(), mechanism.nv())),
       product(jacobian),
       velocity(Eigen::VectorXd::Zero(inertia.size())),
       momentum(velocity),
@@ -136,7 +138,7 @@ void AddedInertiaWorkspace::add_mass(const Mechanism& mechanism, const Kinematic
                                      const AddedInertia& inertia,
                                      Eigen::Ref<Eigen::MatrixXd> mass) {
   inertia.calc_jacobian(mechanism, kinematics, jacobian);
-  product.noalias() = inertia.matrix() * jacobian;
+  product.noalias() = matrix * jacobian;
   // Products without blocking, column by column: those of large matrices take memory.
   for (Eigen::Index k = 0; k < mass.cols(); ++k) {
     mass.col(k).noalias() += jacobian.transpose() * product.col(k);
@@ -146,7 +148,7 @@ void AddedInertiaWorkspace::add_mass(const Mechanism& mechanism, const Kinematic
 void AddedInertiaWorkspace::add_force(const Kinematics& kinematics, const AddedInertia& inertia,
                                       const std::vector<MotionVector>& A_WB, VectorRef tau) {
   inertia.calc_velocity(kinematics, velocity);
-  inertia.calc_force(kinematics, A_WB, velocity, momentum, force);
+  inertia.calc_force(kinematics, A_WB, matrix, velocity, momentum, force);
   tau.noalias() += jacobian.transpose() * force;
 }
 

@@ -42,9 +42,11 @@ class AddedInertia {
   void calc_jacobian(const Mechanism& mechanism, const Kinematics& kinematics,
                      Eigen::Ref<Eigen::MatrixXd> jacobian) const;
   /// What the inertia asks for at accelerations A_WB of the bodies: moment and force on each frame, 6N.
-  /// `u` is calc_velocity's, `momentum` a workspace of its size. Does not allocate.
+  /// `matrix` is A, or what it is for the moment (AddedInertiaWorkspace); `u` is calc_velocity's,
+  /// `momentum` a workspace of its size. Does not allocate.
   void calc_force(const Kinematics& kinematics, const std::vector<MotionVector>& A_WB,
-                  ConstVectorRef u, VectorRef momentum, VectorRef force) const;
+                  const Eigen::MatrixXd& matrix, ConstVectorRef u, VectorRef momentum,
+                  VectorRef force) const;
   /// 1/2 u^T A u, J.
   double calc_energy(ConstVectorRef u) const { return 0.5 * u.dot(matrix_ * u); }
 
@@ -69,6 +71,9 @@ struct AddedInertiaWorkspace {
   void add_force(const Kinematics& kinematics, const AddedInertia& inertia,
                  const std::vector<MotionVector>& A_WB, VectorRef tau);
 
+  /// A. Of an inertia that changes with the motion its owner writes here what it is at each instant;
+  /// what the change itself asks for is the owner's, too.
+  Eigen::MatrixXd matrix;
   Eigen::MatrixXd jacobian;  ///< J, 6N x nv
   Eigen::MatrixXd product;   ///< A J, 6N x nv
   Eigen::VectorXd velocity;  ///< u

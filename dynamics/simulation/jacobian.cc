@@ -67,6 +67,8 @@ void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
   const std::vector<int>& free = system.mechanism().free_velocities();
   Eigen::Index column = 0;
   if (tangent.added) {
+    tangent.water_shares = system.water()->find_shares(w.kinematics);
+    system.water()->calc_added_mass(tangent.water_shares, tangent.added->matrix);
     tangent.added->add_mass(system.mechanism(), w.kinematics, system.water()->inertia(),
                             inverse.mass);
     for (const int k : free) tangent.frame_jacobian.col(column++) = tangent.added->jacobian.col(k);
@@ -112,15 +114,19 @@ void add_memory(const LiftSystem& system, Eigen::Index nq, Eigen::Index nv,
   const RadiatedWater& water = *system.water();
   const Eigen::Index n = water.state_count();
   const Eigen::MatrixXd& J = workspace.tangent.frame_jacobian;
-  workspace.scaled.rightCols(n) = -(J.transpose() * water.output());
+  const DraughtShares& shares = workspace.tangent.water_shares;
+  Eigen::MatrixXd input, output;
+  water.calc_input(shares, input);
+  water.calc_output(shares, output);
+  workspace.scaled.rightCols(n) = -(J.transpose() * output);
   jacobian.rightCols(n).topRows(nq).setZero();
   jacobian.bottomRows(n).leftCols(nq).setZero();
-  jacobian.bottomRows(n).middleCols(nq, nv) = water.input() * J;
+  jacobian.bottomRows(n).middleCols(nq, nv) = input * J;
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(water.inertia().size());
   Eigen::VectorXd unit = Eigen::VectorXd::Zero(n), rate(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     unit[k] = 1.0;
-    water.calc_rate(unit, still, rate);
+    water.calc_rate(shares, unit, still, rate);
     jacobian.col(nq + nv + k).tail(n) = rate;
     unit[k] = 0.0;
   }

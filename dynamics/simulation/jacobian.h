@@ -21,12 +21,14 @@ struct TangentMatrices {
   ForceDerivatives forces;                     ///< of the whole mechanism, nv x nv
   Loads loads;                                 ///< with the forces of the loops
   std::optional<AddedInertiaWorkspace> added;  ///< where water moves with floating bodies
+  DraughtShares water_shares;                  ///< of the draughts of a body that is lowered
   Eigen::MatrixXd frame_jacobian;              ///< of RadiatedWater's frames, 6N x nv_free: u = J v
 };
 
 /// Tangent matrices at the instant that calc_right_hand_side has just left in the workspace; its v, vdot,
 /// rope and support loads are used (a rope or pad acts as it did there, without its kink). At rest after
-/// an equilibrium, with v and vdot zero, they are those of small vibrations. Does not allocate.
+/// an equilibrium, with v and vdot zero, they are those of small vibrations. How added mass and memory change
+/// with the draught of a body that is lowered is left out: of second order in motion. Does not allocate.
 void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
                            TangentMatrices& tangent);
 

@@ -96,7 +96,7 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
     tied.emplace(system.mechanism(), added);
   }
   memory = memory_rate = Eigen::VectorXd::Zero(system.memory_count());
-  water_velocity = water_force = Eigen::VectorXd::Zero(added ? added->size() : 0);
+  water_velocity = water_force = entry_force = Eigen::VectorXd::Zero(added ? added->size() : 0);
   for (std::size_t i = 0; i < feeds.size(); ++i) {
     feeds[i] = {system.ropes()[i].definition().unstretched_length, 0.0};
   }
@@ -148,12 +148,19 @@ void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, Vec
 
 namespace {
 
-// What the memory of the water that floating bodies radiate does to them now.
-void add_memory_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
+// What the water that floating bodies radiate does to them now, but for its inertia: by its memory, and as
+// it is taken up by a body that enters it.
+void add_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
   water.inertia().calc_velocity(w.kinematics, w.water_velocity);
-  water.calc_force(w.memory, w.water_force);
+  w.water_shares = water.find_shares(w.kinematics);
+  water.calc_force(w.water_shares, w.memory, w.water_force);
   w.marched.add_to(t, w.water_force);
   add_frame_forces(water.frames(), w.kinematics, w.water_force, w.loads.F_Bo_W);
+  if (!water.varies()) return;
+  w.entry_force.setZero();
+  water.add_entry_force(w.water_shares, w.water_velocity, w.entry_force);
+  add_frame_forces(water.frames(), w.kinematics, w.entry_force, w.loads.F_Bo_W);
+  water.calc_added_mass(w.water_shares, (w.loops ? *w.loops : *w.tied).added->matrix);
 }
 
 }  // namespace
@@ -188,7 +195,7 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
   const MotionState state{t, w.q, w.v, w.kinematics};
   for_each_element(system.elements(),
                    [&](const auto& element) { element.add_forces(state, w.loads); });
-  if (system.water()) add_memory_forces(*system.water(), t, w);
+  if (system.water()) add_water_forces(*system.water(), t, w);
 }
 
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
@@ -212,7 +219,7 @@ void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
   mechanism.calc_rates(w.q, w.v, w.rates);
   get_state(system, w.rates, w.vdot, ydot);
   if (!water) return;
-  water->calc_rate(w.memory, w.water_velocity, w.memory_rate);
+  water->calc_rate(w.water_shares, w.memory, w.water_velocity, w.memory_rate);
   ydot.segment(system.nq_free() + system.nv_free(), w.memory.size()) = w.memory_rate;
 }
 
@@ -280,14 +287,20 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
     rates.dissipated_power += account.dissipated_power;
   });
   // The memory gives and takes: what the bodies lose to it is in the waves, or comes back.
-  if (system.water()) rates.wind_power += w.water_force.dot(w.water_velocity);
+  if (system.water()) {
+    rates.wind_power += w.water_force.dot(w.water_velocity);
+    if (system.water()->varies())
+      rates.dissipated_power += system.water()->calc_entry_loss(w.water_shares, w.water_velocity);
+  }
   return rates;
 }
 
 StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w) {
   StoredEnergy energy;
   energy.kinetic = calc_kinetic_energy(system.mechanism(), w.kinematics);
-  if (system.water()) energy.kinetic += system.water()->inertia().calc_energy(w.water_velocity);
+  if (const AddedInertiaWorkspace* water = w.added()) {
+    energy.kinetic += 0.5 * w.water_velocity.dot(water->matrix * w.water_velocity);
+  }
   energy.gravity = calc_gravity_potential(system.mechanism(), w.kinematics);
   for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
     energy.elastic += system.ropes()[i].calc_energy(w.rope_loads[i]).stored_energy;

@@ -159,6 +159,8 @@ struct LiftWorkspace {
   Eigen::VectorXd memory;                       ///< x: states of the radiated water
   Eigen::VectorXd memory_rate;                  ///< dx/dt
   Eigen::VectorXd water_velocity, water_force;  ///< of RadiatedWater's frames, 6N each
+  DraughtShares water_shares;                   ///< of the draughts of a body that is lowered
+  Eigen::VectorXd entry_force;                  ///< on the frames, of water that it takes up, 6N
   MarchedForce marched;                         ///< of a surface that is marched beside
   /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
   std::optional<LoopRows> loop_rows;
@@ -169,6 +171,11 @@ struct LiftWorkspace {
   std::vector<RopeEndShifts> end_shifts;        ///< for each rope; zero at rigid bodies
   std::vector<ElasticBody::Workspace> elastic;  ///< for each elastic body
 
+  /// Inertia of the water; null: there is none.
+  const AddedInertiaWorkspace* added() const {
+    if (loops && loops->added) return &*loops->added;
+    return tied ? &*tied->added : nullptr;
+  }
   /// The parts of it that elastic bodies read and write.
   ElasticBody::Ropes ropes(const LiftSystem& system, const Contacts* contacts);
 };

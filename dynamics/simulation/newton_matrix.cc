@@ -24,7 +24,7 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
   const Mechanism& m = system.mechanism();
   if (!m.loops().empty()) loops_.emplace(system);
   if (system.water()) {
-    response_ = system.water()->input();
+    system.water()->calc_input(tangent_.water_shares, response_);
     impedance_.resize(response_.cols(), response_.cols());
     by_velocity_.resize(response_.cols(), system.nv_free());
     memory_.resize(response_.rows(), 1);
@@ -51,6 +51,7 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
 
 void NewtonMatrix::set_point(const LiftSystem& system, double t, LiftWorkspace& w) {
   calc_tangent_matrices(system, t, w, tangent_);
+  if (system.water()) system.water()->calc_output(tangent_.water_shares, output_);
   if (loops_) {
     loops_->calc(system, w);
     // As many rows as are independent: this changes at most where the mechanism passes a toggle.
@@ -90,9 +91,9 @@ void NewtonMatrix::multiply_by_Z(double factor,
 // motion += gamma^2 J^T C R B J.
 void NewtonMatrix::eliminate_memory(const RadiatedWater& water, double gamma,
                                     Eigen::Ref<Eigen::MatrixXd> motion) {
-  response_ = water.input();
+  water.calc_input(tangent_.water_shares, response_);
   water.solve(gamma, response_);
-  impedance_.noalias() = water.output() * response_;
+  impedance_.noalias() = output_ * response_;
   by_velocity_.noalias() = impedance_ * tangent_.frame_jacobian;
   motion.noalias() += (gamma * gamma) * (tangent_.frame_jacobian.transpose() * by_velocity_);
 }
@@ -145,7 +146,7 @@ void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x
   if (water) {
     memory_.col(0) = b.segment(nq + nv, memory_.rows());
     water->solve(gamma_, memory_);
-    frames_.noalias() = water->output() * memory_.col(0);
+    frames_.noalias() = output_ * memory_.col(0);
     right_.head(nv).noalias() -= gamma_ * (tangent_.frame_jacobian.transpose() * frames_);
   }
   if (loops_) {

@@ -62,8 +62,8 @@ class NewtonMatrix {
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
   Eigen::VectorXd right_, solution_, moved_, x_q_;
-  // Of radiated water: R B; C R B and that times J; R b_x; forces and velocities of the frames.
-  Eigen::MatrixXd response_, impedance_, by_velocity_, memory_;
+  // Of radiated water: C; R B; C R B and that times J; R b_x; forces and velocities of the frames.
+  Eigen::MatrixXd output_, response_, impedance_, by_velocity_, memory_;
   Eigen::VectorXd frames_;
   double gamma_ = not_a_number;
 };
