@@ -42,6 +42,28 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
   }
 }
 
+std::string draughts_sentence(const LiftCase& lift_case) {
+  const LoadInCase& load = lift_case.load;
+  const std::string floats = "The load floats by its hull where it reaches the water; ";
+  if (!load.draughts) {
+    return floats + "it makes no waves, and no added mass of it is counted.";
+  }
+  std::string draughts;
+  for (const double draught : load.draughts->value) {
+    draughts += fmt::format("{}{:.4g}", draughts.empty() ? "" : ", ", draught);
+  }
+  const dynamics::Pose X_WB = load.pose_afloat();
+  return floats +
+         fmt::format(
+             "what it radiates and scatters is computed for draughts of {} m, upright at ({:.4g}, "
+             "{:.4g}) m against the vessels where they start, and interpolated at its draught in "
+             "calm "
+             "water. Water that it takes up on entering has to be set in motion (von Karman's "
+             "momentum theory), spread over the draughts between; water that it leaves keeps its "
+             "motion. Slamming by the rise of the waves themselves is not counted.",
+             draughts, X_WB.p.x(), X_WB.p.y());
+}
+
 void add_sea_assumptions(const LiftCase& lift_case, const BuiltLift& model,
                          std::vector<std::string>& list) {
   list.emplace_back(
@@ -49,9 +71,7 @@ void add_sea_assumptions(const LiftCase& lift_case, const BuiltLift& model,
       "instant, exactly for its panels in still water. Waves are linear; there are no second-order "
       "drift forces, slamming or water on deck. Static: the sea without its waves.");
   if (lift_case.load.vessel) {
-    list.emplace_back(
-        "The load floats by its hull where it reaches the water; it makes no waves, and no added "
-        "mass of it is counted.");
+    list.push_back(draughts_sentence(lift_case));
   }
   const dynamics::LiftSystem& system = model.system;
   const MarchedWater& marched = model.marched;

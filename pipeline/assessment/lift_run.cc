@@ -75,9 +75,9 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
                        const LoadFlexibility* flexibility) {
   const RadiationProblem problem = radiation_problem(lift_case);
-  const auto database = find_radiation(
+  const auto radiation = find_radiation(
       problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
-  return build_lift(lift_case, load, database.get(), flexibility, find_marched_water(problem));
+  return build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem));
 }
 
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,

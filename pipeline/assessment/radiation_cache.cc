@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -66,38 +67,72 @@ std::string identity_of(const RadiationProblem& problem) {
   return hash.digits();
 }
 
-std::shared_ptr<const dynamics::HydrodynamicDatabase> find_radiation(
-    const RadiationProblem& problem, const std::function<void(const std::string&)>& report) {
-  if (problem.bodies.empty() || problem.direct) return nullptr;
-  const auto say = [&](const std::string& text) {
-    if (report) report(text);
-  };
+namespace {
+
+using Say = std::function<void(const std::string&)>;
+
+/// The database of bodies that stay.
+dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
+                                             const std::string& where, const Say& say) {
   const std::string identity = identity_of(problem);
   const fs::path folder = cache_folder();
   const fs::path file = folder / (identity + ".h5");
   if (!folder.empty() && read_identity(file) == identity) {
     try {
-      auto database =
-          std::make_shared<const dynamics::HydrodynamicDatabase>(read_hydrodynamic_database(file));
+      dynamics::HydrodynamicDatabase database = read_hydrodynamic_database(file);
       say("from " + file.string());
       return database;
     } catch (const HydrodynamicFileError&) {
       // Of an older version, or damaged: computed anew.
     }
   }
-  say("computing that of " + names_of_bodies(problem));
-  auto database = std::make_shared<const dynamics::HydrodynamicDatabase>(
-      compute_or_refuse(problem, [](const RadiationProblem& p) { return compute_radiation(p); }));
+  say("computing that of " + names_of_bodies(problem) + where);
+  dynamics::HydrodynamicDatabase database =
+      compute_or_refuse(problem, [](const RadiationProblem& p) { return compute_radiation(p); });
   if (folder.empty()) return database;
   try {
     std::error_code ignored;
     fs::create_directories(folder, ignored);
-    write_hydrodynamic_database(file, *database, identity,
-                                "computed for a case with " + names_of_bodies(problem));
+    write_hydrodynamic_database(file, database, identity,
+                                "computed for a case with " + names_of_bodies(problem) + where);
   } catch (const std::runtime_error&) {
     // What cannot be kept is computed again.
   }
   return database;
+}
+
+/// The databases of a problem with a body that is lowered.
+dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const Say& say) {
+  const int body = problem.lowered_body();
+  const RadiationProblem others = without_lowered(problem);
+  std::optional<dynamics::HydrodynamicDatabase> alone;
+  if (!others.bodies.empty()) alone = find_database(others, "", say);
+  const RadiationProblem::Body& lowered = problem.bodies[static_cast<std::size_t>(body)];
+  std::vector<double> draughts = {0.0};
+  std::vector<dynamics::HydrodynamicDatabase> databases(1);
+  for (const double draught : lowered.draughts) {
+    draughts.push_back(draught);
+    databases.push_back(
+        find_database(at_draught(problem, draught),
+                      fmt::format(", {} at a draught of {:.4g} m", lowered.name, draught), say));
+  }
+  databases[0] = with_dry_body(databases[1], body, alone ? &*alone : nullptr);
+  return dynamics::make_series(body, std::move(draughts), std::move(databases));
+}
+
+}  // namespace
+
+std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
+    const RadiationProblem& problem, const std::function<void(const std::string&)>& report) {
+  if (problem.bodies.empty() || problem.direct) return nullptr;
+  const Say say = [&](const std::string& text) {
+    if (report) report(text);
+  };
+  if (problem.lowered_body() >= 0) {
+    return std::make_shared<const dynamics::HydrodynamicSeries>(find_series(problem, say));
+  }
+  return std::make_shared<const dynamics::HydrodynamicSeries>(
+      dynamics::HydrodynamicSeries{0, {0.0}, {find_database(problem, "", say)}});
 }
 
 MarchedWater find_marched_water(const RadiationProblem& problem) {

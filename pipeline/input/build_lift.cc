@@ -1,6 +1,7 @@
 #include "pipeline/input/build_lift.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <map>
@@ -59,18 +60,29 @@ double mass_on(const LiftCase& lift_case, const std::string& vessel) {
   return mass;
 }
 
+/// The load as it makes waves; none: it makes none.
+std::optional<FloatingLoad> floating_load(const LiftCase& lift_case) {
+  const LoadInCase& load = lift_case.load;
+  if (!load.draughts || !load.vessel) return std::nullopt;
+  const Pose X_WB = load.pose_afloat();
+  return FloatingLoad{.vessel = load.vessel,
+                      .draughts = load.draughts->value,
+                      .position = X_WB.p.head<2>(),
+                      .heading = std::atan2(X_WB.R(1, 0), X_WB.R(0, 0))};
+}
+
 /// Gathers the parts of a lift; the steps of `build` follow one another.
 class LiftBuilder {
  public:
   LiftBuilder(const LiftCase& lift_case, const LoadMass& load,
-              const dynamics::HydrodynamicDatabase* database, const LoadFlexibility* flexibility,
+              const dynamics::HydrodynamicSeries* radiation, const LoadFlexibility* flexibility,
               MarchedWater marched)
       : case_(lift_case),
         load_(load),
-        database_(database),
+        radiation_(radiation),
         flexibility_(flexibility),
         marched_(std::move(marched)),
-        marine_(lift_case, lift_case.gravity) {
+        marine_(lift_case, lift_case.gravity, floating_load(lift_case)) {
     marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
   }
 
@@ -94,7 +106,7 @@ class LiftBuilder {
     std::vector<dynamics::ElasticBody> elastic_bodies = make_elastic_bodies(mechanism, ropes);
     Schedule schedule = make_schedule();
     dynamics::Operation operation = make_operation(mechanism, schedule);
-    const auto water = marine_.make_water(place(), database_, marched_);
+    const auto water = marine_.make_water(place(), radiation_, marched_);
     const auto system = [&](bool at_rest) {
       return dynamics::LiftSystem({mechanism, ropes, make_supports(),
                                    make_elements(mechanism, at_rest), operation, q_start_,
@@ -301,7 +313,7 @@ class LiftBuilder {
     add_wind_areas(at_rest, elements);
     for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements);
     add_mode_springs(mechanism, elements);
-    marine_.add_elements(place(), database_, at_rest, elements);
+    marine_.add_elements(place(), radiation_, at_rest, elements);
     const LoadInCase& load = case_.load;
     if (!load.vessel) return elements;
     marine_.add_hull("load", body_of_.at("load"), *load.vessel, load.damping,
@@ -398,7 +410,7 @@ class LiftBuilder {
 
   const LiftCase& case_;
   const LoadMass& load_;
-  const dynamics::HydrodynamicDatabase* database_;
+  const dynamics::HydrodynamicSeries* radiation_;
   const LoadFlexibility* flexibility_;
   MarchedWater marched_;
   MarineBuilder marine_;
@@ -424,19 +436,19 @@ LoadMass load_mass(const VesselModel& vessel) {
 }
 
 RadiationProblem radiation_problem(const LiftCase& lift_case) {
-  MarineBuilder marine(lift_case, lift_case.gravity);
+  MarineBuilder marine(lift_case, lift_case.gravity, floating_load(lift_case));
   marine.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
   return marine.radiation_problem();
 }
 
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
-                     const dynamics::HydrodynamicDatabase* database,
+                     const dynamics::HydrodynamicSeries* radiation,
                      const LoadFlexibility* flexibility, MarchedWater marched) {
   if (lift_case.load_table) {
     throw std::invalid_argument("case " + lift_case.name +
                                 " is a load table: it has no cranes whose motion could be built");
   }
-  return LiftBuilder(lift_case, load, database, flexibility, std::move(marched)).build();
+  return LiftBuilder(lift_case, load, radiation, flexibility, std::move(marched)).build();
 }
 
 }  // namespace blocklift::pipeline

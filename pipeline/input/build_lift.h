@@ -87,16 +87,16 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// the unstretched length) are guesses from which the equilibrium is found.
 ///
 /// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave pressure and
-/// damping, without radiation.
+/// damping, and with draughts the water that it sets in motion.
 ///
-/// @param database of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
+/// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
 /// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints to the
 ///   world, see dynamics::ElasticBody.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.
 /// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
 ///   complaints does.
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
-                     const dynamics::HydrodynamicDatabase* database = nullptr,
+                     const dynamics::HydrodynamicSeries* radiation = nullptr,
                      const LoadFlexibility* flexibility = nullptr, MarchedWater marched = {});
 
 /// Mass, centre of mass and inertia of a load that is a vessel.

@@ -16,7 +16,7 @@ using dynamics::Pose;
 
 constexpr int heading_count = 72;  // every 5 degrees
 // Errors of the fitted memory over its peak, and the states that may be spent on them.
-constexpr double close_fit = 0.005, loose_fit = 0.1;
+constexpr double close_fit = 0.005, fair_fit = 0.02, loose_fit = 0.1;
 constexpr int states_of_close_fit = 400, states_of_loose_fit = 600;
 
 dynamics::Water water_of(const SeaInCase& sea, double gravity) {
@@ -54,6 +54,27 @@ double wave_length(double frequency, const dynamics::Water& water) {
 }
 
 }  // namespace
+
+int RadiationProblem::lowered_body() const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [](const Body& body) { return !body.draughts.empty(); });
+  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+}
+
+RadiationProblem without_lowered(RadiationProblem problem) {
+  const int body = problem.lowered_body();
+  if (body >= 0) problem.bodies.erase(problem.bodies.begin() + body);
+  return problem;
+}
+
+RadiationProblem at_draught(RadiationProblem problem, double draught) {
+  const int body = problem.lowered_body();
+  if (body < 0) return problem;
+  RadiationProblem::Body& lowered = problem.bodies[static_cast<std::size_t>(body)];
+  lowered.X_DB.p.z() = -lowered.vessel->hull.bounds()[0].z() - draught;
+  lowered.draughts.clear();
+  return problem;
+}
 
 namespace {
 
@@ -127,27 +148,56 @@ void MarineBuilder::place(const std::function<double(const std::string&)>& carri
   }
 }
 
-std::vector<const VesselInCase*> MarineBuilder::radiating() const {
-  std::vector<const VesselInCase*> vessels;
+MarineBuilder::Radiating MarineBuilder::lowered(std::string name,
+                                                std::shared_ptr<const Vessel> vessel,
+                                                std::vector<double> draughts,
+                                                const Eigen::Vector2d& position, double heading) {
+  const double height = -vessel->hull.bounds()[0].z() - draughts.back();
+  return {
+      std::move(name),
+      std::move(vessel),
+      {dynamics::rotation_about(Vector3::UnitZ(), heading), {position.x(), position.y(), height}},
+      std::move(draughts)};
+}
+
+std::vector<MarineBuilder::Radiating> MarineBuilder::radiating() const {
+  std::vector<Radiating> vessels;
   for (const VesselInCase& vessel : parts_.vessels) {
-    if (vessel.radiation.value != RadiationMethod::none) vessels.push_back(&vessel);
+    if (vessel.radiation.value == RadiationMethod::none) continue;
+    const std::string& name = vessel.name.value;
+    if (vessel.draughts) {
+      vessels.push_back(lowered(name, vessel.model, vessel.draughts->value,
+                                {vessel.position[0], vessel.position[1]}, vessel.heading));
+    } else {
+      vessels.push_back({name, vessel.model, start(name), {}});
+    }
+  }
+  if (load_) {
+    vessels.push_back(
+        lowered(load_->name, load_->vessel, load_->draughts, load_->position, load_->heading));
   }
   return vessels;
 }
 
 RadiationProblem MarineBuilder::radiation_problem() const {
   RadiationProblem problem;
-  const std::vector<const VesselInCase*> vessels = radiating();
+  const std::vector<Radiating> vessels = radiating();
   if (vessels.empty()) return problem;
+  const auto counts = [&](const Radiating& vessel) {
+    return vessels.size() == 1 || vessel.draughts.empty();
+  };
+  const auto count = static_cast<double>(std::count_if(vessels.begin(), vessels.end(), counts));
   Vector3 middle = Vector3::Zero();
-  for (const VesselInCase* vessel : vessels) {
-    const Vector3& p = start(vessel->name.value).p;
-    middle += Vector3(p.x(), p.y(), 0) / static_cast<double>(vessels.size());
+  for (const Radiating& vessel : vessels) {
+    const Vector3& p = vessel.X_WB.p;
+    if (counts(vessel)) middle += Vector3(p.x(), p.y(), 0) / count;
   }
-  for (const VesselInCase* vessel : vessels) {
-    const Pose& X_WB = start(vessel->name.value);
-    problem.bodies.push_back(
-        {vessel->name.value, vessel->model, {X_WB.R, X_WB.p - middle}, Vector3(0, 0, -X_WB.p.z())});
+  for (const Radiating& vessel : vessels) {
+    problem.bodies.push_back({vessel.name,
+                              vessel.vessel,
+                              {vessel.X_WB.R, vessel.X_WB.p - middle},
+                              vessel.p_BoR_B(),
+                              vessel.draughts});
   }
   problem.water = water_of(*parts_.sea, gravity_);
   problem.place = parts_.sea->radiation.place;
@@ -155,7 +205,9 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   for (int i = 0; i < heading_count; ++i) {
     problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
   }
-  problem.direct = vessels.front()->radiation.value == RadiationMethod::direct;
+  problem.direct = std::any_of(
+      parts_.vessels.begin(), parts_.vessels.end(),
+      [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });
   if (problem.direct && has_waves()) {
     const dynamics::WaveField waves = make_sea(*parts_.sea, gravity_).waves;
     problem.ramp = waves.ramp();
@@ -180,10 +232,20 @@ std::shared_ptr<const dynamics::HullClusters> MarineBuilder::clusters(const Vess
   return made;
 }
 
-dynamics::BodyFrame MarineBuilder::radiation_frame(const VesselInCase& vessel,
-                                                   BodyIndex body) const {
-  const Pose& X_WB = start(vessel.name.value);
-  return {body, {X_WB.R.transpose(), Vector3(0, 0, -X_WB.p.z())}};
+dynamics::BodyFrame MarineBuilder::radiation_frame(const Radiating& vessel, const BodyOf& point) {
+  return {point({{vessel.name, {}}, Vector3::Zero(), {}}).body,
+          {vessel.X_WB.R.transpose(), vessel.p_BoR_B()}};
+}
+
+dynamics::DraughtMark MarineBuilder::draught_mark(const std::vector<Radiating>& vessels,
+                                                  const BodyOf& point) {
+  for (const Radiating& vessel : vessels) {
+    if (vessel.draughts.empty()) continue;
+    const auto [low, high] = vessel.vessel->hull.bounds();
+    return {radiation_frame(vessel, point).body,
+            {0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z()}};
+  }
+  return {};
 }
 
 void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vessel& vessel,
@@ -244,9 +306,8 @@ void MarineBuilder::add_lines(const BodyOf& point, dynamics::ForceElements& elem
   }
 }
 
-void MarineBuilder::add_elements(const BodyOf& point,
-                                 const dynamics::HydrodynamicDatabase* database, bool at_rest,
-                                 dynamics::ForceElements& elements) {
+void MarineBuilder::add_elements(const BodyOf& point, const dynamics::HydrodynamicSeries* series,
+                                 bool at_rest, dynamics::ForceElements& elements) {
   const auto body_of = [&](const VesselInCase& vessel) {
     return point({vessel.name, Vector3::Zero(), {}}).body;
   };
@@ -254,15 +315,17 @@ void MarineBuilder::add_elements(const BodyOf& point,
     add_vessel(vessel, body_of(vessel), at_rest, elements);
   }
   add_lines(point, elements);
-  if (!database || at_rest || !has_waves()) return;
+  if (!series || at_rest || !has_waves()) return;
   // The elements share one copy.
-  const auto shared = std::make_shared<const dynamics::HydrodynamicDatabase>(*database);
+  const auto shared = std::make_shared<const dynamics::HydrodynamicSeries>(*series);
+  const std::vector<Radiating> vessels = radiating();
   int index = 0;
-  for (const VesselInCase* vessel : radiating()) {
+  for (const Radiating& vessel : vessels) {
     dynamics::DiffractionForce::Definition force;
-    force.name = "diffraction about " + vessel->name.value;
-    force.frame = radiation_frame(*vessel, body_of(*vessel));
-    force.database = shared;
+    force.name = "diffraction about " + vessel.name;
+    force.frame = radiation_frame(vessel, point);
+    force.series = shared;
+    force.mark = draught_mark(vessels, point);
     force.database_body = index++;
     force.sea = sea(at_rest);
     std::get<std::vector<dynamics::DiffractionForce>>(elements).emplace_back(std::move(force));
@@ -270,29 +333,25 @@ void MarineBuilder::add_elements(const BodyOf& point,
 }
 
 std::shared_ptr<const dynamics::RadiatedWater> MarineBuilder::make_water(
-    const BodyOf& point, const dynamics::HydrodynamicDatabase* database,
+    const BodyOf& point, const dynamics::HydrodynamicSeries* series,
     const MarchedWater& marched) const {
-  if (!database && !marched.radiation) return nullptr;
+  if (!series && !marched.radiation) return nullptr;
   dynamics::RadiatedWater::Definition water;
-  for (const VesselInCase* vessel : radiating()) {
-    water.frames.push_back(
-        radiation_frame(*vessel, point({vessel->name, Vector3::Zero(), {}}).body));
-  }
+  const std::vector<Radiating> vessels = radiating();
+  for (const Radiating& vessel : vessels) water.frames.push_back(radiation_frame(vessel, point));
   if (marched.radiation) {
     return std::make_shared<const dynamics::RadiatedWater>(
         water.frames, marched.radiation->infinite_added_mass());
   }
-  water.database = std::make_shared<const dynamics::HydrodynamicDatabase>(*database);
-  try {
-    water.memory_tolerance = close_fit;
-    water.most_states = states_of_close_fit;
-    return std::make_shared<const dynamics::RadiatedWater>(water);
-  } catch (const dynamics::ModelError&) {
-    // Water that swings long between two hulls takes more states.
-    water.memory_tolerance = loose_fit;
-    water.most_states = states_of_loose_fit;
-    return std::make_shared<const dynamics::RadiatedWater>(water);
-  }
+  water.series = std::make_shared<const dynamics::HydrodynamicSeries>(*series);
+  water.mark = draught_mark(vessels, point);
+  water.memory_tolerance = close_fit;
+  water.most_states = states_of_close_fit;
+  water.acceptable_error = fair_fit;
+  // Water that swings long between two hulls takes more states.
+  water.loose_tolerance = loose_fit;
+  water.most_loose_states = states_of_loose_fit;
+  return std::make_shared<const dynamics::RadiatedWater>(water);
 }
 
 }  // namespace blocklift::pipeline

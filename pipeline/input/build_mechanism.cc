@@ -49,10 +49,10 @@ double mass_on(const MechanismFile& file, const std::string& vessel) {
 /// Gathers a mechanism; the steps of `build` follow one another.
 class MechanismAssembler {
  public:
-  MechanismAssembler(const MechanismFile& file, const dynamics::HydrodynamicDatabase* database,
+  MechanismAssembler(const MechanismFile& file, const dynamics::HydrodynamicSeries* radiation,
                      MarchedWater marched)
       : file_(file),
-        database_(database),
+        radiation_(radiation),
         marched_(std::move(marched)),
         marine_(file, -file.gravity.z()),
         parts_(file, "", dynamics::Pose::identity()) {
@@ -73,7 +73,7 @@ class MechanismAssembler {
     for (const JointModel& joint : file_.joints) {
       carried_by[joint.name.value] = parts_.carried_by(joint.name.value);
     }
-    const auto water = marine_.make_water(place(), database_, marched_);
+    const auto water = marine_.make_water(place(), radiation_, marched_);
     const auto system = [&](bool at_rest) {
       return dynamics::LiftSystem(
           {mechanism, ropes_, {}, make_elements(mechanism, at_rest), operation, q_, v_, water});
@@ -147,7 +147,7 @@ class MechanismAssembler {
     dynamics::ForceElements elements;
     parts_.add_springs(mechanism, elements);
     if (file_.wind) parts_.add_wind_areas(file_.wind->make_field(at_rest), elements);
-    marine_.add_elements(place(), database_, at_rest, elements);
+    marine_.add_elements(place(), radiation_, at_rest, elements);
     add_forces(mechanism, elements);
     return elements;
   }
@@ -252,7 +252,7 @@ class MechanismAssembler {
   }
 
   const MechanismFile& file_;
-  const dynamics::HydrodynamicDatabase* database_;
+  const dynamics::HydrodynamicSeries* radiation_;
   MarchedWater marched_;
   MarineBuilder marine_;
   PartsBuilder parts_;
@@ -270,9 +270,9 @@ RadiationProblem radiation_problem(const MechanismFile& file) {
 }
 
 BuiltMechanism build_mechanism(const MechanismFile& file,
-                               const dynamics::HydrodynamicDatabase* database,
+                               const dynamics::HydrodynamicSeries* radiation,
                                MarchedWater marched) {
-  return MechanismAssembler(file, database, std::move(marched)).build();
+  return MechanismAssembler(file, radiation, std::move(marched)).build();
 }
 
 std::string try_to_build(const MechanismFile& file) {

@@ -30,11 +30,11 @@ RadiationProblem radiation_problem(const MechanismFile& file);
 
 /// Builds the dynamics of a sound mechanism file, with loops closed at the start as its initial state
 /// says.
-/// @param database of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
+/// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
 /// @throws dynamics::ModelError, dynamics::SimulationError if the parts do not make a mechanism, the loops
 ///   cannot be closed, or are open where they must not be; a file that was read without complaints does.
 BuiltMechanism build_mechanism(const MechanismFile& file,
-                               const dynamics::HydrodynamicDatabase* database = nullptr,
+                               const dynamics::HydrodynamicSeries* radiation = nullptr,
                                MarchedWater marched = {});
 
 /// What build_mechanism says of a file that cannot be built; empty if it can.

@@ -1,5 +1,6 @@
 #include "pipeline/input/lift_case.h"
 
+#include <cmath>
 #include <system_error>
 
 #include "pipeline/formats/series_file.h"
@@ -73,6 +74,15 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
 }
 
 }  // namespace
+
+dynamics::Pose LoadInCase::pose_afloat() const {
+  const Eigen::Matrix3d R_start = rotation_of(attitude);
+  const double yaw = afloat ? afloat->heading : std::atan2(R_start(1, 0), R_start(0, 0));
+  const std::array<double, 2> place =
+      afloat ? afloat->position : std::array<double, 2>{position.x(), position.y()};
+  return {dynamics::rotation_about(Vector3::UnitZ(), yaw),
+          {place[0], place[1], -vessel->hull.bounds()[0].z() - draughts->value.back()}};
+}
 
 const Located<Quantity>* CraneInCase::find_start(const std::string& drive_or_hoist) const {
   const auto* found = find_by_name(start, drive_or_hoist);

@@ -33,6 +33,12 @@ struct CraneInCase {
   const Located<Quantity>* find_start(const std::string& drive_or_hoist) const;
 };
 
+/// Where a load is while it is in the water.
+struct PlaceAfloat {
+  std::array<double, 2> position{};  ///< of its frame's origin in the world, m
+  double heading = 0.0;              ///< of its x axis, rad
+};
+
 /// What is lifted: a block, whose stress is asked; a vessel, which may float; or both, one ship.
 struct LoadInCase {
   Located<std::string> model_name;          ///< of the block; empty for a vessel
@@ -42,8 +48,14 @@ struct LoadInCase {
       vessel;  ///< after the look-up; null if it failed; beside a block its hull
   std::vector<Named<Vector3>> lugs;          ///< of a vessel, in its frame, m
   DampingInCase damping, quadratic_damping;  ///< of a vessel in the water
+  /// Of a vessel for which the water that it sets in motion is computed, from its lowest point, m.
+  std::optional<Located<std::vector<double>>> draughts;
+  std::optional<PlaceAfloat> afloat;   ///< where it is meanwhile; none: as at the start
   Vector3 position = Vector3::Zero();  ///< of the block's frame at the start, a first guess, m
   Vector3 attitude = Vector3::Zero();  ///< roll, pitch, yaw, rad; likewise
+
+  /// Upright in the water at the deepest of its draughts. It has a vessel and draughts.
+  dynamics::Pose pose_afloat() const;
 };
 
 /// Where a rope begins, turns or ends: a hook (`C1.upper_1`), a lug (`L1`), or any point of a body.

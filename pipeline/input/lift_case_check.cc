@@ -403,6 +403,28 @@ void check_weights(const LoadInCase& load, Diagnostics& diagnostics) {
       {"they are one ship: the block's mass moves, the vessel's must agree with it to 1 %"});
 }
 
+/// The draughts of a load that makes waves.
+void check_draughts(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  const LoadInCase& load = lift_case.load;
+  if (!load.draughts || !load.vessel) return;
+  check_draughts("the load", *load.draughts, *load.vessel, diagnostics);
+  for (const VesselInCase& vessel : lift_case.vessels) {
+    if (vessel.draughts) {
+      diagnostics.error(load.draughts->mark,
+                        fmt::format("the load has draughts, as vessel {} has", vessel.name.value),
+                        {"one body may be lowered into the water that they share"});
+    }
+    if (vessel.radiation.value == RadiationMethod::direct) {
+      diagnostics.error(
+          load.draughts->mark,
+          fmt::format("the load has draughts, and the radiation of vessel {} is direct",
+                      vessel.name.value),
+          {"a surface that is marched has hulls of one draught: give the vessels "
+           "radiation: database, or leave the load's draughts out"});
+    }
+  }
+}
+
 /// Vessels, sea and lines, and the lugs and the water of a load that is a vessel.
 void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
   std::vector<std::string> bodies = {"load"};
@@ -422,8 +444,16 @@ void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
                       {"add sea: {} for calm deep sea water"});
   }
   check_weights(lift_case.load, diagnostics);
+  check_draughts(lift_case, diagnostics);
   if (diagnostics.has_errors()) return;
   std::vector<PlacedHull> hulls = place_hulls(lift_case);
+  if (lift_case.load.draughts) {
+    std::vector<PlacedHull> afloat = hulls;
+    afloat.push_back({"the load in the water", lift_case.load.draughts->mark,
+                      &lift_case.load.vessel->hull, lift_case.load.pose_afloat()});
+    check_hulls_apart(afloat, diagnostics);
+    if (diagnostics.has_errors()) return;
+  }
   if (lift_case.load.vessel) {
     hulls.push_back({"the load",
                      lift_case.load.vessel_name->mark,

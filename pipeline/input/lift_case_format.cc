@@ -27,6 +27,17 @@ Format<CraneInCase> crane_format() {
   return table.format();
 }
 
+Format<PlaceAfloat> place_afloat_format() {
+  Table<PlaceAfloat> table("place afloat", "Where a load is lowered into the water.");
+  table
+      .required("position", &PlaceAfloat::position,
+                array_of<double, 2>(quantity(Dimension::length)),
+                "of its frame's origin in the world, [x, y]")
+      .by_default("heading", &PlaceAfloat::heading, quantity(Dimension::angle), "0 deg",
+                  "of its x axis, from the world's +x towards +y");
+  return table.format();
+}
+
 void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
   const bool block = !load.model_name.value.empty();
   if (!block && !load.vessel_name) {
@@ -37,6 +48,14 @@ void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
   for (const Named<Vector3>& lug : load.lugs) check_name(lug.name.mark, lug.name.value, reading);
   if (block && !load.lugs.empty()) {
     reading.error(load.lugs.front().name.mark, "a block's lugs stand in its model file");
+  }
+  if (load.draughts && !load.vessel_name) {
+    reading.error(load.draughts->mark, "draughts of a load that has no hull",
+                  {"give its vessel, whose hull enters the water"});
+  }
+  if (load.afloat && !load.draughts) {
+    reading.error(mark, "afloat is the place for which draughts are computed, and there are none",
+                  {"add draughts, or leave afloat out"});
   }
 }
 
@@ -60,6 +79,15 @@ Format<LoadInCase> load_format() {
       .by_default("quadratic_damping", &LoadInCase::quadratic_damping,
                   vessel_quadratic_damping_format(), "{}",
                   "with the square of the velocity; likewise")
+      .optional(
+          "draughts", &LoadInCase::draughts, located(draughts_format()),
+          "of a vessel, upright, from the lowest point of its hull: for them added mass, memory "
+          "and diffraction are computed together with those vessels whose radiation is, and "
+          "interpolated while it is lowered or lifted; it makes no waves if left out")
+      .optional(
+          "afloat", &LoadInCase::afloat, place_afloat_format(),
+          "where it lies against the vessels at those draughts, these being where they start; "
+          "as its position and orientation say if left out")
       .by_default("position", &LoadInCase::position, position_format(), zero_position,
                   "of the load's frame in the world at the start; a first guess, the run begins "
                   "from equilibrium")

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/draught_shares.h"
 #include "dynamics/marine/hull_diagnosis.h"
 #include "dynamics/marine/wave_spectrum.h"
 #include "pipeline/formats/series_file.h"
@@ -180,6 +181,9 @@ void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
     diagnostics.error(vessel.name.mark,
                       fmt::format("a vessel cannot be named \"{}\"", vessel.name.value));
   }
+  if (vessel.model && vessel.draughts) {
+    check_draughts("vessel " + vessel.name.value, *vessel.draughts, *vessel.model, diagnostics);
+  }
   if (!vessel.model || !vessel.draught) return;
   const auto [low, high] = vessel.model->hull.bounds();
   if (vessel.draught->value > low.z() && vessel.draught->value < high.z()) return;
@@ -190,8 +194,31 @@ void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
                   vessel.name.value, vessel.draught->value, low.z(), high.z()));
 }
 
+/// Draughts belong to databases, and to one vessel.
+void check_lowered(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+  const VesselInCase* lowered = nullptr;
+  for (const VesselInCase& vessel : vessels) {
+    if (!vessel.draughts) continue;
+    const std::string& name = vessel.name.value;
+    if (vessel.radiation.value != RadiationMethod::database) {
+      diagnostics.error(
+          vessel.draughts->mark,
+          fmt::format("vessel {} has draughts, and its radiation is {}", name,
+                      vessel.radiation.value == RadiationMethod::direct ? "direct" : "none"),
+          {"draughts are interpolated between databases: radiation: database"});
+    }
+    if (lowered) {
+      diagnostics.error(vessel.draughts->mark,
+                        fmt::format("vessel {} has draughts, as {} has", name, lowered->name.value),
+                        {"one body may be lowered into the water that they share"});
+    }
+    lowered = &vessel;
+  }
+}
+
 /// There is one surface of the water.
 void check_radiation(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+  check_lowered(vessels, diagnostics);
   const VesselInCase* first = nullptr;
   for (const VesselInCase& vessel : vessels) {
     if (vessel.radiation.value == RadiationMethod::none) continue;
@@ -246,6 +273,24 @@ Eigen::Matrix<double, 6, 1> DampingInCase::vector() const {
   Eigen::Matrix<double, 6, 1> values;
   values << roll, pitch, yaw, surge, sway, heave;
   return values;
+}
+
+void check_draughts(const std::string& who, const Located<std::vector<double>>& draughts,
+                    const Vessel& vessel, Diagnostics& diagnostics) {
+  const auto [low, high] = vessel.hull.bounds();
+  const double depth = high.z() - low.z(), deepest = draughts.value.back();
+  if (deepest >= depth) {
+    diagnostics.error(
+        draughts.mark,
+        fmt::format("the deepest draught of {} is {:.4g} m, and its hull is {:.4g} m deep", who,
+                    deepest, depth),
+        {"draughts count from the lowest point of the hull, and end below its deck"});
+  }
+  constexpr std::size_t most = dynamics::most_draughts - 1;
+  if (draughts.value.size() > most) {
+    diagnostics.error(draughts.mark, fmt::format("{} has {} draughts; at most {} are interpolated",
+                                                 who, draughts.value.size(), most));
+  }
 }
 
 const VesselInCase* MarineParts::find_vessel(const std::string& name) const {

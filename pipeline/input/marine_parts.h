@@ -117,6 +117,8 @@ struct VesselInCase {
   double heading = 0;                      ///< of its x axis from the world's, rad
   std::optional<Located<double>> draught;  ///< of its frame's origin, m
   Located<RadiationMethod> radiation{RadiationMethod::database, {}};
+  /// Of one that is lowered or lifted: from its lowest point, ascending, m.
+  std::optional<Located<std::vector<double>>> draughts;
   DampingInCase damping, quadratic_damping;
   std::vector<MemberInCase> members;
 };
@@ -182,6 +184,11 @@ void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
 /// @param bodies names of all bodies besides the vessels; "world" exists always.
 void check_marine_parts(const MarineParts& parts, double gravity,
                         const std::vector<std::string>& bodies, Diagnostics& diagnostics);
+
+/// Complains about draughts (m, ascending, from the hull's lowest point) that the hull of `who` does not
+/// reach, or too many of them.
+void check_draughts(const std::string& who, const Located<std::vector<double>>& draughts,
+                    const Vessel& vessel, Diagnostics& diagnostics);
 
 /// The vessels' hulls where they lie at the start, upright, at their draught or by their own weight. The
 /// parts are sound.

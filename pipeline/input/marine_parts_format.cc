@@ -243,6 +243,11 @@ Format<VesselInCase> vessel_in_case_format() {
                   "waves that it makes and scatters: added mass, memory and diffraction from the "
                   "panel method, with all such vessels together, from a database or with the "
                   "water's surface marched directly beside; or none")
+      .optional(
+          "draughts", &VesselInCase::draughts, located(draughts_format()),
+          "of the one vessel that is lowered or lifted: upright, from the lowest point of its "
+          "hull; its radiation is interpolated between them, and to none where it is dry; that "
+          "of its draught alone if left out")
       .by_default("damping", &VesselInCase::damping, vessel_damping_format(), "{}",
                   "linear, relative to the current; in proportion to the wet volume")
       .by_default("quadratic_damping", &VesselInCase::quadratic_damping,

@@ -14,8 +14,8 @@ MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress) {
   const auto start = std::chrono::steady_clock::now();
   const RadiationProblem problem = radiation_problem(file);
-  const auto database = find_radiation(problem, {});
-  BuiltMechanism mechanism = build_mechanism(file, database.get(), find_marched_water(problem));
+  const auto radiation = find_radiation(problem, {});
+  BuiltMechanism mechanism = build_mechanism(file, radiation.get(), find_marched_water(problem));
   std::vector<NaturalModes> natural_modes;
   std::vector<std::string> findings;
   const dynamics::LiftSystem& system = mechanism.system;

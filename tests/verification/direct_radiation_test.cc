@@ -64,7 +64,7 @@ class TwoWays {
     const auto file = read_mechanism_file("mechanism.yaml", library, diagnostics);
     EXPECT_TRUE(file) << diagnostics.to_text();
     const RadiationProblem problem = radiation_problem(*file);
-    if (!problem.direct && !database_) database_ = compute_radiation(problem);
+    if (!problem.direct && !database_) database_ = {0, {0.0}, {compute_radiation(problem)}};
     const BuiltMechanism built =
         build_mechanism(*file, problem.direct ? nullptr : &*database_, make_marched_water(problem));
     const dynamics::LiftSystem& system = built.system;
@@ -88,7 +88,7 @@ class TwoWays {
   TemporaryFolder folder_;
   std::string text_;
   double above_;
-  std::optional<dynamics::HydrodynamicDatabase> database_;
+  std::optional<dynamics::HydrodynamicSeries> database_;
 };
 
 /// Largest difference over the largest excursion of the first from its mean, from a sample on.

@@ -143,7 +143,8 @@ TEST(MarineParts, DatabaseMakesWaterAndDiffraction) {
     database.diffraction.push_back(Eigen::MatrixXcd::Constant(6, 72, 1e4));
     database.froude_krylov.push_back(Eigen::MatrixXcd::Zero(6, 72));
   }
-  const BuiltMechanism built = build_mechanism(file, &database);
+  const dynamics::HydrodynamicSeries series{0, {0.0}, {database}};
+  const BuiltMechanism built = build_mechanism(file, &series);
   ASSERT_TRUE(built.system.water());
   EXPECT_EQ(built.system.memory_count(), 1 * 6);
   const auto diffraction = [](const dynamics::LiftSystem& system) {
@@ -316,6 +317,71 @@ TEST(MarineParts, ComplainsAboutFloatingCranes) {
   EXPECT_THAT(about("vessel: vessels/boat", "vessel: vessels/boat, model: x"),
               HasSubstr("a block's lugs stand in its model file"));
   EXPECT_THAT(about("sea: {}\n", ""), HasSubstr("vessel B1 floats in no sea"));
+}
+
+// A load with draughts is one more body in the water of the vessels, where it is to be lowered.
+TEST(MarineParts, LoweredLoadSharesTheWaterOfTheVessels) {
+  const std::string text =
+      with(with(lift, "radiation: none, ", ""), "lugs: {L1",
+           "draughts: [0.4 m, 0.7 m], afloat: {position: [35 m, 3 m], heading: 90 deg}, lugs: {L1");
+  std::optional<LiftCase> lift_case;
+  ASSERT_EQ(lift_complaints(text, lift_case), "");
+  const RadiationProblem problem = radiation_problem(*lift_case);
+  ASSERT_EQ(problem.bodies.size(), 2U);
+  EXPECT_EQ(problem.lowered_body(), 1);
+  EXPECT_EQ(problem.bodies[1].name, "load");
+  // B1 alone is the middle.
+  EXPECT_LT((problem.bodies[1].X_DB.p - Vector3(35, 3, -0.7)).norm(), 1e-12);
+  EXPECT_NEAR(problem.bodies[1].X_DB.R(1, 0), 1, 1e-12);
+  EXPECT_EQ(without_lowered(problem).bodies.size(), 1U);
+  const RadiationProblem shallow = at_draught(problem, 0.4);
+  EXPECT_EQ(shallow.lowered_body(), -1);
+  EXPECT_NEAR(shallow.bodies[1].X_DB.p.z(), -0.4, 1e-12);
+
+  dynamics::HydrodynamicSeries series{1, {0.0, 0.4, 0.7}, {}};
+  for (int k = 0; k < 3; ++k) {
+    dynamics::HydrodynamicDatabase database;
+    database.water = problem.water;
+    database.body_names = {"B1", "load"};
+    database.infinite_added_mass = 1e6 * Eigen::MatrixXd::Identity(12, 12);
+    if (k == 0) database.infinite_added_mass.bottomRows(6).setZero();
+    database.time_step = 0.2;
+    database.retardation.assign(20, Eigen::MatrixXd::Zero(12, 12));
+    series.databases.push_back(std::move(database));
+  }
+  const BuiltLift built = build_lift(*lift_case, load_mass(lift_case->load.vessel->model), &series);
+  ASSERT_TRUE(built.system.water());
+  EXPECT_TRUE(built.system.water()->varies());
+  EXPECT_EQ(built.system.water()->frames()[1].body, built.load);
+  // She hangs dry with her keel 7 m above the water.
+  dynamics::LiftWorkspace w(built.system);
+  w.q = built.system.q_start();
+  dynamics::calc_loads(built.system, 0, nullptr, w);
+  EXPECT_EQ(w.water_shares.weight[0], 1);
+  EXPECT_EQ(w.added()->matrix.bottomRows(6).norm(), 0);
+}
+
+TEST(MarineParts, ComplainsAboutDraughts) {
+  std::optional<LiftCase> ignored;
+  const auto about = [&](const std::string& load, const std::string& radiation = "database") {
+    return lift_complaints(with(with(lift, "radiation: none", "radiation: " + radiation),
+                                "lugs: {L1", load + ", lugs: {L1"),
+                           ignored);
+  };
+  EXPECT_THAT(about("draughts: [0.5 m, 4 m]"),
+              HasSubstr("case.yaml:6:41: error: the deepest draught of the load is 4 m, and its "
+                        "hull is 4 m deep"));
+  EXPECT_THAT(about("draughts: [0.5 m, 0.3 m]"), HasSubstr("draughts must ascend"));
+  EXPECT_THAT(about("draughts: [0.5 m]", "direct"),
+              HasSubstr("the load has draughts, and the radiation of vessel B1 is direct"));
+  EXPECT_THAT(about("draughts: [0.5 m]", "database, draughts: [2 m]"),
+              HasSubstr("the load has draughts, as vessel B1 has"));
+  EXPECT_THAT(about("draughts: [0.5 m]", "none, draughts: [2 m]"),
+              HasSubstr("vessel B1 has draughts, and its radiation is none"));
+  EXPECT_THAT(about("afloat: {position: [30 m, 0 m]}"),
+              HasSubstr("afloat is the place for which draughts are computed"));
+  EXPECT_THAT(about("draughts: [0.5 m], afloat: {position: [10 m, 0 m]}"),
+              HasSubstr("the load in the water intersect"));
 }
 
 }  // namespace
