@@ -7,7 +7,7 @@
 namespace blocklift::dynamics {
 
 /// States of the water that a series may have, the dry one among them.
-inline constexpr int most_draughts = 16;
+inline constexpr int most_draughts = 32;
 
 /// Where the draught of a body that is lowered into the water is read: the depth of its point K, of the
 /// keel below amidships, under the calm surface z = 0, m.

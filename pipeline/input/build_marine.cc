@@ -12,7 +12,6 @@ namespace blocklift::pipeline {
 namespace {
 
 using dynamics::BodyIndex;
-using dynamics::Pose;
 
 constexpr int heading_count = 72;  // every 5 degrees
 // Errors of the fitted memory over its peak, and the states that may be spent on them.

@@ -167,18 +167,21 @@ TEST(LoweredBody, FollowsVonKarmansWedge) {
   EXPECT_LT(errors[1], 0.35 * errors[0]);
 }
 
-// Kaplan (1992): no impact on leaving. What is drawn out of the water leaves it behind with its own velocity and
-// keeps that itself.
-TEST(LoweredBody, LeavesTheWaterWithoutImpact) {
+// Kaplan (1992): V^2 dA/dd in sinking, no impact on leaving: what is drawn out of the water leaves it behind with
+// its own velocity and keeps that itself. Either way V^3 dA/dd / 2 is lost to the water.
+TEST(LoweredBody, FeelsAnImpactOnEnteringAndNoneOnLeaving) {
   const auto mass_at = [](double d) { return 8e3 * d; };
-  const LiftSystem system = falling(definition_of(series_of(mass_at, 0.5)), -1.5, 1.0, 0, 2.5);
-  const IntegrationResult result = integrate(system, system.q_start(), system.v_start(),
-                                             {.relative_tolerance = 1e-9, .sample_interval = 0.5});
-  EXPECT_NEAR(result.v_end[0], 1.0, 1e-7);
-  EXPECT_GT(result.q_end[0], 0.9);
-  EXPECT_LT(ledger_error(result.history), 1e-6);
-  // All that it had moved with, but for its own: m V^2/2 at the start.
-  EXPECT_NEAR(result.history.energy.dissipated[result.history.sample_count() - 1], 0.5 * 12e3, 1);
+  for (const double velocity : {1.0, -1.0}) {
+    const LiftSystem system =
+        falling(definition_of(series_of(mass_at, 0.5)), -1.25, velocity, 0, 1.0);
+    LiftWorkspace w(system);
+    Eigen::Vector2d y(-1.25, velocity), ydot;
+    const Contacts contacts;
+    calc_right_hand_side(system, 0, y, &contacts, w, ydot);
+    EXPECT_NEAR(ydot[1], velocity > 0 ? 0.0 : 8e3 / (5e3 + 8e3 * 1.25), 1e-9);
+    EXPECT_NEAR(calc_energy_rates(system, 0, w).dissipated_power, 0.5 * 8e3, 1e-6);
+    EXPECT_NEAR(calc_stored_energy(system, 0, w).kinetic, 0.5 * 15e3, 1e-6);
+  }
 }
 
 // On a spring through the surface, in and out again, with a memory: energy is lost at each instant, and never
@@ -191,7 +194,7 @@ TEST(LoweredBody, GainsNoEnergyFromTheSurface) {
   const IntegrationResult result = integrate(system, system.q_start(), system.v_start(),
                                              {.relative_tolerance = 1e-8, .sample_interval = 0.05});
   const EnergyHistory& e = result.history.energy;
-  EXPECT_LT(ledger_error(result.history), 1e-5);
+  EXPECT_LT(ledger_error(result.history), 1e-4);
   const double all = 0.5 * 40e3 * 1.5 * 1.5;
   for (Eigen::Index i = 1; i < result.history.sample_count(); ++i) {
     EXPECT_GE(e.dissipated[i], e.dissipated[i - 1] - 1e-6 * all);
