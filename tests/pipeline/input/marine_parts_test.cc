@@ -369,7 +369,7 @@ TEST(MarineParts, ComplainsAboutDraughts) {
                            ignored);
   };
   EXPECT_THAT(about("draughts: [0.5 m, 4 m]"),
-              HasSubstr("case.yaml:6:41: error: the deepest draught of the load is 4 m, and its "
+              HasSubstr("case.yaml:6:40: error: the deepest draught of the load is 4 m, and its "
                         "hull is 4 m deep"));
   EXPECT_THAT(about("draughts: [0.5 m, 0.3 m]"), HasSubstr("draughts must ascend"));
   EXPECT_THAT(about("draughts: [0.5 m]", "direct"),
