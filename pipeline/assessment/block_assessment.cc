@@ -15,10 +15,6 @@ namespace blocklift::pipeline {
 
 namespace {
 
-double percent_above(double value, double reference) {
-  return reference > 0 ? 100 * (value / reference - 1) : 0;
-}
-
 void require_balance(const BlockState& state) {
   const structure::LoadBalance& balance = state.result.balance;
   if (balance.force_residual < largest_balance_residual &&

@@ -15,6 +15,11 @@ namespace blocklift::pipeline {
 /// The two histories of a lift that are set beside each other.
 enum class MotionState { static_state, dynamic_state };
 
+/// How far a value lies above a reference, per cent of it; 0 where the reference is not positive.
+inline double percent_above(double value, double reference) {
+  return reference > 0 ? 100 * (value / reference - 1) : 0;
+}
+
 /// A load case of the block with what it does to it.
 struct BlockState {
   structure::LoadCase load;

@@ -23,10 +23,6 @@ using structure::TimedExtreme;
 using structure::UnitResponses;
 using structure::Vector3;
 
-double percent_above(double value, double reference) {
-  return reference > 0 ? 100 * (value / reference - 1) : 0;
-}
-
 /// One history on its way to a HistoryState.
 class StateMaker {
  public:

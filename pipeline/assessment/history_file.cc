@@ -9,14 +9,6 @@ namespace blocklift::pipeline {
 
 namespace {
 
-std::span<const double> span_of(const Eigen::VectorXd& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
-std::span<const std::int32_t> span_of(const Eigen::VectorXi& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
 void write_state(ResultsWriter& file, std::string_view name, const HistoryState& state,
                  const structure::Surface& surface, const structure::UnitResponses& responses,
                  const Eigen::VectorXd& weights) {

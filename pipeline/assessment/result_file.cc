@@ -18,10 +18,6 @@ namespace {
 using dynamics::History;
 using dynamics::LiftSystem;
 
-std::span<const double> span_of(const Eigen::VectorXd& values) {
-  return {values.data(), static_cast<std::size_t>(values.size())};
-}
-
 bool is_hoist(const Scene& scene, std::size_t rope) {
   return std::find(scene.hoists.begin(), scene.hoists.end(), static_cast<int>(rope)) !=
          scene.hoists.end();

@@ -23,9 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using dynamics::LinkedMaximum;
 
-/// Null in place of what JSON cannot write.
-double percent_above(double value, double reference) { return 100 * (value / reference - 1); }
-
 Json check_json(const Check& check) {
   Json json{{"name", check.name},
             {"demand", json_number(check.demand)},

@@ -11,6 +11,7 @@
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/input/quantity.h"
 #include "pipeline/report/report.h"
 
 namespace blocklift::pipeline {
@@ -34,8 +35,6 @@ class ProgressLine {
   std::string stage_;
   std::unique_ptr<ProgressBar> bar_;
 };
-
-constexpr double newton_per_tonne = 9806.65;
 
 /// "-" for a rope that is slack at rest.
 std::string ratio_text(double dynamic, double at_rest) {

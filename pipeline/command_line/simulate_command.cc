@@ -10,6 +10,7 @@
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
 #include "pipeline/input/file_kind.h"
+#include "pipeline/input/quantity.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
 
@@ -18,8 +19,6 @@ namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double newton_per_tonne = 9806.65;
 
 /// The folder of the results, asked for before the run.
 fs::path result_folder(const SimulateOptions& options, const std::string& name) {

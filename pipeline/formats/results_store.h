@@ -38,6 +38,12 @@ struct Meaning {
 /// Row-major view of a matrix: what HDF5 and numpy call [rows, columns].
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// The values of a vector, as datasets are written.
+template <class Scalar>
+std::span<const Scalar> span_of(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
 /// Writes a new results file. It appears under its name with finish(), whole; if that is never
 /// reached, nothing appears and an older file stays as it was.
 class ResultsWriter {

@@ -293,8 +293,8 @@ Format<Comparison> comparison_format() {
       .required("file", &MeasuredSeries::file, located(text()),
                 "beside this file: CSV of time in s and tension")
       .by_default("unit", &MeasuredSeries::unit,
-                  choice<double>({{"N", 1.0}, {"kN", 1e3}, {"MN", 1e6}, {"t", 9806.65}}), "kN",
-                  "of the tension in the file; t is the weight of a tonne")
+                  choice<double>({{"N", 1.0}, {"kN", 1e3}, {"MN", 1e6}, {"t", newton_per_tonne}}),
+                  "kN", "of the tension in the file; t is the weight of a tonne")
       .by_default("offset", &MeasuredSeries::offset, quantity(Dimension::time), "0 s",
                   "time of the operation at which the file's time is zero");
   Table<Comparison> table("comparison", "Published or measured figures, shown beside ours.");

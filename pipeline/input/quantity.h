@@ -9,6 +9,9 @@
 
 namespace blocklift::pipeline {
 
+/// Weight of a tonne under standard gravity, N.
+inline constexpr double newton_per_tonne = 9806.65;
+
 /// What a number in an input file measures.
 ///
 /// The file writes a number with a unit ("860 t", "12 m", "3 m/min"); the program keeps the value in
