@@ -151,13 +151,13 @@ void HullForce::add_derivatives(const MotionState& state, ForceDerivatives& deri
   derivatives.add_wrench_block(0, 0, -rho_g_ * K, Eigen::Matrix<double, 6, 6>::Zero());
 }
 
-EnergyAccount HullForce::calc_energy(const MotionState& state) const {
+EnergyAccount HullForce::calc_energy(const MotionState& state, const ForceVector& F_Bo_W) const {
   const auto body = static_cast<std::size_t>(definition_.body);
   const Buoyancy calm = calc_buoyancy(*definition_.hull, state.kinematics.X_WB[body]);
   EnergyAccount account;
   account.stored_energy = rho_g_ * calm.energy_over_rho_g;
   if (in_waves()) {
-    const ForceVector from_waves = calc_force(state) - rho_g_ * calm.F_Bo_W_over_rho_g;
+    const ForceVector from_waves = F_Bo_W - rho_g_ * calm.F_Bo_W_over_rho_g;
     account.supplied_power = dot(from_waves, state.kinematics.V_WB[body]);
   }
   return account;

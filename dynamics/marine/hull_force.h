@@ -53,7 +53,12 @@ class HullForce {
   /// In still water the exact stiffness; in waves that of still water at the same pose, which is
   /// near enough for an integrator's iteration.
   void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
-  EnergyAccount calc_energy(const MotionState& state) const;
+  EnergyAccount calc_energy(const MotionState& state) const {
+    return calc_energy(state, in_waves() ? calc_force(state) : ForceVector::zero());
+  }
+  /// The same where the force of that instant is known already (moment and force about Bo in W); in still
+  /// water it is not looked at.
+  EnergyAccount calc_energy(const MotionState& state, const ForceVector& F_Bo_W) const;
 
   /// Hydrostatics at the calm water line, for reports.
   Hydrostatics calc_calm_hydrostatics(const MotionState& state) const;

@@ -95,6 +95,8 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
   } else if (added) {
     tied.emplace(system.mechanism(), added);
   }
+  F_Bo_W_of_hulls.assign(std::get<std::vector<HullForce>>(system.elements()).size(),
+                         ForceVector::zero());
   memory = memory_rate = Eigen::VectorXd::Zero(system.memory_count());
   water_velocity = water_force = entry_force = Eigen::VectorXd::Zero(added ? added->size() : 0);
   for (std::size_t i = 0; i < feeds.size(); ++i) {
@@ -163,6 +165,29 @@ void add_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
   water.calc_added_mass(w.water_shares, (w.loops ? *w.loops : *w.tied).added->matrix);
 }
 
+void add_hull_forces(const LiftSystem& system, const MotionState& state, LiftWorkspace& w) {
+  const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    const ForceVector F = hulls[i].calc_force(state);
+    w.F_Bo_W_of_hulls[i] = F;
+    w.loads.F_Bo_W[static_cast<std::size_t>(hulls[i].definition().body)] += F;
+  }
+}
+
+// Of all force elements at the instant that calc_loads has just evaluated.
+EnergyAccount calc_element_energy(const LiftSystem& system, const MotionState& state,
+                                  const LiftWorkspace& w) {
+  EnergyAccount sum;
+  for_each_element(system.elements(), [&](const auto& element) {
+    if constexpr (!is_hull_force<decltype(element)>) sum += element.calc_energy(state);
+  });
+  const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    sum += hulls[i].calc_energy(state, w.F_Bo_W_of_hulls[i]);
+  }
+  return sum;
+}
+
 }  // namespace
 
 void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, LiftWorkspace& w) {
@@ -193,8 +218,10 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w) {
   calc_contact_loads(system, contacts, w);
   const MotionState state{t, w.q, w.v, w.kinematics};
-  for_each_element(system.elements(),
-                   [&](const auto& element) { element.add_forces(state, w.loads); });
+  for_each_element(system.elements(), [&](const auto& element) {
+    if constexpr (!is_hull_force<decltype(element)>) element.add_forces(state, w.loads);
+  });
+  add_hull_forces(system, state, w);
   if (system.water()) add_water_forces(*system.water(), t, w);
 }
 
@@ -281,11 +308,9 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
         system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).dissipated_power;
   }
   const MotionState state{t, w.q, w.v, w.kinematics};
-  for_each_element(system.elements(), [&](const auto& element) {
-    const EnergyAccount account = element.calc_energy(state);
-    rates.wind_power += account.supplied_power;
-    rates.dissipated_power += account.dissipated_power;
-  });
+  const EnergyAccount elements = calc_element_energy(system, state, w);
+  rates.wind_power += elements.supplied_power;
+  rates.dissipated_power += elements.dissipated_power;
   // The memory gives and takes: what the bodies lose to it is in the waves, or comes back.
   if (system.water()) {
     rates.wind_power += w.water_force.dot(w.water_velocity);
@@ -311,9 +336,7 @@ StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWo
         system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).stored_energy;
   }
   const MotionState state{t, w.q, w.v, w.kinematics};
-  for_each_element(system.elements(), [&](const auto& element) {
-    energy.elastic += element.calc_energy(state).stored_energy;
-  });
+  energy.elastic += calc_element_energy(system, state, w).stored_energy;
   return energy;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <tuple>
+#include <type_traits>
 
 #include "dynamics/force/applied_load.h"
 #include "dynamics/force/spring.h"
@@ -29,6 +30,10 @@ using ForceElements =
                std::vector<DiffractionForce>, std::vector<MorisonMember>,
                std::vector<QuadraticDamping>, std::vector<MooringLine>, std::vector<TuggerLine>,
                std::vector<AppliedLoad>, std::vector<JointLoad>>;
+
+/// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the works too.
+template <class Element>
+inline constexpr bool is_hull_force = std::is_same_v<std::remove_cvref_t<Element>, HullForce>;
 
 /// Calls `function` with each element of every kind.
 template <class Function>
@@ -162,6 +167,7 @@ struct LiftWorkspace {
   DraughtShares water_shares;                   ///< of the draughts of a body that is lowered
   Eigen::VectorXd entry_force;                  ///< on the frames, of water that it takes up, 6N
   MarchedForce marched;                         ///< of a surface that is marched beside
+  std::vector<ForceVector> F_Bo_W_of_hulls;     ///< of each HullForce, by the last calc_loads
   /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
   std::optional<LoopRows> loop_rows;
   std::vector<RopeFeed> feeds;  ///< for each rope
