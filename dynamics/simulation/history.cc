@@ -46,6 +46,9 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
       A_WB_(static_cast<std::size_t>(system.mechanism().body_count())),
       F_Bo_W_(A_WB_.size()),
       tau_(system.mechanism().nv()) {
+  if (system.water()) {
+    water_momentum_ = water_force_ = Eigen::VectorXd::Zero(system.water()->inertia().size());
+  }
   for (const Body& body : system.mechanism().bodies()) {
     if (body.parent < 0) continue;
     BodyHistory& b = bodies.emplace_back();
@@ -100,6 +103,16 @@ const LoopHistory& History::loop(std::string_view name) const {
   return find_by_name(loops, name, "loop");
 }
 
+// The water that goes with the bodies resists their acceleration: a load as any other to who asks what a
+// body bears.
+void History::add_water_inertia(const RadiatedWater& water, const LiftWorkspace& w) {
+  const AddedInertia& inertia = water.inertia();
+  inertia.calc_force(w.kinematics, A_WB_, (w.loops ? *w.loops : *w.tied).added->matrix,
+                     w.water_velocity, water_momentum_, water_force_);
+  water_force_ = -water_force_;
+  add_frame_forces(inertia.frames(), w.kinematics, water_force_, F_Bo_W_);
+}
+
 void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w) {
   compute_accelerations(system.mechanism(), w.kinematics, w.vdot, A_WB_);
   F_Bo_W_ = w.loads.F_Bo_W;
@@ -107,6 +120,7 @@ void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const
     add_loop_forces(system.mechanism(), w.kinematics, w.loops->loops, w.loops->lambda, F_Bo_W_,
                     tau_);
   }
+  if (system.water()) add_water_inertia(*system.water(), w);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     BodyHistory& b = bodies[i];
     const Pose& X_WB = w.kinematics.X_WB[i + 1];

@@ -17,7 +17,7 @@ struct BodyHistory {
   Rows6 velocity;      ///< angular velocity (rad/s), velocity of Bo (m/s), in W
   Rows6 acceleration;  ///< angular acceleration (rad/s2), acceleration of Bo (m/s2), in W
   Rows6
-      load;  ///< of ropes, supports, force elements, loops and the water's memory: moment about Bo (N m),
+      load;  ///< of ropes, supports, force elements, loops and radiated water: moment about Bo (N m),
              ///< force (N), in W; not what the water that moves along asks for
 
   Pose X_WB(Eigen::Index sample) const;
@@ -103,6 +103,7 @@ class History {
   void record_works(Eigen::Index sample, const Eigen::Vector4d& works);
 
  private:
+  void add_water_inertia(const RadiatedWater& water, const LiftWorkspace& w);
   void record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
   void record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
   void record_loops(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
@@ -111,6 +112,7 @@ class History {
   std::vector<MotionVector> A_WB_;
   std::vector<ForceVector> F_Bo_W_;
   Eigen::VectorXd tau_;
+  Eigen::VectorXd water_momentum_, water_force_;
 };
 
 /// A rope's largest load with every other rope's load at that instant (linked statistics).

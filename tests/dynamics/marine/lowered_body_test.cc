@@ -167,6 +167,25 @@ TEST(LoweredBody, FollowsVonKarmansWedge) {
   EXPECT_LT(errors[1], 0.35 * errors[0]);
 }
 
+// What is recorded as the body's load, the water's inertia and impact with it, is its mass times its
+// acceleration: whoever puts the load on a structure finds it in balance.
+TEST(LoweredBody, BearsWhatAcceleratesIt) {
+  const auto mass_at = [](double d) { return 8e3 * d; };
+  const LiftSystem system =
+      falling(definition_of(series_of(mass_at, 0.5, 2.0)), 0.2, -3.0, 0, 2.0);
+  const History history = integrate(system, system.q_start(), system.v_start(),
+                                    {.relative_tolerance = 1e-8, .sample_interval = 0.05})
+                              .history;
+  double largest = 0;
+  for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
+    const double force = history.bodies[0].load.row(i)[5];
+    const double acceleration = history.bodies[0].A_WB(i).linear.z();
+    EXPECT_NEAR(force, 5e3 * (acceleration - system.mechanism().gravity().z()), 1e-9 * 72e3);
+    largest = std::max(largest, std::abs(force));
+  }
+  EXPECT_GT(largest, 1e4);
+}
+
 // Kaplan (1992): V^2 dA/dd in sinking, no impact on leaving: what is drawn out of the water leaves it behind with
 // its own velocity and keeps that itself. Either way V^3 dA/dd / 2 is lost to the water.
 TEST(LoweredBody, FeelsAnImpactOnEnteringAndNoneOnLeaving) {
