@@ -171,8 +171,7 @@ TEST(LoweredBody, FollowsVonKarmansWedge) {
 // acceleration: whoever puts the load on a structure finds it in balance.
 TEST(LoweredBody, BearsWhatAcceleratesIt) {
   const auto mass_at = [](double d) { return 8e3 * d; };
-  const LiftSystem system =
-      falling(definition_of(series_of(mass_at, 0.5, 2.0)), 0.2, -3.0, 0, 2.0);
+  const LiftSystem system = falling(definition_of(series_of(mass_at, 0.5, 2.0)), 0.2, -3.0, 0, 2.0);
   const History history = integrate(system, system.q_start(), system.v_start(),
                                     {.relative_tolerance = 1e-8, .sample_interval = 0.05})
                               .history;
