@@ -24,7 +24,7 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
   const Mechanism& m = system.mechanism();
   if (!m.loops().empty()) loops_.emplace(system);
   if (system.water()) {
-    system.water()->calc_input(tangent_.water_shares, response_);
+    response_.resize(system.memory_count(), system.water()->inertia().size());
     impedance_.resize(response_.cols(), response_.cols());
     by_velocity_.resize(response_.cols(), system.nv_free());
     memory_.resize(response_.rows(), 1);

@@ -131,8 +131,8 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
                     "and its centre, on the nearest of {} regions of the block's outer plates; {} "
                     "fields make up "
                     "the pressure of every instant to within {:.2g} % of the largest. Pads that "
-                    "bear the block, "
-                    "and drag of the water, are spread over its mass.",
+                    "bear the block, and what the water does besides (radiation, diffraction, "
+                    "drag), are spread over its mass.",
                     pressure->regions, pressure->count(), 100 * pressure->error));
   list.push_back(fmt::format(
       "Inertia relief: the first elastic period of the free block is about {:.2f} s; loads that "
