@@ -16,6 +16,7 @@ CASE = pathlib.Path(__file__).resolve().parent / "case.yaml"
 SLINGS = [f"H{i}" for i in range(1, 9)]
 HANGING = 60.0  # s, at the end of the run
 WAVE = "{amplitude: 0.5 m, frequency: 0.628 rad/s, heading: 45 deg}"
+DRAUGHTS = "  draughts: [0.8 m, 1.6 m, 2.4 m]\n"  # she stays dry here: what she radiates need not be known
 HOIST = "{drives: [F1.left, F1.right, F2.left, F2.right], by: -11 m}"
 
 
@@ -47,10 +48,10 @@ def hanging_case(text, change):
     first = text.index("  - stage: carry sideways")
     rest = text.index("settle:")
     text = text[:first] + f"  - stage: hang\n    pause: {HANGING:g} s\n" + text[rest:]
-    if change:
-        if change[0] not in text:
-            sys.exit(f'{CASE}: the passage "{change[0]}" is not in it any more')
-        text = text.replace(*change)
+    for passage, replacement in [(DRAUGHTS, "")] + ([change] if change else []):
+        if passage not in text:
+            sys.exit(f'{CASE}: the passage "{passage}" is not in it any more')
+        text = text.replace(passage, replacement)
     return text
 
 
