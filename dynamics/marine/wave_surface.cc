@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dynamics/marine/hull_faces.h"
 
@@ -14,6 +15,13 @@ namespace {
 constexpr double least_face_length = 3.0;  // diameters of a panel
 // A polygon that is longer was joined of several panels.
 constexpr double longest_panel = 1.5;  // diameters of a panel in the mean
+
+constexpr std::size_t points_of_face = 3;
+
+WaveSurface::Part make_part(TriangleTree tree, const WaveField& waves, std::size_t per_triangle) {
+  PressureBoxes boxes(tree, waves, WaveSurface::box_tolerance, per_triangle);
+  return {std::move(tree), std::move(boxes)};
+}
 
 double mean_panel_diameter(const Hull& hull) {
   double sum = 0.0;
@@ -61,9 +69,7 @@ WaveSurface::WaveSurface(const Hull& hull, const WaveField& waves) {
   const double diameter = mean_panel_diameter(hull);
   const double length = calc_sagging_length(waves, face_sag);
   if (length < least_face_length * diameter) {
-    TriangleTree tree(hull);
-    PressureBoxes boxes(tree, waves, box_tolerance);
-    panels_ = {std::move(tree), std::move(boxes)};
+    panels_ = make_part(TriangleTree(hull), waves, 0);
     return;
   }
   const Hull joined = join_flat_panels(hull);
@@ -72,15 +78,10 @@ WaveSurface::WaveSurface(const Hull& hull, const WaveField& waves) {
     const bool is_panel = joined.panel_diameter(panel) <= longest_panel * diameter;
     add_panel(joined, panel, is_panel ? small : large);
   }
-  if (small.panel_count() > 0) {
-    TriangleTree tree(small);
-    PressureBoxes boxes(tree, waves, box_tolerance);
-    panels_ = {std::move(tree), std::move(boxes)};
-  }
+  if (small.panel_count() > 0) panels_ = make_part(TriangleTree(small), waves, 0);
   if (large.panel_count() > 0) {
-    TriangleTree tree(divide_flat_panels(large, length), faces_in_leaf);
-    PressureBoxes boxes(tree, waves, box_tolerance, 3);
-    faces_ = {std::move(tree), std::move(boxes)};
+    const Hull faces = divide_flat_panels(large, length);
+    faces_ = make_part(TriangleTree(faces, faces_in_leaf), waves, points_of_face);
   }
 }
 
