@@ -14,7 +14,7 @@ constexpr double rounding = 0.1;  // of the lesser step beside a corner
 }  // namespace
 
 double DraughtMark::calc_draught(const Kinematics& kinematics) const {
-  return -kinematics.X_WB[static_cast<std::size_t>(body)].apply(p_BoK_B).z();
+  return calc_draught(kinematics.X_WB[static_cast<std::size_t>(body)]);
 }
 
 double DraughtMark::calc_rate(const Kinematics& kinematics) const {

@@ -16,6 +16,8 @@ struct DraughtMark {
   Vector3 p_BoK_B = Vector3::Constant(not_a_number);
 
   double calc_draught(const Kinematics& kinematics) const;
+  /// From the pose of the body.
+  double calc_draught(const Pose& X_WB) const { return -X_WB.apply(p_BoK_B).z(); }
   /// How fast it grows, m/s.
   double calc_rate(const Kinematics& kinematics) const;
 };

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/assessment/radiation_summary.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -64,7 +66,7 @@ std::string draughts_sentence(const LiftCase& lift_case) {
              draughts, X_WB.p.x(), X_WB.p.y());
 }
 
-void add_sea_assumptions(const LiftCase& lift_case, const BuiltLift& model,
+void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
                          std::vector<std::string>& list) {
   list.emplace_back(
       "Buoyancy and the pressure of the undisturbed waves act on each hull as it lies at each "
@@ -73,8 +75,8 @@ void add_sea_assumptions(const LiftCase& lift_case, const BuiltLift& model,
   if (lift_case.load.vessel) {
     list.push_back(draughts_sentence(lift_case));
   }
-  const dynamics::LiftSystem& system = model.system;
-  const MarchedWater& marched = model.marched;
+  const dynamics::LiftSystem& system = lift.model.system;
+  const MarchedWater& marched = lift.model.marched;
   if (!system.water()) return;
   list.push_back(fmt::format(
       "Radiation and diffraction of the vessels, with their interaction: linear, by the Rankine "
@@ -88,6 +90,8 @@ void add_sea_assumptions(const LiftCase& lift_case, const BuiltLift& model,
           : fmt::format("The memory of the water is fitted by {} states to within {:.1f} % of its "
                         "peak.",
                         system.memory_count(), 100 * system.water()->memory_error())));
+  std::string straying = straying_sentence(record_radiation(lift.model, lift.dynamic_history()));
+  if (!straying.empty()) list.push_back(std::move(straying));
 }
 
 std::string flexibility_sentence(const DynamicsSettings& settings) {
@@ -177,7 +181,7 @@ std::vector<std::string> list_assumptions(const Assessment& assessment) {
   if (assessment.lift) {
     add_lift_assumptions(assessment.lift_case, list);
     if (assessment.lift_case.sea) {
-      add_sea_assumptions(assessment.lift_case, assessment.lift->model, list);
+      add_sea_assumptions(assessment.lift_case, *assessment.lift, list);
     }
   } else {
     list.push_back(

@@ -13,6 +13,7 @@
 #include "pipeline/assessment/json_values.h"
 #include "pipeline/assessment/loop_loads.h"
 #include "pipeline/assessment/padeye_summary.h"
+#include "pipeline/assessment/radiation_summary.h"
 #include "pipeline/assessment/result_file.h"
 #include "pipeline/version.h"
 
@@ -393,6 +394,8 @@ void add_motion(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
   summary["natural_periods"] =
       natural_periods_json(lift.model.system.mechanism(), lift.natural_modes);
   summary["flexibility"] = flexibility_json(lift_case.dynamics, lift);
+  const RadiationRecord radiation = record_radiation(lift.model, lift.dynamic_history());
+  add_radiation(radiation, summary);
   summary["energy"] = energy_json(lift);
   summary["solver"] =
       solver_json(lift.dynamic_result.statistics, lift.simulated_s(), lift.dynamic_s);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/assessment/assessment.h"
+#include "pipeline/assessment/radiation_summary.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
@@ -79,6 +80,7 @@ void print_motion(const LiftRun& lift) {
   const dynamics::IntegrationStatistics& cost = lift.dynamic_result.statistics;
   fmt::print("time integration: {} steps, {} right-hand sides, {} Jacobians\n", cost.steps,
              cost.right_hand_sides, cost.jacobians);
+  fmt::print("{}", straying_notice(record_radiation(lift.model, lift.dynamic_history())));
 }
 
 void print_block(const BlockAssessment& block, const HistoryAssessment* history) {

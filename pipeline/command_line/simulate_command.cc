@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/assessment/assessment.h"
+#include "pipeline/assessment/radiation_summary.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
@@ -75,6 +76,7 @@ int simulate_mechanism(const SimulateOptions& options) {
   if (!run.natural_modes.empty()) {
     fmt::print("{}\n", describe_natural_periods(run.natural_modes.front()));
   }
+  fmt::print("{}", straying_notice(record_radiation(run.mechanism, run.result.history)));
   print_statistics(run.result.statistics, run.elapsed);
   print_files(folder, options.csv);
   return exit_code::done;
@@ -120,6 +122,8 @@ int simulate_lift_case(const SimulateOptions& options) {
   if (!simulation.run.natural_modes.empty()) {
     fmt::print("{}\n", describe_natural_periods(simulation.run.natural_modes.front()));
   }
+  fmt::print("{}", straying_notice(
+                       record_radiation(simulation.run.model, simulation.run.dynamic_history())));
   print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
   print_files(folder, options.csv);
   return exit_code::done;

@@ -121,7 +121,8 @@ class LiftBuilder {
             std::move(ropes_),
             std::move(schedule),
             moves ? std::optional(system(true)) : std::nullopt,
-            marched_};
+            marched_,
+            water ? marine_.arrangement(place()) : dynamics::Arrangement{}};
   }
 
  private:

@@ -71,6 +71,8 @@ struct BuiltLift {
   std::optional<dynamics::LiftSystem> calm = {};
   /// The water's surface that is marched beside `system`; none: its water has a memory of its own, or there is none.
   MarchedWater marched = {};
+  /// What the water of `system` was computed for; empty where vessels make no waves.
+  dynamics::Arrangement arrangement = {};
 
   /// The lift whose static equilibria are asked.
   const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }

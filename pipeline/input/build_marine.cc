@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "dynamics/errors.h"
@@ -46,6 +47,17 @@ dynamics::RegularWave seen_from(const Vector3& p, const dynamics::WaveComponent&
                                 double wave_number) {
   const double way = p.x() * std::cos(wave.heading) + p.y() * std::sin(wave.heading);
   return {wave.omega, wave.heading, std::polar(wave.amplitude, -(wave.phase + wave_number * way))};
+}
+
+/// By the mean of the wave numbers, weighted with the energy; m.
+double mean_wave_length(const dynamics::WaveField& waves) {
+  double energy = 0, sum = 0;
+  for (std::size_t c = 0; c < waves.component_count(); ++c) {
+    const double amplitude = waves.component(c).amplitude;
+    energy += amplitude * amplitude;
+    sum += amplitude * amplitude * waves.wave_number(c);
+  }
+  return sum > 0 ? 2.0 * std::numbers::pi * energy / sum : std::numeric_limits<double>::infinity();
 }
 
 double wave_length(double frequency, const dynamics::Water& water) {
@@ -245,6 +257,26 @@ dynamics::DraughtMark MarineBuilder::draught_mark(const std::vector<Radiating>& 
             {0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z()}};
   }
   return {};
+}
+
+dynamics::Arrangement MarineBuilder::arrangement(const BodyOf& point) const {
+  dynamics::Arrangement arrangement;
+  const std::vector<Radiating> vessels = radiating();
+  for (const Radiating& vessel : vessels) {
+    if (!vessel.draughts.empty()) {
+      arrangement.lowered_body = static_cast<int>(arrangement.bodies.size());
+      arrangement.mark = draught_mark(vessels, point);
+    }
+    const auto [low, high] = vessel.vessel->hull.bounds();
+    const Eigen::Vector2d size = (high - low).head<2>();
+    arrangement.bodies.push_back({vessel.name, radiation_frame(vessel, point),
+                                  vessel.X_WB.apply(vessel.p_BoR_B()).head<2>(), size.maxCoeff(),
+                                  size.minCoeff()});
+  }
+  if (!vessels.empty() && has_waves()) {
+    arrangement.wave_length = mean_wave_length(make_sea(*parts_.sea, gravity_).waves);
+  }
+  return arrangement;
 }
 
 void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vessel& vessel,

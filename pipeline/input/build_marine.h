@@ -10,6 +10,7 @@
 #include "dynamics/marine/hydrodynamic_series.h"
 #include "dynamics/marine/radiation.h"
 #include "dynamics/simulation/lift_system.h"
+#include "dynamics/simulation/straying.h"
 #include "pipeline/input/marine_parts.h"
 
 namespace blocklift::pipeline {
@@ -106,6 +107,9 @@ class MarineBuilder {
   std::shared_ptr<const dynamics::RadiatedWater> make_water(
       const BodyOf& point, const dynamics::HydrodynamicSeries* series,
       const MarchedWater& marched) const;
+
+  /// The places of bodies that share their water for which it is computed; empty without radiation. After place().
+  dynamics::Arrangement arrangement(const BodyOf& point) const;
 
   bool has_waves() const { return parts_.sea && parts_.sea->waves; }
 

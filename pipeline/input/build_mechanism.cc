@@ -81,7 +81,8 @@ class MechanismAssembler {
     const bool gusts = file_.wind && file_.wind->gusts != dynamics::GustSpectrum::none;
     const bool moves = gusts || marine_.has_waves();
     return {system(false), std::move(carried_by),
-            moves ? std::optional(system(true)) : std::nullopt, marched_};
+            moves ? std::optional(system(true)) : std::nullopt, marched_,
+            water ? marine_.arrangement(place()) : dynamics::Arrangement{}};
   }
 
  private:

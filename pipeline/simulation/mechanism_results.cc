@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/assessment/radiation_summary.h"
 #include "pipeline/assessment/summary.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/preparation.h"
@@ -65,6 +66,7 @@ nlohmann::ordered_json make_summary(const MechanismFile& file, const MechanismRu
   summary["solver"] = solver_json(run.result.statistics, duration, run.elapsed);
   summary["timing"] = {{"dynamic_s", run.elapsed}, {"simulated_s", duration}};
   summary["warnings"] = file.notes;
+  add_radiation(record_radiation(run.mechanism, run.result.history), summary);
   return summary;
 }
 
