@@ -15,6 +15,7 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double whole_turn = 2.0 * std::numbers::pi;
 constexpr std::array<double, 3> gauss_points = {0.1127016653792583, 0.5, 0.8872983346207417};
 constexpr std::array<double, 3> gauss_weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
 
@@ -131,15 +132,12 @@ DirectRadiation::DirectRadiation(const PanelModel& model, const Settings& settin
     : waves_(settings.waves),
       ramp_(settings.ramp.value_or(slow_ramp(settings.waves))),
       with_froude_krylov_(settings.with_froude_krylov),
+      origin_(settings.origin),
       infinite_added_mass_(MatrixXd::Zero(model.mode_count(), model.mode_count())) {
   RankineSettings rankine = settings.rankine;
   rankine.keep_factors = !waves_.empty();
   const VectorXd damping = DampingZone{settings.damping_strength}.rates(model.surface());
   const Water& water = model.water();
-  for (const RegularWave& wave : waves_) {
-    wave_vector_.emplace_back(calc_wave_number(wave.frequency, water) *
-                              Eigen::Vector2d(std::cos(wave.heading), std::sin(wave.heading)));
-  }
   for (const Parity& parity : model.parities()) {
     if (model.normal_velocities(parity).isZero(0.0)) continue;
     RankinePart part(model, parity, rankine);
@@ -148,43 +146,115 @@ DirectRadiation::DirectRadiation(const PanelModel& model, const Settings& settin
     infinite_added_mass_(modes, modes) += 0.5 * (share + share.transpose());
     FreeSurfaceMarch march(part, damping, water.gravity, 1);
     const double factor = water.density * water.gravity * part.image_count();
-    parts_.push_back({std::move(part), std::move(march), factor, {}, {}, {}});
-    if (!waves_.empty()) add_waves(model, parts_.back());
+    parts_.push_back({std::move(part), std::move(march), factor, {}});
   }
+  for (const WettedBody& body : model.bodies()) {
+    mean_reference_ += Vector3(body.reference_point.x(), body.reference_point.y(), 0.0) /
+                       static_cast<double>(model.body_count());
+  }
+  way_ = mean_reference_.head<2>();
+  if (!waves_.empty()) prepare_grid(model);
 }
 
-void DirectRadiation::add_waves(const PanelModel& model, Part& part) const {
+// Over a step of the grid no wave changes its phase at any panel by more than a fifth of a radian, so that what is
+// linear between two turns is off by a two-hundredth.
+void DirectRadiation::prepare_grid(const PanelModel& model) {
+  constexpr double most_phase = 0.2;
+  model_ = std::make_shared<const PanelModel>(model);
+  double reach = 0.0, highest = 0.0;
+  for (const WettedBody& body : model.bodies()) {
+    for (const Panel& panel : body.hull.panels) {
+      reach = std::max(reach, (panel.centroid - mean_reference_).head<2>().norm());
+    }
+  }
+  for (const RegularWave& wave : waves_) {
+    const double wave_number = calc_wave_number(wave.frequency, model.water());
+    highest = std::max(highest, wave_number);
+    wave_vector_.emplace_back(wave_number *
+                              Eigen::Vector2d(std::cos(wave.heading), std::sin(wave.heading)));
+  }
+  turn_count_ =
+      std::max(72, static_cast<int>(std::ceil(whole_turn * highest * reach / most_phase)));
+  keep_columns();
+}
+
+DirectRadiation::WaveColumns DirectRadiation::make_columns(const RankinePart& part,
+                                                           int turn) const {
   const Complex i(0.0, 1.0);
-  const Parity& parity = part.rankine.parity();
+  const PanelModel& model = *model_;
+  const Parity& parity = part.parity();
   const auto count = static_cast<Eigen::Index>(waves_.size());
   const Eigen::Index panels = model.body_areas().size();
   Eigen::MatrixXcd potential(panels, count);
   MatrixXd velocities(panels, 2 * count), bodies, supply;
   for (Eigen::Index k = 0; k < count; ++k) {
     const RegularWave& regular = waves_[static_cast<std::size_t>(k)];
-    const IncidentWave wave(model.water(), regular.frequency, regular.heading);
+    const IncidentWave wave(model.water(), regular.frequency,
+                            regular.heading - whole_turn * turn / turn_count_);
     potential.col(k) =
-        (i * regular.frequency) *
-        model.part_of(parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
+        (i * regular.frequency) * model.part_of(parity, [&](const Vector3& p, const Vector3&) {
+          return wave.potential(p - mean_reference_);
+        });
     const Eigen::VectorXcd opposed =
         model.part_of(parity, [&](const Vector3& p, const Vector3& n) -> Complex {
-          return -(wave.velocity(p).transpose() * n)(0);
+          return -(wave.velocity(p - mean_reference_).transpose() * n)(0);
         });
     velocities.col(2 * k) = opposed.real();
     velocities.col(2 * k + 1) = opposed.imag();
   }
-  part.rankine.solve(velocities, bodies, supply);
-  const MatrixXd weighted = model.water().density * part.rankine.image_count() *
-                            (model.body_areas().asDiagonal() * part.rankine.normal_velocities());
-  part.wave_force = weighted.transpose() * potential;
-  part.wave_supply.resize(supply.rows(), count);
-  part.wave_potential.resize(weighted.cols(), count);
+  part.solve(velocities, bodies, supply);
+  const MatrixXd weighted = model.water().density * part.image_count() *
+                            (model.body_areas().asDiagonal() * part.normal_velocities());
+  WaveColumns columns;
+  columns.force = weighted.transpose() * potential;
+  columns.supply.resize(supply.rows(), count);
+  columns.potential.resize(weighted.cols(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    part.wave_supply.col(k) =
+    columns.supply.col(k) =
         supply.col(2 * k).cast<Complex>() + i * supply.col(2 * k + 1).cast<Complex>();
-    part.wave_potential.col(k) = weighted.transpose() * (bodies.col(2 * k).cast<Complex>() +
-                                                         i * bodies.col(2 * k + 1).cast<Complex>());
+    columns.potential.col(k) = weighted.transpose() * (bodies.col(2 * k).cast<Complex>() +
+                                                       i * bodies.col(2 * k + 1).cast<Complex>());
   }
+  return columns;
+}
+
+void DirectRadiation::keep_columns() {
+  constexpr std::size_t most_kept = 16;
+  const auto apart = [&](int turn) {
+    const int way = std::abs(turn - turn_.before);
+    return std::min(way, turn_count_ - way);
+  };
+  for (Part& part : parts_) {
+    for (const int turn : {turn_.before, turn_.after}) {
+      if (!part.waves.contains(turn)) part.waves.emplace(turn, make_columns(part.rankine, turn));
+    }
+    while (part.waves.size() > most_kept) {
+      part.waves.erase(std::max_element(
+          part.waves.begin(), part.waves.end(),
+          [&](const auto& a, const auto& b) { return apart(a.first) < apart(b.first); }));
+    }
+  }
+}
+
+VectorXd DirectRadiation::sum(const Part& part, Eigen::MatrixXcd WaveColumns::*columns,
+                              const Eigen::VectorXcd& values) const {
+  VectorXd total = (part.waves.at(turn_.before).*columns * values).real();
+  if (turn_.share == 0.0) return total;
+  return (1.0 - turn_.share) * total +
+         turn_.share * (part.waves.at(turn_.after).*columns * values).real();
+}
+
+void DirectRadiation::carry(const Eigen::Vector2d& place, double turn) {
+  way_ = place - origin_;
+  if (waves_.empty()) return;
+  const double along = turn / whole_turn * turn_count_;
+  const double before = std::floor(along);
+  const auto on_grid = [&](double position) {
+    const int index = static_cast<int>(std::fmod(position, turn_count_));
+    return index < 0 ? index + turn_count_ : index;
+  };
+  turn_ = {on_grid(before), on_grid(along > before ? before + 1.0 : before), along - before};
+  keep_columns();
 }
 
 double DirectRadiation::step_limit() const {
@@ -201,13 +271,11 @@ void DirectRadiation::start(double step) {
   }
 }
 
-void DirectRadiation::carry(const Eigen::Vector2d& displacement) { displacement_ = displacement; }
-
 Eigen::VectorXcd DirectRadiation::amplitudes(double time) const {
   Eigen::VectorXcd values(static_cast<Eigen::Index>(waves_.size()));
   const double factor = ramp_.factor(time);
   for (std::size_t k = 0; k < waves_.size(); ++k) {
-    const double phase = waves_[k].frequency * time - wave_vector_[k].dot(displacement_);
+    const double phase = waves_[k].frequency * time - wave_vector_[k].dot(way_);
     values[static_cast<Eigen::Index>(k)] = factor * std::polar(1.0, phase) * waves_[k].amplitude;
   }
   return values;
@@ -220,7 +288,7 @@ Eigen::VectorXcd DirectRadiation::amplitude_rates(double time) const {
   const double growth = (ramp_.factor(time + beside) - ramp_.factor(time - beside)) / (2 * beside);
   Eigen::VectorXcd rates(static_cast<Eigen::Index>(waves_.size()));
   for (std::size_t k = 0; k < waves_.size(); ++k) {
-    const double phase = waves_[k].frequency * time - wave_vector_[k].dot(displacement_);
+    const double phase = waves_[k].frequency * time - wave_vector_[k].dot(way_);
     rates[static_cast<Eigen::Index>(k)] = Complex(growth, factor * waves_[k].frequency) *
                                           std::polar(1.0, phase) * waves_[k].amplitude;
   }
@@ -233,8 +301,8 @@ VectorXd DirectRadiation::calc_force() const {
     VectorXd share = -part.force_factor *
                      (part.rankine.surface_columns().transpose() * part.march.elevation().col(0));
     if (!waves_.empty()) {
-      share += (part.wave_potential * amplitude_rates(time_)).real();
-      if (with_froude_krylov_) share += (part.wave_force * amplitudes(time_)).real();
+      share += sum(part, &WaveColumns::potential, amplitude_rates(time_));
+      if (with_froude_krylov_) share += sum(part, &WaveColumns::force, amplitudes(time_));
     }
     force(part.rankine.modes()) += share;
   }
@@ -245,7 +313,7 @@ void DirectRadiation::advance(const VectorXd& velocity) {
   const double middle = time_ + 0.5 * step_;
   for (Part& part : parts_) {
     MatrixXd supply = part.rankine.surface_columns() * velocity(part.rankine.modes());
-    if (!waves_.empty()) supply += (part.wave_supply * amplitudes(middle)).real();
+    if (!waves_.empty()) supply += sum(part, &WaveColumns::supply, amplitudes(middle));
     part.march.advance(supply);
   }
   time_ += step_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <memory>
 #include <optional>
 
 #include "dynamics/marine/hydrodynamic_database.h"
@@ -60,6 +62,9 @@ struct RegularWave {
 /// paper does (its equations 20-30). Steps of one fixed length; at each instant the force follows from
 /// the surface, the acceleration from the force (added mass on the left), and the velocity half a step
 /// on drives the surface.
+///
+/// Waves are met where the bodies lie and as they are turned (carry): what they scatter is computed for turns of a
+/// fine grid, each when it is first come to, and is linear between two of them.
 class DirectRadiation {
  public:
   struct Settings {
@@ -68,6 +73,9 @@ class DirectRadiation {
     bool with_froude_krylov = true;          ///< exert their own pressure as well
     /// How the waves grow; none: over the first two periods of the longest.
     std::optional<WaveRamp> ramp;
+    /// Of the panels' world in that of the mechanism, which has the same axes, m. The waves' phases
+    /// are taken at it.
+    Eigen::Vector2d origin = Eigen::Vector2d::Zero();
     RankineSettings rankine;
   };
   DirectRadiation(const PanelModel& model, const Settings& settings);
@@ -84,21 +92,37 @@ class DirectRadiation {
   Eigen::VectorXd calc_force() const;
   /// One step, with the bodies' velocity (6N) at its middle.
   void advance(const Eigen::VectorXd& velocity);
-  /// All bodies, and the surface with them, lie this much further along (m, in the world of the panels)
-  /// than they did at first: they meet the waves there.
-  void carry(const Eigen::Vector2d& displacement);
+  /// The bodies, and the surface with them, lie elsewhere now: the mean of their reference points at `place`
+  /// (m, in the mechanism's world), all of them turned by `turn` (rad, from +x towards +y) against the panels. They
+  /// meet the waves there. Velocities and forces are those in axes that are turned with the bodies.
+  void carry(const Eigen::Vector2d& place, double turn);
 
  private:
+  /// What waves do to a part at one turn of the bodies: a column for each wave, of unit amplitude and no
+  /// phase at the mean of the reference points.
+  struct WaveColumns {
+    Eigen::MatrixXcd supply;     ///< W^1/2 q of the wave's normal velocity
+    Eigen::MatrixXcd force;      ///< Froude-Krylov
+    Eigen::MatrixXcd potential;  ///< rho n W Phi of the scattered wave: its force needs d/dt
+  };
   struct Part {
     RankinePart rankine;
     FreeSurfaceMarch march;
-    double force_factor;  ///< rho g times the number of images
-    // A column for each wave, of unit amplitude.
-    Eigen::MatrixXcd wave_supply;     ///< W^1/2 q of the wave's normal velocity
-    Eigen::MatrixXcd wave_force;      ///< Froude-Krylov
-    Eigen::MatrixXcd wave_potential;  ///< rho n W Phi of the scattered wave: its force needs d/dt
+    double force_factor;               ///< rho g times the number of images
+    std::map<int, WaveColumns> waves;  ///< by turn of the grid
   };
-  void add_waves(const PanelModel& model, Part& part) const;
+  /// The turn as a place between two of the grid.
+  struct Turn {
+    int before = 0, after = 0;
+    double share = 0.0;  ///< of the one after
+  };
+  void prepare_grid(const PanelModel& model);
+  WaveColumns make_columns(const RankinePart& part, int turn) const;
+  /// Computes the columns of both turns, and forgets those that lie furthest if there are many.
+  void keep_columns();
+  /// Re of the columns between the turns times the values.
+  Eigen::VectorXd sum(const Part& part, Eigen::MatrixXcd WaveColumns::*columns,
+                      const Eigen::VectorXcd& values) const;
   /// Amplitudes of the waves at a time, ramp included, and their rates.
   Eigen::VectorXcd amplitudes(double time) const;
   Eigen::VectorXcd amplitude_rates(double time) const;
@@ -108,7 +132,12 @@ class DirectRadiation {
   std::vector<Eigen::Vector2d> wave_vector_;  ///< rad/m
   WaveRamp ramp_;
   bool with_froude_krylov_ = true;
-  Eigen::Vector2d displacement_ = Eigen::Vector2d::Zero();
+  std::shared_ptr<const PanelModel> model_;  ///< where there are waves
+  Eigen::Vector2d origin_;
+  Vector3 mean_reference_ = Vector3::Zero();       ///< of the bodies, level, among the panels, m
+  Eigen::Vector2d way_ = Eigen::Vector2d::Zero();  ///< to where it lies, from the origin, m
+  int turn_count_ = 1;                             ///< of the grid, in a whole turn
+  Turn turn_;
   Eigen::MatrixXd infinite_added_mass_;
   double step_ = not_a_number, time_ = 0.0;
 };

@@ -1,6 +1,7 @@
 #include "dynamics/simulation/marched_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -30,9 +31,8 @@ MarchedSurface::MarchedSurface(DirectRadiation& radiation, double step, const Li
     : radiation_(radiation), water_(water_of(system, radiation)), step_(step) {
   radiation_.start(step);
   compute_kinematics(system.mechanism(), w.q, w.v, w.kinematics);
-  start_ = place_of(w);
   velocity_ = velocity_of(w);
-  radiation_.carry(Eigen::Vector2d::Zero());
+  carry(w);
   past_.fill(force());
   w.marched.coefficients = Eigen::Matrix<double, Eigen::Dynamic, 4>::Zero(past_[0].size(), 4);
   w.marched.coefficients.col(0) = past_[0];
@@ -49,13 +49,14 @@ Eigen::VectorXd MarchedSurface::velocity_of(LiftWorkspace& w) const {
   return velocity;
 }
 
-Eigen::Vector2d MarchedSurface::place_of(const LiftWorkspace& w) const {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+void MarchedSurface::carry(const LiftWorkspace& w) {
+  Eigen::Vector2d place = Eigen::Vector2d::Zero(), ahead = Eigen::Vector2d::Zero();
   for (const BodyFrame& frame : water_.frames()) {
-    const Pose& X_WB = w.kinematics.X_WB[static_cast<std::size_t>(frame.body)];
-    sum += X_WB.apply(frame.X_BH.p).head<2>();
+    const Pose X_WH = w.kinematics.X_WB[static_cast<std::size_t>(frame.body)] * frame.X_BH;
+    place += X_WH.p.head<2>() / static_cast<double>(water_.frames().size());
+    ahead += X_WH.R.col(0).head<2>();
   }
-  return sum / static_cast<double>(water_.frames().size());
+  radiation_.carry(place, std::atan2(ahead.y(), ahead.x()));
 }
 
 Eigen::VectorXd MarchedSurface::force() const {
@@ -70,7 +71,7 @@ Eigen::VectorXd MarchedSurface::force() const {
 void MarchedSurface::advance(LiftWorkspace& w) {
   const Eigen::VectorXd before = velocity_;
   velocity_ = velocity_of(w);
-  radiation_.carry(place_of(w) - start_);
+  carry(w);
   radiation_.advance(0.5 * (before + velocity_));
   ++steps_;
   std::rotate(past_.begin(), past_.end() - 1, past_.end());

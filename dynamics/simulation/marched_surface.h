@@ -17,8 +17,11 @@ namespace blocklift::dynamics {
 /// error of third order in the step, that of the surface of second order. Added mass is no part of it:
 /// that acts at once, on the left-hand side, so that the way round is stable however large it is.
 ///
-/// Forces are those of small motions about the rest, in the axes of the frames H of RadiatedWater, and
-/// are carried along with them.
+/// Velocities and forces are those of small motions about the rest, each body's in the axes of its own frame H of
+/// RadiatedWater: the surface is carried along and turned with the bodies, its waves with it, which is right where
+/// they go and turn slowly against the waves' own way. Where their headings differ they influence each other as if
+/// they did not, as with a database. The sea's waves are met at the mean place of the frames under the mean of their
+/// headings.
 class MarchedSurface {
  public:
   /// Starts at the time 0, in calm water, with the workspace's state.
@@ -34,7 +37,8 @@ class MarchedSurface {
 
  private:
   Eigen::VectorXd velocity_of(LiftWorkspace& w) const;
-  Eigen::Vector2d place_of(const LiftWorkspace& w) const;
+  /// Takes the surface to the mean place and heading of the frames.
+  void carry(const LiftWorkspace& w);
   Eigen::VectorXd force() const;
   void prepare_force(LiftWorkspace& w) const;
 
@@ -42,7 +46,6 @@ class MarchedSurface {
   const RadiatedWater& water_;
   double step_;
   long steps_ = 0;
-  Eigen::Vector2d start_;     ///< mean place of the frames, m
   Eigen::VectorXd velocity_;  ///< 6N, in the order of the modes
   std::array<Eigen::VectorXd, 3>
       past_;  ///< forces at t_n, t_n-1, t_n-2, in the order (moment; force)

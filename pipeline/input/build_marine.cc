@@ -116,6 +116,7 @@ MarchedWater make_marched_water(const RadiationProblem& problem) {
   settings.waves = problem.waves;
   settings.with_froude_krylov = false;  // HullForce's
   settings.ramp = problem.ramp;
+  settings.origin = problem.origin;
   MarchedWater water;
   water.radiation = std::make_shared<dynamics::DirectRadiation>(model, settings);
   water.step = dynamics::marching_step(*water.radiation, problem.frequencies.back());
@@ -210,6 +211,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
                               vessel.p_BoR_B(),
                               vessel.draughts});
   }
+  problem.origin = middle.head<2>();
   problem.water = water_of(*parts_.sea, gravity_);
   problem.place = parts_.sea->radiation.place;
   problem.frequencies = radiation_frequencies(*parts_.sea);

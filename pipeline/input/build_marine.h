@@ -37,6 +37,7 @@ struct RadiationProblem {
   bool direct = false;              ///< the surface is marched beside the vessels: no database
   std::vector<dynamics::RegularWave> waves;  ///< that they scatter meanwhile, in D
   dynamics::WaveRamp ramp;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of D in W, m
 
   /// Index of the body with draughts; none: -1.
   int lowered_body() const;
