@@ -1,8 +1,12 @@
-// What floats, given wrongly: `blocklift validate` and `simulate` as a user meets them.
+// What floats: `blocklift validate` and `simulate` as a user meets them, of files with mistakes and of a boat that a
+// floating crane lowers into the water.
+#include <filesystem>
+#include <map>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/pipeline/input/sample_lift.h"
 #include "tests/pipeline/run_program.h"
@@ -68,6 +72,114 @@ TEST_F(AfloatCommand, RefusesVesselsInEachOthersWay) {
               HasSubstr("pair.yaml:7:3: error: vessel B1 and vessel B2 intersect, at ("));
   EXPECT_THAT(complaint("simulate", "[0 m, 10 m]", "[0 m, -10 m]"),
               HasSubstr("hulls must be apart, above the water and below: move one of them"));
+}
+
+const std::string boat_lift = R"(case: boat
+gravity: 9.81 m/s^2
+sea:
+  waves: {regular: {amplitude: 0.1 m, frequency: 0.8 rad/s, heading: 30 deg}}
+  radiation: {lowest_frequency: 0.7 rad/s, highest_frequency: 1.0 rad/s, frequencies: 3}
+vessels: {B1: {model: pontoon, damping: {surge: 20 kN s/m, sway: 20 kN s/m, yaw: 2 MN m s/rad}}}
+cranes: {F1: {model: crane, base: B1, start: {luffing: 60 deg, main: 24 m}}}
+load:
+  vessel: boat
+  lugs: {L1: [-3 m, 0 m, 4 m], L2: [3 m, 0 m, 4 m]}
+  position: [30 m, 0 m, 1 m]
+  draughts: [0.3 m, 0.7 m]
+  afloat: {position: [34 m, 0 m]}
+ropes:
+  R1: {from: F1.main, to: L1, model: {axial_stiffness: 50 MN, damping_time: 20 ms, breaking_load: 500 t}, length: 10 m}
+  R2: {from: F1.main, to: L2, model: {axial_stiffness: 50 MN, damping_time: 20 ms, breaking_load: 500 t}, length: 10 m}
+operation:
+  - stage: lower
+    moves: [{drives: [F1.main], by: 2 m}]
+settle: 5 s
+dynamics: {relative_tolerance: 1e-5, sample_interval: 0.1 s, static_interval: 5 s}
+)";
+
+/// A floating crane that lowers a boat into the water, its databases kept beside the case.
+class LoweredBoat : public ::testing::Test {
+ protected:
+  LoweredBoat() {
+    folder_.write("boat.yaml", R"(kind: vessel
+hull: {barge: {length: 16 m, breadth: 8 m, depth: 4 m}}
+panel_size: 4 m
+mass: 80 t
+centre_of_mass: [0 m, 0 m, 2 m]
+radii_of_gyration: [3 m, 5 m, 5 m]
+)");
+    folder_.write("pontoon.yaml", R"(kind: vessel
+hull: {barge: {length: 40 m, breadth: 20 m, depth: 6 m}}
+panel_size: 4 m
+mass: 1640 t
+centre_of_mass: [0 m, 0 m, 3 m]
+radii_of_gyration: [6 m, 11 m, 11 m]
+)");
+    folder_.write("crane.yaml", R"(kind: crane
+bodies: {boom: {mass: 41 t, centre_of_mass: [10 m, 0 m, 0 m], radii_of_gyration: [1 m, 6 m, 6 m]}}
+joints: {luffing: {kind: revolute, child: boom, axis: [0, -1, 0], position: [10 m, 0 m, 6 m]}}
+drives: {luffing: {joint: luffing, speed: 3 deg/min, acceleration: 0.01 deg/s^2, jerk: 0.02 deg/s^3, range: [30 deg, 75 deg]}}
+hoists:
+  main:
+    body: boom
+    sheave: [40 m, 0 m, 0 m]
+    hook_block: {mass: 2 t}
+    rope: {axial_stiffness: 500 MN, breaking_load: 2000 t}
+    capacity: 400 t
+    winch: {speed: 6 m/min, acceleration: 0.05 m/s^2, jerk: 0.1 m/s^3, range: [5 m, 60 m]}
+)");
+  }
+
+  /// Simulates the lift; what it prints is in `out_`.
+  nlohmann::json simulate(const std::string& text) {
+    folder_.write("case.yaml", text);
+    const Outcome outcome = test::run_command("BLOCKLIFT_CACHE=kept '" BLOCKLIFT_EXECUTABLE
+                                              "' simulate case.yaml --output results");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    out_ = outcome.out;
+    return nlohmann::json::parse(test::text_of_file("results/summary.json"));
+  }
+
+  /// The databases that are kept, with the time when each was written.
+  static std::map<std::string, std::filesystem::file_time_type> kept() {
+    std::map<std::string, std::filesystem::file_time_type> files;
+    for (const auto& entry : std::filesystem::directory_iterator("kept")) {
+      files[entry.path().filename().string()] = entry.last_write_time();
+    }
+    return files;
+  }
+
+  test::TemporaryFolder folder_;
+  std::string out_;
+};
+
+// One database of the pontoon alone and one for each draught, computed once. The boat is put into the water 4 m
+// from where they are for, which is said.
+TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
+  const nlohmann::json first = simulate(boat_lift);
+  const auto files = kept();
+  EXPECT_EQ(files.size(), 3U);
+  const nlohmann::json& pair = first["radiation"]["straying"][0];
+  EXPECT_EQ(pair["vessels"], nlohmann::json({"B1", "load"}));
+  EXPECT_NEAR(pair["distance"]["size_m"].get<double>(), 4.0, 0.5);
+  EXPECT_NEAR(pair["limit_m"].get<double>(), 0.2 * 8, 1e-9);
+  EXPECT_EQ(pair["share_of_time_beyond"], 1.0);
+  ASSERT_EQ(first["warnings"].size(), 1U);
+  EXPECT_THAT(first["warnings"][0].get<std::string>(), HasSubstr("B1 and load came up to 4"));
+  EXPECT_THAT(out_, HasSubstr("warning: B1 and load came up to 4"));
+  // The boat's weight goes over from the ropes to the water.
+  const double weight = 80e3 * 9.81;
+  EXPECT_NEAR(first["ropes"][0]["max_static_tension_N"].get<double>(), 0.5 * weight, 0.1 * weight);
+
+  const nlohmann::json second = simulate(boat_lift);
+  EXPECT_EQ(kept(), files);
+  EXPECT_EQ(second["ropes"], first["ropes"]);
+  EXPECT_EQ(second["radiation"], first["radiation"]);
+
+  const nlohmann::json near = simulate(with(boat_lift, "  afloat: {position: [34 m, 0 m]}\n", ""));
+  EXPECT_EQ(kept().size(), 5U);  // the pontoon alone is known
+  EXPECT_LT(near["radiation"]["straying"][0]["distance"]["size_m"].get<double>(), 0.2 * 8);
+  EXPECT_FALSE(near.contains("warnings"));
 }
 
 }  // namespace
