@@ -13,7 +13,8 @@ namespace blocklift::dynamics {
 /// poles decay. Found from the samples of K by the eigensystem realisation algorithm: the block Hankel
 /// matrix of K(i + j) is symmetric, its leading eigenvectors are the states. Modes that do not couple, to
 /// a thousandth of their peaks, are fitted apart, and so are two bodies that mirror each other, by what
-/// they do alike and against each other. The number of states is the least that meets the tolerance.
+/// they do alike and against each other. The number of states is the least that meets the tolerance. The integral
+/// of K, the damping of a steady velocity, is that of the samples (their trapezoidal sum) where the tolerance allows.
 /// Sources: Kung (1978); Kristiansen, Hjulstad and Egeland (2005), Ocean Engineering 32, for Cummins'
 /// equation.
 class MemoryStateSpace {

@@ -93,6 +93,27 @@ TEST(MemoryStateSpace, FindsASumOfExponentials) {
   EXPECT_LT(memory.A().eigenvalues().real().maxCoeff(), 0.0);
 }
 
+// A steady velocity meets the damping of the samples, however loosely K is fitted: here that of two modes with
+// hardly a sum, as those of bodies in open water have none.
+TEST(MemoryStateSpace, KeepsTheDampingOfASteadyVelocity) {
+  HydrodynamicDatabase database;
+  database.time_step = 0.1;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, 2);
+  for (int n = 0; n < 250; ++n) {
+    const double t = 0.1 * n, decay = std::exp(-t * t / 30);
+    const double a = decay * std::cos(0.9 * t), b = decay * std::cos(1.4 * t + 0.1);
+    database.retardation.emplace_back(
+        (Eigen::MatrixXd(2, 2) << 5 * a, a - b, a - b, 2 * b).finished());
+    sum += (n == 0 ? 0.05 : 0.1) * database.retardation.back();
+  }
+  for (const double tolerance : {0.05, 0.01, 0.002}) {
+    const MemoryStateSpace memory(database, tolerance);
+    EXPECT_LE(memory.error(), tolerance);
+    const Eigen::MatrixXd steady = memory.C() * (-memory.A()).partialPivLu().solve(memory.B());
+    EXPECT_LT((steady - sum).cwiseAbs().maxCoeff(), 1e-6) << tolerance;
+  }
+}
+
 // The force of a velocity that is switched on: - int_0^t K, in a state space stepped finely, and by
 // convolution.
 TEST(MemoryStateSpace, ForceAgreesWithTheConvolution) {
