@@ -225,19 +225,6 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
 }
 
 // A crane on a vessel lifts a vessel.
-constexpr auto crane = R"(kind: crane
-bodies: {boom: {mass: 41 t, centre_of_mass: [10 m, 0 m, 0 m], radii_of_gyration: [1 m, 6 m, 6 m]}}
-joints: {luffing: {kind: revolute, child: boom, axis: [0, -1, 0], position: [10 m, 0 m, 6 m]}}
-drives: {luffing: {joint: luffing, speed: 3 deg/min, acceleration: 0.01 deg/s^2, jerk: 0.02 deg/s^3, range: [30 deg, 75 deg]}}
-hoists:
-  main:
-    body: boom
-    sheave: [40 m, 0 m, 0 m]
-    hook_block: {mass: 2 t}
-    rope: {axial_stiffness: 500 MN, breaking_load: 2000 t}
-    capacity: 400 t
-    winch: {speed: 3 m/min, acceleration: 0.05 m/s^2, jerk: 0.1 m/s^3, range: [5 m, 60 m]}
-)";
 constexpr auto boat = R"(kind: vessel
 hull: {barge: {length: 16 m, breadth: 8 m, depth: 4 m}}
 panel_size: 2 m
@@ -263,7 +250,7 @@ settle: 2 s
 std::string lift_complaints(const std::string& text, std::optional<LiftCase>& lift_case) {
   const TemporaryFolder folder;
   for (const auto& [name, content] : {std::pair{"vessels/barge.yaml", barge},
-                                      {"crane.yaml", crane},
+                                      {"crane.yaml", test::sample_boom.c_str()},
                                       {"vessels/boat.yaml", boat}}) {
     folder.write(name, content);
   }

@@ -101,6 +101,21 @@ load_table:
   dynamic: {L1: 6 t, L2: 6 t}
 )";
 
+// A boom with one hoist, to stand on a vessel.
+inline const std::string sample_boom = R"(kind: crane
+bodies: {boom: {mass: 41 t, centre_of_mass: [10 m, 0 m, 0 m], radii_of_gyration: [1 m, 6 m, 6 m]}}
+joints: {luffing: {kind: revolute, child: boom, axis: [0, -1, 0], position: [10 m, 0 m, 6 m]}}
+drives: {luffing: {joint: luffing, speed: 3 deg/min, acceleration: 0.01 deg/s^2, jerk: 0.02 deg/s^3, range: [30 deg, 75 deg]}}
+hoists:
+  main:
+    body: boom
+    sheave: [40 m, 0 m, 0 m]
+    hook_block: {mass: 2 t}
+    rope: {axial_stiffness: 500 MN, breaking_load: 2000 t}
+    capacity: 400 t
+    winch: {speed: 3 m/min, acceleration: 0.05 m/s^2, jerk: 0.1 m/s^3, range: [5 m, 60 m]}
+)";
+
 /// Text with one passage replaced. @throws std::logic_error unless it occurs exactly once.
 inline std::string with(std::string text, const std::string& old_passage,
                         const std::string& new_passage) {
