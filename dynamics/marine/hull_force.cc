@@ -151,16 +151,21 @@ void HullForce::add_derivatives(const MotionState& state, ForceDerivatives& deri
   derivatives.add_wrench_block(0, 0, -rho_g_ * K, Eigen::Matrix<double, 6, 6>::Zero());
 }
 
-EnergyAccount HullForce::calc_energy(const MotionState& state, const ForceVector& F_Bo_W) const {
+EnergyAccount HullForce::calc_energy(const MotionState& state) const {
   const auto body = static_cast<std::size_t>(definition_.body);
   const Buoyancy calm = calc_buoyancy(*definition_.hull, state.kinematics.X_WB[body]);
   EnergyAccount account;
   account.stored_energy = rho_g_ * calm.energy_over_rho_g;
   if (in_waves()) {
-    const ForceVector from_waves = F_Bo_W - rho_g_ * calm.F_Bo_W_over_rho_g;
+    const ForceVector from_waves = calc_force(state) - rho_g_ * calm.F_Bo_W_over_rho_g;
     account.supplied_power = dot(from_waves, state.kinematics.V_WB[body]);
   }
   return account;
+}
+
+double HullForce::calc_stored_energy(const MotionState& state) const {
+  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(definition_.body)];
+  return rho_g_ * calc_buoyancy(*definition_.hull, X_WB).energy_over_rho_g;
 }
 
 Hydrostatics HullForce::calc_calm_hydrostatics(const MotionState& state) const {

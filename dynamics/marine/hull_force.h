@@ -53,21 +53,19 @@ class HullForce {
   /// In still water the exact stiffness; in waves that of still water at the same pose, which is
   /// near enough for an integrator's iteration.
   void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
-  EnergyAccount calc_energy(const MotionState& state) const {
-    return calc_energy(state, in_waves() ? calc_force(state) : ForceVector::zero());
+  EnergyAccount calc_energy(const MotionState& state) const;
+  /// The stored part alone, J.
+  double calc_stored_energy(const MotionState& state) const;
+  /// Do waves act on it?
+  bool in_waves() const {
+    return definition_.wave_loading == WaveLoading::froude_krylov &&
+           !definition_.sea->waves.is_still();
   }
-  /// The same where the force of that instant is known already (moment and force about Bo in W); in still
-  /// water it is not looked at.
-  EnergyAccount calc_energy(const MotionState& state, const ForceVector& F_Bo_W) const;
 
   /// Hydrostatics at the calm water line, for reports.
   Hydrostatics calc_calm_hydrostatics(const MotionState& state) const;
 
  private:
-  bool in_waves() const {
-    return definition_.wave_loading == WaveLoading::froude_krylov &&
-           !definition_.sea->waves.is_still();
-  }
   ForceVector calc_force_in_waves(double time, const Pose& X_WB) const;
   template <class AddLeaf>
   void add_part(double time, const Pose& X_WB, const WaveSurface::Part& part, AddLeaf&& add_leaf,

@@ -116,7 +116,8 @@ RadiatedWater::RadiatedWater(std::vector<BodyFrame> frames, const MatrixXd& infi
       output_(infinite_added_mass.rows(), 0) {}
 
 void RadiatedWater::append(const MemoryStateSpace& memory) {
-  const Section section{decay_.size(), memory.state_count()};
+  const Section section{static_cast<Eigen::Index>(sections_.size()), decay_.size(),
+                        memory.state_count()};
   const Eigen::Index states = section.first + section.count;
   memory_error_ = std::max(memory_error_, memory.error());
   decay_.conservativeResize(states);
@@ -185,15 +186,14 @@ double RadiatedWater::calc_entry_loss(const DraughtShares& shares, ConstVectorRe
 
 void RadiatedWater::calc_rate(const DraughtShares& shares, ConstVectorRef x, ConstVectorRef u,
                               VectorRef rate) const {
-  for (std::size_t k = 0; k < sections_.size(); ++k) {
-    const auto [first, count] = sections_[k];
-    const double gain = shares.gain[static_cast<Eigen::Index>(k)];
-    auto driven = rate.segment(first, count);
+  for (const Section& section : sections_) {
+    const double gain = shares.gain[section.draught];
+    auto driven = rate.segment(section.first, section.count);
     if (gain == 0.0) {
       driven.setZero();
       continue;
     }
-    driven.noalias() = input_.middleRows(first, count) * u;
+    driven.noalias() = input_.middleRows(section.first, section.count) * u;
     if (gain != 1.0) driven *= gain;
   }
   for (Eigen::Index i = 0; i < decay_.size(); ++i) {
@@ -210,45 +210,51 @@ void RadiatedWater::calc_rate(const DraughtShares& shares, ConstVectorRef x, Con
 void RadiatedWater::calc_force(const DraughtShares& shares, ConstVectorRef x,
                                VectorRef force) const {
   force.setZero();
-  for (std::size_t k = 0; k < sections_.size(); ++k) {
-    const auto [first, count] = sections_[k];
-    const double gain = shares.gain[static_cast<Eigen::Index>(k)];
+  for (const Section& section : sections_) {
+    const double gain = shares.gain[section.draught];
     if (gain == 0.0) continue;
-    force.noalias() -= gain * (output_.middleCols(first, count) * x.segment(first, count));
+    force.noalias() -= gain * (output_.middleCols(section.first, section.count) *
+                               x.segment(section.first, section.count));
   }
 }
 
 void RadiatedWater::calc_input(const DraughtShares& shares, MatrixXd& input) const {
   input = input_;
   if (!varies()) return;
-  for (std::size_t k = 0; k < sections_.size(); ++k) {
-    input.middleRows(sections_[k].first, sections_[k].count) *=
-        shares.gain[static_cast<Eigen::Index>(k)];
+  for (const Section& section : sections_) {
+    input.middleRows(section.first, section.count) *= shares.gain[section.draught];
   }
 }
 
 void RadiatedWater::calc_output(const DraughtShares& shares, MatrixXd& output) const {
   output = output_;
   if (!varies()) return;
-  for (std::size_t k = 0; k < sections_.size(); ++k) {
-    output.middleCols(sections_[k].first, sections_[k].count) *=
-        shares.gain[static_cast<Eigen::Index>(k)];
+  for (const Section& section : sections_) {
+    output.middleCols(section.first, section.count) *= shares.gain[section.draught];
   }
 }
 
-void RadiatedWater::solve(double gamma, Eigen::Ref<MatrixXd> x) const {
+void RadiatedWater::calc_resolvent(double gamma, Resolvent& resolvent) const {
+  const auto a = 1.0 - gamma * decay_.array();
+  const auto b = gamma * turn_.array();
+  resolvent.straight = a / (a.square() + b.square());
+  resolvent.across = b / (a.square() + b.square());
+}
+
+void RadiatedWater::apply(const Resolvent& resolvent, const Section& section,
+                          Eigen::Ref<MatrixXd> x) const {
+  const double* straight = resolvent.straight.data() + section.first;
+  const double* across = resolvent.across.data() + section.first;
   for (Eigen::Index column = 0; column < x.cols(); ++column) {
-    for (Eigen::Index i = 0; i < decay_.size(); ++i) {
-      const double a = 1.0 - gamma * decay_[i];
-      if (turn_[i] == 0.0) {
-        x(i, column) /= a;
+    for (Eigen::Index i = 0; i < section.count; ++i) {
+      const double upper = x(i, column);
+      if (across[i] == 0.0) {
+        x(i, column) = straight[i] * upper;
         continue;
       }
-      const double b = gamma * turn_[i];
-      const double determinant = a * a + b * b;
-      const double upper = x(i, column), lower = x(i + 1, column);
-      x(i, column) = (a * upper + b * lower) / determinant;
-      x(i + 1, column) = (a * lower - b * upper) / determinant;
+      const double lower = x(i + 1, column);
+      x(i, column) = straight[i] * upper + across[i] * lower;
+      x(i + 1, column) = straight[i] * lower - across[i] * upper;
       ++i;
     }
   }

@@ -92,17 +92,26 @@ class RadiatedWater {
                  VectorRef rate) const;
   /// Memory force on the frames (moment; force; 6N) from x. Does not allocate.
   void calc_force(const DraughtShares& shares, ConstVectorRef x, VectorRef force) const;
-  /// x <- (1 - gamma A)^-1 x, column by column. Does not allocate.
-  void solve(double gamma, Eigen::Ref<Eigen::MatrixXd> x) const;
+  /// States of one draught's memory; one section, whatever the draught, where nothing varies.
+  struct Section {
+    Eigen::Index draught = 0;  ///< which of the shares is its own
+    Eigen::Index first = 0, count = 0;
+  };
+  const std::vector<Section>& sections() const { return sections_; }
+  /// (1 - gamma A)^-1 as it stands: on each state its own, and of a pair what the one adds to the other.
+  struct Resolvent {
+    Eigen::VectorXd straight, across;
+  };
+  /// For a gamma (s). Allocates the first time only.
+  void calc_resolvent(double gamma, Resolvent& resolvent) const;
+  /// x <- (1 - gamma A)^-1 x for the rows of one section, column by column. Does not allocate.
+  void apply(const Resolvent& resolvent, const Section& section,
+             Eigen::Ref<Eigen::MatrixXd> x) const;
   /// B and C at the shares: x' = A x + B u, F = -C x.
   void calc_input(const DraughtShares& shares, Eigen::MatrixXd& input) const;
   void calc_output(const DraughtShares& shares, Eigen::MatrixXd& output) const;
 
  private:
-  /// States of one draught's memory.
-  struct Section {
-    Eigen::Index first = 0, count = 0;
-  };
   /// From one draught to the next deeper one: all of the change of A, and its parts.
   struct Step {
     Eigen::MatrixXd change, gained, lost;  ///< gained - lost = change

@@ -1,6 +1,7 @@
 #include "dynamics/simulation/history.h"
 
 #include "dynamics/errors.h"
+#include "dynamics/simulation/energy_ledger.h"
 
 namespace blocklift::dynamics {
 
@@ -82,7 +83,8 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
     l.multipliers.resize(n, loop.row_count);
     l.residual.resize(n);
   }
-  for (auto* values : {&energy.kinetic, &energy.gravity, &energy.elastic}) values->resize(n);
+  for (auto* values : {&energy.kinetic, &energy.gravity, &energy.elastic, &buoyancy_in_waves_})
+    values->resize(n);
   if (with_works) {
     for (auto* values :
          {&energy.drive_work, &energy.winch_work, &energy.wind_work, &energy.dissipated}) {
@@ -188,12 +190,14 @@ void History::record(const LiftSystem& system, Eigen::Index sample, double t, Li
   energy.kinetic[sample] = stored.kinetic;
   energy.gravity[sample] = stored.gravity;
   energy.elastic[sample] = stored.elastic;
+  buoyancy_in_waves_[sample] = stored.buoyancy_in_waves;
 }
 
 void History::record_works(Eigen::Index sample, const Eigen::Vector4d& works) {
   energy.drive_work[sample] = works[0];
   energy.winch_work[sample] = works[1];
-  energy.wind_work[sample] = works[2];
+  // All of the work of hulls in waves was summed; their buoyancy stored the part that still water does.
+  energy.wind_work[sample] = works[2] + buoyancy_in_waves_[sample] - buoyancy_in_waves_[0];
   energy.dissipated[sample] = works[3];
 }
 

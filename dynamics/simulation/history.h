@@ -99,7 +99,7 @@ class History {
 
   /// Records the instant that the workspace holds: kinematics, loads, accelerations (w.vdot).
   void record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w);
-  /// Energies done since the start, J, in the order of EnergyRates.
+  /// Energies done since the start, J, in the order of EnergyRates, at a sample that has been recorded.
   void record_works(Eigen::Index sample, const Eigen::Vector4d& works);
 
  private:
@@ -107,6 +107,8 @@ class History {
   void record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
   void record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
   void record_loops(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
+
+  Eigen::VectorXd buoyancy_in_waves_;  ///< of StoredEnergy, at each sample, J
 
   // Workspaces.
   std::vector<MotionVector> A_WB_;

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
-#include "dynamics/multibody/energy.h"
 
 namespace blocklift::dynamics {
 
@@ -153,39 +152,13 @@ namespace {
 // What the water that floating bodies radiate does to them now, but for its inertia: by its memory, and as
 // it is taken up by a body that enters it.
 void add_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
-  water.inertia().calc_velocity(w.kinematics, w.water_velocity);
-  w.water_shares = water.find_shares(w.kinematics);
-  water.calc_force(w.water_shares, w.memory, w.water_force);
-  w.marched.add_to(t, w.water_force);
+  calc_water_forces(water, t, w);
   add_frame_forces(water.frames(), w.kinematics, w.water_force, w.loads.F_Bo_W);
   if (!water.varies()) return;
   w.entry_force.setZero();
   water.add_entry_force(w.water_shares, w.water_velocity, w.entry_force);
   add_frame_forces(water.frames(), w.kinematics, w.entry_force, w.loads.F_Bo_W);
   water.calc_added_mass(w.water_shares, (w.loops ? *w.loops : *w.tied).added->matrix);
-}
-
-void add_hull_forces(const LiftSystem& system, const MotionState& state, LiftWorkspace& w) {
-  const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
-  for (std::size_t i = 0; i < hulls.size(); ++i) {
-    const ForceVector F = hulls[i].calc_force(state);
-    w.F_Bo_W_of_hulls[i] = F;
-    w.loads.F_Bo_W[static_cast<std::size_t>(hulls[i].definition().body)] += F;
-  }
-}
-
-// Of all force elements at the instant that calc_loads has just evaluated.
-EnergyAccount calc_element_energy(const LiftSystem& system, const MotionState& state,
-                                  const LiftWorkspace& w) {
-  EnergyAccount sum;
-  for_each_element(system.elements(), [&](const auto& element) {
-    if constexpr (!is_hull_force<decltype(element)>) sum += element.calc_energy(state);
-  });
-  const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
-  for (std::size_t i = 0; i < hulls.size(); ++i) {
-    sum += hulls[i].calc_energy(state, w.F_Bo_W_of_hulls[i]);
-  }
-  return sum;
 }
 
 }  // namespace
@@ -215,25 +188,41 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
   }
 }
 
-void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w) {
+void calc_hull_forces(const LiftSystem& system, double t, LiftWorkspace& w) {
+  const MotionState state{t, w.q, w.v, w.kinematics};
+  const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    w.F_Bo_W_of_hulls[i] = hulls[i].calc_force(state);
+  }
+}
+
+void calc_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
+  water.inertia().calc_velocity(w.kinematics, w.water_velocity);
+  w.water_shares = water.find_shares(w.kinematics);
+  water.calc_force(w.water_shares, w.memory, w.water_force);
+  w.marched.add_to(t, w.water_force);
+}
+
+void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w,
+                HullForces hull_forces) {
   calc_contact_loads(system, contacts, w);
   const MotionState state{t, w.q, w.v, w.kinematics};
   for_each_element(system.elements(), [&](const auto& element) {
     if constexpr (!is_hull_force<decltype(element)>) element.add_forces(state, w.loads);
   });
-  add_hull_forces(system, state, w);
+  if (hull_forces == HullForces::evaluated) calc_hull_forces(system, t, w);
+  const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
+  for (std::size_t i = 0; i < hulls.size(); ++i) {
+    w.loads.F_Bo_W[static_cast<std::size_t>(hulls[i].definition().body)] += w.F_Bo_W_of_hulls[i];
+  }
   if (system.water()) add_water_forces(*system.water(), t, w);
 }
 
-void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
-                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot) {
+void calc_accelerations(const LiftSystem& system, LiftWorkspace& w) {
   const Mechanism& mechanism = system.mechanism();
-  set_state(system, y, w);
-  set_drives(system, t, true, w);
-  calc_loads(system, t, contacts, w);
   w.joint_force = w.loads.tau;
-  const RadiatedWater* water = system.water();
   if (w.loops || w.tied) {
+    const RadiatedWater* water = system.water();
     compute_constrained_dynamics(
         mechanism, w.kinematics, w.q, w.v, w.loads.F_Bo_W, w.loop_rows ? &*w.loop_rows : nullptr,
         w.loops ? *w.loops : *w.tied, w.joint_force, w.vdot, water ? &water->inertia() : nullptr);
@@ -243,8 +232,17 @@ void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
   }
   // What forward dynamics finds at a driven joint includes the springs there.
   for (const int k : mechanism.driven_velocities()) w.joint_force[k] -= w.loads.tau[k];
-  mechanism.calc_rates(w.q, w.v, w.rates);
+}
+
+void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
+                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot) {
+  set_state(system, y, w);
+  set_drives(system, t, true, w);
+  calc_loads(system, t, contacts, w);
+  calc_accelerations(system, w);
+  system.mechanism().calc_rates(w.q, w.v, w.rates);
   get_state(system, w.rates, w.vdot, ydot);
+  const RadiatedWater* water = system.water();
   if (!water) return;
   water->calc_rate(w.water_shares, w.memory, w.water_velocity, w.memory_rate);
   ydot.segment(system.nq_free() + system.nv_free(), w.memory.size()) = w.memory_rate;
@@ -290,54 +288,6 @@ Contacts find_contacts(const LiftSystem& system, double t, ConstVectorRef y, Lif
     if (std::abs(now[k]) <= undecided) contacts[i] = indicators[k] > 0.0 ? 1 : 0;
   }
   return contacts;
-}
-
-EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w) {
-  EnergyRates rates;
-  for (const int k : system.mechanism().driven_velocities()) {
-    rates.drive_power += w.joint_force[k] * w.v[k];
-  }
-  rates.dissipated_power = calc_damping_power(system.mechanism(), w.v);
-  for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
-    const EnergyAccount account = system.ropes()[i].calc_energy(w.rope_loads[i]);
-    rates.winch_power += account.supplied_power;
-    rates.dissipated_power += account.dissipated_power;
-  }
-  for (std::size_t i = 0; i < w.support_loads.size(); ++i) {
-    rates.dissipated_power +=
-        system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).dissipated_power;
-  }
-  const MotionState state{t, w.q, w.v, w.kinematics};
-  const EnergyAccount elements = calc_element_energy(system, state, w);
-  rates.wind_power += elements.supplied_power;
-  rates.dissipated_power += elements.dissipated_power;
-  // The memory gives and takes: what the bodies lose to it is in the waves, or comes back.
-  if (system.water()) {
-    rates.wind_power += w.water_force.dot(w.water_velocity);
-    if (system.water()->varies())
-      rates.dissipated_power += system.water()->calc_entry_loss(w.water_shares, w.water_velocity);
-  }
-  return rates;
-}
-
-StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w) {
-  StoredEnergy energy;
-  energy.kinetic = calc_kinetic_energy(system.mechanism(), w.kinematics);
-  if (const AddedInertiaWorkspace* water = w.added()) {
-    energy.kinetic += 0.5 * w.water_velocity.dot(water->matrix * w.water_velocity);
-  }
-  energy.gravity = calc_gravity_potential(system.mechanism(), w.kinematics);
-  for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
-    energy.elastic += system.ropes()[i].calc_energy(w.rope_loads[i]).stored_energy;
-  }
-  for (const ElasticBody::Workspace& body : w.elastic) energy.elastic += body.energy;
-  for (std::size_t i = 0; i < w.support_loads.size(); ++i) {
-    energy.elastic +=
-        system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).stored_energy;
-  }
-  const MotionState state{t, w.q, w.v, w.kinematics};
-  energy.elastic += calc_element_energy(system, state, w).stored_energy;
-  return energy;
 }
 
 std::string describe_ropes(const LiftSystem& system, const LiftWorkspace& w) {

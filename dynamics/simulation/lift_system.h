@@ -118,22 +118,6 @@ class LiftSystem {
 /// Which one-sided elements act: an entry for each rope (taut?), then for each pad (loaded?).
 using Contacts = std::vector<char>;
 
-/// Rates of the energies that an integration accumulates, W.
-struct EnergyRates {
-  double drive_power = 0.0;       ///< of the driven joints on the mechanism
-  double winch_power = 0.0;       ///< of the winches on their ropes
-  double wind_power = 0.0;        ///< of everything else from outside: wind, waves, radiated water
-  double dissipated_power = 0.0;  ///< in ropes, springs, joints and supports
-};
-
-/// Energies stored at one instant, J.
-struct StoredEnergy {
-  double kinetic = 0.0;  ///< of the bodies and of the water that moves with floating ones
-  double gravity = 0.0;  ///< potential; zero with all centres of mass at the height z = 0
-  double elastic = 0.0;  ///< ropes, springs and supports
-  double sum() const { return kinetic + gravity + elastic; }
-};
-
 /// Force of a water surface that is marched in steps, between two of them: a cubic in time.
 struct MarchedForce {
   /// Of the powers 0 to 3 of (t - from) / step, 6N x 4; of no rows: there is no such surface.
@@ -199,9 +183,22 @@ void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, Vec
 /// that calc_contact_indicators asks for. `contacts` as below.
 void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, LiftWorkspace& w);
 
+/// Are hulls' forces, which cost the most, to be found anew, or are those of the workspace good enough?
+enum class HullForces { evaluated, kept };
+
+/// Forces on the hulls, w.F_Bo_W_of_hulls, at the workspace's kinematics.
+void calc_hull_forces(const LiftSystem& system, double t, LiftWorkspace& w);
+/// What the memory of the radiated water does, w.water_force, at the workspace's kinematics, with its
+/// velocities and shares.
+void calc_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w);
+
 /// Kinematics and loads of the workspace's q, v and feeds. `contacts`: which one-sided elements
 /// act; null: each as its own law says.
-void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w);
+void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w,
+                HullForces hulls = HullForces::evaluated);
+/// Accelerations (w.vdot), drive forces (driven entries of w.joint_force) and multipliers of loops of what calc_loads
+/// has left.
+void calc_accelerations(const LiftSystem& system, LiftWorkspace& w);
 
 /// dy/dt at (t, y): the right-hand side. Leaves accelerations (w.vdot), drive forces
 /// (driven entries of w.joint_force), rope loads and multipliers of loops in the workspace. Does not
@@ -218,11 +215,6 @@ void calc_contact_indicators(const LiftWorkspace& w, VectorRef indicators);
 /// Which one-sided elements act at a state. One that is just at the change is judged by where it
 /// is going: by its rate, then by its acceleration without it.
 Contacts find_contacts(const LiftSystem& system, double t, ConstVectorRef y, LiftWorkspace& w);
-
-/// Powers at the instant that calc_right_hand_side has just evaluated.
-EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w);
-/// Stored energies at that instant.
-StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w);
 
 /// Which ropes are slack and which carry the most, at the workspace's instant, for error messages.
 std::string describe_ropes(const LiftSystem& system, const LiftWorkspace& w);

@@ -91,9 +91,16 @@ void NewtonMatrix::multiply_by_Z(double factor,
 // motion += gamma^2 J^T C R B J.
 void NewtonMatrix::eliminate_memory(const RadiatedWater& water, double gamma,
                                     Eigen::Ref<Eigen::MatrixXd> motion) {
-  water.calc_input(tangent_.water_shares, response_);
-  water.solve(gamma, response_);
-  impedance_.noalias() = output_ * response_;
+  const DraughtShares& shares = tangent_.water_shares;
+  water.calc_resolvent(gamma, resolvent_);
+  water.calc_input(shares, response_);
+  impedance_.setZero();
+  for (const RadiatedWater::Section& s : water.sections()) {
+    if (shares.gain[s.draught] == 0.0) continue;
+    auto response = response_.middleRows(s.first, s.count);
+    water.apply(resolvent_, s, response);
+    impedance_.noalias() += output_.middleCols(s.first, s.count) * response;
+  }
   by_velocity_.noalias() = impedance_ * tangent_.frame_jacobian;
   motion.noalias() += (gamma * gamma) * (tangent_.frame_jacobian.transpose() * by_velocity_);
 }
@@ -145,8 +152,13 @@ void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x
   const RadiatedWater* water = system.water();
   if (water) {
     memory_.col(0) = b.segment(nq + nv, memory_.rows());
-    water->solve(gamma_, memory_);
-    frames_.noalias() = output_ * memory_.col(0);
+    frames_.setZero();
+    for (const RadiatedWater::Section& s : water->sections()) {
+      auto memory = memory_.middleRows(s.first, s.count);
+      water->apply(resolvent_, s, memory);
+      if (tangent_.water_shares.gain[s.draught] == 0.0) continue;
+      frames_.noalias() += output_.middleCols(s.first, s.count) * memory.col(0);
+    }
     right_.head(nv).noalias() -= gamma_ * (tangent_.frame_jacobian.transpose() * frames_);
   }
   if (loops_) {
@@ -171,7 +183,11 @@ void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x
   x.segment(nq, nv) = moved_;
   if (!water) return;
   frames_.noalias() = tangent_.frame_jacobian * moved_;
-  memory_.col(0).noalias() += gamma_ * (response_ * frames_);
+  for (const RadiatedWater::Section& s : water->sections()) {
+    if (tangent_.water_shares.gain[s.draught] == 0.0) continue;
+    memory_.middleRows(s.first, s.count).col(0).noalias() +=
+        gamma_ * (response_.middleRows(s.first, s.count) * frames_);
+  }
   x.segment(nq + nv, memory_.rows()) = memory_.col(0);
 }
 

@@ -62,7 +62,9 @@ class NewtonMatrix {
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
   Eigen::VectorXd right_, solution_, moved_, x_q_;
-  // Of radiated water: C; R B; C R B and that times J; R b_x; forces and velocities of the frames.
+  // Of radiated water: R; C; R B; C R B and that times J; R b_x; forces and velocities of the frames. Sections
+  // of the memory that have no share now have neither C nor B.
+  RadiatedWater::Resolvent resolvent_;
   Eigen::MatrixXd output_, response_, impedance_, by_velocity_, memory_;
   Eigen::VectorXd frames_;
   double gamma_ = not_a_number;

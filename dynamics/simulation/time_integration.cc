@@ -10,13 +10,12 @@
 #include <cvodes/cvodes.h>
 #include <cvodes/cvodes_proj.h>
 
-#include "dynamics/multibody/assembly.h"
-#include "dynamics/multibody/derivatives.h"
 #include "dynamics/multibody/loop_diagnosis.h"
-#include "dynamics/multibody/loop_projection.h"
+#include "dynamics/simulation/energy_ledger.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/marched_surface.h"
 #include "dynamics/simulation/newton_matrix.h"
+#include "dynamics/simulation/state_projection.h"
 #include "dynamics/simulation/sundials.h"
 
 namespace blocklift::dynamics {
@@ -44,11 +43,8 @@ class Integrator {
 
  private:
   void set_up_cvode();
-  void find_quaternions();
+  void find_relative_unknowns();
   void project_state(double t, VectorRef y);
-  bool project_onto_loops(double t, ConstVectorRef y, VectorRef projected);
-  void project_error(VectorRef error);
-  std::string describe_loops() const;
   void integrate_interval(double start, double end);
   void march_surface();
   void step(double end);
@@ -80,22 +76,20 @@ class Integrator {
   const IntegrationSettings& settings_;
   LiftWorkspace w_;
   NewtonMatrix newton_;
-  // Where the mechanism has loops.
-  std::optional<LoopProjector> projector_;
-  Eigen::VectorXd projected_;                      ///< state
-  Eigen::VectorXd error_q_, error_v_, increment_;  ///< nq, nv, nv
+  std::optional<StateProjection> projection_;
   std::optional<MarchedSurface> surface_;
   Contacts contacts_;
   Eigen::VectorXd sample_times_;
   Eigen::Index next_sample_ = 0;
-  std::vector<Eigen::Index> quaternions_;  ///< first entries within y
-  std::vector<char> is_velocity_or_quaternion_;
+  std::vector<Eigen::Index> relative_unknowns_;  ///< velocities and quaternions: within y
   Eigen::VectorXd indicators_;    ///< at the end of the last step, where no root was found
   double from_ = 0.0, to_ = 0.0;  ///< times between which motions are evaluated now
   double time_ = 0.0;
   // Where the workspace holds the loads of an instant that may be asked for again: time and state.
   double loaded_time_ = not_a_number;
   Eigen::VectorXd loaded_state_;
+  double evaluated_time_ =
+      not_a_number;  ///< of the right-hand side's last evaluation by the method, s
 
   sundials::Context context_;
   sundials::Vector y_, rates_, sample_, work_, sampled_work_;
@@ -136,18 +130,9 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   indicators_.setZero(system.contact_count());
   loaded_state_.setZero(size);
   sundials::view(work_.get()).setZero();
-  if (!system.mechanism().loops().empty()) {
-    set_drives(system, 0.0, true, w_);
-    assemble(system.mechanism(), w_.q, w_.v);
-    projector_.emplace(system.mechanism());
-    w_.loop_rows = LoopRows::none(system.mechanism());
-    projected_.setZero(system.state_size());
-    error_q_.setZero(system.mechanism().nq());
-    error_v_.setZero(system.mechanism().nv());
-    increment_.setZero(system.mechanism().nv());
-  }
+  projection_.emplace(system, w_);
   get_state(system, w_.q, w_.v, sundials::view(y_.get()));
-  find_quaternions();
+  find_relative_unknowns();
   project_state(0.0, sundials::view(y_.get()));
   if (settings.surface) {
     set_state(system, sundials::view(y_.get()), w_);
@@ -156,22 +141,12 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   }
 }
 
-void Integrator::find_quaternions() {
-  const Mechanism& m = system_.mechanism();
-  is_velocity_or_quaternion_.assign(static_cast<std::size_t>(system_.state_size()), 0);
-  for (std::size_t i = 0; i < m.free_coordinates().size(); ++i) {
-    const int k = m.free_coordinates()[i];
-    for (const Body& body : m.bodies()) {
-      const auto offset = quaternion_offset(body.joint.kind);
-      if (!offset || k < body.q_offset + *offset || k >= body.q_offset + *offset + 4) continue;
-      if (body.parent < 0) continue;
-      is_velocity_or_quaternion_[i] = 1;
-      if (k == body.q_offset + *offset) quaternions_.push_back(static_cast<Eigen::Index>(i));
-    }
+void Integrator::find_relative_unknowns() {
+  for (const Eigen::Index first : projection_->quaternions()) {
+    for (Eigen::Index i = 0; i < 4; ++i) relative_unknowns_.push_back(first + i);
   }
-  for (auto i = static_cast<std::size_t>(system_.nq_free());
-       i < static_cast<std::size_t>(system_.state_size()); ++i) {
-    is_velocity_or_quaternion_[i] = 1;
+  for (Eigen::Index i = system_.nq_free(); i < system_.state_size(); ++i) {
+    relative_unknowns_.push_back(i);
   }
 }
 
@@ -192,10 +167,11 @@ int Integrator::guarded(Function&& function) {
 
 int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data) {
   auto& self = *static_cast<Integrator*>(data);
-  self.loaded_time_ = not_a_number;
+  self.loaded_time_ = self.evaluated_time_ = not_a_number;
   return self.guarded([&] {
     calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y), &self.contacts_,
                          self.w_, sundials::view(ydot));
+    self.evaluated_time_ = t;
   });
 }
 
@@ -251,105 +227,35 @@ int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
 int Integrator::works(double t, N_Vector y, N_Vector rates, void* data) {
   auto& self = *static_cast<Integrator*>(data);
   return self.guarded([&] {
-    calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y), &self.contacts_,
-                         self.w_, sundials::view(self.rates_.get()));
-    const EnergyRates powers = calc_energy_rates(self.system_, t, self.w_);
-    sundials::view(rates) << powers.drive_power, powers.winch_power, powers.wind_power,
+    // At the end of a step the hulls' forces are those that the last of Newton's iterations asked for: of the
+    // same time, and of a state that differs by what the step may err.
+    const HullForces hulls = t == self.evaluated_time_ ? HullForces::kept : HullForces::evaluated;
+    const EnergyRates powers = calc_energy_rates(
+        self.system_, self.within_interval(t), sundials::view(y), &self.contacts_, hulls, self.w_);
+    sundials::view(rates) << powers.drive_power, powers.winch_power, powers.outside_power,
         powers.dissipated_power;
     self.loaded_state_ = sundials::view(y);
     self.loaded_time_ = t;
   });
 }
 
-// The state that belongs to `y` on the loops, and which rows are independent there. False: none near by.
-bool Integrator::project_onto_loops(double t, ConstVectorRef y, VectorRef projected) {
-  loaded_time_ = not_a_number;
-  set_state(system_, y, w_);
-  set_drives(system_, within_interval(t), true, w_);
-  if (!projector_->project_positions(w_.q)) return false;
-  if (!projector_->project_velocities(w_.v)) return false;
-  *w_.loop_rows = projector_->independent_rows();
-  get_state(system_, w_.q, w_.v, projected);
-  const Eigen::Index memory = system_.memory_count();
-  const Eigen::Index first = system_.nq_free() + system_.nv_free();
-  projected.segment(first, memory) = y.segment(first, memory);
-  return true;
-}
-
-// Why the last projection failed.
-std::string Integrator::describe_loops() const {
-  const std::string missing =
-      describe_residual(system_.mechanism(), projector_->state().residual, 1e-9);
-  return missing != "none" ? "the loops cannot be closed near by; they miss: " + missing
-                           : "a drive moves as the loops forbid";
-}
-
-// Quaternions to unit length, positions and velocities onto the loops.
 void Integrator::project_state(double t, VectorRef y) {
-  for (const Eigen::Index i : quaternions_) y.segment<4>(i).normalize();
-  if (!projector_) return;
-  if (!project_onto_loops(t, y, projected_)) {
-    throw SimulationError(describe_loops());
-  }
-  y.head(projected_.size()) = projected_;
-}
-
-// Takes out of an error (state_size) what is not along the loops at the last projection.
-void Integrator::project_error(VectorRef error) {
-  const Mechanism& m = system_.mechanism();
-  error_q_.setZero();
-  error_v_.setZero();
-  Eigen::Index i = 0;
-  for (const int k : m.free_coordinates()) error_q_[k] = error[i++];
-  for (const int k : m.free_velocities()) error_v_[k] = error[i++];
-  for (const Link& link : m.links()) {
-    if (velocities_are_rates(link.kind)) {
-      increment_.segment(link.v_offset, link.nv) = error_q_.segment(link.q_offset, link.nv);
-      continue;
-    }
-    const int nq = coordinate_count(link.kind);
-    Eigen::Matrix<double, 6, 7> map;
-    auto increments = map.topLeftCorner(link.nv, nq);
-    joint_increments(link.kind, w_.q.data() + link.q_offset, increments);
-    increment_.segment(link.v_offset, link.nv).noalias() =
-        increments * error_q_.segment(link.q_offset, nq);
-  }
-  projector_->remove_normal_part(increment_);
-  projector_->remove_normal_part(error_v_);
-  m.calc_rates(w_.q, increment_, error_q_);
-  get_state(system_, error_q_, error_v_, error);
+  loaded_time_ = not_a_number;
+  projection_->project(within_interval(t), y, w_);
 }
 
 int Integrator::project(double t, N_Vector y, N_Vector correction, double, N_Vector error,
                         void* data) {
   auto& self = *static_cast<Integrator*>(data);
-  const auto state = sundials::view(y);
-  auto change = sundials::view(correction);
-  change.setZero();
-  if (self.projector_) {
-    bool done = false;
-    const int flag = self.guarded([&] { done = self.project_onto_loops(t, state, change); });
-    if (flag != 0) return flag;
-    if (!done) {
-      self.exception_ = std::make_exception_ptr(SimulationError(self.describe_loops()));
-      return 1;
-    }
-    change.head(self.projected_.size()) -= state.head(self.projected_.size());
-    if (error) self.project_error(sundials::view(error));
-    return 0;
-  }
-  for (const Eigen::Index i : self.quaternions_) {
-    const Vector4 quaternion = state.segment<4>(i);
-    const double norm = quaternion.norm();
-    if (!(norm > 0.0) || !std::isfinite(norm)) return 1;
-    const Vector4 unit = quaternion / norm;
-    change.segment<4>(i) = unit - quaternion;
-    if (error) {
-      auto e = sundials::view(error).segment<4>(i);
-      e -= (unit.dot(e) * unit).eval();
-    }
-  }
-  return 0;
+  self.loaded_time_ = not_a_number;
+  bool done = false;
+  const int flag = self.guarded([&] {
+    const auto state = sundials::view(y);
+    done = self.projection_->calc_correction(self.within_interval(t), state,
+                                             sundials::view(correction), self.w_);
+    if (done && error) self.projection_->project_error(state, sundials::view(error), self.w_);
+  });
+  return flag != 0 || done ? flag : 1;
 }
 
 int Integrator::error_weights(N_Vector y, N_Vector weights, void* data) {
@@ -357,11 +263,9 @@ int Integrator::error_weights(N_Vector y, N_Vector weights, void* data) {
   const auto state = sundials::view(y);
   auto weight = sundials::view(weights);
   const double tolerance = self.settings_.relative_tolerance;
-  for (Eigen::Index i = 0; i < state.size(); ++i) {
-    const bool relative = i < self.system_.state_size() &&
-                          self.is_velocity_or_quaternion_[static_cast<std::size_t>(i)] != 0;
-    const double size = relative ? std::max(1.0, std::abs(state[i])) : 1.0;
-    weight[i] = 1.0 / (tolerance * size);
+  weight.setConstant(1.0 / tolerance);
+  for (const Eigen::Index i : self.relative_unknowns_) {
+    if (std::abs(state[i]) > 1.0) weight[i] = 1.0 / (tolerance * std::abs(state[i]));
   }
   return 0;
 }
@@ -382,9 +286,7 @@ void Integrator::set_up_cvode() {
   linear_solver_ = sundials::make_direct_solver(this, solve_newton, context_);
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(cvode_, newton_matrix), "CVodeSetLinSysFn");
-  if (projector_ || !quaternions_.empty()) {
-    check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
-  }
+  if (projection_->is_needed()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
   if (system_.contact_count() > 0) {
     check(CVodeRootInit(cvode_, system_.contact_count(), indicators), "CVodeRootInit");
     check(CVodeSetNoInactiveRootWarn(cvode_), "CVodeSetNoInactiveRootWarn");
@@ -393,8 +295,7 @@ void Integrator::set_up_cvode() {
     check(CVodeQuadInit(cvode_, works, work_.get()), "CVodeQuadInit");
     // Where nothing is free, or loops and drives leave nothing free, the works alone say how long a step
     // may be.
-    const bool alone = system_.state_size() == 0 ||
-                       (projector_ && projector_->independent_rows().count() >= system_.nv_free());
+    const bool alone = system_.state_size() == 0 || projection_->leaves_nothing_free();
     check(CVodeSetQuadErrCon(cvode_, alone ? SUNTRUE : SUNFALSE), "CVodeSetQuadErrCon");
     check(CVodeQuadSStolerances(cvode_, settings_.relative_tolerance, settings_.relative_tolerance),
           "CVodeQuadSStolerances");
@@ -451,7 +352,7 @@ void Integrator::restart(double t) {
 
 void Integrator::record_samples(double up_to) {
   while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
-    loaded_time_ = not_a_number;
+    loaded_time_ = evaluated_time_ = not_a_number;
     const double t = sample_times_[next_sample_];
     if (t > 0.0) {
       sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");
@@ -563,6 +464,7 @@ void Integrator::report_progress(double t) {
 }
 
 void Integrator::fail(const char* what) {
+  const bool has_loops = !system_.mechanism().loops().empty();
   std::ostringstream text;
   text << "the time integration failed at t = " << time_ << " s (" << what;
   try {
@@ -586,7 +488,7 @@ void Integrator::fail(const char* what) {
       text << (i > 0 ? ", " : "") << system_.mechanism().body(static_cast<int>(order[i])).name
            << " (" << w_.kinematics.V_WB[order[i]].linear.norm() << " m/s)";
     }
-    if (projector_) {
+    if (has_loops) {
       const LoopDiagnosis diagnosis = diagnose_loops(system_.mechanism(), w_.q);
       for (const std::string& sentence : diagnosis.toggle_sentences(system_.mechanism())) {
         text << "; " << sentence;
@@ -595,7 +497,7 @@ void Integrator::fail(const char* what) {
   } catch (const std::exception& error) {
     text << "; " << error.what();
   }
-  if (projector_ && settings_.relative_tolerance < least_tolerance_through_singular_positions) {
+  if (has_loops && settings_.relative_tolerance < least_tolerance_through_singular_positions) {
     text << "; where loops pass a singular position, rounding keeps the state from being known "
             "better than "
          << least_tolerance_through_singular_positions

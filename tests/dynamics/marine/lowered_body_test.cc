@@ -9,6 +9,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/diffraction_force.h"
 #include "dynamics/marine/radiated_water.h"
+#include "dynamics/simulation/energy_ledger.h"
 #include "dynamics/simulation/newton_matrix.h"
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"

@@ -1,5 +1,5 @@
 // The right-hand side as a whole, and that it allocates nothing (see allocation_counter.h).
-#include "dynamics/simulation/lift_system.h"
+#include "dynamics/simulation/energy_ledger.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
