@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "dynamics/marine/wave_sum.h"
+
 namespace blocklift::dynamics {
 
 /// Inner loops of a sea: sums over points, written so that the compiler vectorises them (the sine and
@@ -34,5 +36,12 @@ void add_wave_head(const WaveTerms& waves, double depth, double time, double sca
 void calc_single_wave(const WaveTerms& wave, double depth, double time, double scale,
                       std::size_t count, const double* x, const double* y, const double* z,
                       double* elevation, double* head);
+
+/// WaveSum::calc_elevations and WaveSum::calc_surface.
+void sum_wave_elevations(const WaveSum::Terms& waves, double time, double scale, std::size_t count,
+                         const double* x, const double* y, double* elevation);
+void sum_wave_surface(const WaveSum::Terms& waves, double time, double scale, std::size_t count,
+                      const double* x, const double* y, const double* z, double* elevation,
+                      double* head);
 
 }  // namespace blocklift::dynamics

@@ -33,6 +33,9 @@ std::array<double, 2> depth_functions(double k, double z, double depth) {
   return {decay * (1.0 + image), decay * (1.0 - image)};
 }
 
+// Of fewer components each is summed for itself.
+constexpr std::size_t fewest_to_sum = 8;
+
 double stretched(double z, double eta, double depth) {
   const double above_bottom = std::isinf(depth) ? 1.0 : 1.0 + eta / depth;
   return std::min(0.0, (z - eta) / above_bottom);
@@ -97,6 +100,14 @@ WaveField::WaveField(Water water, const std::vector<WaveComponent>& components, 
     ky_.push_back(k * std::sin(c.heading));
     amplitude_sum_ += c.amplitude;
   }
+  if (components.size() < fewest_to_sum) return;
+  const auto [lowest, highest] = std::minmax_element(k_.begin(), k_.end());
+  if (!WaveSum::can_span(*lowest, *highest)) return;
+  std::vector<WaveSum::Wave> waves;
+  for (std::size_t i = 0; i < k_.size(); ++i) {
+    waves.push_back({amplitude_[i], k_[i], kx_[i], ky_[i], omega_[i], phase_[i]});
+  }
+  sum_ = WaveSum(std::move(waves), water.depth);
 }
 
 WaveComponent WaveField::component(std::size_t i) const {
@@ -177,6 +188,10 @@ void WaveField::calc_surface(double time, std::span<const Vector3> points_W,
 
 void WaveField::calc_surface(double time, std::size_t count, const double* x, const double* y,
                              const double* z, double* elevation, double* dynamic_head) const {
+  if (sum_.count() > 0) {
+    sum_.calc_surface(time, ramp_.factor(time), count, x, y, z, elevation, dynamic_head);
+    return;
+  }
   std::fill_n(elevation, count, 0.0);
   std::fill_n(dynamic_head, count, 0.0);
   const WaveTerms terms = this->terms();
@@ -193,6 +208,10 @@ void WaveField::calc_surface(double time, std::size_t count, const double* x, co
 
 void WaveField::calc_elevations(double time, std::size_t count, const double* x, const double* y,
                                 double* elevation) const {
+  if (sum_.count() > 0) {
+    sum_.calc_elevations(time, ramp_.factor(time), count, x, y, elevation);
+    return;
+  }
   std::fill_n(elevation, count, 0.0);
   add_wave_elevation(terms(), time, ramp_.factor(time), count, x, y, elevation);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/marine/wave_kernel.h"
+#include "dynamics/marine/wave_sum.h"
 #include "dynamics/spatial/pose.h"
 
 namespace blocklift::dynamics {
@@ -64,6 +65,8 @@ class WaveField {
   const WaveRamp& ramp() const { return ramp_; }
   bool is_still() const { return amplitude_.empty(); }
   std::size_t component_count() const { return amplitude_.size(); }
+  /// As many as are summed together (WaveSum), not one by one.
+  bool has_many_components() const { return sum_.count() > 0; }
   WaveComponent component(std::size_t index) const;
   double wave_number(std::size_t index) const { return k_[index]; }
 
@@ -77,7 +80,8 @@ class WaveField {
   Vector3 calc_acceleration(double time, const Vector3& p_W) const;
 
   /// Elevation and dynamic head of many points at once (at most `most_points`), the fast way: the
-  /// inner loop runs over points and is vectorised. Does not allocate.
+  /// inner loop runs over points and is vectorised. Does not allocate. In a sea of many components the head
+  /// is within WaveSum::depth_error of each one's amplitude.
   static constexpr std::size_t most_points = 72;
   void calc_surface(double time, std::span<const Vector3> points_W, std::span<double> elevation,
                     std::span<double> dynamic_head) const;
@@ -109,6 +113,7 @@ class WaveField {
   WaveRamp ramp_;
   std::vector<double> amplitude_, omega_, heading_, phase_, k_, kx_, ky_;
   double amplitude_sum_ = 0.0;
+  WaveSum sum_;  ///< of many components; empty where they are summed one by one
 };
 
 /// Waves that break are no Airy waves.

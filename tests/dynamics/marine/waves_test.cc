@@ -114,7 +114,57 @@ TEST(Waves, ManyPointsAtOnceAreTheSame) {
       sea.calc_surface(t, points, elevation, head);
       for (std::size_t i = 0; i < points.size(); ++i) {
         EXPECT_NEAR(elevation[i], sea.calc_elevation(t, points[i].x(), points[i].y()), 1e-10);
-        EXPECT_NEAR(head[i], sea.calc_dynamic_head(t, points[i]), 1e-10);
+        EXPECT_NEAR(head[i], sea.calc_dynamic_head(t, points[i]),
+                    WaveSum::depth_error * sea.significant_height());
+      }
+    }
+  }
+}
+
+// One wave at a time against cosh(k (z + h))/cosh(k h): the carriers' error, whatever the depth.
+TEST(WaveSum, DepthIsWithinTheStatedError) {
+  for (const double depth : {0.3, 3.0, 20.0, std::numeric_limits<double>::infinity()}) {
+    double worst = 0;
+    for (double k = 0.05; k < 5; k *= 1.31) {
+      std::vector<WaveSum::Wave> waves = {
+          {0, 0.04, 0, 0, 1, 0}, {1, k, 0, 0, 1, 0}, {0, 6, 0, 0, 1, 0}};
+      const WaveSum sum(waves, depth);
+      for (double z = 1e-3; z < std::min(depth, 200.0); z *= 1.17) {
+        const double zero = 0, below = -z;
+        // Without stretching: a scale so small that the surface stays at zero.
+        double elevation, head;
+        sum.calc_surface(0, 1e-9, 1, &zero, &zero, &below, &elevation, &head);
+        const double exact =
+            (std::exp(-k * z) + std::exp(k * (z - 2 * depth))) / (1 + std::exp(-2 * k * depth));
+        worst = std::max(worst, std::abs(1e9 * head - exact));
+        EXPECT_NEAR(1e9 * elevation, 1, 1e-13);
+      }
+    }
+    EXPECT_LT(worst, std::isinf(depth) ? 1.3e-6 : WaveSum::depth_error);
+    EXPECT_GT(worst, 1e-8);
+  }
+}
+
+// Any number of points and of waves, long- and short-crested, from one direction or many; few waves are
+// summed one by one and many together, and both are the sea.
+TEST(WaveSum, IsTheSeaForAnyNumber) {
+  RandomSource random(6);
+  for (const int components : {2, 7, 8, 9, 61, 500}) {
+    const WaveField sea = realise(WaveSpectrum::jonswap(2, 8), deep, {.components = components});
+    EXPECT_EQ(sea.has_many_components(), components >= 8);
+    for (const std::size_t count : {1U, 7U, 8U, 19U}) {
+      std::vector<double> x(count), y(count), z(count), elevation(count), head(count), alone(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        x[i] = 300 * random.uniform();
+        y[i] = 300 * random.uniform();
+        z[i] = -9 * random.uniform();
+      }
+      sea.calc_surface(7.7, count, x.data(), y.data(), z.data(), elevation.data(), head.data());
+      sea.calc_elevations(7.7, count, x.data(), y.data(), alone.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_NEAR(elevation[i], sea.calc_elevation(7.7, x[i], y[i]), 1e-11);
+        EXPECT_NEAR(alone[i], elevation[i], 1e-12);
+        EXPECT_NEAR(head[i], sea.calc_dynamic_head(7.7, {x[i], y[i], z[i]}), 1e-5);
       }
     }
   }
