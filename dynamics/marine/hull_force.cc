@@ -84,35 +84,35 @@ void HullForce::add_faces(double time, const Pose& X_WB, const TriangleTree& tre
   }
 }
 
-void HullForce::add_box(double time, const Pose& X_WB, const PressureBoxes& boxes, int box,
+void HullForce::add_box(double time, const Pose& X_WB, const PressureBoxes::Box& box,
                         ForceVector& F) const {
-  const std::span<const Vector3> points = boxes.points(box);
+  const std::span<const Vector3> points = box.points;
   const std::size_t count = points.size();
   Values x, y, z, elevation, head;
   locate(X_WB, points, x.data(), y.data(), z.data());
   definition_.sea->waves.calc_surface(time, count, x.data(), y.data(), z.data(), elevation.data(),
                                       head.data());
   Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
-  const std::span<const PressureBoxes::Weight> weights = boxes.weights(box);
-  for (std::size_t i = 0; i < count; ++i) sum += (head[i] - z[i]) * weights[i];
+  for (std::size_t i = 0; i < count; ++i) sum += (head[i] - z[i]) * box.weights[i];
   F.moment += sum.head<3>();
   F.force += sum.tail<3>();
 }
 
 template <class AddLeaf>
-void HullForce::add_part(double time, const Pose& X_WB, const WaveSurface::Part& part,
-                         AddLeaf&& add_leaf, ForceVector& F) const {
-  const WaveField& waves = definition_.sea->waves;
-  const double crest = waves.highest_elevation() * waves.ramp().factor(time);
+void HullForce::add_part(double time, const Pose& X_WB, const SurfaceRange::Range& range,
+                         const WaveSurface::Part& part, AddLeaf&& add_leaf, ForceVector& F) const {
   const Vector3 up = X_WB.R.row(2);
   const Vector3 magnitude = up.cwiseAbs();
   part.tree.visit(
       [&](const TriangleTree::Node& node, int index) {
         const double middle = X_WB.p.z() + up.dot(node.centre);
         const double reach = magnitude.dot(node.half_extent);
-        if (middle - reach >= crest) return false;
-        if (middle + reach >= -crest || !part.boxes.has(index)) return true;
-        add_box(time, X_WB, part.boxes, index, F);
+        if (middle - reach >= range.high) return false;
+        const double depth = range.low - (middle + reach);
+        if (depth <= 0.0) return true;
+        const PressureBoxes::Box box = part.boxes.find(index, depth);
+        if (box.points.empty()) return true;
+        add_box(time, X_WB, box, F);
         return false;
       },
       [&](const TriangleTree::Node& leaf) { add_leaf(part.tree, leaf); });
@@ -120,17 +120,19 @@ void HullForce::add_part(double time, const Pose& X_WB, const WaveSurface::Part&
 
 ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const {
   ForceVector F_B = ForceVector::zero();
+  const SurfaceRange::Range range =
+      surface_->range().calc_range(time, X_WB, definition_.sea->waves);
   if (surface_->panels()) {
     const auto add_leaf = [&](const TriangleTree& tree, const TriangleTree::Node& leaf) {
       add_panels(time, X_WB, tree, leaf, F_B);
     };
-    add_part(time, X_WB, *surface_->panels(), add_leaf, F_B);
+    add_part(time, X_WB, range, *surface_->panels(), add_leaf, F_B);
   }
   if (surface_->faces()) {
     const auto add_leaf = [&](const TriangleTree& tree, const TriangleTree::Node& leaf) {
       add_faces(time, X_WB, tree, leaf, F_B);
     };
-    add_part(time, X_WB, *surface_->faces(), add_leaf, F_B);
+    add_part(time, X_WB, range, *surface_->faces(), add_leaf, F_B);
   }
   return {rho_g_ * (X_WB.R * F_B.moment), rho_g_ * (X_WB.R * F_B.force)};
 }

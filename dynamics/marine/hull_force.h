@@ -68,13 +68,14 @@ class HullForce {
  private:
   ForceVector calc_force_in_waves(double time, const Pose& X_WB) const;
   template <class AddLeaf>
-  void add_part(double time, const Pose& X_WB, const WaveSurface::Part& part, AddLeaf&& add_leaf,
+  void add_part(double time, const Pose& X_WB, const SurfaceRange::Range& range,
+                const WaveSurface::Part& part, AddLeaf&& add_leaf,
                 ForceVector& F_B_over_rho_g) const;
   void add_panels(double time, const Pose& X_WB, const TriangleTree& tree,
                   const TriangleTree::Node& leaf, ForceVector& F_B_over_rho_g) const;
   void add_faces(double time, const Pose& X_WB, const TriangleTree& tree,
                  const TriangleTree::Node& leaf, ForceVector& F_B_over_rho_g) const;
-  void add_box(double time, const Pose& X_WB, const PressureBoxes& boxes, int box,
+  void add_box(double time, const Pose& X_WB, const PressureBoxes::Box& box,
                ForceVector& F_B_over_rho_g) const;
 
   Definition definition_;

@@ -9,8 +9,27 @@ namespace {
 
 constexpr std::size_t most_on_a_side = 16;
 
+/// What is left of each component of a sea at a depth below the surface, by its amplitude, over the root
+/// of the sum of all amplitudes' squares.
+std::vector<double> find_shares(const WaveField& waves, double depth) {
+  const double bottom = waves.water().depth;
+  std::vector<double> shares;
+  double energy = 0.0;
+  for (std::size_t c = 0; c < waves.component_count(); ++c) {
+    const double k = waves.wave_number(c);
+    const double image = std::exp(-2.0 * k * std::max(0.0, bottom - depth));
+    const double left = std::exp(-k * depth) * (1.0 + image) / (1.0 + std::exp(-2.0 * k * bottom));
+    const double amplitude = waves.component(c).amplitude;
+    shares.push_back(left * amplitude);
+    energy += amplitude * amplitude;
+  }
+  for (double& share : shares) share = energy > 0.0 ? share / std::sqrt(energy) : 0.0;
+  return shares;
+}
+
 /// Points along a side of a box that reaches `reach` to each side of its middle.
-std::size_t points_needed(const WaveField& waves, double reach, double tolerance) {
+std::size_t points_needed(const WaveField& waves, const std::vector<double>& shares, double reach,
+                          double tolerance) {
   if (reach == 0.0) return 1;
   for (std::size_t n = 2; n < most_on_a_side; ++n) {
     double error = 0.0;
@@ -18,9 +37,9 @@ std::size_t points_needed(const WaveField& waves, double reach, double tolerance
       const double half = 0.5 * waves.wave_number(c) * reach;
       const double order = static_cast<double>(n);
       const double share = 2.0 * std::exp(order * std::log(half) - std::lgamma(order + 1.0));
-      error += waves.component(c).amplitude * std::min(1.0, share);
+      error += std::pow(shares[c] * std::min(1.0, share), 2);
     }
-    if (error <= tolerance * waves.highest_elevation()) return n;
+    if (error <= tolerance * tolerance) return n;
   }
   return most_on_a_side;
 }
@@ -81,16 +100,34 @@ struct PressureBoxes::Grid {
 
 PressureBoxes::PressureBoxes(const TriangleTree& tree, const WaveField& waves, double tolerance,
                              std::size_t per_triangle)
-    : first_(static_cast<std::size_t>(tree.node_count()), 0), count_(first_) {
-  std::vector<std::size_t> cost(first_.size(), 0);
+    : node_count_(static_cast<std::size_t>(tree.node_count())), depths_{0.0} {
+  add_level(tree, waves, tolerance, per_triangle);
+  double shortest = 0.0;
+  for (std::size_t c = 0; c < waves.component_count(); ++c) {
+    shortest = std::max(shortest, waves.wave_number(c));
+  }
+  const double deepest = 4.0 * tree.node(TriangleTree::root).half_extent.z();
+  for (double depth = 1.0 / shortest; depth <= deepest; depth *= 2.0) {
+    depths_.push_back(depth);
+    add_level(tree, waves, tolerance, per_triangle);
+  }
+}
+
+void PressureBoxes::add_level(const TriangleTree& tree, const WaveField& waves, double tolerance,
+                              std::size_t per_triangle) {
+  const std::vector<double> shares = find_shares(waves, depths_.back());
+  std::vector<std::size_t> cost(node_count_, 0);
+  const std::size_t first = places_.size();
+  places_.resize(first + node_count_);
   // Children stand behind their parents.
   for (int node = tree.node_count() - 1; node >= 0; --node) {
     const TriangleTree::Node& box = tree.node(node);
+    const auto i = static_cast<std::size_t>(node);
     const auto needed = [&](Eigen::Index axis) {
-      return Side(points_needed(waves, box.half_extent[axis], tolerance));
+      return Side(points_needed(waves, shares, box.half_extent[axis], tolerance));
     };
     const Grid grid{{needed(0), needed(1), needed(2)}};
-    std::size_t& least = cost[static_cast<std::size_t>(node)];
+    std::size_t& least = cost[i];
     if (!box.is_leaf()) {
       least = cost[static_cast<std::size_t>(box.left)] + cost[static_cast<std::size_t>(box.right)];
     } else if (per_triangle > 0) {
@@ -100,19 +137,17 @@ PressureBoxes::PressureBoxes(const TriangleTree& tree, const WaveField& waves, d
     }
     if (grid.size() > std::min(least, WaveField::most_points)) continue;
     least = grid.size();
-    add_box(tree, node, grid);
+    places_[first + i] = add_box(tree, node, grid);
   }
 }
 
-void PressureBoxes::add_box(const TriangleTree& tree, int node, const Grid& grid) {
+PressureBoxes::Place PressureBoxes::add_box(const TriangleTree& tree, int node, const Grid& grid) {
   static const std::array<TrianglePoint, 7> rule = radon_points();
   const TriangleTree::Node& box = tree.node(node);
   const Side& sx = grid.sides[0];
   const Side& sy = grid.sides[1];
   const Side& sz = grid.sides[2];
   const std::size_t first = points_.size();
-  first_[static_cast<std::size_t>(node)] = first;
-  count_[static_cast<std::size_t>(node)] = grid.size();
   for (std::size_t i = 0; i < sx.count(); ++i) {
     for (std::size_t j = 0; j < sy.count(); ++j) {
       for (std::size_t k = 0; k < sz.count(); ++k) {
@@ -150,6 +185,7 @@ void PressureBoxes::add_box(const TriangleTree& tree, int node, const Grid& grid
                }
              },
              node);
+  return {first, grid.size()};
 }
 
 }  // namespace blocklift::dynamics

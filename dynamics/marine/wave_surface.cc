@@ -18,15 +18,38 @@ constexpr double longest_panel = 1.5;  // diameters of a panel in the mean
 
 constexpr std::size_t points_of_face = 3;
 
-WaveSurface::Part make_part(TriangleTree tree, const WaveField& waves, std::size_t per_triangle) {
-  PressureBoxes boxes(tree, waves, WaveSurface::box_tolerance, per_triangle);
+WaveSurface::Part make_part(TriangleTree tree, const WaveField& waves, double tolerance,
+                            std::size_t per_triangle) {
+  PressureBoxes boxes(tree, waves, tolerance, per_triangle);
   return {std::move(tree), std::move(boxes)};
+}
+
+/// Share of the waves' pressure that may be left out in boxes of panels of this diameter (m).
+double find_panel_tolerance(const WaveField& waves, double diameter) {
+  if (!waves.has_many_components()) return WaveSurface::box_tolerance;
+  double error = 0.0, energy = 0.0;
+  for (std::size_t c = 0; c < waves.component_count(); ++c) {
+    const double share = std::min(1.0, std::pow(waves.wave_number(c) * diameter, 2) / 8.0);
+    error += std::pow(waves.component(c).amplitude * share, 2);
+    energy += std::pow(waves.component(c).amplitude, 2);
+  }
+  if (energy == 0.0) return WaveSurface::box_tolerance;
+  return std::max(WaveSurface::box_tolerance, WaveSurface::box_share * std::sqrt(error / energy));
 }
 
 double mean_panel_diameter(const Hull& hull) {
   double sum = 0.0;
   for (int panel = 0; panel < hull.panel_count(); ++panel) sum += hull.panel_diameter(panel);
   return sum / hull.panel_count();
+}
+
+SurfaceRange range_about(const Hull& hull, const WaveField& waves) {
+  Vector3 low = hull.vertex(0), high = low;
+  for (const Vector3& vertex : hull.vertices()) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  return {0.5 * (low + high), 0.5 * (high - low), waves};
 }
 
 void add_panel(const Hull& from, int panel, Hull& to) {
@@ -65,11 +88,13 @@ double calc_sagging_length(const WaveField& waves, double sag) {
   return low;
 }
 
-WaveSurface::WaveSurface(const Hull& hull, const WaveField& waves) {
+WaveSurface::WaveSurface(const Hull& hull, const WaveField& waves)
+    : range_(range_about(hull, waves)) {
   const double diameter = mean_panel_diameter(hull);
+  const double tolerance = find_panel_tolerance(waves, diameter);
   const double length = calc_sagging_length(waves, face_sag);
   if (length < least_face_length * diameter) {
-    panels_ = make_part(TriangleTree(hull), waves, 0);
+    panels_ = make_part(TriangleTree(hull), waves, tolerance, 0);
     return;
   }
   const Hull joined = join_flat_panels(hull);
@@ -78,10 +103,10 @@ WaveSurface::WaveSurface(const Hull& hull, const WaveField& waves) {
     const bool is_panel = joined.panel_diameter(panel) <= longest_panel * diameter;
     add_panel(joined, panel, is_panel ? small : large);
   }
-  if (small.panel_count() > 0) panels_ = make_part(TriangleTree(small), waves, 0);
+  if (small.panel_count() > 0) panels_ = make_part(TriangleTree(small), waves, tolerance, 0);
   if (large.panel_count() > 0) {
     const Hull faces = divide_flat_panels(large, length);
-    faces_ = make_part(TriangleTree(faces, faces_in_leaf), waves, points_of_face);
+    faces_ = make_part(TriangleTree(faces, faces_in_leaf), waves, box_tolerance, points_of_face);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "dynamics/marine/pressure_boxes.h"
+#include "dynamics/marine/surface_range.h"
 
 namespace blocklift::dynamics {
 
@@ -25,14 +26,20 @@ class WaveSurface {
   };
   static constexpr double face_sag = 0.08;       ///< of the amplitude
   static constexpr double box_tolerance = 2e-4;  ///< of the waves' pressure, in boxes taken whole
+  /// In a sea of many components boxes of panels may leave this share of what panels leave themselves, which
+  /// is (k d)^2/8 of each component, in the square mean; where that is more than `box_tolerance`.
+  static constexpr double box_share = 0.25;
   static constexpr std::size_t faces_in_leaf = 4;
 
   WaveSurface(const Hull& hull, const WaveField& waves);
 
+  /// Between what heights the waves stand about the hull.
+  const SurfaceRange& range() const { return range_; }
   const std::optional<Part>& panels() const { return panels_; }
   const std::optional<Part>& faces() const { return faces_; }
 
  private:
+  SurfaceRange range_;
   std::optional<Part> panels_, faces_;
 };
 

@@ -89,10 +89,10 @@ TEST(WaveSurface, JoinsWhatIsFlatInLongWavesAlone) {
   ASSERT_TRUE(chop.panels());
 }
 
-ForceVector force_of(const PressureBoxes& boxes, int node, const auto& pressure) {
+ForceVector force_of(const PressureBoxes::Box& box, const auto& pressure) {
   ForceVector F = ForceVector::zero();
-  for (std::size_t i = 0; i < boxes.points(node).size(); ++i) {
-    const PressureBoxes::Weight w = boxes.weights(node)[i] * pressure(boxes.points(node)[i]);
+  for (std::size_t i = 0; i < box.points.size(); ++i) {
+    const PressureBoxes::Weight w = box.weights[i] * pressure(box.points[i]);
     F += ForceVector{w.head<3>(), w.tail<3>()};
   }
   return F;
@@ -110,13 +110,13 @@ TEST_F(Boxes, MeetLinearPressureExactly) {
   const Vector3 slope(0.3, -0.7, 1.1);
   int held = 0;
   for (int node = 0; node < tree_.node_count(); ++node) {
-    if (!boxes_.has(node)) continue;
+    if (boxes_.find(node, 0.0).points.empty()) continue;
     ++held;
     const SurfaceMoments& m = tree_.moments(node);
     const Matrix3 nqp = 2.0 * m.Q + m.apply(slope);  // int n_k p_j q dA
     const Vector3 moment(nqp(2, 1) - nqp(1, 2), nqp(0, 2) - nqp(2, 0), nqp(1, 0) - nqp(0, 1));
     const ForceVector F =
-        force_of(boxes_, node, [&](const Vector3& p) { return 2.0 + slope.dot(p); });
+        force_of(boxes_.find(node, 0.0), [&](const Vector3& p) { return 2.0 + slope.dot(p); });
     EXPECT_LT((F.force + 2.0 * m.N + m.Q * slope).norm(), 1e-9 * 110 * 46 * 50);
     EXPECT_LT((F.moment + moment).norm(), 1e-9 * 110 * 46 * 50 * 50);
   }
@@ -132,7 +132,8 @@ TEST_F(Boxes, MeetAWaveToTheTolerance) {
   };
   int largest = -1;
   for (int node = tree_.node_count() - 1; node >= 0; --node) {
-    if (boxes_.has(node)) largest = node;  // children stand behind their parents
+    if (!boxes_.find(node, 0.0).points.empty())
+      largest = node;  // children stand behind their parents
   }
   ASSERT_GE(largest, 0);
   Vector3 exact = Vector3::Zero();
@@ -158,9 +159,10 @@ TEST_F(Boxes, MeetAWaveToTheTolerance) {
                 }
               },
               largest);
-  const Vector3 error = force_of(boxes_, largest, wave).force - exact;
+  const Vector3 error = force_of(boxes_.find(largest, 0.0), wave).force - exact;
   EXPECT_LT(error.norm(), 3 * tolerance_ * area);  // three sides
-  EXPECT_LT(boxes_.points(largest).size(), static_cast<std::size_t>(tree_.triangle_count()) / 4);
+  EXPECT_LT(boxes_.find(largest, 0.0).points.size(),
+            static_cast<std::size_t>(tree_.triangle_count()) / 4);
 }
 
 // Of waves as short as the panels boxes would take more points than panels: there are none.
@@ -168,7 +170,24 @@ TEST(PressureBoxes, AreNotHeldForShortWaves) {
   const WaveField ripples(Water{}, {{0.01, 6.0, 0, 0}});
   const TriangleTree tree(sample_barge());
   const PressureBoxes boxes(tree, ripples, 1e-3);
-  EXPECT_FALSE(boxes.has(TriangleTree::root));
+  EXPECT_TRUE(boxes.find(TriangleTree::root, 0.0).points.empty());
+}
+
+// Short waves do not reach down: more boxes are held in the deep, and those held at both take no more points.
+TEST(PressureBoxes, TakeFewerPointsInTheDeep) {
+  const WaveField sea(Water{}, {{0.5, 0.7, 0.3, 0}, {0.1, 2.5, 0.8, 1}});
+  const TriangleTree tree(sample_barge());
+  const PressureBoxes boxes(tree, sea, 1e-3);
+  int high_count = 0, deep_count = 0;
+  for (int node = 0; node < tree.node_count(); ++node) {
+    const PressureBoxes::Box high = boxes.find(node, 0.0), deep = boxes.find(node, 7.0);
+    if (!high.points.empty()) ++high_count;
+    if (!deep.points.empty()) ++deep_count;
+    if (!high.points.empty() && !deep.points.empty()) {
+      EXPECT_LE(deep.points.size(), high.points.size());
+    }
+  }
+  EXPECT_GT(deep_count, high_count);
 }
 
 }  // namespace

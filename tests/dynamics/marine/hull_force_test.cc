@@ -156,6 +156,100 @@ TEST(HullForce, FacesAreWherePanelsConvergeTo) {
   EXPECT_LT(distances[2], 1e-4);
 }
 
+class IrregularSea : public ::testing::Test {
+ protected:
+  static std::shared_ptr<const Sea> sea(double spreading, double depth) {
+    const Water water = {.density = 1025, .gravity = 9.81, .depth = depth};
+    SeaRealisation how = {.heading = 0.6, .components = 60, .seed = 4};
+    if (spreading > 0) how.spreading_exponent = spreading;
+    return sea_of(realise(WaveSpectrum::jonswap(2, 8), water, how));
+  }
+  static Hull barge(double size) {
+    return make_barge(
+        {.length = 40, .breadth = 20, .depth = 5, .bow_rake_length = 4, .bow_rake_height = 2},
+        PanelDivision::of_size(size, 40, 20, 5));
+  }
+  Pose place(double time) {
+    body_.q.head<3>() << 0.3 * time, 0, -1 + 0.3 * std::sin(0.7 * time);
+    body_.q.tail<4>() << 1, 0.02 * std::cos(0.6 * time), 0.03, 0.1;
+    body_.q.tail<4>().normalize();
+    body_.time = time;
+    body_.update();
+    return body_.kinematics.X_WB[1];
+  }
+  HullForce force(const Hull& hull, const std::shared_ptr<const Sea>& sea) const {
+    return HullForce({"barge", 1, std::make_shared<const HullClusters>(hull), sea});
+  }
+  Eigen::Matrix<double, 6, 1> at(const HullForce& force, double time) {
+    place(time);
+    const ForceVector F = force.calc_force(body_.state());
+    Eigen::Matrix<double, 6, 1> values;
+    values << F.moment / 20, F.force;
+    return values;
+  }
+  static constexpr double weight = rho_g * 40 * 20 * 2.3;
+
+ private:
+  OneBody body_;
+};
+
+// Against the same sum with every panel taken for itself at its vertices by the exact functions: what
+// the boxes of deep panels and the carriers leave, far below what panels themselves leave.
+TEST_F(IrregularSea, BoxesAndPanelsConvergeTogether) {
+  for (const double spreading : {0.0, 2.0}) {
+    const auto water = sea(spreading, spreading > 0 ? 12 : 1e3);
+    std::vector<double> errors;
+    const HullForce finest = force(unevened(barge(1)), water);
+    for (const double size : {4.0, 2.0}) {
+      const HullForce coarse = force(unevened(barge(size)), water);
+      double square = 0;
+      for (int i = 0; i < 6; ++i) {
+        square += (at(coarse, 5.3 * i) - at(finest, 5.3 * i)).squaredNorm() / 6;
+      }
+      errors.push_back(std::sqrt(square) / weight);
+    }
+    EXPECT_LT(errors[0], 1e-2);
+    EXPECT_GT(errors[0] / errors[1], 2.5);
+  }
+}
+
+// Boxes open and close as waves pass. What an integrator sees of it is a kink or step in second differences.
+TEST_F(IrregularSea, ForceIsSmooth) {
+  const auto water = sea(2.0, 1e3);
+  const HullForce hull = force(unevened(barge(2)), water);
+  constexpr double step = 1e-3;
+  double worst = 0;
+  for (double t = 3; t < 5; t += 2 * step) {
+    worst = std::max(worst, (at(hull, t + step) - 2 * at(hull, t) + at(hull, t - step)).norm());
+  }
+  EXPECT_LT(worst / weight, 5e-6);
+}
+
+TEST_F(IrregularSea, SurfaceStaysInItsRange) {
+  for (const double spreading : {0.0, 2.0}) {
+    const auto water = sea(spreading, 1e3);
+    const Vector3 half(20, 10, 2.5);
+    const SurfaceRange range(Vector3(0, 0, 0), half, water->waves);
+    int beyond = 0, count = 0;
+    double width = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Pose X_WB = place(11.0 * i);
+      const auto [low, high] = range.calc_range(11.0 * i, X_WB, water->waves);
+      width += (high - low) / 200;
+      for (double x = -20; x <= 20; x += 2.3) {
+        for (double y = -10; y <= 10; y += 2.9) {
+          const Vector3 p = X_WB.apply({x, y, 0});
+          const double elevation = water->waves.calc_elevation(11.0 * i, p.x(), p.y());
+          beyond += elevation < low || elevation > high ? 1 : 0;
+          ++count;
+        }
+      }
+    }
+    EXPECT_LT(beyond, 1e-3 * count);
+    EXPECT_LT(width, 0.5 * 2 * water->waves.highest_elevation());
+  }
+}
+
 TEST(HullForce, BalancesInWavesAndCanLeaveThemToOthers) {
   OneBody body;
   const auto sea = sea_of(realise(WaveSpectrum::jonswap(2, 8), deep, {.components = 20}));
