@@ -101,20 +101,17 @@ std::vector<std::string> straying_warnings(const RadiationRecord& record) {
   for (const PairStraying& pair : record.straying.pairs) {
     if (!pair.is_beyond()) continue;
     const bool of_wave = pair.limit == record.arrangement.wave_length / 40.0;
+    const double share = 100.0 * share_beyond(pair);
     warnings.push_back(fmt::format(
         "{} came up to {:.2g} m and {:.2g} degrees, {:.2g} m at the ends of a hull (at {:.0f} s), "
-        "from "
-        "the places against each other that their water was computed for, and were more than "
-        "{:.2g} m "
-        "off ({}) during {:.0f} % of their time in the water: what one does to the other's waves "
-        "and "
-        "added mass is not right there. Compute it for where they are: positions of vessels, or "
-        "afloat "
-        "of the load.",
+        "from the places against each other that their water was computed for, and were more than "
+        "{:.2g} m off ({}) during {} % of their time in the water: what one does to the other's "
+        "waves and added mass is not right there. Compute it for where they are: positions of "
+        "vessels, or afloat of the load.",
         names_of(record, pair), pair.distance.value, pair.turn.value / degree, pair.at_ends.value,
         pair.at_ends.time, pair.limit,
         of_wave ? "a fortieth of the waves' length" : "a fifth of the narrower hull's breadth",
-        100 * share_beyond(pair)));
+        share < 1.0 ? "less than 1" : fmt::format("{:.0f}", share)));
   }
   return warnings;
 }
