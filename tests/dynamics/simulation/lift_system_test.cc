@@ -1,10 +1,11 @@
 // The right-hand side as a whole, and that it allocates nothing (see allocation_counter.h).
-#include "dynamics/simulation/energy_ledger.h"
+#include "dynamics/simulation/lift_system.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/simulation/energy_ledger.h"
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/simulation/sample_lifts.h"
 
