@@ -151,7 +151,7 @@ struct LiftWorkspace {
   DraughtShares water_shares;                   ///< of the draughts of a body that is lowered
   Eigen::VectorXd entry_force;                  ///< on the frames, of water that it takes up, 6N
   MarchedForce marched;                         ///< of a surface that is marched beside
-  std::vector<ForceVector> F_Bo_W_of_hulls;     ///< of each HullForce, by the last calc_loads
+  std::vector<ForceVector> F_Bo_W_of_hulls;     ///< of each HullForce, by the last calc_hull_forces
   /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
   std::optional<LoopRows> loop_rows;
   std::vector<RopeFeed> feeds;  ///< for each rope
