@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 #include "structure/mesh/padeye_geometry.h"
 
 namespace blocklift::pipeline {

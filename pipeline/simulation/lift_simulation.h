@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pipeline/assessment/lift_run.h"
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 
 namespace blocklift::pipeline {
 

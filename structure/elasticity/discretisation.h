@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "structure/elasticity/reference_element.h"
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 
 namespace blocklift::structure {
 

@@ -7,7 +7,7 @@
 #include "structure/elasticity/discretisation.h"
 #include "structure/elasticity/load.h"
 #include "structure/mesh/block_description.h"
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 
 namespace blocklift::structure {
 

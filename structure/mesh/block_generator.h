@@ -1,7 +1,7 @@
 #pragma once
 
 #include "structure/mesh/block_description.h"
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 
 namespace blocklift::structure {
 

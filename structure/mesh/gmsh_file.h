@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 
 namespace blocklift::structure {
 

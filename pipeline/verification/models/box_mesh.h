@@ -5,7 +5,7 @@
 
 #include "structure/elasticity/discretisation.h"
 #include "structure/elasticity/linear_solver.h"
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 
 namespace blocklift::structure::testing {
 

@@ -1,4 +1,4 @@
-#include "structure/mesh/mesh.h"
+#include "structure/mesh/hex_mesh.h"
 
 #include <algorithm>
 #include <array>
