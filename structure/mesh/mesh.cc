@@ -1,0 +1,162 @@
+#include "structure/mesh/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+#include "structure/index.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Lagrange polynomials through `count` equally spaced points of [0, 1].
+Eigen::VectorXd lagrange(int count, double x) {
+  Eigen::VectorXd values = Eigen::VectorXd::Ones(count);
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j)
+      if (j != i) values[i] *= (x * (count - 1) - j) / (i - j);
+  return values;
+}
+
+class Forest {
+ public:
+  explicit Forest(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int root(int i) {
+    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    return i;
+  }
+  void join(int a, int b) { parent_[at(root(a))] = root(b); }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// All sets of vertices that something joins.
+template <typename Visit>
+void for_each_joint(const Mesh& mesh, const Visit& visit) {
+  for (const Shell& shell : mesh.shells)
+    visit(std::vector<int>(shell.vertices.begin(), shell.vertices.end()));
+  for (const Beam& beam : mesh.beams)
+    visit(std::vector<int>(beam.vertices.begin(), beam.vertices.end()));
+  for (const RigidLink& link : mesh.rigid_links) {
+    std::vector<int> all = link.slaves;
+    all.push_back(link.master);
+    visit(all);
+  }
+  for (const DistributingLink& link : mesh.distributing_links) {
+    std::vector<int> all = link.vertices;
+    all.push_back(link.reference);
+    visit(all);
+  }
+  for (const Spring& spring : mesh.springs) {
+    std::vector<int> all;
+    for (const int vertex : spring.vertices)
+      if (vertex >= 0) all.push_back(vertex);
+    visit(all);
+  }
+}
+
+}  // namespace
+
+Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi) {
+  if (shell.curvature >= 0) {
+    const Eigen::Matrix3Xd& points = mesh.curved_shells[at(shell.curvature)];
+    const int count = static_cast<int>(std::lround(std::sqrt(static_cast<double>(points.cols()))));
+    const Eigen::VectorXd along_xi = lagrange(count, xi.x()), along_eta = lagrange(count, xi.y());
+    Vector3 place = Vector3::Zero();
+    for (int j = 0; j < count; ++j)
+      for (int i = 0; i < count; ++i)
+        place += along_xi[i] * along_eta[j] * points.col(j * count + i);
+    return place;
+  }
+  const auto vertex = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
+  return (1 - xi.y()) * ((1 - xi.x()) * vertex(0) + xi.x() * vertex(1)) +
+         xi.y() * ((1 - xi.x()) * vertex(2) + xi.x() * vertex(3));
+}
+
+double longest_edge(const Mesh& mesh, const Shell& shell) {
+  const auto length = [&](std::size_t a, std::size_t b) {
+    return (mesh.vertices[at(shell.vertices[a])] - mesh.vertices[at(shell.vertices[b])]).norm();
+  };
+  return std::max({length(0, 1), length(2, 3), length(0, 2), length(1, 3)});
+}
+
+std::vector<int> connected_parts(const Mesh& mesh) {
+  Forest forest(mesh.vertices.size());
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for_each_joint(mesh, [&](const std::vector<int>& joined) {
+    for (const int vertex : joined) {
+      used[at(vertex)] = 1;
+      forest.join(vertex, joined.front());
+    }
+  });
+  std::vector<int> part(mesh.vertices.size(), -1), number(mesh.vertices.size(), -1);
+  int next = 0;
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    if (used[v] == 0) continue;
+    int& of_root = number[at(forest.root(static_cast<int>(v)))];
+    if (of_root < 0) of_root = next++;
+    part[v] = of_root;
+  }
+  return part;
+}
+
+void check_mesh(const Mesh& mesh) {
+  const auto count = [](const auto& list) { return static_cast<int>(list.size()); };
+  const auto require = [](bool holds, const char* what, long label, const char* wrong) {
+    if (!holds) throw ModelError(fmt::format("{} {} {}", what, label, wrong));
+  };
+  const auto exists = [&](int vertex) { return vertex >= 0 && vertex < count(mesh.vertices); };
+  for (const Material& material : mesh.materials) check_material(material);
+  for (const ShellSection& section : mesh.shell_sections) {
+    if (!(section.thickness > 0))
+      throw ModelError(
+          fmt::format("a plate's thickness is {:g} m; it must be positive", section.thickness));
+    if (section.material < 0 || section.material >= count(mesh.materials))
+      throw ModelError("a plate's section names no material");
+  }
+  for (const Shell& shell : mesh.shells) {
+    require(std::all_of(shell.vertices.begin(), shell.vertices.end(), exists), "shell", shell.label,
+            "names a vertex that is not there");
+    require(shell.section >= 0 && shell.section < count(mesh.shell_sections), "shell", shell.label,
+            "has no thickness");
+    require(shell.region >= 0 && shell.region < count(mesh.regions), "shell", shell.label,
+            "belongs to no region");
+    const auto vertex = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
+    const double area =
+        0.5 * ((vertex(3) - vertex(0)).cross(vertex(2) - vertex(1))).norm();
+    const double size = longest_edge(mesh, shell);
+    require(area > 1e-8 * size * size, "shell", shell.label, "has no area");
+  }
+  for (const Beam& beam : mesh.beams) {
+    require(exists(beam.vertices[0]) && exists(beam.vertices[1]), "beam", beam.label,
+            "names a vertex that is not there");
+    require(beam.section >= 0 && beam.section < count(mesh.beam_sections), "beam", beam.label,
+            "has no section");
+    const Vector3 along =
+        mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])];
+    require(along.norm() > 0, "beam", beam.label, "has no length");
+    require(along.cross(beam.axis_2).norm() > 1e-6 * along.norm() * beam.axis_2.norm(), "beam",
+            beam.label, "runs along the direction that is to tell its second axis");
+  }
+  for (const PointMass& mass : mesh.masses)
+    require(exists(mass.vertex) && mass.mass >= 0, "mass", mass.label,
+            "is negative or at a vertex that is not there");
+  for (const RigidLink& link : mesh.rigid_links)
+    require(exists(link.master) && std::all_of(link.slaves.begin(), link.slaves.end(), exists),
+            "rigid link", link.label, "names a vertex that is not there");
+  for (const DistributingLink& link : mesh.distributing_links)
+    require(exists(link.reference) && link.weights.size() == link.vertices.size() &&
+                !link.vertices.empty() &&
+                std::all_of(link.vertices.begin(), link.vertices.end(), exists),
+            "distributing link", link.label, "names a vertex that is not there");
+}
+
+}  // namespace blocklift::structure

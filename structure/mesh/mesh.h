@@ -1,0 +1,178 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/mesh/material.h"
+
+namespace blocklift::structure {
+
+using Vector3 = Eigen::Vector3d;
+
+/// Plate thickness of shells, m, about the surface on which their vertices lie.
+struct ShellSection {
+  double thickness = 0;
+  int material = 0;   ///< place in Mesh::materials
+  double offset = 0;  ///< of the mid-surface from the vertices' surface, along the normal, m
+};
+
+/// Quadrangle or triangle of plating. Its normal is d/dxi x d/deta.
+struct Shell {
+  /// Vertices at the unit square's corners (0, 0), (1, 0), (0, 1), (1, 1). The last two of a triangle
+  /// are one.
+  std::array<int, 4> vertices{};
+  int section = 0;     ///< place in Mesh::shell_sections
+  int region = 0;      ///< place in Mesh::regions
+  int curvature = -1;  ///< place in Mesh::curved_shells; -1: bilinear between the vertices
+  long label = 0;      ///< the element's number in its file, for messages
+
+  bool is_triangle() const { return vertices[2] == vertices[3]; }
+};
+
+/// Cross-section of a beam about its own centroid; its axes 2 and 3 lie across the beam.
+struct BeamSection {
+  std::string name;
+  int material = 0;           ///< place in Mesh::materials
+  double area = 0;            ///< m^2
+  double second_moment_2 = 0; ///< I_2 = int x_3^2 dA, bending about axis 2, m^4
+  double second_moment_3 = 0; ///< I_3 = int x_2^2 dA, m^4
+  double product_23 = 0;      ///< int x_2 x_3 dA, m^4
+  double torsion = 0;         ///< J, m^4
+  double shear_area_2 = 0;    ///< for shear along axis 2, m^2; infinite: no shear deformation
+  double shear_area_3 = 0;    ///< m^2
+  /// Points (x_2, x_3) where the largest stresses are, m.
+  std::vector<Eigen::Vector2d> stress_points;
+};
+
+/// Which of the six freedoms (displacements, rotations along the beam's own axes 1, 2, 3) one end of a
+/// beam does not pass on.
+using BeamRelease = std::array<bool, 6>;
+
+/// Beam between two vertices.
+struct Beam {
+  std::array<int, 2> vertices{};
+  int section = 0;  ///< place in Mesh::beam_sections
+  int region = 0;   ///< place in Mesh::regions
+  /// Direction in the plane of axes 1 and 2: axis 2 is its part across the beam.
+  Vector3 axis_2 = Vector3::UnitZ();
+  /// Of the centroid from the line between the vertices, at either end, m.
+  std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};
+  std::array<BeamRelease, 2> release{};
+  bool is_rod = false;  ///< bears along its axis and in torsion only
+  long label = 0;
+};
+
+/// Mass at a vertex.
+struct PointMass {
+  int vertex = 0;
+  double mass = 0;                                      ///< kg
+  Vector3 offset = Vector3::Zero();                     ///< of its centre from the vertex, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    ///< about its own centre, kg m^2
+  long label = 0;
+};
+
+/// Vertices that move as one rigid body with another: u_i = u + theta x (x_i - x), theta_i = theta, for
+/// the components that are bound.
+struct RigidLink {
+  int master = 0;
+  std::vector<int> slaves;
+  std::array<bool, 6> bound{true, true, true, true, true, true};
+  long label = 0;
+};
+
+/// A vertex that follows others without stiffening them: its motion is the rigid motion that fits theirs
+/// best by least squares, so that forces on it are spread as a bolt pattern does.
+struct DistributingLink {
+  int reference = 0;
+  std::vector<int> vertices;
+  std::vector<double> weights;
+  std::array<bool, 6> bound{true, true, true, true, true, true};  ///< components of the reference
+  long label = 0;
+};
+
+/// Spring between two freedoms, or one and the ground.
+struct Spring {
+  std::array<int, 2> vertices{-1, -1};  ///< -1: the ground
+  std::array<int, 2> components{0, 0};  ///< 0 .. 2 displacement, 3 .. 5 rotation along the world's axes
+  double stiffness = 0;                 ///< N/m or N m/rad
+  long label = 0;
+};
+
+/// What cells belong to: one plate of a block, a part of a deck.
+struct Region {
+  std::string name;   ///< such as "web_frames at x = 4 m"
+  int group = 0;      ///< place in Mesh::groups
+  /// Rank of the plate: which one a square belongs to is decided by it (lugs are apart).
+  bool is_lug = false;
+};
+
+/// Regions under one name: plates of a name, a pad, a lug.
+struct Group {
+  std::string name;
+  int material = 0;  ///< place in Mesh::materials
+};
+
+/// Lifting point: where the rope pulls, and which cells carry its force.
+struct LiftingPoint {
+  std::string name;
+  Vector3 p_BPin = Vector3::Zero();  ///< m
+  int region = 0;                    ///< the lug's plate, over which the force is spread
+  int pad_region = -1;               ///< the thickened plate that it stands on; -1: none
+  double radius = 0;                 ///< of the sphere about the pin that holds lug and pad, m
+};
+
+/// Conforming mesh of a structure: shells, beams, masses, links and springs on common vertices.
+///
+/// Cells are joined where they share vertices: shells along edges, beams along shells' edges, and what
+/// else meets in a vertex. Any number of shells may meet along an edge.
+struct Mesh {
+  std::vector<Vector3> vertices;    ///< m
+  std::vector<long> vertex_labels;  ///< their numbers in the file; empty: none
+  std::vector<Material> materials;
+  std::vector<ShellSection> shell_sections;
+  std::vector<Shell> shells;
+  /// Points of curved shells: (order + 1)^2 columns on the unit square, equally spaced, xi fastest, m.
+  std::vector<Eigen::Matrix3Xd> curved_shells;
+  std::vector<BeamSection> beam_sections;
+  std::vector<Beam> beams;
+  std::vector<PointMass> masses;
+  std::vector<RigidLink> rigid_links;
+  std::vector<DistributingLink> distributing_links;
+  std::vector<Spring> springs;
+  std::vector<Region> regions;
+  std::vector<Group> groups;
+  std::vector<LiftingPoint> lifting_points;
+
+  const ShellSection& section_of(const Shell& shell) const {
+    return shell_sections[static_cast<std::size_t>(shell.section)];
+  }
+  const Material& material_of(const Shell& shell) const {
+    return materials[static_cast<std::size_t>(section_of(shell).material)];
+  }
+  const BeamSection& section_of(const Beam& beam) const {
+    return beam_sections[static_cast<std::size_t>(beam.section)];
+  }
+  const Group& group_of_region(int region) const {
+    return groups[static_cast<std::size_t>(regions[static_cast<std::size_t>(region)].group)];
+  }
+};
+
+/// Place of a point (xi, eta) of the unit square on a shell, m.
+Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi);
+
+/// Longest edge of a shell between its vertices, m.
+double longest_edge(const Mesh& mesh, const Shell& shell);
+
+/// Numbers of the connected parts (through vertices and links) of the vertices, from 0; -1 for vertices
+/// that nothing uses.
+std::vector<int> connected_parts(const Mesh& mesh);
+
+/// @throws ModelError naming cells with vertices, sections or regions that are not there, shells without
+///   area, thickness that is not positive, beams without length, links and masses of vertices that are
+///   not there.
+void check_mesh(const Mesh& mesh);
+
+}  // namespace blocklift::structure
