@@ -41,36 +41,7 @@ Eigen::Matrix4Xd cube_rule(int points) {
 
 }  // namespace
 
-InertiaField InertiaField::at_rest(const Vector3& gravity_B) {
-  InertiaField field;
-  field.acceleration_less_gravity = -gravity_B;
-  return field;
-}
-
-InertiaField InertiaField::moving(const Vector3& acceleration_B, const Vector3& gravity_B,
-                                  const Vector3& angular_acceleration_B, const Vector3& w) {
-  InertiaField field;
-  field.acceleration_less_gravity = acceleration_B - gravity_B;
-  field.angular_acceleration = angular_acceleration_B;
-  field.angular_velocity_products << w.x() * w.x(), w.y() * w.y(), w.z() * w.z(), w.x() * w.y(),
-      w.y() * w.z(), w.z() * w.x();
-  return field;
-}
-
-Eigen::Matrix<double, 12, 1> InertiaField::coefficients() const {
-  Eigen::Matrix<double, 12, 1> all;
-  all << acceleration_less_gravity, angular_acceleration, angular_velocity_products;
-  return all;
-}
-
 namespace {
-
-// Steel moments int rho (1, x, x x^T) and, once beta is known, those with the factor.
-struct MassMoments {
-  double mass = 0;
-  Vector3 first = Vector3::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-};
 
 MassMoments integrate_mass(const HexMesh& mesh, int cells,
                            const std::function<double(const Vector3&)>& factor) {
@@ -78,9 +49,7 @@ MassMoments integrate_mass(const HexMesh& mesh, int cells,
   for_each_point(mesh, cells, cube_rule(4),
                  [&](int cell, Eigen::Index, const Vector3& x, double volume) {
                    const double mass = volume * mesh.material_of_cell(cell).density * factor(x);
-                   moments.mass += mass;
-                   moments.first += mass * x;
-                   moments.second += mass * x * x.transpose();
+                   moments.add(mass, x);
                  });
   return moments;
 }
@@ -281,16 +250,6 @@ Wrench resultant(const Eigen::Matrix3Xd& nodes, const Eigen::Ref<const Eigen::Ve
     sum.moment += nodes.col(n).cross(force);
   }
   return sum;
-}
-
-InertiaField balancing_field(const MassProperties& mass, const Wrench& wrench) {
-  // Newton-Euler about the centre of mass, then the acceleration of B's origin.
-  const Vector3& c = mass.centre_of_mass_B;
-  InertiaField field;
-  field.angular_acceleration =
-      mass.inertia_BBcm_B.ldlt().solve(wrench.moment - c.cross(wrench.force));
-  field.acceleration_less_gravity = wrench.force / mass.mass - field.angular_acceleration.cross(c);
-  return field;
 }
 
 }  // namespace blocklift::structure

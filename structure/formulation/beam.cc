@@ -1,0 +1,146 @@
+#include "structure/formulation/beam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <deal.II/base/quadrature_lib.h>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+#include "structure/index.h"
+#include "structure/system/joints.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+Eigen::Matrix3d cross_matrix(const Vector3& v) {
+  Eigen::Matrix3d matrix;
+  matrix << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return matrix;
+}
+
+/// Derivatives of the Lagrange polynomials of a degree on [0, 1] at x.
+std::vector<double> lagrange_slopes(int degree, double x) {
+  const std::vector<double> places = lagrange_places(degree);
+  std::vector<double> slopes(places.size(), 0);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (k == i) continue;
+      double product = 1 / (places[i] - places[k]);
+      for (std::size_t j = 0; j < places.size(); ++j)
+        if (j != i && j != k) product *= (x - places[j]) / (places[i] - places[j]);
+      slopes[i] += product;
+    }
+  return slopes;
+}
+
+/// Takes a freedom out of a stiffness: no force acts along it. Its row and column become zero.
+void eliminate(Eigen::MatrixXd& stiffness, const Eigen::RowVectorXd& direction, const Beam& beam) {
+  const Eigen::VectorXd force = stiffness * direction.transpose();
+  const double pivot = direction.dot(force);
+  if (!(pivot > 1e-12 * stiffness.diagonal().maxCoeff()))
+    throw ModelError(fmt::format("beam {}: its releases leave it loose", beam.label));
+  stiffness -= force * force.transpose() / pivot;
+}
+
+}  // namespace
+
+Eigen::Matrix3d beam_axes(const Mesh& mesh, const Beam& beam) {
+  const Vector3 along = (mesh.vertices[at(beam.vertices[1])] + beam.offset[1] -
+                         mesh.vertices[at(beam.vertices[0])] - beam.offset[0])
+                            .normalized();
+  Eigen::Matrix3d axes;
+  axes.row(0) = along;
+  axes.row(1) = (beam.axis_2 - along * along.dot(beam.axis_2)).normalized();
+  axes.row(2) = along.cross(axes.row(1).transpose());
+  return axes;
+}
+
+BeamPoint beam_point(const Space& space, int cell, double xi) {
+  const BeamCell& located = space.beams()[at(cell)];
+  const Beam& beam = space.mesh().beams[at(located.beam)];
+  const Eigen::Matrix3d axes = beam_axes(space.mesh(), beam);
+  const auto values = lagrange_values(located.degree, xi);
+  const auto slopes = lagrange_slopes(located.degree, xi);
+  const double share = located.origin + located.size * xi;
+  const Vector3 arm = (1 - share) * beam.offset[0] + share * beam.offset[1];
+  const Vector3 arm_slope = located.size * (beam.offset[1] - beam.offset[0]);
+
+  BeamPoint point;
+  Vector3 tangent = arm_slope;
+  point.place = arm;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    tangent += slopes[i] * space.nodes().col(located.nodes[i]);
+    point.place += values[i] * space.nodes().col(located.nodes[i]);
+  }
+  const double stretch = tangent.norm();
+  point.weight = stretch;
+  point.strain.resize(6, 6 * static_cast<Eigen::Index>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    // u_c = u + theta x arm; d/ds of the product has the arm's change too.
+    const Eigen::Matrix3d of_rotation =
+        (-slopes[i] * cross_matrix(arm) - values[i] * cross_matrix(arm_slope) +
+         values[i] * cross_matrix(tangent)) /
+        stretch;
+    const auto column = 6 * static_cast<Eigen::Index>(i);
+    point.strain.block<3, 3>(0, column) = slopes[i] / stretch * axes;
+    point.strain.block<3, 3>(0, column + 3) = axes * of_rotation;
+    point.strain.block<3, 3>(3, column).setZero();
+    point.strain.block<3, 3>(3, column + 3) = slopes[i] / stretch * axes;
+  }
+  return point;
+}
+
+Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
+                                               const BeamSection& section) {
+  const double e = material.youngs_modulus, g = material.shear_modulus();
+  const auto shear_area = [&](double area) { return std::min(area, 1e4 * section.area); };
+  Eigen::Matrix<double, 6, 6> law = Eigen::Matrix<double, 6, 6>::Zero();
+  law.diagonal() << e * section.area, g * shear_area(section.shear_area_2),
+      g * shear_area(section.shear_area_3), g * section.torsion, e * section.second_moment_2,
+      e * section.second_moment_3;
+  // x_3 curvature_2 - x_2 curvature_3 is the stretch at (x_2, x_3).
+  law(4, 5) = law(5, 4) = -e * section.product_23;
+  return law;
+}
+
+Eigen::MatrixXd beam_stiffness(const Space& space, int cell) {
+  const BeamCell& located = space.beams()[at(cell)];
+  const Mesh& mesh = space.mesh();
+  const Beam& beam = mesh.beams[at(located.beam)];
+  const BeamSection& section = mesh.section_of(beam);
+  Eigen::Matrix<double, 6, 6> law =
+      beam_stiffness_law(mesh.materials[at(section.material)], section);
+  if (beam.is_rod) {
+    law.diagonal().segment<2>(1).setZero();
+    law.bottomRightCorner<2, 2>().setZero();
+  }
+  const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree));
+  const Eigen::Index size = 6 * (located.degree + 1);
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
+  for (unsigned q = 0; q < rule.size(); ++q) {
+    const BeamPoint point = beam_point(space, cell, rule.point(q)[0]);
+    stiffness += rule.weight(q) * point.weight * point.strain.transpose() * law * point.strain;
+  }
+  const Eigen::Matrix3d axes = beam_axes(mesh, beam);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const bool is_here =
+        end == 0 ? located.origin < 1e-9 : located.origin + located.size > 1 - 1e-9;
+    if (!is_here) continue;
+    const Eigen::Index node = end == 0 ? 0 : 6 * located.degree;
+    for (int c = 0; c < 6; ++c) {
+      if (!beam.release[end][at(c)]) continue;
+      // Motion of the centroid's end: about an offset end a rotation moves it too.
+      Eigen::RowVectorXd direction = Eigen::RowVectorXd::Zero(size);
+      direction.segment<3>(node + (c < 3 ? 0 : 3)) = axes.row(c % 3);
+      if (c >= 3)
+        direction.segment<3>(node) = axes.row(c % 3) * cross_matrix(beam.offset[end]).transpose();
+      eliminate(stiffness, direction, beam);
+    }
+  }
+  return stiffness;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "structure/system/space.h"
+
+namespace blocklift::structure {
+
+/// Axes of a beam: the rows are axes 1 (along it), 2 and 3.
+Eigen::Matrix3d beam_axes(const Mesh& mesh, const Beam& beam);
+
+/// A point of a beam with what it feels of its cell's freedoms.
+struct BeamPoint {
+  Vector3 place = Vector3::Zero();  ///< of the centroid, m
+  double weight = 0;                ///< length that it stands for, m
+  /// 6 x 6 nodes: stretch, shear along axes 2 and 3, twist, curvatures about axes 2 and 3.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> strain;
+};
+
+/// Strains of a beam's cell at a point of its unit length, for the freedoms of its nodes.
+///
+/// Timoshenko: with the centroid's displacement u_c = u + theta x r, r its offset from the nodes' line,
+///   (stretch, shears) = d u_c / ds + t x theta,  (twist, curvatures) = d theta / ds
+/// in the beam's axes, t being its unit tangent.
+BeamPoint beam_point(const Space& space, int cell, double xi);
+
+/// Section forces for strains: diag(EA, G A_2, G A_3, G J, E I_2, E I_3) with E I_23 between the last two.
+/// An infinite shear area is taken as 1e4 times the section's.
+Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material, const BeamSection& section);
+
+/// Stiffness of a beam's cell, freedoms in the order of Space::element_freedoms: as many Gauss points as
+/// the degree, which keeps thin beams from locking. Released ends are eliminated where they lie in the cell.
+/// @throws ModelError if the releases leave the beam loose.
+Eigen::MatrixXd beam_stiffness(const Space& space, int cell);
+
+}  // namespace blocklift::structure

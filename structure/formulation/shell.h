@@ -1,0 +1,97 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/system/space.h"
+
+namespace blocklift::structure {
+
+/// Rows of a shell's generalised strains.
+enum ShellStrain {
+  membrane_11,   ///< e_11
+  membrane_22,   ///< e_22
+  membrane_12,   ///< 2 e_12
+  curvature_11,  ///< k_11, 1/m
+  curvature_22,
+  curvature_12,  ///< 2 k_12
+  shear_1,       ///< g_13
+  shear_2,       ///< g_23
+  drilling,
+  shell_strains
+};
+
+/// A point of a shell with what it feels of its cell's freedoms.
+struct ShellPoint {
+  Vector3 place = Vector3::Zero();   ///< m
+  Vector3 e_1 = Vector3::Zero(), e_2 = Vector3::Zero();  ///< unit tangents at right angles
+  Vector3 normal = Vector3::Zero();  ///< e_1 x e_2
+  double area = 0;                   ///< |dx/dxi x dx/deta|, m^2 per unit of the square
+  /// shell_strains x 6 nodes: strains of the mid-surface in e_1, e_2 for unit freedoms.
+  Eigen::Matrix<double, shell_strains, Eigen::Dynamic, Eigen::RowMajor> strain;
+};
+
+/// Reissner and Mindlin's shell on curved quadrangles, six freedoms a node.
+///
+/// With displacement u, rotation theta and director n, tangents g_a = dx/dxi_a:
+///   membrane  e_ab = sym(g_a . d_b u)
+///   curvature k_ab = sym(g_a . d_b (theta x n) + d_a n . d_b u)
+///   shear     g_a3 = n . d_a u + g_a . (theta x n)
+///   drilling  d    = theta . n - (g_2 . d_1 u - g_1 . d_2 u) / (2 |g_1 x g_2|)
+/// which no rigid motion strains, whatever the curvature. The strain at the height z above the mid-surface
+/// is e + z k; a section's offset moves the mid-surface away from the nodes.
+///
+/// So that thin shells do not lock, shear strains of degree 1 are those of the middles of the edges (Bathe
+/// and Dvorkin 1985), and its membrane shear is the mean of the cell; of degree 2 e_11 and g_13 are taken at
+/// 2 x 3 Gauss points, e_22 and g_23 at 3 x 2, e_12 at 2 x 2 (Bucalem and Bathe 1993). Degrees 3 and 4 are
+/// integrated as they are.
+/// Source of the drilling term: Hughes and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121.
+///
+/// One object serves one thread.
+class ShellOperator {
+ public:
+  /// @param points of the unit square, 2 x m, at which strains are wanted; the space must outlive this.
+  ShellOperator(const Space& space, const Eigen::Matrix2Xd& points);
+  ~ShellOperator();
+
+  /// Goes to a cell of Space::shells().
+  void reinit(int cell);
+  const std::vector<ShellPoint>& points() const { return points_; }
+
+ private:
+  struct Tabulation;
+  struct TiedStrains;
+  void tie_strains();
+  void average_membrane_shear();
+
+  const Space& space_;
+  std::vector<ShellPoint> points_;
+  std::unique_ptr<Tabulation> table_;
+  std::vector<TiedStrains> ties_;
+};
+
+/// Stress resultants of a section for generalised strains: membrane forces (N/m), moments (N m/m), shear
+/// forces (N/m), drilling; the plane-stress Hooke's law, shear factor 5/6.
+Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
+                                                                       double thickness);
+
+/// Stiffness of shells, N/m, N, N m: freedoms in the order of Space::element_freedoms. One object serves
+/// one thread.
+class ShellStiffness {
+ public:
+  explicit ShellStiffness(const Space& space);
+  const Eigen::MatrixXd& operator()(int cell);
+
+ private:
+  const Space& space_;
+  Eigen::VectorXd weights_;
+  ShellOperator operator_;
+  Eigen::MatrixXd rooted_, stiffness_;
+};
+
+/// Gauss points and weights of the unit square, `count` along each side: 3 x count^2 (xi, eta, weight).
+Eigen::Matrix3Xd square_rule(int count);
+
+}  // namespace blocklift::structure

@@ -1,0 +1,232 @@
+#include "structure/system/assembly.h"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "structure/elasticity/linear_solver.h"
+#include "structure/error.h"
+#include "structure/formulation/beam.h"
+#include "structure/formulation/shell.h"
+#include "structure/index.h"
+#include "structure/response/batches.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Later group in the columns of a group, with the place of its first row below the group's own rows.
+struct Neighbour {
+  int group;
+  long offset;
+};
+
+struct Pattern {
+  std::vector<std::vector<Neighbour>> neighbours;  // of each group, ascending
+  std::vector<long> column_start;                  // of each unknown, and the end
+};
+
+Pattern make_pattern(const Elimination& elimination) {
+  Pattern pattern;
+  pattern.neighbours.resize(elimination.groups.size());
+  pattern.column_start.reserve(at(elimination.count) + 1);
+  pattern.column_start.push_back(0);
+  std::vector<int> others;
+  for (std::size_t g = 0; g < elimination.groups.size(); ++g) {
+    const UnknownGroup& group = elimination.groups[g];
+    others.clear();
+    for (const int element : group.elements)
+      for (const int other : elimination.groups_of_elements[at(element)])
+        if (other > static_cast<int>(g)) others.push_back(other);
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    long rows = 0;
+    for (const int other : others) {
+      pattern.neighbours[g].push_back({other, rows});
+      rows += elimination.groups[at(other)].count;
+    }
+    for (long k = 0; k < group.count; ++k)
+      pattern.column_start.push_back(pattern.column_start.back() + group.count - k + rows);
+  }
+  return pattern;
+}
+
+SparseLower make_matrix(const Elimination& elimination, const Pattern& pattern) {
+  SparseLower matrix(elimination.count, elimination.count);
+  matrix.resizeNonZeros(pattern.column_start.back());
+  std::copy(pattern.column_start.begin(), pattern.column_start.end(), matrix.outerIndexPtr());
+  for (std::size_t g = 0; g < elimination.groups.size(); ++g) {
+    const UnknownGroup& group = elimination.groups[g];
+    for (int k = 0; k < group.count; ++k) {
+      long* row = matrix.innerIndexPtr() + pattern.column_start[at(group.first + k)];
+      for (int r = k; r < group.count; ++r) *row++ = group.first + r;
+      for (const Neighbour& neighbour : pattern.neighbours[g]) {
+        const UnknownGroup& other = elimination.groups[at(neighbour.group)];
+        for (int r = 0; r < other.count; ++r) *row++ = other.first + r;
+      }
+    }
+  }
+  std::fill(matrix.valuePtr(), matrix.valuePtr() + pattern.column_start.back(), 0.0);
+  return matrix;
+}
+
+/// An element's matrix by the unknowns that its freedoms are sums of, ascending.
+struct Gathered {
+  std::vector<int> unknowns;
+  Eigen::MatrixXd matrix;
+};
+
+void gather(const Space& space, int element, const Eigen::MatrixXd& of_freedoms,
+            Gathered& gathered) {
+  const std::vector<int> freedoms = space.element_freedoms(element);
+  gathered.unknowns.clear();
+  bool is_plain = true;
+  for (const int freedom : freedoms) {
+    const Space::Term *begin = space.begin_of(freedom), *end = space.end_of(freedom);
+    is_plain = is_plain && end - begin == 1 && begin->weight == 1;
+    for (const Space::Term* term = begin; term != end; ++term)
+      gathered.unknowns.push_back(term->unknown);
+  }
+  std::vector<int> plain = is_plain ? gathered.unknowns : std::vector<int>{};
+  std::sort(gathered.unknowns.begin(), gathered.unknowns.end());
+  gathered.unknowns.erase(std::unique(gathered.unknowns.begin(), gathered.unknowns.end()),
+                          gathered.unknowns.end());
+  const auto place = [&](int unknown) {
+    return std::lower_bound(gathered.unknowns.begin(), gathered.unknowns.end(), unknown) -
+           gathered.unknowns.begin();
+  };
+  const auto size = static_cast<Eigen::Index>(gathered.unknowns.size());
+  if (is_plain) {
+    for (int& unknown : plain) unknown = static_cast<int>(place(unknown));
+    gathered.matrix.setZero(size, size);
+    for (std::size_t j = 0; j < plain.size(); ++j)
+      for (std::size_t i = 0; i < plain.size(); ++i)
+        gathered.matrix(plain[i], plain[j]) +=
+            of_freedoms(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    return;
+  }
+  Eigen::MatrixXd terms = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(freedoms.size()), size);
+  for (std::size_t i = 0; i < freedoms.size(); ++i)
+    for (const Space::Term* term = space.begin_of(freedoms[i]); term != space.end_of(freedoms[i]);
+         ++term)
+      terms(static_cast<Eigen::Index>(i), place(term->unknown)) += term->weight;
+  gathered.matrix = terms.transpose() * (of_freedoms * terms);
+}
+
+/// Adds an element's matrix to the columns of those groups that are this part's.
+void scatter(const Elimination& elimination, const Pattern& pattern, int element,
+             const Gathered& gathered, SparseLower& matrix, int part, int parts) {
+  const std::vector<int>& groups = elimination.groups_of_elements[at(element)];
+  thread_local std::vector<std::size_t> starts;  // of each group in gathered.unknowns, and the end
+  starts.clear();
+  for (const int g : groups)
+    starts.push_back(at(std::lower_bound(gathered.unknowns.begin(), gathered.unknowns.end(),
+                                         elimination.groups[at(g)].first) -
+                        gathered.unknowns.begin()));
+  starts.push_back(gathered.unknowns.size());
+  for (std::size_t c = 0; c < groups.size(); ++c) {
+    const int g = groups[c];
+    if (g % parts != part) continue;
+    const UnknownGroup& group = elimination.groups[at(g)];
+    for (std::size_t r = c; r < groups.size(); ++r) {
+      const UnknownGroup& other = elimination.groups[at(groups[r])];
+      long offset = 0;
+      if (r != c) {
+        const auto& list = pattern.neighbours[at(g)];
+        offset = std::lower_bound(list.begin(), list.end(), groups[r],
+                                  [](const Neighbour& n, int wanted) { return n.group < wanted; })
+                     ->offset;
+      }
+      for (std::size_t j = starts[c]; j < starts[c + 1]; ++j) {
+        const long k = gathered.unknowns[j] - group.first;
+        double* column = matrix.valuePtr() + pattern.column_start[at(gathered.unknowns[j])];
+        const double* source = gathered.matrix.col(static_cast<Eigen::Index>(j)).data();
+        double* target = r == c ? column - k : column + (group.count - k) + offset;
+        for (std::size_t i = r == c ? j : starts[r]; i < starts[r + 1]; ++i)
+          target[gathered.unknowns[i] - other.first] += source[i];
+      }
+    }
+  }
+}
+
+void require_memory(const Space& space, const Pattern& pattern) {
+  const double bytes = 16.0 * static_cast<double>(pattern.column_start.back());
+  if (const double available = available_memory(); bytes > available)
+    throw NotEnoughMemory(fmt::format(
+        "the stiffness of {} unknowns needs {:.1f} GB and {:.1f} GB are free; use larger elements or "
+        "a lower element degree",
+        space.unknowns(), bytes / 1e9, available / 1e9));
+}
+
+/// All elements of a space, each by its formulation.
+class ElementStiffness {
+ public:
+  explicit ElementStiffness(const Space& space) : space_(space) {
+    if (!space.shells().empty()) shells_ = std::make_unique<ShellStiffness>(space);
+  }
+  const Eigen::MatrixXd& operator()(int element) {
+    const int shells = static_cast<int>(space_.shells().size());
+    const int beams = static_cast<int>(space_.beams().size());
+    if (element < shells) return (*shells_)(element);
+    if (element < shells + beams) return own_ = beam_stiffness(space_, element - shells);
+    const Spring& spring = space_.mesh().springs[at(element - shells - beams)];
+    const bool is_grounded = spring.vertices[0] < 0 || spring.vertices[1] < 0;
+    own_.setConstant(is_grounded ? 1 : 2, is_grounded ? 1 : 2, spring.stiffness);
+    if (!is_grounded) own_(0, 1) = own_(1, 0) = -spring.stiffness;
+    return own_;
+  }
+
+ private:
+  const Space& space_;
+  std::unique_ptr<ShellStiffness> shells_;
+  Eigen::MatrixXd own_;
+};
+
+}  // namespace
+
+SparseLower assemble(const Space& space, const std::function<ElementMatrix()>& make_worker,
+                     int threads) {
+  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const Elimination& elimination = space.elimination();
+  const Pattern pattern = make_pattern(elimination);
+  require_memory(space, pattern);
+  SparseLower matrix = make_matrix(elimination, pattern);
+  std::vector<ElementMatrix> workers;
+  for (int t = 0; t < threads; ++t) workers.push_back(make_worker());
+  // In batches, so that the elements' matrices never take more than some tens of megabytes.
+  const int batch = 128, count = space.element_count();
+  std::vector<Gathered> gathered(at(batch));
+  for (int first = 0; first < count; first += batch) {
+    const int last = std::min(count, first + batch);
+    in_batches(threads, 1, threads, [&](int thread, int) {
+      for (int e = first + thread; e < last; e += threads)
+        gather(space, e, workers[at(thread)](e), gathered[at(e - first)]);
+    });
+    in_batches(threads, 1, threads, [&](int thread, int) {
+      for (int e = first; e < last; ++e)
+        scatter(elimination, pattern, e, gathered[at(e - first)], matrix, thread, threads);
+    });
+  }
+  return matrix;
+}
+
+SparseLower assemble_stiffness(const Space& space, int threads) {
+  SparseLower stiffness = assemble(
+      space,
+      [&space] {
+        const auto element = std::make_shared<ElementStiffness>(space);
+        return [element](int e) -> const Eigen::MatrixXd& { return (*element)(e); };
+      },
+      threads);
+  for (Eigen::Index k = 0; k < stiffness.cols(); ++k) {
+    double& diagonal = stiffness.valuePtr()[stiffness.outerIndexPtr()[k]];
+    if (diagonal == 0) diagonal = 1;
+  }
+  return stiffness;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,253 @@
+#include "structure/system/matter.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/Dense>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+#include "structure/formulation/beam.h"
+#include "structure/formulation/shell.h"
+#include "structure/index.h"
+#include "structure/system/joints.h"
+#include "structure/system/space_implementation.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+Eigen::Matrix3d cross_matrix(const Vector3& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+void visit_beams(const Space& space, const VisitMatter& visit) {
+  const Mesh& mesh = space.mesh();
+  for (int cell = 0; cell < static_cast<int>(space.beams().size()); ++cell) {
+    const BeamCell& located = space.beams()[at(cell)];
+    const Beam& beam = mesh.beams[at(located.beam)];
+    const BeamSection& section = mesh.section_of(beam);
+    const Eigen::Matrix3d axes = beam_axes(mesh, beam);
+    // I_23 is left out: the sections' own moments matter little beside those of where they stand.
+    const double reach_2 = std::sqrt(2 * section.second_moment_3 / section.area);
+    const double reach_3 = std::sqrt(2 * section.second_moment_2 / section.area);
+    const std::array<Vector3, 4> reaches{reach_2 * axes.row(1), -reach_2 * axes.row(1),
+                                         reach_3 * axes.row(2), -reach_3 * axes.row(2)};
+    const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree) + 1);
+    for (unsigned q = 0; q < rule.size(); ++q) {
+      const double xi = rule.point(q)[0], share = located.origin + located.size * xi;
+      const BeamPoint strained = beam_point(space, cell, xi);
+      const std::vector<double> values = lagrange_values(located.degree, xi);
+      const Vector3 arm = (1 - share) * beam.offset[0] + share * beam.offset[1];
+      MatterPoint point;
+      point.nodes = located.nodes.data();
+      point.values = values.data();
+      point.node_count = located.degree + 1;
+      point.volume = 0.25 * rule.weight(q) * strained.weight * section.area;
+      point.mass = point.volume * mesh.materials[at(section.material)].density;
+      for (const Vector3& reach : reaches) {
+        point.arm = arm + reach;
+        point.place = strained.place + reach;
+        visit(point);
+      }
+    }
+  }
+}
+
+void visit_masses(const Space& space, const VisitMatter& visit) {
+  for (const PointMass& mass : space.mesh().masses) {
+    if (!(mass.mass > 0)) continue;
+    const int node = space.node_of_vertex(mass.vertex);
+    const double one = 1;
+    MatterPoint point;
+    point.nodes = &node;
+    point.values = &one;
+    point.node_count = 1;
+    point.mass = mass.mass / 6;
+    // Second moments int x x' along principal axes; the inertia is their trace less them.
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+        0.5 * mass.inertia.trace() * Eigen::Matrix3d::Identity() - mass.inertia);
+    for (int i = 0; i < 3; ++i)
+      for (const double side : {-1.0, 1.0}) {
+        const double reach = std::sqrt(3 * std::max(0.0, axes.eigenvalues()[i]) / mass.mass);
+        point.arm = mass.offset + side * reach * axes.eigenvectors().col(i);
+        point.place = space.nodes().col(node) + point.arm;
+        visit(point);
+      }
+  }
+}
+
+/// F_k(x) of the twelve inertia fields for one kilogram at x: 3 x 12.
+Eigen::Matrix<double, 3, 12> inertia_forces(const Vector3& x) {
+  Eigen::Matrix<double, 3, 12> forces;
+  forces.leftCols<3>() = -Eigen::Matrix3d::Identity();
+  forces.middleCols<3>(3) = cross_matrix(x);  // -alpha x r = r x alpha
+  // -(W r - tr(W) r)
+  forces.col(6) << 0, x.y(), x.z();
+  forces.col(7) << x.x(), 0, x.z();
+  forces.col(8) << x.x(), x.y(), 0;
+  forces.col(9) << -x.y(), -x.x(), 0;
+  forces.col(10) << 0, -x.z(), -x.y();
+  forces.col(11) << -x.z(), 0, -x.x();
+  return forces;
+}
+
+}  // namespace
+
+void for_each_shell_point(const Space& space, const std::vector<int>& cells,
+                          const VisitMatter& visit) {
+  if (cells.empty()) return;
+  const Space::Implementation& own = space.implementation();
+  const dealii::QGauss<2> rule(static_cast<unsigned>(space.degree()) + 1);
+  dealii::FEValues<2, 3> values(*own.shell_mapping, own.shell_element, rule,
+                                dealii::update_quadrature_points | dealii::update_JxW_values |
+                                    dealii::update_normal_vectors);
+  std::vector<Eigen::VectorXd> shapes;
+  for (const auto& xi : rule.get_points()) shapes.push_back(space.shell_values({xi[0], xi[1]}));
+  for (const int cell : cells) {
+    values.reinit(own.shell_cells[at(cell)]);
+    const Shell& shell = space.mesh().shells[at(space.shells()[at(cell)].shell)];
+    const ShellSection& section = space.mesh().section_of(shell);
+    MatterPoint point;
+    point.nodes = space.shell_nodes(cell);
+    point.node_count = space.nodes_per_shell();
+    for (unsigned q = 0; q < rule.size(); ++q) {
+      const auto& x = values.quadrature_point(q);
+      const auto& n = values.normal_vector(q);
+      const Vector3 normal(n[0], n[1], n[2]);
+      point.values = shapes[q].data();
+      point.volume = 0.5 * values.JxW(q) * section.thickness;
+      point.mass = point.volume * space.mesh().material_of(shell).density;
+      for (const double side : {-1.0, 1.0}) {
+        point.arm = (section.offset + side * section.thickness / std::sqrt(12.0)) * normal;
+        point.place = Vector3(x[0], x[1], x[2]) + point.arm;
+        visit(point);
+      }
+    }
+  }
+}
+
+void for_each_matter_point(const Space& space, const VisitMatter& visit) {
+  std::vector<int> cells(space.shells().size());
+  std::iota(cells.begin(), cells.end(), 0);
+  for_each_shell_point(space, cells, visit);
+  visit_beams(space, visit);
+  visit_masses(space, visit);
+}
+
+Wrench resultant(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& load) {
+  Wrench sum;
+  for (Eigen::Index n = 0; n < space.node_count(); ++n) {
+    const Vector3 force = load.segment<3>(6 * n);
+    sum.force += force;
+    sum.moment += space.nodes().col(n).cross(force) + load.segment<3>(6 * n + 3);
+  }
+  return sum;
+}
+
+MassProperties find_mass_properties(const Space& space, const double* stated_mass,
+                                    const Vector3* stated_centre) {
+  MassMoments steel;
+  for_each_matter_point(space, [&](const MatterPoint& p) { steel.add(p.mass, p.place); });
+  if (!(steel.mass > 0)) throw ModelError("the block has no mass; give its materials a density");
+  MassProperties result;
+  result.steel_mass = steel.mass;
+  result.steel_centre_B = steel.first / steel.mass;
+  const double mass = stated_mass ? *stated_mass : steel.mass;
+  const Vector3 centre = stated_centre ? *stated_centre : result.steel_centre_B;
+  if (!(std::isfinite(mass) && mass > 0))
+    throw ModelError(
+        fmt::format("the block's mass is stated as {:g} kg; it must be positive", mass));
+  result.factor_alpha = mass / steel.mass;
+  const Vector3 moved = mass * (centre - result.steel_centre_B);
+  if (!moved.isZero(0)) result.factor_beta = steel.about(result.steel_centre_B).ldlt().solve(moved);
+  result.smallest_density_factor = std::numeric_limits<double>::infinity();
+  result.largest_density_factor = -std::numeric_limits<double>::infinity();
+  Vector3 worst = Vector3::Zero();
+  for (Eigen::Index n = 0; n < space.node_count(); ++n) {
+    const double factor = result.density_factor(space.nodes().col(n));
+    if (factor < result.smallest_density_factor) worst = space.nodes().col(n);
+    result.smallest_density_factor = std::min(result.smallest_density_factor, factor);
+    result.largest_density_factor = std::max(result.largest_density_factor, factor);
+  }
+  if (result.smallest_density_factor < 0)
+    throw ModelError(fmt::format(
+        "no spread of outfitting makes the stated mass {:.1f} t and centre of mass ({:.3f}, {:.3f}, "
+        "{:.3f}) m out of the plates' {:.1f} t at ({:.3f}, {:.3f}, {:.3f}) m: the density would be "
+        "negative at ({:.2f}, {:.2f}, {:.2f}) m; move the stated centre towards the plates', or "
+        "state more mass",
+        mass / 1e3, centre.x(), centre.y(), centre.z(), steel.mass / 1e3, result.steel_centre_B.x(),
+        result.steel_centre_B.y(), result.steel_centre_B.z(), worst.x(), worst.y(), worst.z()));
+  MassMoments all;
+  for_each_matter_point(space, [&](const MatterPoint& p) {
+    all.add(p.mass * result.density_factor(p.place), p.place);
+  });
+  result.mass = all.mass;
+  result.centre_of_mass_B = all.first / all.mass;
+  result.outfitting_mass = result.mass - result.steel_mass;
+  const Eigen::Matrix3d second = all.about(result.centre_of_mass_B);
+  result.inertia_BBcm_B = second.trace() * Eigen::Matrix3d::Identity() - second;
+  return result;
+}
+
+Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass) {
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(space.freedoms(), 12);
+  for_each_matter_point(space, [&](const MatterPoint& p) {
+    const Eigen::Matrix<double, 3, 12> forces =
+        p.mass * mass.density_factor(p.place) * inertia_forces(p.place);
+    add_forces(p, forces, loads);
+  });
+  return loads;
+}
+
+Eigen::MatrixXd spread_wrenches(const Space& space, const std::vector<int>& cells,
+                                const Vector3& point, const Eigen::MatrixXd& wrenches) {
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(space.freedoms(), 6);
+  double volume = 0;
+  for_each_shell_point(space, cells, [&](const MatterPoint& p) {
+    Eigen::Matrix<double, 3, 6> forces;
+    forces << Eigen::Matrix3d::Identity(), -cross_matrix(p.place - point);
+    forces *= p.volume;
+    add_forces(p, forces, fields);
+    volume += p.volume;
+  });
+  if (!(volume > 0)) throw ModelError("no plate is there to spread a force over");
+  Eigen::Matrix<double, 6, 6> resultants;
+  for (int k = 0; k < 6; ++k) {
+    Wrench sum = resultant(space, fields.col(k));
+    sum.moment -= point.cross(sum.force);
+    resultants.col(k) << sum.force, sum.moment;
+  }
+  // Twice: the second pass removes the rounding of the first.
+  const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> solver(resultants);
+  Eigen::MatrixXd factors = solver.solve(wrenches);
+  factors += solver.solve(wrenches - resultants * factors);
+  return fields * factors;
+}
+
+Eigen::SparseMatrix<double> mass_matrix(const Space& space, const MassProperties& mass) {
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::Matrix<double, 6, 6> block;
+  for_each_matter_point(space, [&](const MatterPoint& p) {
+    const double dm = p.mass * mass.density_factor(p.place);
+    const Eigen::Matrix3d arm = cross_matrix(p.arm);
+    block << Eigen::Matrix3d::Identity(), -arm, arm, -arm * arm;
+    for (int i = 0; i < p.node_count; ++i)
+      for (int j = 0; j < p.node_count; ++j)
+        for (int a = 0; a < 6; ++a)
+          for (int b = 0; b < 6; ++b)
+            if (block(a, b) != 0)
+              entries.emplace_back(6 * p.nodes[i] + a, 6 * p.nodes[j] + b,
+                                   dm * p.values[i] * p.values[j] * block(a, b));
+  });
+  Eigen::SparseMatrix<double> matrix(space.freedoms(), space.freedoms());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace blocklift::structure
