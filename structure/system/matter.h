@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
 #include "structure/response/rigid_body.h"
