@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/retardation_from_damping.h"
+#include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
 

@@ -6,7 +6,7 @@
 
 #include "structure/elasticity/linear_solver.h"
 #include "structure/error.h"
-#include "structure/mesh/block_generator.h"
+#include "structure/mesh/plates/block_generator.h"
 
 namespace blocklift::structure {
 

@@ -7,7 +7,7 @@
 
 #include "structure/elasticity/linear_solver.h"
 #include "structure/elasticity/part_model.h"
-#include "structure/mesh/padeye.h"
+#include "structure/mesh/padeye/padeye.h"
 #include "structure/response/padeye_stress.h"
 #include "structure/response/part_solution.h"
 
