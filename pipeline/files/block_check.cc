@@ -8,8 +8,6 @@
 namespace blocklift::pipeline {
 namespace {
 
-constexpr double same_place = 1e-6;  // m
-
 const char* axis_name(std::size_t axis) {
   static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
   return names.at(axis);

@@ -12,6 +12,9 @@
 
 namespace blocklift::pipeline {
 
+/// What lies no farther apart than this lies in one place, m.
+inline constexpr double same_place = 1e-6;
+
 /// Isotropic elastic material. SI units.
 struct MaterialModel {
   Located<std::string> name;

@@ -43,7 +43,7 @@ Format<Vector3> gravity_format() {
   return by_shape<Vector3>(downwards, vector, std::nullopt);
 }
 
-Format<Located<RopePoint>> rope_point_format() {
+Format<Located<RopePoint>> body_rope_point_format() {
   return located(converted<PointModel, RopePoint>(point_format(), [](PointModel model) {
     RopePoint point;
     point.body = std::move(model.body);
@@ -193,7 +193,7 @@ Format<MechanismFile> mechanism_file_format() {
       .optional("springs", &MechanismFile::springs, named_tables(spring_format()),
                 "between points or at joints")
       .optional("ropes", &MechanismFile::ropes,
-                named_tables(rope_in_case_format(rope_point_format(), false)),
+                named_tables(rope_in_case_format(body_rope_point_format(), false)),
                 "which pull and never push")
       .optional("forces", &MechanismFile::forces, named_tables(force_format()),
                 "on bodies and at joints")

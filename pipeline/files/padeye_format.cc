@@ -12,8 +12,6 @@ namespace blocklift::pipeline {
 
 namespace {
 
-constexpr double same_place = 1e-6;  // m
-
 /// Where a lug juts out from its pad.
 struct Outwards {
   std::size_t axis = 0;

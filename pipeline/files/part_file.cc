@@ -20,7 +20,7 @@ Format<Vector3> vector_of(Dimension dimension) {
 
 const auto origin = "[0 m, 0 m, 0 m]";
 
-Format<PartPlate> plate_format() {
+Format<PartPlate> part_plate_format() {
   Table<PartPlate> table("plate", "A plate whose mid-surface is meshed.");
   table.required("thickness", &PartPlate::thickness, quantity(Dimension::length, Range::positive()),
                  "half of it is laid on each side of the mid-surface");
@@ -85,7 +85,7 @@ Format<PartMeshInFile> mesh_format() {
                   "mesh that is "
                   "not made here get straight between its nodes")
       .optional(
-          "plates", &PartMeshInFile::plates, named_tables(plate_format()),
+          "plates", &PartMeshInFile::plates, named_tables(part_plate_format()),
           "by group of surfaces: the file holds mid-surfaces of quadrangles, which are "
           "thickened into solids; each plate's sides are the groups \"NAME +\" and \"NAME -\"")
       .optional("faces", &PartMeshInFile::faces, named_tables(faces_format()),
@@ -96,7 +96,7 @@ Format<PartMeshInFile> mesh_format() {
   return table.format();
 }
 
-Format<PartMaterial> material_format() {
+Format<PartMaterial> part_material_format() {
   Table<PartMaterial> table("material", "An isotropic elastic material and where it is.");
   table
       .required("youngs_modulus", &PartMaterial::youngs_modulus,
@@ -112,7 +112,7 @@ Format<PartMaterial> material_format() {
   return table.format();
 }
 
-Format<PartSupportInFile> support_format() {
+Format<PartSupportInFile> part_support_format() {
   const std::vector<std::pair<std::string, std::size_t>> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
   Table<PartSupportInFile> table("support", "Components of the displacement that are given.");
   table
@@ -161,7 +161,7 @@ Format<PartBearing> bearing_format() {
   return table.format();
 }
 
-Format<PartLoadInFile> load_format() {
+Format<PartLoadInFile> part_load_format() {
   Table<PartLoadInFile> table("load", "A load on groups, or on all material.");
   table
       .optional("groups", &PartLoadInFile::groups, list_of(located(text()), 1),
@@ -362,10 +362,10 @@ Format<PartFile> part_file_format() {
   table.required("part", &PartFile::name, name(), "its name")
       .optional("title", &PartFile::title, text(), "for people")
       .required("mesh", &PartFile::mesh, mesh_format(), "the part's mesh")
-      .required("materials", &PartFile::materials, named_tables(material_format()), "by name")
-      .optional("supports", &PartFile::supports, named_tables(support_format()),
+      .required("materials", &PartFile::materials, named_tables(part_material_format()), "by name")
+      .optional("supports", &PartFile::supports, named_tables(part_support_format()),
                 "by name; loads need them, natural modes do not")
-      .optional("loads", &PartFile::loads, named_tables(load_format()),
+      .optional("loads", &PartFile::loads, named_tables(part_load_format()),
                 "by name; they act together")
       .optional("probes", &PartFile::probes, named_tables(probe_format()), "by name")
       .optional("hot_spots", &PartFile::hot_spots, hot_spots_format(),

@@ -17,7 +17,6 @@ using dynamics::Vector3;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr const char* simulation = "/simulation_parameters/";
 
 std::string body_group(std::size_t body) { return "/body" + std::to_string(body + 1); }

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Grows when the panel method changes what it computes.
-constexpr std::int64_t method_version = 1;
+constexpr std::int64_t radiation_method_version = 1;
 
 /// What `compute` makes of the problem; what is wrong with the problem is wrong input.
 template <class Compute>
@@ -49,7 +49,7 @@ fs::path cache_folder() {
 
 std::string identity_of(const RadiationProblem& problem) {
   ContentHash hash;
-  hash.add(method_version);
+  hash.add(radiation_method_version);
   for (const RadiationProblem::Body& body : problem.bodies) {
     hash.add(body.name);
     add(hash, body.vessel->hull);

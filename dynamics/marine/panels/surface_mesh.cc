@@ -12,17 +12,17 @@ namespace blocklift::dynamics {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
-using Polygon = std::vector<Vector2>;
+using PlanePolygon = std::vector<Vector2>;
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-Polygon to_polygon(const WaterLine& line) {
-  Polygon polygon;
+PlanePolygon to_polygon(const WaterLine& line) {
+  PlanePolygon polygon;
   for (const Vector3& p : line) polygon.emplace_back(p.x(), p.y());
   return polygon;
 }
 
-Vector2 centroid(const Polygon& polygon) {
+Vector2 centroid(const PlanePolygon& polygon) {
   Vector2 sum = Vector2::Zero();
   double doubled = 0.0;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -46,7 +46,7 @@ struct Nearest {
 };
 
 /// Nearest points of two polygons, a vertex of the first and a point of an edge of the second.
-Nearest nearest_vertex_to_edge(const Polygon& first, const Polygon& second) {
+Nearest nearest_vertex_to_edge(const PlanePolygon& first, const PlanePolygon& second) {
   Nearest best;
   for (const Vector2& p : first) {
     for (std::size_t k = 0; k < second.size(); ++k) {
@@ -60,7 +60,7 @@ Nearest nearest_vertex_to_edge(const Polygon& first, const Polygon& second) {
   return best;
 }
 
-bool contains(const Polygon& polygon, const Vector2& p) {
+bool contains(const PlanePolygon& polygon, const Vector2& p) {
   bool inside = false;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const Vector2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
@@ -73,7 +73,7 @@ bool contains(const Polygon& polygon, const Vector2& p) {
 }
 
 /// The half-plane of the first polygon: bounded half way to the second.
-HalfPlane separate(const Polygon& first, const Polygon& second, double& gap) {
+HalfPlane separate(const PlanePolygon& first, const PlanePolygon& second, double& gap) {
   Nearest nearest = nearest_vertex_to_edge(first, second);
   const Nearest other = nearest_vertex_to_edge(second, first);
   if (other.distance < nearest.distance) nearest = {other.distance, other.to, other.from};
@@ -117,7 +117,7 @@ class SurfaceMesher {
 
  private:
   struct Body {
-    Polygon line;
+    PlanePolygon line;
     Vector2 centre;
     std::vector<HalfPlane> region;
     double gap = std::numeric_limits<double>::infinity();
@@ -132,7 +132,7 @@ class SurfaceMesher {
   std::vector<double> ray_angles(const Body& body) const;
   RayEnd shoot(const Body& body, const Vector2& from, double angle) const;
   std::vector<RayEnd> find_corners(const Body& body) const;
-  std::vector<RayEnd> find_ends(const Body& body, const Polygon& from) const;
+  std::vector<RayEnd> find_ends(const Body& body, const PlanePolygon& from) const;
   void add_rings(const Vector2& a, const Vector2& b, const Vector2& a_end, const Vector2& b_end,
                  int rings);
   void add_outer_rings();
@@ -143,7 +143,7 @@ class SurfaceMesher {
   Vector2 centre_ = Vector2::Zero();
   double inner_radius_ = 0.0;   ///< holds the bodies
   double common_radius_ = 0.0;  ///< from here on the rings are common
-  Polygon common_edge_;
+  PlanePolygon common_edge_;
   double outer_area_ = 0.0;  ///< of the polygon that the outer edge is, m2
   std::vector<Panel> panels_;
 };
@@ -256,7 +256,7 @@ std::vector<SurfaceMesher::RayEnd> SurfaceMesher::find_corners(const Body& body)
 /// Ends of the rays at the edge of the body's region; the ray that points best to a
 /// corner is led there.
 std::vector<SurfaceMesher::RayEnd> SurfaceMesher::find_ends(const Body& body,
-                                                            const Polygon& from) const {
+                                                            const PlanePolygon& from) const {
   const std::vector<double> angles = ray_angles(body);
   std::vector<RayEnd> ends;
   for (std::size_t k = 0; k < from.size(); ++k) {
@@ -328,7 +328,7 @@ void SurfaceMesher::mesh_body(const Body& body) {
           ? std::min(reach, first * std::expm1(near_rings * std::log(settings_.growth)) /
                                 (settings_.growth - 1.0))
           : std::min(reach, first * near_rings);
-  Polygon offset(count);
+  PlanePolygon offset(count);
   for (std::size_t k = 0; k < count; ++k) {
     const Vector2 before = (body.line[k] - body.line[(k + count - 1) % count]).normalized();
     const Vector2 after = (body.line[(k + 1) % count] - body.line[k]).normalized();
@@ -357,7 +357,7 @@ void SurfaceMesher::add_outer_rings() {
   std::sort(common_edge_.begin(), common_edge_.end(),
             [&](const Vector2& a, const Vector2& b) { return angle(a) < angle(b); });
   const double tolerance = 1e-7 * common_radius_;
-  Polygon edge;
+  PlanePolygon edge;
   for (const Vector2& p : common_edge_) {
     if (edge.empty() || (p - edge.back()).norm() > tolerance) edge.push_back(p);
   }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-void require_positive(const char* what, double value) {
+void require_positive_and_finite(const char* what, double value) {
   if (std::isfinite(value) && value > 0.0) return;
   throw ModelError("a wave spectrum has the " + std::string(what) + " " + std::to_string(value) +
                    "; a number above zero is due");
@@ -61,21 +61,21 @@ WaveSpectrum WaveSpectrum::pierson_moskowitz(double significant_height, double p
 }
 
 WaveSpectrum WaveSpectrum::issc(double significant_height, double mean_period) {
-  require_positive("mean period", mean_period);
+  require_positive_and_finite("mean period", mean_period);
   const double B = std::pow(two_pi / (mean_period * std::tgamma(0.75)), 4);
   return pierson_moskowitz(significant_height, two_pi / std::pow(0.8 * B, 0.25));
 }
 
 WaveSpectrum WaveSpectrum::fully_developed(double significant_height, double gravity) {
-  require_positive("significant height", significant_height);
-  require_positive("gravity", gravity);
+  require_positive_and_finite("significant height", significant_height);
+  require_positive_and_finite("gravity", gravity);
   const double B = 4.0 * 0.0081 * gravity * gravity / (significant_height * significant_height);
   return pierson_moskowitz(significant_height, two_pi / std::pow(0.8 * B, 0.25));
 }
 
 WaveSpectrum WaveSpectrum::jonswap(double significant_height, double peak_period, double gamma) {
-  require_positive("significant height", significant_height);
-  require_positive("peak period", peak_period);
+  require_positive_and_finite("significant height", significant_height);
+  require_positive_and_finite("peak period", peak_period);
   if (!(gamma >= 1.0 && gamma <= 20.0)) {
     throw ModelError("a JONSWAP spectrum has the peak enhancement " + std::to_string(gamma) +
                      "; a number from 1 (Pierson and Moskowitz) to 20 is due");

@@ -16,7 +16,7 @@ namespace {
 
 using namespace dynamics;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Sum over the panels of a closed body of the solid angles that they subtend at a point, sr.
 double solid_angle(const PanelMesh& body, const Vector3& point) {

@@ -15,16 +15,11 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/mesh/files/capitals.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -85,7 +80,7 @@ Keyword parse_keyword(const std::string& line) {
   return keyword;
 }
 
-class Reader {
+class AbaqusReader {
  public:
   AbaqusMesh read(const std::string& path) {
     read_file(path, 0);
@@ -360,7 +355,7 @@ std::vector<std::array<int, 2>> edges(int corners) {
 
 }  // namespace
 
-AbaqusMesh read_abaqus(const std::string& path) { return Reader().read(path); }
+AbaqusMesh read_abaqus(const std::string& path) { return AbaqusReader().read(path); }
 
 int abaqus_corners(std::size_t nodes) {
   if (nodes == 4 || nodes == 10) return 4;

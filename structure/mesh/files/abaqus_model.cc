@@ -10,6 +10,8 @@
 
 #include <gmsh.h>
 
+#include "structure/mesh/files/capitals.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -22,7 +24,7 @@ struct GmshOrder {
   std::vector<std::size_t> place;
 };
 
-const GmshOrder& gmsh_order(std::size_t nodes) {
+const GmshOrder& gmsh_order_of(std::size_t nodes) {
   static const std::map<std::size_t, GmshOrder> orders = {
       {4, {4, {0, 1, 2, 3}}},
       {6, {6, {0, 1, 2, 3, 4, 5}}},
@@ -38,12 +40,6 @@ const GmshOrder& gmsh_order(std::size_t nodes) {
 int face_type(std::size_t nodes) {
   static const std::map<std::size_t, int> types = {{3, 2}, {4, 3}, {6, 9}, {8, 16}};
   return types.at(nodes);
-}
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
 }
 
 /// Names that are free, whatever the capitals.
@@ -174,7 +170,7 @@ void add_volumes(const AbaqusMesh& mesh, Names& names) {
     std::map<int, std::pair<Tags, Tags>> by_type;  // elements and their nodes
     for (const std::size_t item : items) {
       const AbaqusElement& element = mesh.elements[item];
-      const GmshOrder& order = gmsh_order(element.nodes.size());
+      const GmshOrder& order = gmsh_order_of(element.nodes.size());
       auto& [tags, nodes] = by_type[order.type];
       tags.push_back(element.tag);
       const std::size_t first = nodes.size();

@@ -80,9 +80,9 @@ void write_gmsh(const BlockMesh& mesh, const std::string& path) {
 namespace {
 
 // Collects hexahedra volume after volume.
-class Reader {
+class GmshReader {
  public:
-  Reader(const std::string& path, const std::map<std::string, Material>& materials)
+  GmshReader(const std::string& path, const std::map<std::string, Material>& materials)
       : path_(path), materials_(materials) {}
 
   HexMesh read() {
@@ -197,7 +197,7 @@ HexMesh read_gmsh(const std::string& path, const std::map<std::string, Material>
   const GmshSession session;
   try {
     gmsh::merge(path);
-    return Reader(path, materials).read();
+    return GmshReader(path, materials).read();
   } catch (const ModelError&) {
     throw;
   } catch (const std::string& error) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/mesh/files/capitals.h"
 
 namespace blocklift::structure {
 
@@ -26,36 +27,32 @@ struct Card {
   int line = 0;  ///< of its first
 };
 
-std::string trimmed(std::string_view text) {
+std::string without_spaces(std::string_view text) {
   const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
   while (!text.empty() && is_space(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && is_space(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
   return std::string(text);
 }
 
-std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return text;
-}
-
 /// The first field of a line and the fields of data: free (commas), small (8 columns) or large (16).
-std::pair<std::string, std::vector<std::string>> split(const std::string& line) {
+std::pair<std::string, std::vector<std::string>> fields_of(const std::string& line) {
   std::vector<std::string> fields;
   if (line.find(',') != std::string::npos) {
     std::istringstream stream(line);
-    for (std::string field; std::getline(stream, field, ',');) fields.push_back(trimmed(field));
+    for (std::string field; std::getline(stream, field, ',');)
+      fields.push_back(without_spaces(field));
     const std::string first = fields.front();
     fields.erase(fields.begin());
     const std::size_t width = first.find('*') == std::string::npos ? 8 : 4;
     fields.resize(width);
     return {first, fields};
   }
-  const std::string first = trimmed(std::string_view(line).substr(0, 8));
+  const std::string first = without_spaces(std::string_view(line).substr(0, 8));
   const bool is_large = first.find('*') != std::string::npos;
   const std::size_t width = is_large ? 16 : 8, count = is_large ? 4 : 8;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t from = 8 + i * width;
-    fields.push_back(from < line.size() ? trimmed(std::string_view(line).substr(from, width))
+    fields.push_back(from < line.size() ? without_spaces(std::string_view(line).substr(from, width))
                                         : std::string());
   }
   return {first, fields};
@@ -77,9 +74,9 @@ std::string with_exponent(const std::string& text) {
   return number;
 }
 
-class Reader {
+class NastranReader {
  public:
-  explicit Reader(std::string path) : path_(std::move(path)) {}
+  explicit NastranReader(std::string path) : path_(std::move(path)) {}
 
   AbaqusMesh read() {
     const std::vector<Card> cards = read_cards();
@@ -111,14 +108,14 @@ class Reader {
     std::string line;
     for (int number = 1; std::getline(file, line); ++number) {
       line = line.substr(0, line.find('$'));
-      const std::string text = upper(trimmed(line));
+      const std::string text = upper(without_spaces(line));
       if (text.rfind("BEGIN", 0) == 0) lines.clear();  // what was before it is no data
       if (text.rfind("ENDDATA", 0) == 0) break;
       if (!text.empty() && text.rfind("BEGIN", 0) != 0) lines.emplace_back(number, line);
     }
     std::vector<Card> cards;
     for (const auto& [number, text] : lines) {
-      auto [first, fields] = split(text);
+      auto [first, fields] = fields_of(text);
       if (first.empty() || first.front() == '+' || first.front() == '*') {
         if (cards.empty()) fail(number, "a line continues no card");
         cards.back().fields.insert(cards.back().fields.end(), fields.begin(), fields.end());
@@ -310,6 +307,6 @@ class Reader {
 
 }  // namespace
 
-AbaqusMesh read_nastran(const std::string& path) { return Reader(path).read(); }
+AbaqusMesh read_nastran(const std::string& path) { return NastranReader(path).read(); }
 
 }  // namespace blocklift::structure
