@@ -21,15 +21,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Kind = ValueDescription::Kind;
-using Table = std::shared_ptr<const TableDescription>;
+using TablePointer = std::shared_ptr<const TableDescription>;
 
 /// One kind of file with the declaration of its keys.
-struct FileKind {
+struct DeclaredKind {
   std::string name;
-  Table table;
+  TablePointer table;
 };
 
-std::vector<FileKind> file_kinds() {
+std::vector<DeclaredKind> file_kinds() {
   return {{"lift case", lift_case_format().description->table},
           {"mechanism", mechanism_file_format().description->table},
           {"crane", crane_model_format().description->table},
@@ -40,10 +40,10 @@ std::vector<FileKind> file_kinds() {
           {"vessels", vessel_group_format().description->table}};
 }
 
-std::vector<FileKind> chosen_kinds(const std::string& kind) {
-  std::vector<FileKind> kinds = file_kinds();
+std::vector<DeclaredKind> chosen_kinds(const std::string& kind) {
+  std::vector<DeclaredKind> kinds = file_kinds();
   if (kind.empty()) return kinds;
-  std::erase_if(kinds, [&](const FileKind& candidate) { return candidate.name != kind; });
+  std::erase_if(kinds, [&](const DeclaredKind& candidate) { return candidate.name != kind; });
   if (kinds.empty()) {
     throw std::invalid_argument(fmt::format("there is no kind of input file \"{}\"; {}", kind,
                                             names_hint("the kinds are", input_file_kinds(), kind)));
@@ -142,7 +142,7 @@ Json schema_of(const ValueDescription& value) {
 }
 
 /// Tables within a value, in the order in which one meets them.
-void collect_tables(const ValueDescription& value, std::vector<Table>& tables) {
+void collect_tables(const ValueDescription& value, std::vector<TablePointer>& tables) {
   if (value.element) collect_tables(*value.element, tables);
   for (const auto& alternative : value.alternatives) collect_tables(*alternative, tables);
   if (value.table) tables.push_back(value.table);
@@ -175,7 +175,7 @@ void describe_table(const TableDescription& table, int level, std::string& manua
   manual += fmt::format("{} {}\n\n{}\n\n", std::string(static_cast<std::size_t>(level), '#'),
                         table.noun, table.description);
   manual += "| key | value | default | meaning |\n|---|---|---|---|\n";
-  std::vector<Table> inner;
+  std::vector<TablePointer> inner;
   for (const KeyDescription& key : table.keys) {
     const ValueDescription& value = *key.value;
     const std::string default_text = key.required               ? "required"
@@ -187,7 +187,7 @@ void describe_table(const TableDescription& table, int level, std::string& manua
     collect_tables(value, inner);
   }
   manual += "\n";
-  for (const Table& table_inside : inner)
+  for (const TablePointer& table_inside : inner)
     describe_table(*table_inside, std::min(level + 1, 6), manual);
 }
 
@@ -195,20 +195,20 @@ void describe_table(const TableDescription& table, int level, std::string& manua
 
 std::vector<std::string> input_file_kinds() {
   std::vector<std::string> names;
-  for (const FileKind& kind : file_kinds()) names.push_back(kind.name);
+  for (const DeclaredKind& kind : file_kinds()) names.push_back(kind.name);
   return names;
 }
 
 std::string json_schema(const std::string& kind) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "Blocklift input files"}};
-  const std::vector<FileKind> kinds = chosen_kinds(kind);
+  const std::vector<DeclaredKind> kinds = chosen_kinds(kind);
   if (kinds.size() == 1) {
     schema["title"] = "Blocklift " + kinds.front().name;
     schema.update(schema_of(*kinds.front().table));
   } else {
     Json alternatives = Json::array();
-    for (const FileKind& file_kind : kinds) {
+    for (const DeclaredKind& file_kind : kinds) {
       Json alternative = schema_of(*file_kind.table);
       alternative["title"] = file_kind.name;
       alternatives.push_back(std::move(alternative));
@@ -227,7 +227,8 @@ std::string markdown_manual(const std::string& kind) {
       "In place of a quantity or number an expression may stand behind an equals sign, of "
       "parameters "
       "where the file has them: `= 2 * arm + 30 cm`.\n\n";
-  for (const FileKind& file_kind : chosen_kinds(kind)) describe_table(*file_kind.table, 2, manual);
+  for (const DeclaredKind& file_kind : chosen_kinds(kind))
+    describe_table(*file_kind.table, 2, manual);
   return manual;
 }
 
