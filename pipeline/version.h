@@ -3,6 +3,6 @@
 namespace blocklift::pipeline {
 
 /// Version of the program, as results carry it.
-inline constexpr const char* program_version = BLOCKLIFT_VERSION;
+extern const char* const program_version;
 
 }  // namespace blocklift::pipeline

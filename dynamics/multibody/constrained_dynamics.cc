@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "dynamics/index.h"
+
 namespace blocklift::dynamics {
 namespace {
 
 // Rows that were chosen as independent elsewhere: only what no number can divide is left out.
 constexpr double chosen_threshold = 1e-12;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // Changes the solution (L vdot) by the least that meets the chosen rows; leaves their multipliers.
 void enforce_loops(const Mechanism& mechanism, const Kinematics& kinematics, ConstVectorRef q,

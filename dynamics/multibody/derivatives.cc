@@ -1,13 +1,12 @@
 #include "dynamics/multibody/derivatives.h"
 
 #include "dynamics/errors.h"
+#include "dynamics/index.h"
 
 namespace blocklift::dynamics {
 namespace {
 
 using Composite = InverseDynamicsDerivatives::Composite;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 ForceVector rigid_product(const Composite& body, const MotionVector& a) { return body.inertia * a; }
 

@@ -4,11 +4,10 @@
 #include <numeric>
 
 #include "dynamics/errors.h"
+#include "dynamics/index.h"
 
 namespace blocklift::dynamics {
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // Two points nearer than this have no direction, m.
 constexpr double no_direction = 1e-9;

@@ -7,13 +7,14 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/multibody/mechanism.h"
+#include "dynamics/multibody/message_text.h"
 
 namespace blocklift::dynamics {
 namespace {
 
 using Rotation = Loop::Rotation;
 
-struct KindProperties {
+struct LoopProperties {
   std::string_view name;
   bool is_joint;
   std::array<bool, 3> held;  // translations along the aligned axes
@@ -21,7 +22,7 @@ struct KindProperties {
   int rows;
 };
 
-constexpr std::array<KindProperties, 12> properties{
+constexpr std::array<LoopProperties, 12> loop_properties{
     {{"fixed", true, {true, true, true}, Rotation::equal, 6},
      {"revolute", true, {true, true, true}, Rotation::axes_parallel, 5},
      {"prismatic", true, {true, true, false}, Rotation::equal, 5},
@@ -35,16 +36,11 @@ constexpr std::array<KindProperties, 12> properties{
      {"gear", false, {false, false, false}, Rotation::none, 1},
      {"rope_length", false, {false, false, false}, Rotation::none, 1}}};
 
-const KindProperties& of(LoopKind kind) { return properties[static_cast<std::size_t>(kind)]; }
-
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream stream;
-  (stream << ... << parts);
-  return stream.str();
+const LoopProperties& properties_of(LoopKind kind) {
+  return loop_properties[static_cast<std::size_t>(kind)];
 }
 
-std::string vector_text(const Vector3& a) {
+std::string rounded_text(const Vector3& a) {
   // Zeros without a sign.
   const Vector3 b = (a.array().abs() < 5e-7).select(Vector3::Zero(), a);
   return text("(", b.x(), ", ", b.y(), ", ", b.z(), ")");
@@ -55,7 +51,7 @@ std::string direction_name(const Vector3& direction) {
   for (int i = 0; i < 3; ++i) {
     if (std::abs(std::abs(direction[i]) - 1.0) < 1e-9) return std::string(1, "xyz"[i]);
   }
-  return vector_text(direction);
+  return rounded_text(direction);
 }
 
 /// Checks of one definition.
@@ -70,7 +66,7 @@ class LoopMaker {
     check_what_is_given();
     loop_.name = d_.name;
     loop_.kind = d_.kind;
-    loop_.row_count = of(d_.kind).rows;
+    loop_.row_count = properties_of(d_.kind).rows;
     switch (d_.kind) {
       case LoopKind::gear:
         make_gear();
@@ -91,7 +87,7 @@ class LoopMaker {
   }
 
   bool uses_axis() const {
-    const KindProperties& kind = of(d_.kind);
+    const LoopProperties& kind = properties_of(d_.kind);
     return kind.is_joint || d_.kind == LoopKind::point_on_line;
   }
 
@@ -161,7 +157,7 @@ class LoopMaker {
   Vector3 unit(const Vector3& axis, const char* which) const {
     const double length = axis.norm();
     if (!(length > 0) || !std::isfinite(length)) {
-      fail("its ", which, " ", vector_text(axis),
+      fail("its ", which, " ", rounded_text(axis),
            " has no direction; give a vector of any length but zero");
     }
     return axis / length;
@@ -198,7 +194,7 @@ class LoopMaker {
     }
     check_frame(d_.X_FirstK, "frame in the first body");
     check_frame(d_.X_SecondK, "frame in the second body");
-    const KindProperties& kind = of(d_.kind);
+    const LoopProperties& kind = properties_of(d_.kind);
     if (uses_axis()) loop_.R_KKaligned = aligned_frame();
     const Pose aligned{loop_.R_KKaligned, Vector3::Zero()};
     const bool swapped = d_.kind == LoopKind::point_on_line;
@@ -311,11 +307,11 @@ class LoopMaker {
 
 }  // namespace
 
-std::string_view loop_kind_name(LoopKind kind) { return of(kind).name; }
+std::string_view loop_kind_name(LoopKind kind) { return properties_of(kind).name; }
 
 std::optional<LoopKind> loop_kind(std::string_view name) {
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (properties[i].name == name) return static_cast<LoopKind>(i);
+  for (std::size_t i = 0; i < loop_properties.size(); ++i) {
+    if (loop_properties[i].name == name) return static_cast<LoopKind>(i);
   }
   return std::nullopt;
 }
@@ -323,14 +319,14 @@ std::optional<LoopKind> loop_kind(std::string_view name) {
 const std::vector<std::string_view>& loop_kind_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> result;
-    result.reserve(properties.size());
-    for (const KindProperties& kind : properties) result.push_back(kind.name);
+    result.reserve(loop_properties.size());
+    for (const LoopProperties& kind : loop_properties) result.push_back(kind.name);
     return result;
   }();
   return names;
 }
 
-int loop_row_count(LoopKind kind) { return of(kind).rows; }
+int loop_row_count(LoopKind kind) { return properties_of(kind).rows; }
 
 std::string Loop::row_name(int i) const {
   if (kind == LoopKind::gear) return "ratio";

@@ -10,7 +10,7 @@ namespace blocklift::dynamics {
 namespace {
 
 // A free velocity counts as unresisted below this part of the inertia of all that it moves.
-constexpr double singular = 1e-13;
+constexpr double smallest_pivot = 1e-13;
 
 [[noreturn]] void report_singular(const Mechanism& mechanism, int k, double D) {
   const std::string name = mechanism.velocity_name(k);
@@ -85,7 +85,8 @@ void MassFactor::factorise(const Mechanism& mechanism,
     const int* chain = ancestors(k);
     const std::size_t depth = depth_[k];
     const double D = values[depth];
-    if (!(D > singular * mass_matrix(free[k], free[k]))) report_singular(mechanism, free[k], D);
+    if (!(D > smallest_pivot * mass_matrix(free[k], free[k])))
+      report_singular(mechanism, free[k], D);
     const double root = std::sqrt(D);
     for (std::size_t d = 0; d < depth; ++d) values[d] /= root;
     values[depth] = root;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/multibody/message_text.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -13,13 +14,6 @@ namespace {
 
 [[noreturn]] void fail(const std::string& body, const std::string& what) {
   throw ModelError("body \"" + body + "\": " + what);
-}
-
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream stream;
-  (stream << ... << parts);
-  return stream.str();
 }
 
 std::string vector_text(const Vector3& a) {

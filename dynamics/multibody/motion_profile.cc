@@ -11,7 +11,7 @@ namespace blocklift::dynamics {
 namespace {
 
 template <class... Parts>
-[[noreturn]] void fail(const Parts&... parts) {
+[[noreturn]] void refuse(const Parts&... parts) {
   std::ostringstream stream;
   (stream << ... << parts);
   throw ModelError(stream.str());
@@ -31,11 +31,11 @@ std::vector<double> sorted_unique(std::vector<double> times) {
 
 RestToRestMove::RestToRestMove(double start, double distance, const MotionLimits& limits)
     : start_(start), distance_(distance) {
-  if (!std::isfinite(start)) fail("a move's start time is not finite");
-  if (!std::isfinite(distance)) fail("a move's distance is not finite");
+  if (!std::isfinite(start)) refuse("a move's start time is not finite");
+  if (!std::isfinite(distance)) refuse("a move's distance is not finite");
   if (!positive(limits.speed) || !positive(limits.acceleration) || !positive(limits.jerk)) {
-    fail("a move's limits are speed ", limits.speed, ", acceleration ", limits.acceleration,
-         ", jerk ", limits.jerk, "; all three must be positive and finite");
+    refuse("a move's limits are speed ", limits.speed, ", acceleration ", limits.acceleration,
+           ", jerk ", limits.jerk, "; all three must be positive and finite");
   }
   const double length = std::abs(distance);
   if (length == 0) return;
@@ -69,11 +69,11 @@ RestToRestMove::RestToRestMove(double start, double distance, const MotionLimits
                                double duration)
     : RestToRestMove(start, distance, limits) {
   const double least = this->duration();
-  if (!positive(duration)) fail("a move's duration is ", duration, " s; it must be positive");
+  if (!positive(duration)) refuse("a move's duration is ", duration, " s; it must be positive");
   if (duration < least * (1 - 1e-12)) {
-    fail("a move over ", distance, " is to last ", duration, " s but takes at least ", least,
-         " s with speed ", limits.speed, ", acceleration ", limits.acceleration, ", jerk ",
-         limits.jerk, "; give it more time, less distance or a faster drive");
+    refuse("a move over ", distance, " is to last ", duration, " s but takes at least ", least,
+           " s with speed ", limits.speed, ", acceleration ", limits.acceleration, ", jerk ",
+           limits.jerk, "; give it more time, less distance or a faster drive");
   }
   if (least == 0) {
     cruise_time_ = duration;  // a rest of that length
@@ -137,13 +137,13 @@ std::vector<double> RestToRestMove::breakpoints() const {
 NaturalSpline::NaturalSpline(std::vector<double> x, std::vector<double> y)
     : x_(std::move(x)), y_(std::move(y)), curvature_(x_.size(), 0.0) {
   const std::size_t n = x_.size();
-  if (n != y_.size()) fail("a spline has ", n, " abscissae and ", y_.size(), " values");
-  if (n < 2) fail("a spline has ", n, " points; it needs two at least");
+  if (n != y_.size()) refuse("a spline has ", n, " abscissae and ", y_.size(), " values");
+  if (n < 2) refuse("a spline has ", n, " points; it needs two at least");
   for (std::size_t i = 0; i < n; ++i) {
     if (!std::isfinite(x_[i]) || !std::isfinite(y_[i]))
-      fail("a spline's point ", i + 1, " is not finite");
+      refuse("a spline's point ", i + 1, " is not finite");
     if (i > 0 && !(x_[i] > x_[i - 1])) {
-      fail("a spline's abscissae must increase, but ", x_[i], " follows ", x_[i - 1]);
+      refuse("a spline's abscissae must increase, but ", x_[i], " follows ", x_[i - 1]);
     }
   }
   // Tridiagonal system for the curvatures, zero at both ends (Thomas' algorithm).
@@ -200,7 +200,7 @@ MotionProfile::MotionProfile(Content content, std::vector<double> breakpoints)
 MotionProfile MotionProfile::constant(double value) { return sequence(value, {}); }
 
 MotionProfile MotionProfile::sequence(double initial, std::vector<RestToRestMove> moves) {
-  if (!std::isfinite(initial)) fail("a profile's initial position is not finite");
+  if (!std::isfinite(initial)) refuse("a profile's initial position is not finite");
   std::sort(moves.begin(), moves.end(),
             [](const RestToRestMove& a, const RestToRestMove& b) { return a.start() < b.start(); });
   std::vector<double> breakpoints;
@@ -208,9 +208,9 @@ MotionProfile MotionProfile::sequence(double initial, std::vector<RestToRestMove
     // Stages may follow each other without a pause: what rounding leaves between them is no overlap.
     const double slack = 1e-9 * (1 + std::abs(moves[i].start()));
     if (i > 0 && moves[i].start() < moves[i - 1].end() - slack) {
-      fail("a move starts at ", moves[i].start(), " s while the one before it, started at ",
-           moves[i - 1].start(), " s, lasts until ", moves[i - 1].end(),
-           " s; let it start later or make the other faster");
+      refuse("a move starts at ", moves[i].start(), " s while the one before it, started at ",
+             moves[i - 1].start(), " s, lasts until ", moves[i - 1].end(),
+             " s; let it start later or make the other faster");
     }
     const std::vector<double> times = moves[i].breakpoints();
     breakpoints.insert(breakpoints.end(), times.begin(), times.end());
@@ -222,9 +222,9 @@ MotionProfile MotionProfile::cam(MotionProfile leader, NaturalSpline spline) {
   const ProfileRange range = leader.range();
   const double slack = 1e-9 * (spline.last_x() - spline.first_x());
   if (range.lowest < spline.first_x() - slack || range.highest > spline.last_x() + slack) {
-    fail("a cam is given from ", spline.first_x(), " to ", spline.last_x(),
-         " but its leader goes from ", range.lowest, " to ", range.highest,
-         "; give points over the whole travel");
+    refuse("a cam is given from ", spline.first_x(), " to ", spline.last_x(),
+           " but its leader goes from ", range.lowest, " to ", range.highest,
+           "; give points over the whole travel");
   }
   std::vector<double> breakpoints = leader.breakpoints();
   return {std::make_shared<const Cam>(Cam{std::move(leader), std::move(spline)}),

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "dynamics/marine/radiation.h"
+#include "dynamics/marine/radiation/radiation.h"
 #include "dynamics/simulation/lift_system.h"
 
 namespace blocklift::dynamics {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/marine/draught_shares.h"
+#include "dynamics/marine/loads/draught_shares.h"
 #include "dynamics/simulation/history.h"
 
 namespace blocklift::dynamics {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "dynamics/marine/radiation.h"
+#include "dynamics/marine/radiation/radiation.h"
 #include "dynamics/simulation/history.h"
 
 namespace blocklift::dynamics {

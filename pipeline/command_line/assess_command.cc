@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/assessment/assessment.h"
-#include "pipeline/assessment/radiation_summary.h"
+#include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
+#include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/results_store.h"
-#include "pipeline/input/quantity.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/radiation_summary.h"
 
 namespace blocklift::pipeline {
 

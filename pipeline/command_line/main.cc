@@ -18,8 +18,8 @@
 #include "pipeline/command_line/stress_command.h"
 #include "pipeline/command_line/validate_command.h"
 #include "pipeline/command_line/verify_command.h"
-#include "pipeline/input/diagnostics.h"
-#include "pipeline/input/schema.h"
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/files/schema.h"
 #include "pipeline/version.h"
 #include "structure/process_group.h"
 

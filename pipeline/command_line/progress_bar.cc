@@ -20,7 +20,7 @@ constexpr int bar_width = 30;
 const std::chrono::steady_clock::time_point program_start = std::chrono::steady_clock::now();
 
 /// Columns of the terminal: a longer line would wrap, and wiping it would leave its beginning.
-std::size_t columns() {
+std::size_t terminal_columns() {
   winsize size{};
   const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
   return known ? size.ws_col - 1U : 79U;
@@ -45,7 +45,7 @@ void ProgressBar::show(double fraction, const std::string& detail) {
   const int filled = static_cast<int>(done * bar_width);
   const std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {}", stage_, "", filled, "",
                                        bar_width - filled, 100 * done, detail);
-  fmt::print(stderr, "\r\033[K{}", line.substr(0, columns()));
+  fmt::print(stderr, "\r\033[K{}", line.substr(0, terminal_columns()));
   std::fflush(stderr);
 }
 

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/assessment/assessment.h"
-#include "pipeline/assessment/radiation_summary.h"
+#include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
-#include "pipeline/input/file_kind.h"
-#include "pipeline/input/quantity.h"
+#include "pipeline/declaration/quantity.h"
+#include "pipeline/files/file_kind.h"
+#include "pipeline/results/radiation_summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
 
@@ -56,7 +56,7 @@ void print_rope_use(const MechanismFile& file, const MechanismRun& run) {
 int simulate_mechanism(const SimulateOptions& options) {
   ModelLibrary library = ModelLibrary::of_installation();
   Diagnostics diagnostics;
-  const auto file = read_mechanism_file(options.path, library, diagnostics);
+  const auto file = read_mechanism(options.path, library, diagnostics);
   if (!file) throw InputError(diagnostics);
   const fs::path folder = result_folder(options, file->name);
   for (const std::string& note : file->notes) fmt::print("note: {}\n", note);

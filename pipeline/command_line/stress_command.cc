@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/assessment/assessment.h"
-#include "pipeline/assessment/part_assessment.h"
+#include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/part/part_assessment.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::pipeline {
@@ -34,7 +34,7 @@ void print_padeye(const PartPadeye& padeye) {
   fmt::print("{:<52}{:>12}{:>12}   {:<4}{:>10}   {}\n", "hand formula", "demand", "limit", "",
              "utilised", "source");
   for (const PadeyeFormulaAtWorst& at_worst : padeye.formulas) {
-    const PadeyeFormula& formula = at_worst.formula;
+    const structure::PadeyeFormula& formula = at_worst.formula;
     const std::string unit = formula.unit;
     const double scale = unit == "Pa" ? 1e6 : unit == "N" ? 1e3 : unit == "m" ? 1e-3 : 1;
     fmt::print("{:<52}{:>12.4g}{:>12.4g}   {:<4}{:>10.3f}   {}\n", formula.name,

@@ -7,15 +7,15 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include "pipeline/assessment/block_preparation.h"
-#include "pipeline/assessment/part_assessment.h"
+#include "pipeline/build/build_mechanism.h"
+#include "pipeline/declaration/document.h"
+#include "pipeline/files/file_kind.h"
+#include "pipeline/files/lift_case.h"
+#include "pipeline/files/operation_schedule.h"
+#include "pipeline/files/part_file.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
-#include "pipeline/input/document.h"
-#include "pipeline/input/file_kind.h"
-#include "pipeline/input/lift_case.h"
-#include "pipeline/input/mechanism_file.h"
-#include "pipeline/input/operation_schedule.h"
-#include "pipeline/input/part_file.h"
+#include "pipeline/lift/block_preparation.h"
+#include "pipeline/part/part_assessment.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -48,7 +48,7 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   };
   const FileKind kind = kind_of_file(path);
   if (kind == FileKind::mechanism || kind == FileKind::robot) {
-    const auto mechanism = read_mechanism_file(path, library, diagnostics);
+    const auto mechanism = read_mechanism(path, library, diagnostics);
     if (!mechanism) return std::nullopt;
     return if_sound(fmt::format(
         "mechanism {} with {}, {} and {}", mechanism->name,

@@ -8,9 +8,9 @@
 
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/progress_bar.h"
-#include "pipeline/input/diagnostics.h"
-#include "pipeline/input/model_library.h"
-#include "pipeline/verification/suite.h"
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/files/model_library.h"
+#include "pipeline/verification/suite/suite.h"
 
 namespace blocklift::pipeline {
 namespace {

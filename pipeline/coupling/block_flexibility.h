@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "pipeline/input/build_lift.h"
+#include "pipeline/build/build_lift.h"
 #include "structure/response/unit_responses.h"
 
 namespace blocklift::pipeline {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "dynamics/marine/wet_triangle.h"
+#include "dynamics/marine/hull/wet_triangle.h"
 
 namespace blocklift::pipeline {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/marine/hull_force.h"
+#include "dynamics/marine/loads/hull_force.h"
 #include "dynamics/simulation/history.h"
 #include "structure/response/shell_regions.h"
 

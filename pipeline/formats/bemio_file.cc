@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/retardation_from_damping.h"
+#include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
 #include "pipeline/formats/results_store.h"
 
@@ -17,7 +17,6 @@ using dynamics::Vector3;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr const char* simulation = "/simulation_parameters/";
 
 std::string body_group(std::size_t body) { return "/body" + std::to_string(body + 1); }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/retardation_from_damping.h"
+#include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
 #include "pipeline/formats/hdf5_handle.h"
 #include "pipeline/formats/results_store.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 
 #include "pipeline/formats/hydrodynamic_database_file.h"
 
@@ -8,6 +9,9 @@
 /// What is read is checked (dynamics::require_sound); retardation functions and the added mass at
 /// infinite frequency are computed where a file lacks them.
 namespace blocklift::pipeline {
+
+/// In radians: other programs write angles in degrees.
+inline constexpr double degree = std::numbers::pi / 180.0;
 
 /// What files of WAMIT do not tell.
 struct WamitScales {

@@ -8,7 +8,7 @@
 #include <gmsh.h>
 
 #include "dynamics/errors.h"
-#include "structure/mesh/gmsh_session.h"
+#include "structure/mesh/files/gmsh_session.h"
 
 namespace blocklift::pipeline {
 namespace {

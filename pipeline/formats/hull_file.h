@@ -4,7 +4,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "dynamics/marine/hull.h"
+#include "dynamics/marine/hull/hull.h"
 
 namespace blocklift::pipeline {
 

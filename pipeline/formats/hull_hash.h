@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/marine/hull.h"
+#include "dynamics/marine/hull/hull.h"
 #include "pipeline/formats/content_hash.h"
 
 namespace blocklift::pipeline {

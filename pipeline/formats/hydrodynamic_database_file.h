@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "dynamics/marine/hydrodynamic_series.h"
+#include "dynamics/marine/radiation/hydrodynamic_series.h"
 
 /// Hydrodynamic databases in HDF5, our own layout. Every dataset carries `units` and `description`;
 /// numbers are doubles as they were in memory, so that what is read is what was written.

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/retardation_from_damping.h"
+#include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
 
@@ -21,7 +21,6 @@ using dynamics::HydrodynamicDatabase;
 using dynamics::modes_per_body;
 using Eigen::MatrixXd;
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
 fs::path with_ending(const fs::path& name, const char* ending) { return name.string() + ending; }

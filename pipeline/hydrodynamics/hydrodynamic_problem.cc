@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/response_amplitude.h"
-#include "dynamics/marine/wetted_body.h"
+#include "dynamics/marine/panels/wetted_body.h"
+#include "dynamics/marine/radiation/response_amplitude.h"
+#include "pipeline/files/hull_places.h"
 #include "pipeline/formats/hull_hash.h"
 #include "pipeline/hydrodynamics/mirrored_bodies.h"
-#include "pipeline/input/hull_places.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {

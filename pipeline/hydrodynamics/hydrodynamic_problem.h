@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/marine/hydrodynamic_database.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "pipeline/files/model_library.h"
+#include "pipeline/files/vessel_model.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
-#include "pipeline/input/model_library.h"
-#include "pipeline/input/vessel_model.h"
 
 namespace blocklift::pipeline {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/marine/response_amplitude.h"
+#include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 
 namespace blocklift::pipeline {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dynamics/marine/panel_model.h"
+#include "dynamics/marine/panels/panel_model.h"
 
 namespace blocklift::pipeline {
 

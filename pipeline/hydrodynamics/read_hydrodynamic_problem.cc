@@ -1,11 +1,11 @@
 #include <cmath>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/hull_diagnosis.h"
+#include "dynamics/marine/hull/hull_diagnosis.h"
+#include "pipeline/declaration/document.h"
+#include "pipeline/files/file_kind.h"
+#include "pipeline/files/vessel_group.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
-#include "pipeline/input/document.h"
-#include "pipeline/input/file_kind.h"
-#include "pipeline/input/vessel_group.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -5,15 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipeline/assessment/block_preparation.h"
-#include "pipeline/assessment/lift_scene.h"
-#include "pipeline/assessment/loop_loads.h"
-#include "pipeline/assessment/summary.h"
+#include "pipeline/checks/loop_loads.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
+#include "pipeline/lift/block_preparation.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/lift_scene.h"
+#include "pipeline/results/summary.h"
 #include "pipeline/simulation/mechanism_results.h"
 #include "structure/elasticity/elastic_model.h"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "pipeline/assessment/lift_run.h"
+#include "pipeline/lift/lift_run.h"
 #include "structure/mesh/hex_mesh.h"
 
 namespace blocklift::pipeline {

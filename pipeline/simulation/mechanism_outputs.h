@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dynamics/simulation/history.h"
+#include "pipeline/build/build_mechanism.h"
 #include "pipeline/formats/results_store.h"
-#include "pipeline/input/build_mechanism.h"
 
 namespace blocklift::pipeline {
 

@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipeline/assessment/radiation_summary.h"
-#include "pipeline/assessment/summary.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/radiation_summary.h"
+#include "pipeline/results/summary.h"
 #include "pipeline/simulation/mechanism_scene.h"
 #include "pipeline/version.h"
 

@@ -7,7 +7,7 @@
 
 #include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/simulation/equilibrium.h"
-#include "pipeline/assessment/radiation_cache.h"
+#include "pipeline/hydrodynamics/radiation_cache.h"
 
 namespace blocklift::pipeline {
 MechanismRun run_mechanism(const MechanismFile& file,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/simulation/time_integration.h"
-#include "pipeline/assessment/natural_modes.h"
+#include "pipeline/lift/natural_modes.h"
 #include "pipeline/simulation/mechanism_outputs.h"
 
 namespace blocklift::pipeline {

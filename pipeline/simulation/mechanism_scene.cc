@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "pipeline/assessment/lift_scene.h"
+#include "pipeline/results/lift_scene.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/assessment/result_file.h"
-#include "pipeline/input/build_mechanism.h"
+#include "pipeline/build/build_mechanism.h"
+#include "pipeline/results/result_file.h"
 
 namespace blocklift::pipeline {
 

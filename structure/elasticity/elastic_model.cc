@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "structure/elasticity/linear_solver.h"
 #include "structure/error.h"
-#include "structure/mesh/block_generator.h"
+#include "structure/mesh/plates/block_generator.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 

@@ -6,8 +6,8 @@
 
 #include "structure/elasticity/discretisation.h"
 #include "structure/elasticity/load.h"
-#include "structure/mesh/block_description.h"
 #include "structure/mesh/hex_mesh.h"
+#include "structure/mesh/plates/block_description.h"
 
 namespace blocklift::structure {
 

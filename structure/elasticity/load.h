@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "structure/elasticity/discretisation.h"
-#include "structure/response/rigid_body.h"
+#include "structure/rigid_body.h"
 
 namespace blocklift::structure {
 

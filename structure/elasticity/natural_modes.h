@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/linear_solver.h"
 #include "structure/elasticity/mass_matrix.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/linear_solver.h"
 #include "structure/mesh/material.h"
 #include "structure/mesh/part_mesh.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 

@@ -14,7 +14,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
-#include "structure/mesh/abaqus_file.h"
+#include "structure/mesh/files/abaqus_file.h"
 
 namespace blocklift::structure {
 

@@ -6,12 +6,9 @@
 #include <Eigen/SparseCore>
 
 #include "structure/elasticity/discretisation.h"
+#include "structure/system/sparse_matrix.h"
 
 namespace blocklift::structure {
-
-/// Lower triangle of a symmetric sparse matrix, with 64-bit indices as CHOLMOD wants them for
-/// large factors.
-using SparseLower = Eigen::SparseMatrix<double, Eigen::ColMajor, long>;
 
 /// Stiffness of single cells,
 ///   K_ia,jb = int lambda d_a N_i d_b N_j + mu (d_b N_i d_a N_j + delta_ab grad N_i . grad N_j) dV,

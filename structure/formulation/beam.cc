@@ -9,7 +9,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
-#include "structure/system/joints.h"
+#include "structure/space/joints.h"
 
 namespace blocklift::structure {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/system/space.h"
+#include "structure/space/space.h"
 
 namespace blocklift::structure {
 
@@ -26,7 +26,8 @@ BeamPoint beam_point(const Space& space, int cell, double xi);
 
 /// Section forces for strains: diag(EA, G A_2, G A_3, G J, E I_2, E I_3) with E I_23 between the last two.
 /// An infinite shear area is taken as 1e4 times the section's.
-Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material, const BeamSection& section);
+Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
+                                               const BeamSection& section);
 
 /// Stiffness of a beam's cell, freedoms in the order of Space::element_freedoms: as many Gauss points as
 /// the degree, which keeps thin beams from locking. Released ends are eliminated where they lie in the cell.

@@ -8,7 +8,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include "structure/index.h"
-#include "structure/system/space_implementation.h"
+#include "structure/space/space_implementation.h"
 
 namespace blocklift::structure {
 
@@ -68,7 +68,8 @@ std::vector<Shapes> tabulate(const Space::Implementation& own, const Eigen::Matr
   std::vector<Shapes> shapes;
   for (Eigen::Index q = 0; q < points.cols(); ++q) {
     const dealii::Point<2> xi(points(0, q), points(1, q));
-    Shapes at_point{Eigen::RowVectorXd(nodes), Eigen::RowVectorXd(nodes), Eigen::RowVectorXd(nodes)};
+    Shapes at_point{Eigen::RowVectorXd(nodes), Eigen::RowVectorXd(nodes),
+                    Eigen::RowVectorXd(nodes)};
     for (Eigen::Index i = 0; i < nodes; ++i) {
       const unsigned node = own.shell_order[at(i)];
       const auto gradient = own.shell_element.shape_grad(node, xi);
@@ -128,7 +129,7 @@ void to_tangents(const Surface& s, ShellPoint& point) {
   Eigen::Matrix2d p;
   p << point.e_1.dot(contra_1), point.e_1.dot(contra_2), point.e_2.dot(contra_1),
       point.e_2.dot(contra_2);
-  Eigen::Matrix3d turn;  // of (11, 22, 2 x 12)
+  Eigen::Matrix3d turn;                                             // of (11, 22, 2 x 12)
   turn << p(0, 0) * p(0, 0), p(0, 1) * p(0, 1), p(0, 0) * p(0, 1),  //
       p(1, 0) * p(1, 0), p(1, 1) * p(1, 1), p(1, 0) * p(1, 1),      //
       2 * p(0, 0) * p(1, 0), 2 * p(0, 1) * p(1, 1), p(0, 0) * p(1, 1) + p(0, 1) * p(1, 0);
@@ -284,7 +285,7 @@ void ShellOperator::average_membrane_shear() {
 }
 
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
-                                                                       double thickness) {
+                                                                        double thickness) {
   const double e = material.youngs_modulus, nu = material.poisson_ratio, t = thickness,
                g = material.shear_modulus();
   Eigen::Matrix3d plane;
@@ -307,7 +308,8 @@ ShellStiffness::ShellStiffness(const Space& space)
 const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
   const Eigen::Matrix<double, shell_strains, shell_strains> root =
-      shell_stiffness_law(space_.mesh().material_of(shell), space_.mesh().section_of(shell).thickness)
+      shell_stiffness_law(space_.mesh().material_of(shell),
+                          space_.mesh().section_of(shell).thickness)
           .llt()
           .matrixU();
   operator_.reinit(cell);
@@ -317,7 +319,8 @@ const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   rooted_.resize(shell_strains * static_cast<Eigen::Index>(points.size()), columns);
   for (std::size_t q = 0; q < points.size(); ++q)
     rooted_.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)).noalias() =
-        std::sqrt(weights_[static_cast<Eigen::Index>(q)] * points[q].area) * (root * points[q].strain);
+        std::sqrt(weights_[static_cast<Eigen::Index>(q)] * points[q].area) *
+        (root * points[q].strain);
   stiffness_.setZero(columns, columns);
   stiffness_.selfadjointView<Eigen::Lower>().rankUpdate(rooted_.transpose());
   stiffness_.triangularView<Eigen::StrictlyUpper>() = stiffness_.transpose();

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/system/space.h"
+#include "structure/space/space.h"
 
 namespace blocklift::structure {
 
@@ -25,10 +25,10 @@ enum ShellStrain {
 
 /// A point of a shell with what it feels of its cell's freedoms.
 struct ShellPoint {
-  Vector3 place = Vector3::Zero();   ///< m
+  Vector3 place = Vector3::Zero();                       ///< m
   Vector3 e_1 = Vector3::Zero(), e_2 = Vector3::Zero();  ///< unit tangents at right angles
-  Vector3 normal = Vector3::Zero();  ///< e_1 x e_2
-  double area = 0;                   ///< |dx/dxi x dx/deta|, m^2 per unit of the square
+  Vector3 normal = Vector3::Zero();                      ///< e_1 x e_2
+  double area = 0;  ///< |dx/dxi x dx/deta|, m^2 per unit of the square
   /// shell_strains x 6 nodes: strains of the mid-surface in e_1, e_2 for unit freedoms.
   Eigen::Matrix<double, shell_strains, Eigen::Dynamic, Eigen::RowMajor> strain;
 };
@@ -75,7 +75,7 @@ class ShellOperator {
 /// Stress resultants of a section for generalised strains: membrane forces (N/m), moments (N m/m), shear
 /// forces (N/m), drilling; the plane-stress Hooke's law, shear factor 5/6.
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
-                                                                       double thickness);
+                                                                        double thickness);
 
 /// Stiffness of shells, N/m, N, N m: freedoms in the order of Space::element_freedoms. One object serves
 /// one thread.

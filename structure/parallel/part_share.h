@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/linear_solver.h"
 #include "structure/elasticity/part_model.h"
 #include "structure/packet.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 

@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 
+#include "structure/batches.h"
 #include "structure/index.h"
-#include "structure/response/batches.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {

@@ -9,8 +9,8 @@
 
 #include <Eigen/Dense>
 
+#include "structure/batches.h"
 #include "structure/error.h"
-#include "structure/response/batches.h"
 #include "structure/response/envelope_search.h"
 
 namespace blocklift::structure {

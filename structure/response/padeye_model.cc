@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "structure/index.h"
-#include "structure/mesh/part_reader.h"
+#include "structure/mesh/files/part_reader.h"
 
 namespace blocklift::structure {
 

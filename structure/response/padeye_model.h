@@ -5,11 +5,11 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/linear_solver.h"
 #include "structure/elasticity/part_model.h"
-#include "structure/mesh/padeye.h"
+#include "structure/mesh/padeye/padeye.h"
 #include "structure/response/padeye_stress.h"
 #include "structure/response/part_solution.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 

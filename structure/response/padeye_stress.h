@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "structure/elasticity/part_model.h"
-#include "structure/mesh/padeye.h"
+#include "structure/mesh/padeye/padeye.h"
 #include "structure/response/stress.h"
 
 namespace blocklift::structure {

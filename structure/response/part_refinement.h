@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "structure/mesh/part_reader.h"
+#include "structure/mesh/files/part_reader.h"
 #include "structure/response/part_solution.h"
 
 namespace blocklift::structure {

@@ -8,7 +8,7 @@
 
 #include "structure/elasticity/load.h"
 #include "structure/elasticity/part_model.h"
-#include "structure/elasticity/solver_choice.h"
+#include "structure/solver_choice.h"
 
 namespace blocklift::structure {
 

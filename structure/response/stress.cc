@@ -12,7 +12,7 @@ namespace blocklift::structure {
 namespace {
 
 // Extreme whose part is named at the end, once.
-struct Running {
+struct RunningExtreme {
   double value = 0;
   Vector3 point = Vector3::Zero();
   int sheet = -1;
@@ -32,9 +32,9 @@ struct Running {
 struct Maxima {
   Maxima(std::size_t groups, std::size_t lugs) : group(groups), lug(lugs) {}
 
-  Running all;
-  std::vector<Running> group;
-  std::vector<Running> lug;
+  RunningExtreme all;
+  std::vector<RunningExtreme> group;
+  std::vector<RunningExtreme> lug;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/linear_solver.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 

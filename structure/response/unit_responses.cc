@@ -11,11 +11,11 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "structure/elasticity/linear_solver.h"
 #include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
 #include "structure/response/support.h"
 #include "structure/stopwatch.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 

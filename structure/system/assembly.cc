@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "structure/elasticity/linear_solver.h"
+#include "structure/batches.h"
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
 #include "structure/index.h"
-#include "structure/response/batches.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 
@@ -156,10 +156,11 @@ void scatter(const Elimination& elimination, const Pattern& pattern, int element
 void require_memory(const Space& space, const Pattern& pattern) {
   const double bytes = 16.0 * static_cast<double>(pattern.column_start.back());
   if (const double available = available_memory(); bytes > available)
-    throw NotEnoughMemory(fmt::format(
-        "the stiffness of {} unknowns needs {:.1f} GB and {:.1f} GB are free; use larger elements or "
-        "a lower element degree",
-        space.unknowns(), bytes / 1e9, available / 1e9));
+    throw NotEnoughMemory(
+        fmt::format("the stiffness of {} unknowns needs {:.1f} GB and {:.1f} GB are free; use "
+                    "larger elements or "
+                    "a lower element degree",
+                    space.unknowns(), bytes / 1e9, available / 1e9));
 }
 
 /// All elements of a space, each by its formulation.

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/system/space.h"
+#include "structure/space/space.h"
 #include "structure/system/sparse_matrix.h"
 
 namespace blocklift::structure {

@@ -13,8 +13,8 @@
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
 #include "structure/index.h"
-#include "structure/system/joints.h"
-#include "structure/system/space_implementation.h"
+#include "structure/space/joints.h"
+#include "structure/space/space_implementation.h"
 
 namespace blocklift::structure {
 
@@ -104,9 +104,9 @@ void for_each_shell_point(const Space& space, const std::vector<int>& cells,
   if (cells.empty()) return;
   const Space::Implementation& own = space.implementation();
   const dealii::QGauss<2> rule(static_cast<unsigned>(space.degree()) + 1);
-  dealii::FEValues<2, 3> values(*own.shell_mapping, own.shell_element, rule,
-                                dealii::update_quadrature_points | dealii::update_JxW_values |
-                                    dealii::update_normal_vectors);
+  dealii::FEValues<2, 3> values(
+      *own.shell_mapping, own.shell_element, rule,
+      dealii::update_quadrature_points | dealii::update_JxW_values | dealii::update_normal_vectors);
   std::vector<Eigen::VectorXd> shapes;
   for (const auto& xi : rule.get_points()) shapes.push_back(space.shell_values({xi[0], xi[1]}));
   for (const int cell : cells) {
@@ -177,7 +177,8 @@ MassProperties find_mass_properties(const Space& space, const double* stated_mas
   }
   if (result.smallest_density_factor < 0)
     throw ModelError(fmt::format(
-        "no spread of outfitting makes the stated mass {:.1f} t and centre of mass ({:.3f}, {:.3f}, "
+        "no spread of outfitting makes the stated mass {:.1f} t and centre of mass ({:.3f}, "
+        "{:.3f}, "
         "{:.3f}) m out of the plates' {:.1f} t at ({:.3f}, {:.3f}, {:.3f}) m: the density would be "
         "negative at ({:.2f}, {:.2f}, {:.2f}) m; move the stated centre towards the plates', or "
         "state more mass",

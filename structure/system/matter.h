@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
-#include "structure/response/rigid_body.h"
-#include "structure/system/space.h"
+#include "structure/rigid_body.h"
+#include "structure/space/space.h"
 
 namespace blocklift::structure {
 

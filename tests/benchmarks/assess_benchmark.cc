@@ -1,7 +1,7 @@
 // The whole way of the shipped turn-over, stage by stage: what a user waits for.
 #include <benchmark/benchmark.h>
 
-#include "pipeline/assessment/assessment.h"
+#include "pipeline/assessment/assess.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -14,13 +14,13 @@
 
 #include <fmt/format.h>
 
-#include "structure/elasticity/linear_solver.h"
-#include "structure/mesh/block_generator.h"
-#include "structure/mesh/gmsh_file.h"
-#include "structure/mesh/part_reader.h"
+#include "structure/mesh/files/gmsh_file.h"
+#include "structure/mesh/files/part_reader.h"
+#include "structure/mesh/plates/block_generator.h"
 #include "structure/output/part_files.h"
 #include "structure/response/part_solution.h"
 #include "structure/stopwatch.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
 namespace {

@@ -2,9 +2,9 @@
 // an irregular sea of 200 components. Argument: panel size in decimetres.
 #include <benchmark/benchmark.h>
 
-#include "dynamics/marine/hull_force.h"
-#include "dynamics/marine/hull_shapes.h"
-#include "dynamics/marine/wave_spectrum.h"
+#include "dynamics/marine/hull/hull_shapes.h"
+#include "dynamics/marine/loads/hull_force.h"
+#include "dynamics/marine/waves/wave_spectrum.h"
 
 namespace blocklift::dynamics {
 namespace {

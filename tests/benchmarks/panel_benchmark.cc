@@ -5,9 +5,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "dynamics/marine/hydrodynamic_database.h"
-#include "dynamics/marine/panel_shapes.h"
-#include "dynamics/marine/radiation.h"
+#include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "dynamics/marine/radiation/radiation.h"
 
 namespace {
 

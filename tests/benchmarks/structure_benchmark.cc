@@ -2,7 +2,7 @@
 // counters, then a load case's evaluation. Run alone on the machine; OpenBLAS takes all cores.
 #include <benchmark/benchmark.h>
 
-#include "structure/mesh/block_generator.h"
+#include "structure/mesh/plates/block_generator.h"
 #include "structure/response/stress.h"
 #include "structure/response/unit_responses.h"
 #include "tests/structure/hull_block.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "structure/mesh/block_description.h"
+#include "structure/mesh/plates/block_description.h"
 
 namespace blocklift::structure::testing {
 

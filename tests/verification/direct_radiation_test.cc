@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/simulation/time_integration.h"
-#include "pipeline/input/build_mechanism.h"
-#include "pipeline/input/model_library.h"
-#include "tests/pipeline/input/sample_lift.h"
+#include "pipeline/build/build_mechanism.h"
+#include "pipeline/files/model_library.h"
+#include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -73,7 +73,7 @@ class TwoWays {
     folder_.write("mechanism.yaml", test::with(timed, "METHOD", method));
     Diagnostics diagnostics;
     ModelLibrary library({});
-    const auto file = read_mechanism_file("mechanism.yaml", library, diagnostics);
+    const auto file = read_mechanism("mechanism.yaml", library, diagnostics);
     EXPECT_TRUE(file) << diagnostics.to_text();
     const RadiationProblem problem = radiation_problem(*file);
     if (!problem.direct && !database_) database_ = {0, {0.0}, {compute_radiation(problem)}};

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/draught_shares.h"
-#include "dynamics/marine/hydrodynamic_database.h"
-#include "dynamics/marine/panel_shapes.h"
+#include "dynamics/marine/loads/draught_shares.h"
+#include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
 
 namespace blocklift::dynamics {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/floating_motion.h"
+#include "dynamics/marine/radiation/floating_motion.h"
 #include "pipeline/verification/models/hemisphere.h"
 
 namespace blocklift::dynamics {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/floating_position.h"
-#include "dynamics/marine/hull_shapes.h"
+#include "dynamics/marine/hull/floating_position.h"
+#include "dynamics/marine/hull/hull_shapes.h"
 
 namespace blocklift::dynamics {
 namespace {

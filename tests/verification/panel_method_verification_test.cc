@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/hydrodynamic_database.h"
-#include "dynamics/marine/panel_shapes.h"
+#include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
 
 namespace blocklift::dynamics {
 namespace {

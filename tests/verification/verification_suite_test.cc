@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/verification/suite.h"
+#include "pipeline/verification/suite/suite.h"
 
 namespace blocklift::pipeline {
 

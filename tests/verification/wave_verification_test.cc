@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/wave_spectrum.h"
+#include "dynamics/marine/waves/wave_spectrum.h"
 
 namespace blocklift::dynamics {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/input/table.h"
+#include "pipeline/declaration/table.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/input/format.h"
+#include "pipeline/declaration/format.h"
 
 namespace blocklift::pipeline {
 

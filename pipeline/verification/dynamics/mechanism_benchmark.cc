@@ -17,8 +17,7 @@ namespace {
 MechanismFile read_mechanism(const BenchmarkReference& reference) {
   ModelLibrary library = ModelLibrary::of_installation();
   Diagnostics diagnostics;
-  std::optional<MechanismFile> file =
-      read_mechanism_file(reference.mechanism(), library, diagnostics);
+  std::optional<MechanismFile> file = read_mechanism(reference.mechanism(), library, diagnostics);
   if (!file) throw InputError(diagnostics);
   return std::move(*file);
 }

@@ -16,7 +16,7 @@ using testing::Hemisphere;
 using testing::hulme;
 using testing::make_hemisphere;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The figures of a database beside those of the table; the tolerance is a share of each, or of a
 /// tenth of the added mass where that is more: the damping dies out where nobody feels it.

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/marine/floating_position.h"
-#include "dynamics/marine/hull_shapes.h"
+#include "dynamics/marine/hull/floating_position.h"
+#include "dynamics/marine/hull/hull_shapes.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"
 
 namespace blocklift::pipeline {

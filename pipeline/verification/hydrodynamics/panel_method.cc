@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/marine/frequency_domain.h"
-#include "dynamics/marine/incident_wave.h"
-#include "dynamics/marine/panel_shapes.h"
+#include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/radiation/frequency_domain.h"
+#include "dynamics/marine/radiation/incident_wave.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"
 #include "pipeline/verification/models/hemisphere.h"
 #include "pipeline/verification/models/panel_quadrature.h"
@@ -16,7 +16,7 @@ namespace {
 
 using namespace dynamics;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Sum over the panels of a closed body of the solid angles that they subtend at a point, sr.
 double solid_angle(const PanelMesh& body, const Vector3& point) {

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "structure/elasticity/discretisation.h"
-#include "structure/elasticity/linear_solver.h"
 #include "structure/mesh/hex_mesh.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure::testing {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/marine/panel_shapes.h"
+#include "dynamics/marine/panels/panel_shapes.h"
 
 namespace blocklift::dynamics::testing {
 

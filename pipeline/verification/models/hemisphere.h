@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "dynamics/marine/floating_motion.h"
-#include "dynamics/marine/hydrodynamic_database.h"
+#include "dynamics/marine/radiation/floating_motion.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
 
 namespace blocklift::dynamics::testing {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/marine/panel_integrals.h"
+#include "dynamics/marine/panels/panel_integrals.h"
 
 namespace blocklift::dynamics::testing {
 

@@ -12,7 +12,7 @@
 #include "pipeline/verification/models/box_mesh.h"
 #include "pipeline/verification/structure/structure_cases.h"
 #include "structure/elasticity/load.h"
-#include "structure/mesh/gmsh_file.h"
+#include "structure/mesh/files/gmsh_file.h"
 #include "structure/response/cell_stress.h"
 
 namespace blocklift::pipeline {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/assessment/part_assessment.h"
+#include "pipeline/part/part_assessment.h"
 #include "pipeline/verification/structure/structure_cases.h"
 
 namespace blocklift::pipeline {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/hull_shapes.h"
+#include "dynamics/marine/hull/hull_shapes.h"
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/simulation/sample_lifts.h"

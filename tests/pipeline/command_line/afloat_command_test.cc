@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/pipeline/input/sample_lift.h"
 #include "tests/pipeline/run_program.h"
+#include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {
 namespace {

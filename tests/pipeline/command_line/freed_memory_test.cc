@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "structure/elasticity/linear_solver.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/pipeline/input/temporary_folder.h"
 #include "tests/pipeline/run_program.h"
+#include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {

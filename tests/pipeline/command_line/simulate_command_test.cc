@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/formats/results_store.h"
-#include "tests/pipeline/input/sample_lift.h"
 #include "tests/pipeline/run_program.h"
+#include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {
 namespace {

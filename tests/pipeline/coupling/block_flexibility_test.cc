@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/simulation/equilibrium.h"
-#include "pipeline/assessment/block_assessment.h"
-#include "pipeline/assessment/lift_run.h"
-#include "pipeline/assessment/lift_scene.h"
-#include "tests/pipeline/assessment/small_lift.h"
+#include "pipeline/lift/block_assessment.h"
+#include "pipeline/lift/lift_run.h"
+#include "pipeline/results/lift_scene.h"
+#include "tests/pipeline/small_lift.h"
 
 namespace blocklift::pipeline {
 namespace {

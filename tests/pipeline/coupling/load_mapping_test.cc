@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/assessment/small_lift.h"
+#include "tests/pipeline/small_lift.h"
 
 namespace blocklift::pipeline {
 namespace {

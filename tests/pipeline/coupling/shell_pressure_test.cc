@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/hull_shapes.h"
+#include "dynamics/marine/hull/hull_shapes.h"
 #include "structure/error.h"
 #include "tests/dynamics/force/one_body.h"
 

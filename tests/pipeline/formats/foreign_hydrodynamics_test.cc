@@ -7,11 +7,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/retardation_from_damping.h"
+#include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/hdf5_handle.h"
 #include "pipeline/formats/results_store.h"
 #include "tests/pipeline/formats/sample_database.h"
-#include "tests/pipeline/input/temporary_folder.h"
+#include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {

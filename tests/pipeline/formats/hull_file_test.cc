@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/hull_diagnosis.h"
-#include "dynamics/marine/hull_shapes.h"
-#include "tests/pipeline/input/temporary_folder.h"
+#include "dynamics/marine/hull/hull_diagnosis.h"
+#include "dynamics/marine/hull/hull_shapes.h"
+#include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -9,7 +9,7 @@
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/hdf5_handle.h"
 #include "tests/pipeline/formats/sample_database.h"
-#include "tests/pipeline/input/temporary_folder.h"
+#include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/marine/hydrodynamic_database.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
 
 namespace blocklift::pipeline {
 

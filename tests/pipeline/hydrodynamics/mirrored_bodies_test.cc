@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/marine/hull_shapes.h"
-#include "dynamics/marine/wetted_body.h"
+#include "dynamics/marine/hull/hull_shapes.h"
+#include "dynamics/marine/panels/wetted_body.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/linear_solver.h"
 #include "structure/mesh/mesh.h"
-#include "structure/system/space.h"
+#include "structure/space/space.h"
+#include "structure/system/linear_solver.h"
 
 namespace blocklift::structure::samples {
 

@@ -1,0 +1,188 @@
+#include "dynamics/marine/loads/diffraction_force.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/loads/radiated_water.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double largest_gap = std::numbers::pi / 4.0;  // between headings, rad
+
+void check(const DiffractionForce::Definition& d) {
+  const std::string start = "the diffraction force " + d.name;
+  if (!d.series || d.series->databases.empty() || !d.sea) {
+    throw ModelError(start + " lacks its database or its sea");
+  }
+  if (d.frame.body <= world_index) throw ModelError(start + " acts on no body");
+  const HydrodynamicDatabase& first = d.series->databases.front();
+  if (d.database_body < 0 || d.database_body >= first.body_count()) {
+    throw ModelError(start + " asks for a body that the database does not hold");
+  }
+  if (d.series->databases.size() > 1 && d.mark.body <= world_index) {
+    throw ModelError(start + " has databases of several draughts, and no body whose draught it is");
+  }
+  if (d.sea->waves.is_still()) return;
+  if (first.headings.empty() || first.frequencies.empty()) {
+    throw ModelError(start + ": the database holds no diffraction");
+  }
+}
+
+// Angle between 0 and a turn beyond `lowest`.
+double wrapped(double angle, double lowest) {
+  return angle - turn * std::floor((angle - lowest) / turn);
+}
+
+}  // namespace
+
+DiffractionForce::DiffractionForce(Definition definition) : definition_(std::move(definition)) {
+  if (!definition_.series && definition_.database) {
+    definition_.series = std::make_shared<const HydrodynamicSeries>(
+        HydrodynamicSeries{0, {0.0}, {*definition_.database}});
+  }
+  definition_.database.reset();
+  check(definition_);
+  const WaveField& field = definition_.sea->waves;
+  if (field.is_still()) return;
+  if (state_count() > 1) interpolation_ = DraughtInterpolation(definition_.series->draughts);
+  headings_ = definition_.series->databases.front().headings;
+  headings_.push_back(headings_.front() + turn);
+  for (std::size_t i = 1; i < headings_.size(); ++i) {
+    const double gap = headings_[i] - headings_[i - 1];
+    if (gap > 0.0 && gap <= largest_gap + 1e-9) continue;
+    std::ostringstream text;
+    text << "the database's headings must ascend through a whole turn, at most 45 degrees apart, "
+            "for a "
+            "vessel that may turn in the waves; "
+         << headings_[i - 1] / turn * 360.0 << " and " << headings_[i] / turn * 360.0
+         << " degrees follow each other";
+    throw ModelError(text.str());
+  }
+  for (std::size_t c = 0; c < field.component_count(); ++c) {
+    add_component(field.component(c), field.wave_number(c));
+  }
+}
+
+void DiffractionForce::add_component(const WaveComponent& wave, double wave_number) {
+  const std::vector<double>& known = definition_.series->databases.front().frequencies;
+  if (wave.omega < known.front() * (1.0 - 1e-9) || wave.omega > known.back() * (1.0 + 1e-9)) {
+    std::ostringstream text;
+    text << "the sea has a wave of " << wave.omega << " rad/s, and the database holds "
+         << known.front() << " to " << known.back()
+         << " rad/s; compute it for more frequencies or cut the spectrum";
+    throw ModelError(text.str());
+  }
+  waves_.push_back(wave);
+  wave_number_.push_back(wave_number);
+  const std::size_t count = headings_.size() - 1;
+  for (const HydrodynamicDatabase& database : definition_.series->databases) {
+    const std::size_t first = amplitudes_.size();
+    for (std::size_t j = 0; j < count; ++j) {
+      amplitudes_.push_back(wave.amplitude * amplitude_at(database, wave.omega, j));
+    }
+    amplitudes_.push_back(Amplitude(amplitudes_[first]));
+  }
+}
+
+// X at one of the database's headings, its phase taken at the reference point.
+DiffractionForce::Amplitude DiffractionForce::amplitude_at(const HydrodynamicDatabase& database,
+                                                           double frequency,
+                                                           std::size_t heading) const {
+  const std::vector<double>& known = database.frequencies;
+  const auto body = static_cast<std::size_t>(definition_.database_body);
+  const Vector3& p_0 = database.reference_points[body];
+  const double theta = database.headings[heading];
+  const double place = std::cos(theta) * p_0.x() + std::sin(theta) * p_0.y();
+  const auto at = [&](std::size_t f) {
+    const auto column = static_cast<Eigen::Index>(heading);
+    const auto row = modes_per_body * static_cast<Eigen::Index>(body);
+    Amplitude value = database.diffraction[f].col(column).segment<6>(row);
+    if (definition_.with_froude_krylov) {
+      value += database.froude_krylov[f].col(column).segment<6>(row);
+    }
+    const double phase = calc_wave_number(known[f], database.water) * place;
+    Amplitude ordered;
+    for (Eigen::Index m = 0; m < modes_per_body; ++m) {
+      ordered[place_of_mode(m)] = value[m] * std::polar(1.0, phase);
+    }
+    return ordered;
+  };
+  const auto above = std::lower_bound(known.begin(), known.end(), frequency);
+  const auto upper =
+      std::min<std::size_t>(static_cast<std::size_t>(above - known.begin()), known.size() - 1);
+  if (upper == 0 || known[upper] == frequency) return at(upper);
+  const double s =
+      std::clamp((frequency - known[upper - 1]) / (known[upper] - known[upper - 1]), 0.0, 1.0);
+  return (1.0 - s) * at(upper - 1) + s * at(upper);
+}
+
+ForceVector DiffractionForce::calc_force(const MotionState& state) const {
+  if (waves_.empty()) return ForceVector::zero();
+  const BodyFrame& frame = definition_.frame;
+  const Pose X_WH = state.kinematics.X_WB[static_cast<std::size_t>(frame.body)] * frame.X_BH;
+  const double yaw = std::atan2(X_WH.R(1, 0), X_WH.R(0, 0));
+  const std::size_t count = headings_.size(), states = state_count();
+  DraughtShares shares;
+  if (states > 1) {
+    shares = interpolation_.calc_shares(definition_.mark.calc_draught(state.kinematics));
+  }
+  Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
+  for (std::size_t c = 0; c < waves_.size(); ++c) {
+    const WaveComponent& wave = waves_[c];
+    const double heading = wrapped(wave.heading - yaw, headings_.front());
+    const auto next = std::upper_bound(headings_.begin() + 1, headings_.end() - 1, heading);
+    const auto j = static_cast<std::size_t>(next - headings_.begin());
+    const double s = (heading - headings_[j - 1]) / (headings_[j] - headings_[j - 1]);
+    const double phase = wave.omega * state.time - wave.phase -
+                         wave_number_[c] * (std::cos(wave.heading) * X_WH.p.x() +
+                                            std::sin(wave.heading) * X_WH.p.y());
+    const Complex at_now = std::polar(1.0, phase);
+    for (std::size_t k = 0; k < states; ++k) {
+      const double weight = shares.weight[static_cast<Eigen::Index>(k)];
+      if (weight == 0.0) continue;
+      const Amplitude& before = amplitudes_[(c * states + k) * count + j - 1];
+      const Amplitude& after = amplitudes_[(c * states + k) * count + j];
+      for (Eigen::Index m = 0; m < 6; ++m) {
+        force[m] += weight * (((1.0 - s) * before[m] + s * after[m]) * at_now).real();
+      }
+    }
+  }
+  force *= definition_.sea->waves.ramp().factor(state.time);
+  return {X_WH.R * force.head<3>(), X_WH.R * force.tail<3>()};
+}
+
+void DiffractionForce::add_forces(const MotionState& state, Loads& loads) const {
+  if (waves_.empty()) return;
+  const auto body = static_cast<std::size_t>(definition_.frame.body);
+  const Vector3 r_W = state.kinematics.X_WB[body].R * definition_.frame.X_BH.p;
+  loads.F_Bo_W[body] += shift_to(calc_force(state), r_W);
+}
+
+void DiffractionForce::add_derivatives(const MotionState& state,
+                                       ForceDerivatives& derivatives) const {
+  if (waves_.empty()) return;
+  const auto body = static_cast<std::size_t>(definition_.frame.body);
+  derivatives.locate(0, definition_.frame.body,
+                     state.kinematics.X_WB[body].R * definition_.frame.X_BH.p);
+  const ForceVector F = calc_force(state);
+  derivatives.add_held_force(0, F.force);
+  Eigen::Matrix<double, 6, 6> by_turn = Eigen::Matrix<double, 6, 6>::Zero();
+  by_turn.leftCols<3>() << -skew(F.moment), -skew(F.force);
+  derivatives.add_wrench_block(0, 0, by_turn, Eigen::Matrix<double, 6, 6>::Zero());
+}
+
+EnergyAccount DiffractionForce::calc_energy(const MotionState& state) const {
+  if (waves_.empty()) return {};
+  const auto body = static_cast<std::size_t>(definition_.frame.body);
+  const Vector3 r_W = state.kinematics.X_WB[body].R * definition_.frame.X_BH.p;
+  return {.supplied_power = dot(calc_force(state), shift(state.kinematics.V_WB[body], r_W))};
+}
+
+}  // namespace blocklift::dynamics

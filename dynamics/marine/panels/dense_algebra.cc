@@ -1,0 +1,124 @@
+#include "dynamics/marine/panels/dense_algebra.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "dynamics/errors.h"
+
+// The Fortran routines of BLAS and LAPACK that are used, by their fixed interfaces.
+extern "C" {
+void dgetrf_(const int* rows, const int* columns, double* a, const int* lda, int* pivots,
+             int* info);
+void dgetrs_(const char* transposed, const int* n, const int* right_sides, const double* a,
+             const int* lda, const int* pivots, double* b, const int* ldb, int* info);
+void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
+             double* values, double* work, const int* work_size, int* integers,
+             const int* integer_count, int* info);
+void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
+            const int* k, const double* alpha, const double* a, const int* lda, const double* b,
+            const int* ldb, const double* beta, double* c, const int* ldc);
+void sgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
+            const int* k, const float* alpha, const float* a, const int* lda, const float* b,
+            const int* ldb, const float* beta, float* c, const int* ldc);
+void ssymv_(const char* half, const int* n, const float* alpha, const float* a, const int* lda,
+            const float* x, const int* incx, const float* beta, float* y, const int* incy);
+}
+
+namespace blocklift::dynamics {
+namespace {
+
+int to_int(Eigen::Index value) { return static_cast<int>(value); }
+
+}  // namespace
+
+LuFactorisation::LuFactorisation(Eigen::MatrixXd matrix, const char* what)
+    : factors_(std::move(matrix)), pivots_(static_cast<std::size_t>(factors_.rows())) {
+  const int n = to_int(factors_.rows());
+  if (n == 0) return;
+  int info = 0;
+  dgetrf_(&n, &n, factors_.data(), &n, pivots_.data(), &info);
+  if (info != 0) {
+    throw SimulationError(std::string(what) + " is singular at row " + std::to_string(info) +
+                          ": two panels lie on each other, or a panel lies in the free surface");
+  }
+}
+
+void LuFactorisation::solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const {
+  const int n = to_int(size()), columns = to_int(right_sides.cols());
+  if (n == 0 || columns == 0) return;
+  const int stride = to_int(right_sides.outerStride());
+  int info = 0;
+  dgetrs_("N", &n, &columns, factors_.data(), &n, pivots_.data(), right_sides.data(), &stride,
+          &info);
+}
+
+Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix) {
+  const int n = to_int(matrix.rows());
+  Eigen::VectorXd values(n);
+  if (n == 0) return values;
+  double work_size = 0.0;
+  int integer_count = 0, info = 0;
+  const int ask = -1;
+  dsyevd_("V", "L", &n, matrix.data(), &n, values.data(), &work_size, &ask, &integer_count, &ask,
+          &info);
+  std::vector<double> work(static_cast<std::size_t>(work_size));
+  std::vector<int> integers(static_cast<std::size_t>(integer_count));
+  const int size = static_cast<int>(work.size());
+  dsyevd_("V", "L", &n, matrix.data(), &n, values.data(), work.data(), &size, integers.data(),
+          &integer_count, &info);
+  if (info != 0) {
+    throw SimulationError("the eigenvalues of a symmetric matrix of " + std::to_string(n) +
+                          " rows do not converge");
+  }
+  return values;
+}
+
+void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
+              Eigen::MatrixXd& C) {
+  const int m = to_int(A.rows()), n = to_int(B.cols()), k = to_int(A.cols());
+  if (m == 0 || n == 0) return;
+  if (k == 0) {
+    C *= beta;
+    return;
+  }
+  dgemm_("N", "N", &m, &n, &k, &alpha, A.data(), &m, B.data(), &k, &beta, C.data(), &m);
+}
+
+void multiply_symmetric(const Eigen::MatrixXf& A, const Eigen::MatrixXf& X, Eigen::MatrixXf& Y) {
+  const int n = to_int(A.rows()), columns = to_int(X.cols()), one = 1;
+  if (n == 0 || columns == 0) return;
+  const float alpha = 1.0F, beta = 0.0F;
+  if (columns == 1) {
+    ssymv_("L", &n, &alpha, A.data(), &n, X.data(), &one, &beta, Y.data(), &one);
+  } else {
+    sgemm_("N", "N", &n, &columns, &n, &alpha, A.data(), &n, X.data(), &n, &beta, Y.data(), &n);
+  }
+}
+
+void parallel_for(int count, int threads, const std::function<void(int)>& work) {
+  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  threads = std::min(threads, count);
+  std::atomic<int> next{0};
+  std::exception_ptr failure;
+  std::mutex guard;
+  const auto run = [&] {
+    try {
+      for (int i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      const std::lock_guard lock(guard);
+      if (!failure) failure = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::thread> others;
+  for (int thread = 1; thread < threads; ++thread) others.emplace_back(run);
+  run();
+  for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace blocklift::dynamics

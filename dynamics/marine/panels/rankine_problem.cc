@@ -1,0 +1,260 @@
+#include "dynamics/marine/panels/rankine_problem.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// One evaluation of a panel's potentials at images of the collocation points.
+struct ImagePoints {
+  PointColumns points;
+  double source_sign;  ///< 0: not due
+  double dipole_sign;
+  bool own = false;  ///< the points themselves: a panel's own dipole has the mean value zero there
+  bool coplanar = false;
+};
+
+/// Collocation points reflected in the planes of symmetry, and then by z -> offset + factor z.
+PointColumns image_of(const PanelMesh& mesh, const Symmetry& symmetry, int image, double offset,
+                      double factor) {
+  PointColumns points(mesh);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 p = symmetry.reflect(image, {points.x[i], points.y[i], points.z[i]});
+    points.x[i] = p.x();
+    points.y[i] = p.y();
+    points.z[i] = offset + factor * p.z();
+  }
+  return points;
+}
+
+/// Adds the panels' potentials at all image points: a column of the matrices for each panel. An empty
+/// matrix is not due.
+void add_influence(const PanelMesh& panels, const std::vector<ImagePoints>& images, int threads,
+                   MatrixXd& source, MatrixXd& dipole) {
+  parallel_for(panels.size(), threads, [&](int j) {
+    double* const source_column = source.size() > 0 ? source.col(j).data() : nullptr;
+    double* const dipole_column = dipole.size() > 0 ? dipole.col(j).data() : nullptr;
+    const Panel& panel = panels.panels[static_cast<std::size_t>(j)];
+    for (const ImagePoints& image : images) {
+      const bool with_source = source_column != nullptr && image.source_sign != 0.0;
+      const bool with_dipole =
+          dipole_column != nullptr && image.dipole_sign != 0.0 && !image.coplanar;
+      if (with_source && with_dipole) {
+        add_panel_potentials(panel, image.points, PanelIntegral::both, image.source_sign,
+                             source_column, dipole_column);
+      } else if (with_source) {
+        add_panel_potentials(
+            panel, image.points,
+            image.coplanar ? PanelIntegral::coplanar_source : PanelIntegral::source,
+            image.source_sign, source_column, nullptr);
+      } else if (with_dipole) {
+        add_panel_potentials(panel, image.points, PanelIntegral::dipole, image.dipole_sign, nullptr,
+                             dipole_column);
+      }
+      if (image.own && with_dipole) dipole_column[j] = 0.0;
+    }
+  });
+}
+
+/// Replaces A by the symmetric part of W^1/2 A W^-1/2, in place.
+void make_symmetric(const VectorXd& root_weights, MatrixXd& A) {
+  for (Eigen::Index j = 0; j < A.cols(); ++j) {
+    for (Eigen::Index i = 0; i < j; ++i) {
+      const double ratio = root_weights[i] / root_weights[j];
+      A(i, j) = A(j, i) = 0.5 * (A(i, j) * ratio + A(j, i) / ratio);
+    }
+  }
+}
+
+void refuse_if_too_large(const PanelModel& model, const RankineSettings& settings) {
+  const double limit = settings.memory_limit > 0.0 ? settings.memory_limit : usable_memory();
+  const int bodies = model.body_mesh().size(), surface = model.surface_mesh().size();
+  const double needed = rankine_part_bytes(bodies, surface, !is_deep(model.water()));
+  if (needed <= limit) return;
+  std::array<char, 240> text{};
+  std::snprintf(text.data(), text.size(),
+                "%d panels on the bodies and %d on the surface need %.2f GB of memory, but %.2f GB "
+                "may be used: take fewer panels, or the planes of symmetry",
+                bodies, surface, needed / 1e9, limit / 1e9);
+  throw SimulationError(text.data());
+}
+
+}  // namespace
+
+double usable_memory() {
+  return 0.8 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+struct RankinePart::Influence {
+  MatrixXd S_BB, D_BB;  ///< bodies on bodies, with the images in z = 0
+  MatrixXd S_BF, D_BF;  ///< surface on bodies, likewise; S_BF is empty in deep water
+  MatrixXd S_FB, D_FB;  ///< bodies on surface
+  MatrixXd S_FF, D_FF;  ///< surface on surface; D_FF is empty in deep water
+};
+
+struct RankinePart::Factors {
+  LuFactorisation body, surface;
+  MatrixXd S_BB, S_FB, D_FB;
+  MatrixXd body_from_velocity;  ///< U: body potential of w, empty in deep water
+  VectorXd root_area;
+};
+
+RankinePart::Influence RankinePart::compute_influence(const PanelModel& model, int threads) const {
+  const PanelMesh &bodies = model.body_mesh(), &surface = model.surface_mesh();
+  const bool deep = is_deep(model.water());
+  const double h = model.water().depth;
+  const Symmetry& symmetry = model.symmetry();
+  std::vector<ImagePoints> at_bodies_of_bodies, at_bodies_of_surface, at_surface_of_bodies,
+      at_surface_of_surface;
+  for (int g = 0; g < image_count_; ++g) {
+    const double s = model.sign(parity_, g);
+    const auto body_points = [&](double offset, double factor) {
+      return image_of(bodies, symmetry, g, offset, factor);
+    };
+    const auto surface_points = [&](double offset, double factor) {
+      return image_of(surface, symmetry, g, offset, factor);
+    };
+    at_bodies_of_bodies.push_back({body_points(0, 1), s, s, g == 0});
+    at_bodies_of_bodies.push_back({body_points(0, -1), -s, -s});
+    // The dipoles of the surface are odd in z, its sources even: 1/r - 1/r' doubles or cancels them.
+    at_bodies_of_surface.push_back({body_points(0, 1), 0.0, 2.0 * s});
+    at_surface_of_bodies.push_back({surface_points(0, 1), s, s});
+    at_surface_of_surface.push_back({surface_points(0, 1), s, 0.0, g == 0, true});
+    if (deep) continue;
+    at_bodies_of_bodies.push_back({body_points(-2 * h, -1), s, s});
+    at_bodies_of_bodies.push_back({body_points(-2 * h, 1), -s, -s});
+    at_bodies_of_surface.push_back({body_points(-2 * h, -1), s, s});
+    at_bodies_of_surface.push_back({body_points(-2 * h, 1), -s, -s});
+    at_surface_of_bodies.push_back({surface_points(-2 * h, -1), s, s});
+    at_surface_of_surface.push_back({surface_points(-2 * h, -1), s, s});
+  }
+  const Eigen::Index nb = bodies.size(), nf = surface.size();
+  Influence influence;
+  influence.S_BB = influence.D_BB = MatrixXd::Zero(nb, nb);
+  influence.D_BF = MatrixXd::Zero(nb, nf);
+  influence.S_FB = influence.D_FB = MatrixXd::Zero(nf, nb);
+  influence.S_FF = MatrixXd::Zero(nf, nf);
+  if (!deep) {
+    influence.S_BF = MatrixXd::Zero(nb, nf);
+    influence.D_FF = MatrixXd::Zero(nf, nf);
+  }
+  add_influence(bodies, at_bodies_of_bodies, threads, influence.S_BB, influence.D_BB);
+  add_influence(surface, at_bodies_of_surface, threads, influence.S_BF, influence.D_BF);
+  add_influence(bodies, at_surface_of_bodies, threads, influence.S_FB, influence.D_FB);
+  add_influence(surface, at_surface_of_surface, threads, influence.S_FF, influence.D_FF);
+  return influence;
+}
+
+RankinePart::RankinePart(const PanelModel& model, const Parity& parity,
+                         const RankineSettings& settings)
+    : parity_(parity), image_count_(model.symmetry().image_count()) {
+  refuse_if_too_large(model, settings);
+  const MatrixXd all_velocities = model.normal_velocities(parity);
+  for (int mode = 0; mode < model.mode_count(); ++mode) {
+    if (!all_velocities.col(mode).isZero(0.0)) modes_.push_back(mode);
+  }
+  normal_velocities_ = all_velocities(Eigen::all, modes_);
+  const MatrixXd& n = normal_velocities_;
+  auto start = std::chrono::steady_clock::now();
+  Influence influence = compute_influence(model, settings.threads);
+  timing_.influence_s = seconds_since(start);
+  const bool deep = is_deep(model.water());
+  const VectorXd root_area = model.surface_areas().cwiseSqrt();
+
+  // The bodies: (2 pi - D_BB) phi_B = D_BF phi_F - S_BB v + S_BF w.
+  start = std::chrono::steady_clock::now();
+  auto factors = std::make_shared<Factors>();
+  MatrixXd body_matrix = std::move(influence.D_BB);
+  body_matrix *= -1.0;
+  body_matrix.diagonal().array() += 2.0 * std::numbers::pi;
+  factors->body = LuFactorisation(std::move(body_matrix), "the matrix of the bodies' panels");
+  MatrixXd& P = influence.D_BF;
+  factors->body.solve_in_place(P);
+  body_columns_ = -(influence.S_BB * n);
+  factors->body.solve_in_place(body_columns_);
+  MatrixXd& U = influence.S_BF;
+  if (!deep) {
+    factors->body.solve_in_place(U);
+    multiply(1.0, influence.D_FB, U, 1.0, influence.S_FF);
+  }
+
+  // The surface: (S_FF + D_FB U) w = (2 pi - D_FF - D_FB P) phi_F + (S_FB n - D_FB Phi) v.
+  MatrixXd reduced = std::move(influence.D_FF);
+  reduced *= -1.0;
+  if (deep) reduced.setZero(root_area.size(), root_area.size());
+  reduced.diagonal().array() += 2.0 * std::numbers::pi;
+  factors->surface =
+      LuFactorisation(std::move(influence.S_FF), "the matrix of the free surface's panels");
+  timing_.factorisation_s = seconds_since(start);
+  start = std::chrono::steady_clock::now();
+  multiply(-1.0, influence.D_FB, P, 1.0, reduced);
+  factors->surface.solve_in_place(reduced);
+  MatrixXd q = influence.S_FB * n - influence.D_FB * body_columns_;
+  factors->surface.solve_in_place(q);
+  if (!deep) {
+    multiply(1.0, U, reduced, 1.0, P);
+    body_columns_ += U * q;
+  }
+
+  surface_operator_ = std::move(reduced);
+  make_symmetric(root_area, surface_operator_);
+  body_from_surface_ = P * root_area.cwiseInverse().asDiagonal();
+  const MatrixXd weighted = model.body_areas().asDiagonal() * n;
+  const MatrixXd by_velocity = root_area.asDiagonal() * q;
+  const MatrixXd by_force = body_from_surface_.transpose() * weighted;
+  surface_columns_ = 0.5 * (by_velocity + by_force);
+  for (Eigen::Index m = 0; m < q.cols(); ++m) {
+    const double difference = (by_velocity.col(m) - by_force.col(m)).norm();
+    reciprocity_error_ = std::max(reciprocity_error_, difference / surface_columns_.col(m).norm());
+  }
+  infinite_frequency_volume_ = -image_count_ * weighted.transpose() * body_columns_;
+  timing_.reduction_s = seconds_since(start);
+  if (!settings.keep_factors) return;
+  factors->S_BB = std::move(influence.S_BB);
+  factors->S_FB = std::move(influence.S_FB);
+  factors->D_FB = std::move(influence.D_FB);
+  factors->body_from_velocity = std::move(U);
+  factors->root_area = root_area;
+  factors_ = factors;
+}
+
+void RankinePart::solve(const MatrixXd& normal_velocities, MatrixXd& body_potentials,
+                        MatrixXd& surface_velocities) const {
+  if (!factors_) {
+    throw ModelError("the factors for other normal velocities were not kept: set keep_factors");
+  }
+  body_potentials = -(factors_->S_BB * normal_velocities);
+  factors_->body.solve_in_place(body_potentials);
+  surface_velocities = factors_->S_FB * normal_velocities - factors_->D_FB * body_potentials;
+  factors_->surface.solve_in_place(surface_velocities);
+  if (factors_->body_from_velocity.size() > 0) {
+    body_potentials += factors_->body_from_velocity * surface_velocities;
+  }
+  surface_velocities = factors_->root_area.asDiagonal() * surface_velocities;
+}
+
+double rankine_part_bytes(int body_panels, int surface_panels, bool finite_depth) {
+  const double nb = body_panels, nf = surface_panels;
+  // On the surface S_FF, the reduced operator in double precision and for the march in single; D_FB,
+  // S_FB, P and its scaled copy; two matrices of the bodies. In finite depth S_BF besides.
+  const double numbers =
+      2.5 * nf * nf + 4.0 * nb * nf + 2.0 * nb * nb + (finite_depth ? nb * nf : 0.0);
+  return numbers * sizeof(double);
+}
+
+}  // namespace blocklift::dynamics

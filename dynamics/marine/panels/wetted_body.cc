@@ -1,0 +1,124 @@
+#include "dynamics/marine/panels/wetted_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Polygon = std::vector<Vector3>;
+
+double diameter_of(const Polygon& polygon) {
+  double squared = 0.0;
+  for (const Vector3& a : polygon) {
+    for (const Vector3& b : polygon) squared = std::max(squared, (a - b).squaredNorm());
+  }
+  return std::sqrt(squared);
+}
+
+Vector3 area_vector(const Polygon& polygon) {
+  Vector3 doubled = Vector3::Zero();
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    doubled += (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0]);
+  }
+  return 0.5 * doubled;
+}
+
+/// Do the vertices lie in a plane, to a share of the polygon's size?
+bool is_flat(const Polygon& polygon, double share) {
+  const Vector3 normal = area_vector(polygon).normalized();
+  const double tolerance = share * diameter_of(polygon);
+  return std::all_of(polygon.begin(), polygon.end(), [&](const Vector3& vertex) {
+    return std::abs(normal.dot(vertex - polygon[0])) < tolerance;
+  });
+}
+
+/// The hull's vertices in the world. One nearer to the surface than a thousandth of the smallest panel
+/// that it belongs to lies on it, for all of its panels alike.
+Polygon vertices_in_world(const Hull& hull, const Pose& X_WB) {
+  std::vector<double> size(hull.vertices().size(), std::numeric_limits<double>::infinity());
+  for (int k = 0; k < hull.panel_count(); ++k) {
+    const double diameter = hull.panel_diameter(k);
+    for (const int vertex : hull.panel(k)) {
+      double& smallest = size[static_cast<std::size_t>(vertex)];
+      smallest = std::min(smallest, diameter);
+    }
+  }
+  Polygon vertices;
+  for (std::size_t v = 0; v < size.size(); ++v) {
+    vertices.push_back(X_WB.apply(hull.vertices()[v]));
+    if (std::abs(vertices[v].z()) < 1e-3 * size[v]) vertices[v].z() = 0.0;
+  }
+  return vertices;
+}
+
+/// The part at z <= 0, by Sutherland and Hodgman.
+Polygon cut_at_surface(const Polygon& polygon) {
+  Polygon below;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vector3 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    if (a.z() <= 0.0) below.push_back(a);
+    if ((a.z() < 0.0 && b.z() > 0.0) || (a.z() > 0.0 && b.z() < 0.0)) {
+      Vector3 crossing = a + a.z() / (a.z() - b.z()) * (b - a);
+      crossing.z() = 0.0;
+      below.push_back(crossing);
+    }
+  }
+  return below;
+}
+
+bool touches_surface(const Polygon& polygon) {
+  return std::any_of(polygon.begin(), polygon.end(),
+                     [](const Vector3& vertex) { return vertex.z() == 0.0; });
+}
+
+/// Quadrangles and at the end a triangle between the first vertex and the edges. At the water line
+/// vertices must stay where they are: a quadrangle there that is not flat becomes two triangles.
+void add_panels(const Polygon& polygon, std::vector<Panel>& panels) {
+  const double smallest = 1e-9 * std::pow(diameter_of(polygon), 2);
+  for (std::size_t k = 1; k + 1 < polygon.size(); k += 2) {
+    Polygon piece{polygon[0], polygon[k], polygon[k + 1]};
+    if (k + 2 < polygon.size()) piece.push_back(polygon[k + 2]);
+    if (piece.size() == 4 && touches_surface(piece) && !is_flat(piece, 1e-9)) {
+      const Polygon rest{piece[0], piece[2], piece[3]};
+      if (area_vector(rest).norm() > smallest) panels.push_back(make_panel(rest));
+      piece.pop_back();
+    }
+    if (area_vector(piece).norm() > smallest) panels.push_back(make_panel(piece));
+  }
+}
+
+}  // namespace
+
+WettedBody make_wetted_body(const Hull& hull, const Pose& X_WB, const Vector3& p_BoR_B) {
+  WettedBody body{hull.name(), {}, X_WB.apply(p_BoR_B)};
+  const auto add = [&](const Polygon& polygon) {
+    const Polygon below = cut_at_surface(polygon);
+    const bool on_surface = std::all_of(below.begin(), below.end(),
+                                        [](const Vector3& vertex) { return vertex.z() == 0.0; });
+    if (below.size() >= 3 && !on_surface) add_panels(below, body.hull.panels);
+  };
+  const Polygon vertices = vertices_in_world(hull, X_WB);
+  for (int k = 0; k < hull.panel_count(); ++k) {
+    Polygon polygon;
+    for (const int vertex : hull.panel(k)) {
+      polygon.push_back(vertices[static_cast<std::size_t>(vertex)]);
+    }
+    if (is_flat(polygon, 0.01)) {
+      add(polygon);
+      continue;
+    }
+    for (std::size_t number = 0; number + 2 < polygon.size(); ++number) {
+      add({polygon[0], polygon[number + 1], polygon[number + 2]});
+    }
+  }
+  if (body.hull.panels.empty()) {
+    throw ModelError("hull " + hull.name() + " is wholly above the water at z = 0: lower it first");
+  }
+  return body;
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,96 @@
+#include "dynamics/marine/radiation/free_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "dynamics/errors.h"
+
+namespace blocklift::dynamics {
+
+Eigen::VectorXd DampingZone::rates(const SurfaceMesh& surface) const {
+  Eigen::VectorXd rates(surface.mesh.size());
+  for (int k = 0; k < surface.mesh.size(); ++k) {
+    const Vector3& p = surface.mesh.panels[static_cast<std::size_t>(k)].centroid;
+    const double distance = (p - surface.centre).norm() - surface.inner_radius;
+    const double fraction =
+        std::clamp(distance / (surface.outer_radius - surface.inner_radius), 0.0, 1.0);
+    rates[k] = strength * fraction * fraction;
+  }
+  return rates;
+}
+
+DampingZone damping_zone(double lowest_frequency) { return {1.1 * lowest_frequency}; }
+
+FreeSurfaceMarch::FreeSurfaceMarch(const RankinePart& part, const Eigen::VectorXd& damping,
+                                   double gravity, Eigen::Index columns)
+    : gravity_(gravity), operator_(part.surface_operator().cast<float>()), damping_(damping) {
+  const Eigen::Index n = operator_.rows();
+  operator_.diagonal() += (damping.array().square() / gravity).matrix().cast<float>();
+  elevation_ = potential_ = Eigen::MatrixXd::Zero(n, columns);
+  single_potential_ = single_velocity_ = Eigen::MatrixXf::Zero(n, columns);
+  step_limit_ = 2.0 / std::sqrt(gravity * find_largest_eigenvalue());
+}
+
+/// Lanczos' iteration: the largest eigenvalue of its small tridiagonal matrix.
+double FreeSurfaceMarch::find_largest_eigenvalue() const {
+  const Eigen::Index n = operator_.rows(), steps = std::min<Eigen::Index>(n, 50);
+  if (n == 0) return 1.0;
+  // Rough fields hold the largest eigenvalue: start from one that changes sign at random.
+  Eigen::MatrixXf x(n, 1), y(n, 1), last = Eigen::MatrixXf::Zero(n, 1);
+  unsigned state = 1;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    state = state * 1664525U + 1013904223U;
+    x(i, 0) = static_cast<float>(state >> 8U) / 8388608.0F - 1.0F;
+  }
+  x /= x.norm();
+  Eigen::VectorXd diagonal(steps), off_diagonal = Eigen::VectorXd::Zero(steps);
+  Eigen::Index k = 0;
+  for (float beta = 0.0F; k < steps; ++k) {
+    multiply_symmetric(operator_, x, y);
+    const float alpha = x.col(0).dot(y.col(0));
+    diagonal[k] = static_cast<double>(alpha);
+    y -= alpha * x + beta * last;
+    beta = y.norm();
+    if (!(beta > 1e-6F * std::abs(alpha))) {
+      ++k;
+      break;
+    }
+    off_diagonal[k] = static_cast<double>(beta);
+    last = x;
+    x = y / beta;
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small;
+  small.computeFromTridiagonal(diagonal.head(k), off_diagonal.head(k - 1), Eigen::EigenvaluesOnly);
+  return 1.01 * small.eigenvalues()[k - 1];
+}
+
+void FreeSurfaceMarch::start(const Eigen::MatrixXd& elevation, double step) {
+  if (!(step > 0.0) || step > step_limit_) {
+    throw ModelError("the free surface is to be marched by " + std::to_string(step) +
+                     " s, but its step must be positive and at most " +
+                     std::to_string(step_limit_) + " s: take a shorter step or wider panels");
+  }
+  step_ = step;
+  before_ = 1.0 - step * damping_.array();
+  after_ = (1.0 + step * damping_.array()).inverse();
+  elevation_ = elevation;
+  // Half a step back, so that the potential is zero now to the second order.
+  potential_ = 0.5 * step * gravity_ * elevation;
+}
+
+void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
+  potential_.noalias() -= (step_ * gravity_) * elevation_;
+  single_potential_ = potential_.cast<float>();
+  multiply_symmetric(operator_, single_potential_, single_velocity_);
+  for (Eigen::Index j = 0; j < elevation_.cols(); ++j) {
+    for (Eigen::Index i = 0; i < elevation_.rows(); ++i) {
+      const double added = supply.size() > 0 ? supply(i, j) : 0.0;
+      elevation_(i, j) =
+          after_[i] * (before_[i] * elevation_(i, j) +
+                       step_ * (static_cast<double>(single_velocity_(i, j)) + added));
+    }
+  }
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "dynamics/marine/panels/rankine_problem.h"
+
+namespace blocklift::dynamics {
+
+/// Numerical beach: where waves that leave the bodies are damped before they reach the edge of the
+/// surface mesh. The rate nu (rad/s) of the paper's equation (26) grows with the square of the
+/// distance from the circle that holds the bodies.
+struct DampingZone {
+  double strength = 0.0;  ///< nu at the outer edge, rad/s
+
+  /// nu for each panel of the surface, rad/s.
+  Eigen::VectorXd rates(const SurfaceMesh& surface) const;
+};
+
+/// Damping zone for waves down to a frequency (rad/s): 1.1 times that frequency at the edge. Stronger
+/// damping reflects the waves it should take in.
+DampingZone damping_zone(double lowest_frequency);
+
+/// Free surface of one part, marched in time (the paper's equations 26 and 27):
+///
+///   d eta/dt = M phi + q v - 2 nu eta + (nu^2/g) phi,      d phi/dt = -g eta,
+///
+/// eta at t, phi half a step later (leapfrog, second order, no damping of its own); the damping term
+/// 2 nu eta by Crank and Nicolson's rule. All quantities carry the factor W^1/2 of RankinePart, the
+/// operator is held in single precision: that is what a step has to read. Several histories (columns)
+/// are marched at once at little more than the cost of one. No allocation in a step.
+class FreeSurfaceMarch {
+ public:
+  /// `damping` is nu for each panel (rad/s), `columns` the number of histories.
+  FreeSurfaceMarch(const RankinePart& part, const Eigen::VectorXd& damping, double gravity,
+                   Eigen::Index columns);
+
+  /// Largest stable step 2/sqrt(largest eigenvalue of g M + nu^2), by Lanczos' iteration, s.
+  double step_limit() const { return step_limit_; }
+
+  /// Elevation W^1/2 eta now (m2); potential W^1/2 phi half a step ago (m3/s).
+  const Eigen::MatrixXd& elevation() const { return elevation_; }
+  const Eigen::MatrixXd& potential() const { return potential_; }
+
+  /// Starts from an elevation (W^1/2 eta) and no potential.
+  void start(const Eigen::MatrixXd& elevation, double step);
+  /// One step; `supply` is W^1/2 times what the bodies' motion at the middle of the step adds to
+  /// d eta/dt (q v; m2/s), or empty.
+  void advance(const Eigen::MatrixXd& supply = {});
+
+ private:
+  double find_largest_eigenvalue() const;
+
+  double gravity_;
+  double step_ = not_a_number;
+  double step_limit_ = not_a_number;
+  Eigen::MatrixXf operator_;  ///< W^1/2 M W^-1/2 + nu^2/g
+  Eigen::VectorXd damping_, before_, after_;
+  Eigen::MatrixXd elevation_, potential_;
+  Eigen::MatrixXf single_potential_, single_velocity_;
+};
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,262 @@
+#include "pipeline/assessment/assess.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/checks/lift_checks.h"
+#include "pipeline/coupling/block_flexibility.h"
+#include "pipeline/formats/preparation.h"
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/lift/block_preparation.h"
+#include "pipeline/lift/stopwatch.h"
+#include "pipeline/report/report.h"
+#include "pipeline/results/history_file.h"
+#include "pipeline/results/lift_scene.h"
+#include "pipeline/results/padeye_summary.h"
+#include "pipeline/results/result_file.h"
+#include "pipeline/results/summary.h"
+#include "structure/output/part_files.h"
+#include "structure/output/vtu.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Regions of the shell, each of which takes the water's pressure as one, over the block's length.
+constexpr double regions_along_the_shell = 20;
+
+/// Forces of a load table in the order of the mesh's lugs, N, in the block frame.
+std::vector<structure::Vector3> table_forces(const LoadTable& table,
+                                             const std::vector<Named<double>>& loads,
+                                             const std::vector<structure::LugRegion>& lugs) {
+  std::vector<structure::Vector3> forces(lugs.size(), structure::Vector3::Zero());
+  for (const Named<double>& load : loads) {
+    for (std::size_t i = 0; i < lugs.size(); ++i) {
+      if (lugs[i].name == load.name.value)
+        forces[i] = load.value * table.direction_at(lugs[i].name);
+    }
+  }
+  return forces;
+}
+
+HistorySettings history_settings(const StructureSettings& settings) {
+  HistorySettings result;
+  for (const Named<Vector3>& point : settings.stress_points)
+    result.points.push_back({point.name.value, point.value});
+  result.fatigue_curve = settings.fatigue.curve;
+  result.stress_concentration = settings.fatigue.stress_concentration;
+  result.lifts = settings.fatigue.lifts;
+  result.hot_spot_curve = settings.fatigue.hot_spot_curve;
+  for (const HotSpotInFile& spot : settings.hot_spots)
+    result.hot_spots.push_back({spot.name.value, {spot.toe, spot.direction, spot.thickness}});
+  return result;
+}
+
+std::vector<structure::LugRegion> lugs_of(const Assessment& assessment) {
+  return assessment.block.model ? assessment.block.model->mesh().lugs
+                                : vessel_lugs(assessment.lift_case.load);
+}
+
+void write_result_file(const Assessment& assessment, const fs::path& path) {
+  ResultsWriter file(path);
+  write_case(file, assessment.lift_case.name, assessment.lift_case.title,
+             assessment.lift_case.yaml);
+  if (assessment.lift) {
+    const dynamics::LiftSystem& system = assessment.lift->model.system;
+    const Scene scene = make_scene(assessment.lift->model, lugs_of(assessment));
+    write_operation(file, system.operation());
+    write_history(file, layout::static_history, system, assessment.lift->static_history, scene);
+    write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
+    write_natural_modes(file, system.mechanism(), assessment.lift->natural_modes);
+    write_scene(file, system, scene);
+    if (assessment.lift_case.compare) write_measured(file, *assessment.lift_case.compare);
+  }
+  if (assessment.block.model) {
+    const structure::Surface surface(*assessment.block.model);
+    write_block(file, surface, *assessment.block.responses, assessment.block.assessment);
+    if (assessment.block.history)
+      write_block_history(file, surface, *assessment.block.responses, *assessment.block.history);
+    write_buckling(file, assessment.block.buckling);
+    write_padeyes(file, assessment.block.padeyes);
+  }
+  file.finish();
+}
+
+/// Water that presses on the block's shell joins its loads.
+void find_pressure(const LiftRun& lift, BlockRun& block) {
+  const dynamics::HullForce* in_motion = find_hull(lift.model.system, lift.model.load);
+  const dynamics::HullForce* at_rest = find_hull(lift.model.at_rest(), lift.model.load);
+  if (!in_motion || !at_rest) return;
+  const Eigen::Matrix3Xd& nodes = block.model->space().nodes;
+  PressureSettings settings;
+  settings.region_size = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff() /
+                         regions_along_the_shell;
+  block.pressure = find_pressure_basis(*block.model, *at_rest, lift.static_history, *in_motion,
+                                       lift.dynamic_history(), settings);
+  if (block.pressure) block.responses->add_loads(block.pressure->loads);
+}
+
+/// Stresses of a block that was lifted.
+void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
+                         const structure::StressRecovery& recovery, const Progress& progress,
+                         BlockRun& block) {
+  BlockAttachment attachment =
+      attach_block(lift.model.system, lift.model.load, block.model->mesh().lugs);
+  BlockHistory at_rest = lift.static_history, in_motion = lift.dynamic_history();
+  if (block.pressure) {
+    attachment.pressure_resultants = block.pressure->resultants;
+    at_rest.pressure = block.pressure->static_factors;
+    in_motion.pressure = block.pressure->dynamic_factors;
+  }
+  block.assessment = assess_block(*block.responses, recovery, attachment, at_rest, in_motion);
+  progress("block: every instant", 0.7, "");
+  block.history = assess_history(*block.responses, recovery, attachment, at_rest, in_motion,
+                                 block.assessment, history_settings(the_case.structure));
+  progress("block: panels", 0.85, "");
+  block.buckling = assess_buckling(the_case, *block.responses, *block.history);
+  progress("block: padeyes", 0.9, "");
+  block.padeyes = assess_padeyes(the_case, *block.responses, attachment, at_rest, in_motion);
+}
+
+}  // namespace
+
+Assessment assess(LiftCase lift_case, const Progress& progress) {
+  Stopwatch total;
+  Assessment assessment{std::move(lift_case), {}, {}, {}, 0};
+  const LiftCase& the_case = assessment.lift_case;
+
+  if (!the_case.has_structure()) {
+    assessment.lift =
+        run_lift(the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
+                 progress);
+    assessment.checks = check_lift(the_case, *assessment.lift);
+    assessment.total_s = total.lap();
+    return assessment;
+  }
+  Stopwatch watch;
+  BlockRun& block = assessment.block;
+  Diagnostics diagnostics;
+  block.model = make_block_model(*the_case.load.model, the_case.load.model_name.value,
+                                 the_case.structure, diagnostics);
+  if (!block.model) throw InputError(diagnostics);
+  block.mesh_s = watch.lap();
+  const auto& lugs = block.model->mesh().lugs;
+
+  const auto respond = [&] {
+    progress("block: stiffness, factorisation, unit responses", 0, "");
+    block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  };
+  if (!the_case.load_table) {
+    // A rigid block moves without its stiffness: what is wrong with the lift is said sooner.
+    std::optional<LoadFlexibility> flexibility;
+    if (the_case.dynamics.flexibility != Flexibility::rigid) {
+      respond();
+      flexibility = make_flexibility(*block.responses, the_case.dynamics);
+    }
+    BuiltLift model = prepare_lift(the_case, load_mass(block.model->mass_properties()), progress,
+                                   flexibility ? &*flexibility : nullptr);
+    assessment.lift = run_lift(the_case, std::move(model), progress);
+    assessment.checks = check_lift(the_case, *assessment.lift);
+  }
+  if (!block.responses) respond();
+  if (assessment.lift) find_pressure(*assessment.lift, block);
+  progress("block: stresses", 0.5, "");
+  const structure::StressRecovery recovery(*block.responses);
+  if (assessment.lift) {
+    assess_lifted_block(the_case, *assessment.lift, recovery, progress, block);
+  } else {
+    const LoadTable& table = *the_case.load_table;
+    block.assessment =
+        assess_load_table(*block.responses, recovery, table_forces(table, table.static_loads, lugs),
+                          table_forces(table, table.dynamic_loads, lugs));
+    block.buckling = assess_buckling(the_case, *block.responses, block.assessment);
+    block.padeyes = assess_padeyes(the_case, *block.responses, block.assessment);
+  }
+  block.error = structure::estimate_block_error(
+      *block.model, block.responses->displacement(
+                        block.history ? block.history->dynamic_state.governing
+                                      : block.assessment.simultaneous.dynamic_state.load));
+  for (Check& check :
+       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr))
+    assessment.checks.push_back(check);
+  for (Check& check : check_buckling(the_case, block.buckling))
+    assessment.checks.push_back(std::move(check));
+  for (Check& check : check_padeyes(the_case, block.padeyes))
+    assessment.checks.push_back(std::move(check));
+  assessment.total_s = total.lap();
+  return assessment;
+}
+
+void require_writable(const fs::path& folder) {
+  const auto refuse = [&](std::string message) {
+    Diagnostics diagnostics;
+    diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
+                      "results cannot be written here: " + std::move(message),
+                      {"name another folder with --output"});
+    throw InputError(diagnostics);
+  };
+  if (folder.empty()) refuse("the name of the folder is empty");
+  std::error_code error;
+  fs::path existing = fs::absolute(folder, error).lexically_normal();
+  while (fs::status(existing, error).type() != fs::file_type::directory) {
+    if (fs::exists(existing, error)) refuse(existing.string() + " is no folder");
+    const fs::path parent = existing.parent_path();
+    if (parent == existing) refuse("it lies nowhere");
+    existing = parent;
+  }
+  if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+    refuse(existing.string() + ": " + std::generic_category().message(errno));
+  }
+}
+
+namespace {
+
+fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
+  const Preparation preparation(folder);
+  Stopwatch watch;
+  write_result_file(assessment, preparation.folder() / layout::results_file);
+  if (assessment.block.model) {
+    const LoadComparison& pictured = assessment.block.assessment.simultaneous;
+    const structure::UnitResponses& responses = *assessment.block.responses;
+    structure::write_vtu(preparation.folder() / "block-static.vtu", responses,
+                         pictured.static_state.load);
+    structure::write_vtu(preparation.folder() / "block-dynamic.vtu", responses,
+                         pictured.dynamic_state.load);
+    for (const PadeyeAssessment& padeye : assessment.block.padeyes.padeyes)
+      structure::write_part_vtu(preparation.folder() / padeye_file(padeye), padeye.model->part(),
+                                padeye.model->as_part(padeye.governing_state().result));
+  }
+
+  nlohmann::ordered_json summary = make_summary(assessment);
+  const fs::path summary_path = preparation.folder() / layout::summary_file;
+  write_file(summary_path, summary.dump(2));
+  write_report(preparation.folder());
+  summary["timing"]["report_s"] = watch.lap();
+  write_file(summary_path, summary.dump(2));
+  preparation.move_into_place();
+  return folder / layout::report_file;
+}
+
+}  // namespace
+
+fs::path write_results(const Assessment& assessment, const fs::path& folder) {
+  try {
+    return prepare_results(assessment, folder);
+  } catch (const fs::filesystem_error& error) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot write results here: {}", folder.string(), error.code().message()));
+  }
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "pipeline/checks/assessment.h"
+
+namespace blocklift::pipeline {
+
+/// Runs all stages of a case: mesh and mass of the block, static sweep, time integration, load
+/// mapping, unit responses, stresses, checks.
+/// @throws dynamics::SimulationError, structure::ModelError, std::runtime_error as the stages do.
+Assessment assess(LiftCase lift_case, const Progress& progress);
+
+/// Asks before a run whether its results can be written; makes nothing.
+/// @throws InputError if the folder is a file or lies in one, or the user may not write there.
+void require_writable(const std::filesystem::path& folder);
+
+/// Writes results.h5, summary.json, the .vtu files and report.html into a folder (made if missing).
+/// They are prepared aside and moved into place together at the end: whatever goes wrong before,
+/// results that lie there stay as they are.
+/// @returns the path of report.html.
+std::filesystem::path write_results(const Assessment& assessment,
+                                    const std::filesystem::path& folder);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,455 @@
+#include "pipeline/build/build_lift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/multibody/kinematics.h"
+#include "pipeline/files/crane_pose.h"
+#include "pipeline/mechanism/build_parts.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::BodyDefinition;
+using dynamics::BodyIndex;
+using dynamics::BodyPoint;
+using dynamics::Pose;
+
+/// The box around all plates of a block, as the drawing shows the block.
+BoxShape drawn_box(const BlockModel& block) {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
+  Vector3 high = -low;
+  for (const PlateModel& plate : block.plates) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<Eigen::Index>(axis);
+      const auto widen = [&](double value) {
+        low[i] = std::min(low[i], value);
+        high[i] = std::max(high[i], value);
+      };
+      if (axis == plate.normal) {
+        for (const double at : plate.at) widen(at);
+      } else if (plate.extent[axis]) {
+        for (const double end : plate.extent[axis]->value) widen(end);
+      }
+    }
+  }
+  return {high - low, 0.5 * (low + high), Vector3::Zero()};
+}
+
+/// The box around a hull, as the drawing shows a vessel.
+BoxShape hull_box(const Vessel& vessel) {
+  const auto [low, high] = vessel.hull.bounds();
+  return {high - low, 0.5 * (low + high), Vector3::Zero()};
+}
+
+/// Mass of the cranes that stand on a vessel, kg; hook blocks and what they carry not counted.
+double mass_on(const LiftCase& lift_case, const std::string& vessel) {
+  double mass = 0;
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.base || crane.base->value != vessel) continue;
+    for (const BodyModel& body : crane.model->bodies) mass += body.mass;
+  }
+  return mass;
+}
+
+/// The load as it makes waves; none: it makes none.
+std::optional<FloatingLoad> floating_load(const LiftCase& lift_case) {
+  const LoadInCase& load = lift_case.load;
+  if (!load.draughts || !load.vessel) return std::nullopt;
+  const Pose X_WB = load.pose_afloat();
+  return FloatingLoad{.vessel = load.vessel,
+                      .draughts = load.draughts->value,
+                      .position = X_WB.p.head<2>(),
+                      .heading = std::atan2(X_WB.R(1, 0), X_WB.R(0, 0))};
+}
+
+/// Gathers the parts of a lift; the steps of `build` follow one another.
+class LiftBuilder {
+ public:
+  LiftBuilder(const LiftCase& lift_case, const LoadMass& load,
+              const dynamics::HydrodynamicSeries* radiation, const LoadFlexibility* flexibility,
+              MarchedWater marched)
+      : case_(lift_case),
+        load_(load),
+        radiation_(radiation),
+        flexibility_(flexibility),
+        marched_(std::move(marched)),
+        marine_(lift_case, lift_case.gravity, floating_load(lift_case)) {
+    marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
+  }
+
+  BuiltLift build() {
+    dynamics::MechanismBuilder builder;
+    builder.set_gravity(Vector3(0, 0, -case_.gravity));
+    for (const VesselInCase& vessel : case_.vessels) {
+      register_body(builder, MarineBuilder::body(vessel), "vessel", {hull_box(*vessel.model)});
+    }
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) add_crane(builder, i);
+    add_load(builder);
+    if (flexibility_) add_modes(builder);
+    const dynamics::Mechanism mechanism = builder.build();
+    q_start_ = mechanism.zero_configuration();
+    set_start(mechanism);
+    add_ropes();
+    std::vector<dynamics::Rope> ropes;
+    for (const dynamics::RopeDefinition& rope : rope_definitions_) {
+      ropes.emplace_back(mechanism, rope);
+    }
+    std::vector<dynamics::ElasticBody> elastic_bodies = make_elastic_bodies(mechanism, ropes);
+    Schedule schedule = make_schedule();
+    dynamics::Operation operation = make_operation(mechanism, schedule);
+    const auto water = marine_.make_water(place(), radiation_, marched_);
+    const auto system = [&](bool at_rest) {
+      return dynamics::LiftSystem({mechanism, ropes, make_supports(),
+                                   make_elements(mechanism, at_rest), operation, q_start_,
+                                   Eigen::VectorXd::Zero(mechanism.nv()), water, elastic_bodies});
+    };
+    const bool gusts = case_.wind && case_.wind->gusts != dynamics::GustSpectrum::none;
+    const bool moves = gusts || marine_.has_waves();
+    return {system(false),
+            body_of_.at("load"),
+            std::move(bodies_),
+            std::move(hoists_),
+            std::move(ropes_),
+            std::move(schedule),
+            moves ? std::optional(system(true)) : std::nullopt,
+            marched_,
+            water ? marine_.arrangement(place()) : dynamics::Arrangement{}};
+  }
+
+ private:
+  struct DrivenJoint {
+    std::string drive;
+    BodyIndex body;
+    int degree_of_freedom;  // from 0
+    double start;
+  };
+  struct HookStart {
+    BodyIndex hook;
+    BodyPoint sheave;
+    double length;
+  };
+
+  void add_crane(dynamics::MechanismBuilder& builder, std::size_t index) {
+    const CraneInCase& crane = case_.cranes[index];
+    const Pose X_WC{rotation_of(crane.attitude), crane.position};
+    BaseGround ground;
+    if (crane.base) ground = {crane.base->value, body_of_.at(crane.base->value)};
+    PartsBuilder& parts =
+        crane_parts_.emplace_back(*crane.model, crane.name.value + ".", X_WC, ground);
+    const CranePose& pose = crane_poses_.emplace_back(pose_at_start(crane));
+    parts.add_bodies(builder);
+    parts.add_loops(builder, &pose.mechanism);
+    for (const BodyModel* body : parts.added()) {
+      note_body(crane.name.value + "." + body->name.value, parts.body(body->name.value), "crane",
+                body->shapes);
+    }
+    for (const DrivenFreedom& freedom : parts.driven()) {
+      const std::string& drive = freedom.drive->name.value;
+      driven_joints_.push_back({crane.name.value + "." + drive, freedom.body,
+                                freedom.degree_of_freedom, crane.find_start(drive)->value.value});
+    }
+    for (const HoistModel& hoist : crane.model->hoists) add_hoist(builder, index, hoist);
+  }
+
+  void add_hoist(dynamics::MechanismBuilder& builder, std::size_t crane_index,
+                 const HoistModel& hoist) {
+    const CraneInCase& crane = case_.cranes[crane_index];
+    BodyDefinition hook;
+    hook.name = crane.name.value + "." + hoist.name.value;
+    hook.joint.kind = dynamics::JointKind::translational;
+    hook.mass = hoist.hook_block.mass;
+    const BodyIndex index = register_body(builder, hook, "hook block",
+                                          {BoxShape{hoist.hook_block.size, {0, 0, 0}, {0, 0, 0}}});
+
+    const BodyPoint sheave{body_of_.at(crane.name.value + "." + hoist.body.value), hoist.sheave};
+    const double length = crane.find_start(hoist.name.value)->value.value;
+    hook_starts_.push_back({index, sheave, length});
+    dynamics::RopeDefinition rope;
+    rope.name = hook.name;
+    rope.points = {sheave, {index, Vector3::Zero()}};
+    set_rope(rope, hoist.rope, hoist.crane_stiffness, length);
+    winches_.push_back({rope.name, static_cast<int>(rope_definitions_.size()), length});
+    hoists_.push_back({rope.name, crane_index, static_cast<int>(rope_definitions_.size()), index,
+                       hoist.capacity, hoist.rope.breaking_load});
+    rope_definitions_.push_back(std::move(rope));
+  }
+
+  void add_load(dynamics::MechanismBuilder& builder) {
+    BodyDefinition load;
+    load.name = "load";
+    load.joint.kind = dynamics::JointKind::free;
+    load.mass = load_.mass;
+    load.p_BoBcm_B = load_.p_BoBcm_B;
+    load.I_BBcm_B = load_.I_BBcm_B;
+    register_body(
+        builder, load, "load",
+        {case_.load.vessel ? hull_box(*case_.load.vessel) : drawn_box(*case_.load.model)});
+  }
+
+  /// The load's natural modes: each a body of the load's mass that slides level.
+  void add_modes(dynamics::MechanismBuilder& builder) {
+    for (Eigen::Index k = 0; k < flexibility_->angular_frequencies.size(); ++k) {
+      BodyDefinition mode;
+      mode.name = fmt::format("load.mode_{}", k + 1);
+      mode.joint.kind = dynamics::JointKind::prismatic;
+      mode.joint.axis = Vector3::UnitX();
+      mode.mass = load_.mass;
+      modes_.push_back(builder.add_body(mode));
+    }
+  }
+
+  void add_mode_springs(const dynamics::Mechanism& mechanism,
+                        dynamics::ForceElements& elements) const {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
+      const double omega = flexibility_->angular_frequencies[static_cast<Eigen::Index>(k)];
+      std::get<std::vector<dynamics::JointSpring>>(elements).emplace_back(
+          mechanism, dynamics::JointSpring::Definition{
+                         .name = mechanism.body(modes_[k]).name,
+                         .body = modes_[k],
+                         .stiffness = load_.mass * omega * omega,
+                         .damping = 2 * flexibility_->damping_ratio * load_.mass * omega,
+                         .free_coordinate = 0});
+    }
+  }
+
+  /// The load with the ropes that end at its lugs.
+  std::vector<dynamics::ElasticBody> make_elastic_bodies(
+      const dynamics::Mechanism& mechanism, const std::vector<dynamics::Rope>& ropes) const {
+    if (!flexibility_) return {};
+    dynamics::ElasticBody::Definition load{"load", body_of_.at("load"), {}, {}, {}, modes_};
+    std::vector<Eigen::Index> rows;
+    const auto take = [&](const ResolvedPoint& point, int rope, bool last) {
+      if (point.lug.empty()) return;
+      const auto lug = std::find(flexibility_->lugs.begin(), flexibility_->lugs.end(), point.lug);
+      for (int axis = 0; axis < 3; ++axis)
+        rows.push_back(3 * (lug - flexibility_->lugs.begin()) + axis);
+      load.ends.push_back({rope, last});
+    };
+    for (std::size_t i = 0; i < case_.ropes.size(); ++i) {
+      take(case_.ropes[i].path.front(), ropes_[i].rope, false);
+      take(case_.ropes[i].path.back(), ropes_[i].rope, true);
+    }
+    if (load.ends.empty()) return {};
+    load.compliance = flexibility_->compliance(rows, rows);
+    load.shapes = flexibility_->shapes(rows, Eigen::all);
+    return {dynamics::ElasticBody(mechanism, ropes, std::move(load))};
+  }
+
+  BodyIndex register_body(dynamics::MechanismBuilder& builder, const BodyDefinition& body,
+                          std::string kind, std::vector<BoxShape> boxes) {
+    const BodyIndex index = builder.add_body(body);
+    note_body(body.name, index, std::move(kind), std::move(boxes));
+    return index;
+  }
+
+  void note_body(const std::string& name, BodyIndex index, std::string kind,
+                 std::vector<BoxShape> boxes) {
+    body_of_[name] = index;
+    bodies_.push_back({name, std::move(kind), index, std::move(boxes)});
+  }
+
+  static void set_rope(dynamics::RopeDefinition& rope, const RopeModel& model,
+                       double stiffness_in_series, double length) {
+    rope.axial_stiffness = model.axial_stiffness;
+    rope.damping_time = model.damping_time;
+    rope.crane_stiffness = stiffness_in_series;
+    rope.unstretched_length = length;
+  }
+
+  /// Coordinates of a crane's joints: drives as the case says, the others as its loops lead them.
+  void set_crane(const dynamics::Mechanism& mechanism, std::size_t index) {
+    const CranePose& pose = crane_poses_[index];
+    for (const BodyModel* model : crane_parts_[index].added()) {
+      const std::string& name = model->name.value;
+      const dynamics::Body& body = mechanism.body(crane_parts_[index].body(name));
+      const dynamics::Body& alone = pose.mechanism.body(pose.mechanism.body_index(name));
+      q_start_.segment(body.q_offset, body.nq()) = pose.q.segment(alone.q_offset, alone.nq());
+    }
+  }
+
+  /// Coordinates at the start: cranes as they are put together; load, vessels and hook blocks as guessed.
+  void set_start(const dynamics::Mechanism& mechanism) {
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) set_crane(mechanism, i);
+    set_free_start(mechanism, "load", load_pose());
+    for (const VesselInCase& vessel : case_.vessels) {
+      set_free_start(mechanism, vessel.name.value, marine_.start(vessel.name.value));
+    }
+
+    dynamics::Kinematics kinematics(mechanism);
+    dynamics::compute_kinematics(mechanism, q_start_, Eigen::VectorXd::Zero(mechanism.nv()),
+                                 kinematics);
+    for (const HookStart& hook : hook_starts_) {
+      const Pose& X_WT = kinematics.X_WB[static_cast<std::size_t>(hook.sheave.body)];
+      q_start_.segment<3>(mechanism.body(hook.hook).q_offset) =
+          X_WT.apply(hook.sheave.p_BoQ_B) - Vector3(0, 0, hook.length);
+    }
+  }
+
+  void set_free_start(const dynamics::Mechanism& mechanism, const std::string& body,
+                      const Pose& X_WB) {
+    const int offset = mechanism.body(body_of_.at(body)).q_offset;
+    q_start_.segment<3>(offset) = X_WB.p;
+    q_start_.segment<4>(offset + 3) = dynamics::quaternion_from_rotation(X_WB.R);
+  }
+
+  /// Where a point of a body is; for the lines of vessels.
+  MarineBuilder::BodyOf place() const {
+    return [this](const PointModel& point) {
+      const std::string& body = point.body.value;
+      return BodyPoint{body == "world" ? dynamics::world_index : body_of_.at(body), point.position};
+    };
+  }
+
+  dynamics::ForceElements make_elements(const dynamics::Mechanism& mechanism, bool at_rest) {
+    dynamics::ForceElements elements;
+    add_wind_areas(at_rest, elements);
+    for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements);
+    add_mode_springs(mechanism, elements);
+    marine_.add_elements(place(), radiation_, at_rest, elements);
+    const LoadInCase& load = case_.load;
+    if (!load.vessel) return elements;
+    marine_.add_hull("load", body_of_.at("load"), *load.vessel, load.damping,
+                     load.quadratic_damping, load_.mass, at_rest, elements);
+    return elements;
+  }
+
+  Pose load_pose() const { return {rotation_of(case_.load.attitude), case_.load.position}; }
+
+  void add_ropes() {
+    for (const RopeInCase& rope : case_.ropes) {
+      dynamics::RopeDefinition definition;
+      definition.name = rope.name.value;
+      for (const ResolvedPoint& point : rope.path) {
+        const std::string body = point.body_name(case_.cranes);
+        definition.points.push_back(
+            {body == "world" ? dynamics::world_index : body_of_.at(body), point.point});
+      }
+      set_rope(definition, rope.rope, rope.end_stiffness, rope.length.value);
+      const int index = static_cast<int>(rope_definitions_.size());
+      if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
+      const ResolvedPoint& first = rope.path.front();
+      ropes_.push_back(
+          {rope.name.value, index, rope.lug(),
+           first.kind == ResolvedPoint::Kind::hook ? first.body_name(case_.cranes) : "",
+           rope.rope.breaking_load});
+      rope_definitions_.push_back(std::move(definition));
+    }
+  }
+
+  void add_wind_areas(bool at_rest, dynamics::ForceElements& elements) const {
+    if (!case_.wind) return;
+    const auto wind = case_.wind->make_field(at_rest);
+    const auto add = [&](const std::string& body, const WindAreaModel& area) {
+      add_wind_area(body, body_of_.at(body), area, wind, elements);
+    };
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) {
+      crane_parts_[i].add_wind_areas(wind, elements);
+      for (const HoistModel& hoist : case_.cranes[i].model->hoists) {
+        if (hoist.hook_block.wind_area == 0) continue;
+        add(case_.cranes[i].name.value + "." + hoist.name.value,
+            {hoist.hook_block.wind_area, hoist.hook_block.wind_coefficient, std::nullopt,
+             Vector3::Zero()});
+      }
+    }
+    if (!case_.load.model) return;
+    for (const WindAreaModel& area : case_.load.model->wind_areas) add("load", area);
+  }
+
+  std::vector<dynamics::SupportPad> make_supports() const {
+    std::vector<dynamics::SupportPad> pads;
+    for (const SupportInCase& support : case_.supports) {
+      dynamics::SupportPad::Definition pad;
+      pad.name = support.name.value;
+      pad.point = {body_of_.at("load"), support.point};
+      pad.p_WG = load_pose().apply(support.point);
+      pad.p_WG.z() = support.ground;
+      pad.stiffness = support.stiffness;
+      pad.damping = support.damping;
+      pad.friction_coefficient = support.friction_coefficient;
+      pad.tangential_stiffness = support.tangential_stiffness;
+      if (support.reach) pad.reach = *support.reach;
+      pads.emplace_back(std::move(pad));
+    }
+    return pads;
+  }
+
+  Schedule make_schedule() const {
+    Diagnostics diagnostics;
+    Schedule schedule = schedule_operation(case_, diagnostics);
+    if (diagnostics.has_errors()) throw InputError(diagnostics);
+    return schedule;
+  }
+
+  dynamics::Operation make_operation(const dynamics::Mechanism& mechanism,
+                                     const Schedule& schedule) const {
+    dynamics::OperationBuilder builder;
+    for (const DrivenJoint& drive : driven_joints_) {
+      builder.add_joint_drive(mechanism, drive.drive, drive.body, drive.start,
+                              drive.degree_of_freedom);
+    }
+    for (const WinchStart& winch : winches_) {
+      builder.add_winch(winch.name, winch.rope, winch.length);
+    }
+    add_schedule(schedule, builder);
+    return builder.build(schedule.duration);
+  }
+
+  struct WinchStart {
+    std::string name;
+    int rope;
+    double length;
+  };
+
+  const LiftCase& case_;
+  const LoadMass& load_;
+  const dynamics::HydrodynamicSeries* radiation_;
+  const LoadFlexibility* flexibility_;
+  MarchedWater marched_;
+  MarineBuilder marine_;
+  std::vector<BodyIndex> modes_;
+  std::map<std::string, BodyIndex> body_of_;
+  std::deque<PartsBuilder> crane_parts_;
+  std::deque<CranePose> crane_poses_;
+  std::vector<LiftBody> bodies_;
+  std::vector<LiftHoist> hoists_;
+  std::vector<LiftRope> ropes_;
+  std::vector<DrivenJoint> driven_joints_;
+  std::vector<HookStart> hook_starts_;
+  std::vector<WinchStart> winches_;
+  std::vector<dynamics::RopeDefinition> rope_definitions_;
+  Eigen::VectorXd q_start_;
+};
+
+}  // namespace
+
+LoadMass load_mass(const VesselModel& vessel) {
+  const Vector3 squares = vessel.radii_of_gyration.cwiseAbs2();
+  return {vessel.mass, vessel.centre_of_mass, (vessel.mass * squares).asDiagonal()};
+}
+
+RadiationProblem radiation_problem(const LiftCase& lift_case) {
+  MarineBuilder marine(lift_case, lift_case.gravity, floating_load(lift_case));
+  marine.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
+  return marine.radiation_problem();
+}
+
+BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
+                     const dynamics::HydrodynamicSeries* radiation,
+                     const LoadFlexibility* flexibility, MarchedWater marched) {
+  if (lift_case.load_table) {
+    throw std::invalid_argument("case " + lift_case.name +
+                                " is a load table: it has no cranes whose motion could be built");
+  }
+  return LiftBuilder(lift_case, load, radiation, flexibility, std::move(marched)).build();
+}
+
+}  // namespace blocklift::pipeline

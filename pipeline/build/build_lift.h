@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "dynamics/simulation/lift_system.h"
+#include "pipeline/build/build_marine.h"
+#include "pipeline/files/lift_case.h"
+#include "pipeline/files/operation_schedule.h"
+
+namespace blocklift::pipeline {
+
+/// Mass, centre of mass and inertia of the load in its own frame B. They come from the block's mesh,
+/// so that dynamics and structure have one source.
+struct LoadMass {
+  double mass = dynamics::not_a_number;                ///< kg
+  Vector3 p_BoBcm_B = Vector3::Zero();                 ///< centre of mass, m
+  Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< about the centre of mass, kg m^2
+};
+
+/// How the load gives way at its lugs (structure::LugFlexibility): 3 rows a lug, in the order of `lugs`.
+struct LoadFlexibility {
+  std::vector<std::string> lugs;
+  Eigen::MatrixXd compliance;           ///< that follows at once, m/N
+  Eigen::MatrixXd shapes;               ///< a column a mode, normalised to the load's mass
+  Eigen::VectorXd angular_frequencies;  ///< of the modes, rad/s
+  double damping_ratio = 0;             ///< of each, over the critical one
+};
+
+/// A hoist of the lift within the dynamics.
+struct LiftHoist {
+  std::string name;               ///< "C1.upper_1": of the hoist, its tackle, and its hook block
+  std::size_t crane = 0;          ///< index in the case
+  int rope = -1;                  ///< its tackle's index in the system
+  dynamics::BodyIndex hook = -1;  ///< its hook block
+  double capacity = dynamics::not_a_number;       ///< largest load at the hook, N
+  double breaking_load = dynamics::not_a_number;  ///< of the tackle, all falls, N
+};
+
+/// A rope of the case within the dynamics.
+struct LiftRope {
+  std::string name;
+  int rope = -1;                                  ///< index in the system
+  std::string lug;                                ///< that it ends at; empty if none
+  std::string hoist;                              ///< whose hook it begins at; empty if none
+  double breaking_load = dynamics::not_a_number;  ///< N
+};
+
+/// A body of the lift for the drawing: which boxes stand for it.
+struct LiftBody {
+  std::string name;  ///< "C1.gantry", "C1.upper_1", "load"
+  std::string kind;  ///< "crane", "vessel", "hook block", "load"
+  dynamics::BodyIndex body = -1;
+  std::vector<BoxShape> boxes;
+};
+
+/// The dynamics of a lift case and where its parts are in it.
+struct BuiltLift {
+  dynamics::LiftSystem system;
+  dynamics::BodyIndex load = -1;
+  std::vector<LiftBody> bodies;
+  std::vector<LiftHoist> hoists;  ///< in the order of cranes and their hoists
+  std::vector<LiftRope> ropes;    ///< in the order of the case
+  Schedule schedule;
+  /// The same lift without waves and in mean wind, where there are waves or gusts.
+  std::optional<dynamics::LiftSystem> calm = {};
+  /// The water's surface that is marched beside `system`; none: its water has a memory of its own, or there is none.
+  MarchedWater marched = {};
+  /// What the water of `system` was computed for; empty where vessels make no waves.
+  dynamics::Arrangement arrangement = {};
+
+  /// The lift whose static equilibria are asked.
+  const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }
+};
+
+/// What is to be computed for the case's vessels before it is built; no bodies: nothing.
+RadiationProblem radiation_problem(const LiftCase& lift_case);
+
+/// Builds the dynamics of a sound lift case.
+///
+/// Bodies are named "C1.gantry", hook blocks as their hoists ("C1.upper_1"), the block "load". A hook
+/// block is a body on a translational joint to the world, its tackle a rope from the sheave to its
+/// centre. The load is free; its start and that of the hook blocks (plumb below their sheaves, by
+/// the unstretched length) are guesses from which the equilibrium is found.
+///
+/// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave pressure and
+/// damping, and with draughts the water that it sets in motion.
+///
+/// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
+/// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints to the
+///   world, see dynamics::ElasticBody.
+/// @throws std::invalid_argument if the case is a load table, which has no dynamics.
+/// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
+///   complaints does.
+BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
+                     const dynamics::HydrodynamicSeries* radiation = nullptr,
+                     const LoadFlexibility* flexibility = nullptr, MarchedWater marched = {});
+
+/// Mass, centre of mass and inertia of a load that is a vessel.
+LoadMass load_mass(const VesselModel& vessel);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,390 @@
+#include "pipeline/build/build_marine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/panels/wetted_body.h"
+#include "dynamics/simulation/marched_surface.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::BodyIndex;
+
+constexpr int heading_count = 72;  // every 5 degrees
+// Errors of the fitted memory over its peak, and the states that may be spent on them.
+constexpr double close_fit = 0.005, fair_fit = 0.02, loose_fit = 0.1;
+constexpr int states_of_close_fit = 400, states_of_loose_fit = 600;
+
+dynamics::Water water_of(const SeaInCase& sea, double gravity) {
+  dynamics::Water water;
+  water.density = sea.density;
+  water.gravity = gravity;
+  if (sea.depth) water.depth = *sea.depth;
+  return water;
+}
+
+std::vector<double> radiation_frequencies(const SeaInCase& sea) {
+  const RadiationSettings& s = sea.radiation;
+  std::vector<double> frequencies;
+  for (int i = 0; i < s.frequencies; ++i) {
+    frequencies.push_back(s.lowest + i * (s.highest - s.lowest) / (s.frequencies - 1));
+  }
+  if (sea.waves && sea.waves->regular) {
+    for (const RegularWaveInCase& wave : *sea.waves->regular) frequencies.push_back(wave.omega());
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  const auto same = [](double a, double b) { return b - a < 1e-9 * b; };
+  frequencies.erase(std::unique(frequencies.begin(), frequencies.end(), same), frequencies.end());
+  return frequencies;
+}
+
+/// A wave of the world as a frame with the same axes has it whose origin is at p.
+dynamics::RegularWave seen_from(const Vector3& p, const dynamics::WaveComponent& wave,
+                                double wave_number) {
+  const double way = p.x() * std::cos(wave.heading) + p.y() * std::sin(wave.heading);
+  return {wave.omega, wave.heading, std::polar(wave.amplitude, -(wave.phase + wave_number * way))};
+}
+
+/// By the mean of the wave numbers, weighted with the energy; m.
+double mean_wave_length(const dynamics::WaveField& waves) {
+  double energy = 0, sum = 0;
+  for (std::size_t c = 0; c < waves.component_count(); ++c) {
+    const double amplitude = waves.component(c).amplitude;
+    energy += amplitude * amplitude;
+    sum += amplitude * amplitude * waves.wave_number(c);
+  }
+  return sum > 0 ? 2.0 * std::numbers::pi * energy / sum : std::numeric_limits<double>::infinity();
+}
+
+double wave_length(double frequency, const dynamics::Water& water) {
+  return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, water);
+}
+
+}  // namespace
+
+int RadiationProblem::lowered_body() const {
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [](const Body& body) { return !body.draughts.empty(); });
+  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
+}
+
+RadiationProblem without_lowered(RadiationProblem problem) {
+  const int body = problem.lowered_body();
+  if (body >= 0) problem.bodies.erase(problem.bodies.begin() + body);
+  return problem;
+}
+
+RadiationProblem at_draught(RadiationProblem problem, double draught) {
+  const int body = problem.lowered_body();
+  if (body < 0) return problem;
+  RadiationProblem::Body& lowered = problem.bodies[static_cast<std::size_t>(body)];
+  lowered.X_DB.p.z() = -lowered.vessel->hull.bounds()[0].z() - draught;
+  lowered.draughts.clear();
+  return problem;
+}
+
+namespace {
+
+dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
+  std::vector<dynamics::WettedBody> bodies;
+  for (const RadiationProblem::Body& body : problem.bodies) {
+    bodies.push_back(make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B));
+    bodies.back().name = body.name;
+  }
+  const dynamics::Symmetry symmetry = find_symmetry(bodies);
+  const std::vector<dynamics::WaterLine> lines = find_water_lines(bodies);
+  const auto surface = make_surface_mesh(
+      lines,
+      dynamics::surface_settings(lines, wave_length(problem.frequencies.back(), problem.water),
+                                 wave_length(problem.frequencies.front(), problem.water)));
+  dynamics::PanelModel model(std::move(bodies), surface, problem.water, symmetry);
+  require_panels_for_waves(model, problem.frequencies.back());
+  return model;
+}
+
+}  // namespace
+
+MarchedWater make_marched_water(const RadiationProblem& problem) {
+  if (!problem.direct || problem.bodies.empty()) return {};
+  const dynamics::PanelModel model = make_panel_model(problem);
+  dynamics::DirectRadiation::Settings settings;
+  settings.damping_strength = dynamics::damping_zone(problem.frequencies.front()).strength;
+  settings.waves = problem.waves;
+  settings.with_froude_krylov = false;  // HullForce's
+  settings.ramp = problem.ramp;
+  settings.origin = problem.origin;
+  MarchedWater water;
+  water.radiation = std::make_shared<dynamics::DirectRadiation>(model, settings);
+  water.step = dynamics::marching_step(*water.radiation, problem.frequencies.back());
+  water.unknowns = model.body_mesh().size() + model.surface_mesh().size();
+  return water;
+}
+
+dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
+                                                 dynamics::DatabaseReport* report) {
+  const dynamics::PanelModel model = make_panel_model(problem);
+  dynamics::DatabaseSettings settings;
+  settings.frequencies = problem.frequencies;
+  settings.headings = problem.headings;
+  return compute_database(model, settings, report);
+}
+
+dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {
+  const VesselModel& model = vessel.model->model;
+  const Vector3 squares = model.radii_of_gyration.cwiseAbs2();
+  dynamics::BodyDefinition body;
+  body.name = vessel.name.value;
+  body.joint.kind = dynamics::JointKind::free;
+  body.mass = model.mass;
+  body.p_BoBcm_B = model.centre_of_mass;
+  body.I_BBcm_B = (model.mass * squares).asDiagonal();
+  return body;
+}
+
+void MarineBuilder::place(const std::function<double(const std::string&)>& carried) {
+  for (const VesselInCase& vessel : parts_.vessels) {
+    const std::string& name = vessel.name.value;
+    const double mass = vessel.model->model.mass + carried(name);
+    displaced_mass_[name] = mass;
+    const double height = vessel.draught
+                              ? -vessel.draught->value
+                              : dynamics::find_floating_height(*clusters(*vessel.model),
+                                                               dynamics::Matrix3::Identity(),
+                                                               mass / parts_.sea->density);
+    start_[name] = {dynamics::rotation_about(Vector3::UnitZ(), vessel.heading),
+                    {vessel.position[0], vessel.position[1], height}};
+  }
+}
+
+MarineBuilder::Radiating MarineBuilder::lowered(std::string name,
+                                                std::shared_ptr<const Vessel> vessel,
+                                                std::vector<double> draughts,
+                                                const Eigen::Vector2d& position, double heading) {
+  const double height = -vessel->hull.bounds()[0].z() - draughts.back();
+  return {
+      std::move(name),
+      std::move(vessel),
+      {dynamics::rotation_about(Vector3::UnitZ(), heading), {position.x(), position.y(), height}},
+      std::move(draughts)};
+}
+
+std::vector<MarineBuilder::Radiating> MarineBuilder::radiating() const {
+  std::vector<Radiating> vessels;
+  for (const VesselInCase& vessel : parts_.vessels) {
+    if (vessel.radiation.value == RadiationMethod::none) continue;
+    const std::string& name = vessel.name.value;
+    if (vessel.draughts) {
+      vessels.push_back(lowered(name, vessel.model, vessel.draughts->value,
+                                {vessel.position[0], vessel.position[1]}, vessel.heading));
+    } else {
+      vessels.push_back({name, vessel.model, start(name), {}});
+    }
+  }
+  if (load_) {
+    vessels.push_back(
+        lowered(load_->name, load_->vessel, load_->draughts, load_->position, load_->heading));
+  }
+  return vessels;
+}
+
+RadiationProblem MarineBuilder::radiation_problem() const {
+  RadiationProblem problem;
+  const std::vector<Radiating> vessels = radiating();
+  if (vessels.empty()) return problem;
+  const auto counts = [&](const Radiating& vessel) {
+    return vessels.size() == 1 || vessel.draughts.empty();
+  };
+  const auto count = static_cast<double>(std::count_if(vessels.begin(), vessels.end(), counts));
+  Vector3 middle = Vector3::Zero();
+  for (const Radiating& vessel : vessels) {
+    const Vector3& p = vessel.X_WB.p;
+    if (counts(vessel)) middle += Vector3(p.x(), p.y(), 0) / count;
+  }
+  for (const Radiating& vessel : vessels) {
+    problem.bodies.push_back({vessel.name,
+                              vessel.vessel,
+                              {vessel.X_WB.R, vessel.X_WB.p - middle},
+                              vessel.p_BoR_B(),
+                              vessel.draughts});
+  }
+  problem.origin = middle.head<2>();
+  problem.water = water_of(*parts_.sea, gravity_);
+  problem.place = parts_.sea->radiation.place;
+  problem.frequencies = radiation_frequencies(*parts_.sea);
+  for (int i = 0; i < heading_count; ++i) {
+    problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
+  }
+  problem.direct = std::any_of(
+      parts_.vessels.begin(), parts_.vessels.end(),
+      [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });
+  if (problem.direct && has_waves()) {
+    const dynamics::WaveField waves = make_sea(*parts_.sea, gravity_).waves;
+    problem.ramp = waves.ramp();
+    for (std::size_t k = 0; k < waves.component_count(); ++k) {
+      problem.waves.push_back(seen_from(middle, waves.component(k), waves.wave_number(k)));
+    }
+  }
+  return problem;
+}
+
+std::shared_ptr<const dynamics::Sea> MarineBuilder::sea(bool at_rest) {
+  auto& sea = seas_[at_rest];
+  if (!sea) {
+    sea = std::make_shared<const dynamics::Sea>(make_sea(*parts_.sea, gravity_, at_rest));
+  }
+  return sea;
+}
+
+std::shared_ptr<const dynamics::HullClusters> MarineBuilder::clusters(const Vessel& vessel) {
+  auto& made = clusters_[&vessel];
+  if (!made) made = std::make_shared<const dynamics::HullClusters>(vessel.hull);
+  return made;
+}
+
+dynamics::BodyFrame MarineBuilder::radiation_frame(const Radiating& vessel, const BodyOf& point) {
+  return {point({{vessel.name, {}}, Vector3::Zero(), {}}).body,
+          {vessel.X_WB.R.transpose(), vessel.p_BoR_B()}};
+}
+
+dynamics::DraughtMark MarineBuilder::draught_mark(const std::vector<Radiating>& vessels,
+                                                  const BodyOf& point) {
+  for (const Radiating& vessel : vessels) {
+    if (vessel.draughts.empty()) continue;
+    const auto [low, high] = vessel.vessel->hull.bounds();
+    return {radiation_frame(vessel, point).body,
+            {0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z()}};
+  }
+  return {};
+}
+
+dynamics::Arrangement MarineBuilder::arrangement(const BodyOf& point) const {
+  dynamics::Arrangement arrangement;
+  const std::vector<Radiating> vessels = radiating();
+  for (const Radiating& vessel : vessels) {
+    if (!vessel.draughts.empty()) {
+      arrangement.lowered_body = static_cast<int>(arrangement.bodies.size());
+      arrangement.mark = draught_mark(vessels, point);
+    }
+    const auto [low, high] = vessel.vessel->hull.bounds();
+    const Eigen::Vector2d size = (high - low).head<2>();
+    arrangement.bodies.push_back({vessel.name, radiation_frame(vessel, point),
+                                  vessel.X_WB.apply(vessel.p_BoR_B()).head<2>(), size.maxCoeff(),
+                                  size.minCoeff()});
+  }
+  if (!vessels.empty() && has_waves()) {
+    arrangement.wave_length = mean_wave_length(make_sea(*parts_.sea, gravity_).waves);
+  }
+  return arrangement;
+}
+
+void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vessel& vessel,
+                             const DampingInCase& linear, const DampingInCase& quadratic,
+                             double displaced_mass, bool at_rest,
+                             dynamics::ForceElements& elements) {
+  std::get<std::vector<dynamics::HullForce>>(elements).push_back(
+      dynamics::HullForce({"hull of " + name, body, clusters(vessel), sea(at_rest)}));
+  dynamics::QuadraticDamping::Definition damping;
+  damping.name = "damping of " + name;
+  damping.point = {body, vessel.model.centre_of_mass};
+  damping.linear = linear.vector();
+  damping.quadratic = quadratic.vector();
+  if (damping.linear.isZero() && damping.quadratic.isZero()) return;
+  damping.sea = sea(at_rest);
+  damping.hull = clusters(vessel);
+  damping.reference_volume = displaced_mass / parts_.sea->density;
+  std::get<std::vector<dynamics::QuadraticDamping>>(elements).emplace_back(damping);
+}
+
+void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool at_rest,
+                               dynamics::ForceElements& elements) {
+  const std::string& name = vessel.name.value;
+  add_hull(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
+           displaced_mass_.at(name), at_rest, elements);
+  for (const MemberInCase& model : vessel.members) {
+    dynamics::MorisonMember::Definition member;
+    member.name = "member of " + name;
+    member.body = body;
+    member.p_BoP_B = model.from;
+    member.p_BoQ_B = model.to;
+    member.diameter = model.diameter;
+    member.drag_coefficient = model.drag_coefficient;
+    member.sea = sea(at_rest);
+    std::get<std::vector<dynamics::MorisonMember>>(elements).emplace_back(member);
+  }
+}
+
+void MarineBuilder::add_lines(const BodyOf& point, dynamics::ForceElements& elements) const {
+  for (const MooringInCase& model : parts_.moorings) {
+    dynamics::MooringLine::Definition line;
+    line.name = model.name.value;
+    line.anchor = point(model.anchor);
+    line.fairlead = point(model.fairlead);
+    line.line = {model.length.value, model.submerged_mass * gravity_, model.axial_stiffness,
+                 model.on_seabed};
+    std::get<std::vector<dynamics::MooringLine>>(elements).emplace_back(line);
+  }
+  for (const TuggerInCase& model : parts_.tuggers) {
+    dynamics::TuggerLine::Definition line;
+    line.name = model.name.value;
+    line.from = point(model.from);
+    line.to = point(model.to);
+    line.stiffness = model.stiffness;
+    line.damping = model.damping;
+    line.unstretched_length = model.length.value;
+    std::get<std::vector<dynamics::TuggerLine>>(elements).emplace_back(line);
+  }
+}
+
+void MarineBuilder::add_elements(const BodyOf& point, const dynamics::HydrodynamicSeries* series,
+                                 bool at_rest, dynamics::ForceElements& elements) {
+  const auto body_of = [&](const VesselInCase& vessel) {
+    return point({vessel.name, Vector3::Zero(), {}}).body;
+  };
+  for (const VesselInCase& vessel : parts_.vessels) {
+    add_vessel(vessel, body_of(vessel), at_rest, elements);
+  }
+  add_lines(point, elements);
+  if (!series || at_rest || !has_waves()) return;
+  // The elements share one copy.
+  const auto shared = std::make_shared<const dynamics::HydrodynamicSeries>(*series);
+  const std::vector<Radiating> vessels = radiating();
+  int index = 0;
+  for (const Radiating& vessel : vessels) {
+    dynamics::DiffractionForce::Definition force;
+    force.name = "diffraction about " + vessel.name;
+    force.frame = radiation_frame(vessel, point);
+    force.series = shared;
+    force.mark = draught_mark(vessels, point);
+    force.database_body = index++;
+    force.sea = sea(at_rest);
+    std::get<std::vector<dynamics::DiffractionForce>>(elements).emplace_back(std::move(force));
+  }
+}
+
+std::shared_ptr<const dynamics::RadiatedWater> MarineBuilder::make_water(
+    const BodyOf& point, const dynamics::HydrodynamicSeries* series,
+    const MarchedWater& marched) const {
+  if (!series && !marched.radiation) return nullptr;
+  dynamics::RadiatedWater::Definition water;
+  const std::vector<Radiating> vessels = radiating();
+  for (const Radiating& vessel : vessels) water.frames.push_back(radiation_frame(vessel, point));
+  if (marched.radiation) {
+    return std::make_shared<const dynamics::RadiatedWater>(
+        water.frames, marched.radiation->infinite_added_mass());
+  }
+  water.series = std::make_shared<const dynamics::HydrodynamicSeries>(*series);
+  water.mark = draught_mark(vessels, point);
+  water.memory_tolerance = close_fit;
+  water.most_states = states_of_close_fit;
+  water.acceptable_error = fair_fit;
+  // Water that swings long between two hulls takes more states.
+  water.loose_tolerance = loose_fit;
+  water.most_loose_states = states_of_loose_fit;
+  return std::make_shared<const dynamics::RadiatedWater>(water);
+}
+
+}  // namespace blocklift::pipeline

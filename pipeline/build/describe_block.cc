@@ -1,0 +1,55 @@
+#include "pipeline/build/describe_block.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using Extents = std::array<std::optional<Located<std::array<double, 2>>>, 3>;
+
+/// Extents that the file leaves out (along the normal) stay zero; nobody reads them.
+std::array<structure::Interval, 3> intervals_of(const Extents& extents) {
+  std::array<structure::Interval, 3> intervals;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!extents[axis]) continue;
+    intervals[axis] = {extents[axis]->value[0], extents[axis]->value[1]};
+  }
+  return intervals;
+}
+
+structure::Axis axis_of(std::size_t axis) { return static_cast<structure::Axis>(axis); }
+
+}  // namespace
+
+structure::BlockDescription describe_block(const BlockModel& model, const std::string& name,
+                                           double largest_element) {
+  structure::BlockDescription block;
+  block.name = name;
+  block.largest_element = largest_element;
+  if (model.mass) block.total_mass = model.mass->value;
+  if (model.centre_of_mass) block.centre_of_mass_B = model.centre_of_mass->value;
+  for (const MaterialModel& material : model.materials) {
+    block.materials.push_back({material.name.value, material.youngs_modulus, material.poisson_ratio,
+                               material.density, material.yield_stress});
+  }
+  for (const PlateModel& plate : model.plates) {
+    const std::string& material =
+        plate.material.value.empty() ? model.materials.front().name.value : plate.material.value;
+    block.plates.push_back({plate.name.value, axis_of(plate.normal), plate.at,
+                            intervals_of(plate.extent), plate.thickness, material});
+  }
+  for (const OpeningModel& opening : model.openings) {
+    block.openings.push_back(
+        {opening.name.value, opening.plate.value, opening.at, intervals_of(opening.extent)});
+  }
+  for (const PadModel& pad : model.pads) {
+    block.pads.push_back({pad.name.value, pad.plate.value, axis_of(pad.normal), pad.at,
+                          intervals_of(pad.extent), pad.thickness, pad.material.value});
+  }
+  for (const LugModel& lug : model.lugs) {
+    block.lugs.push_back({lug.name.value, lug.pad.value, axis_of(lug.normal), lug.at,
+                          intervals_of(lug.extent), lug.thickness, lug.material.value,
+                          lug.pin.value});
+  }
+  return block;
+}
+
+}  // namespace blocklift::pipeline

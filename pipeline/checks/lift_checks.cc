@@ -1,0 +1,213 @@
+#include "pipeline/checks/lift_checks.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dynamics/marine/hull/hydrostatics.h"
+#include "pipeline/checks/loop_loads.h"
+#include "pipeline/lift/history_figures.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// A largest or smallest value with its time.
+struct Peak {
+  double value = 0;
+  double time = 0;
+};
+
+enum class Kind { largest, smallest };
+
+/// Peak of a series of the static and of the dynamic history, whichever is further out. Where a
+/// sample is not a number, neither is the peak: it fails its check.
+template <class Series>
+Peak peak_of(const LiftRun& lift, Kind kind, const Series& series) {
+  Peak peak{kind == Kind::largest ? -std::numeric_limits<double>::infinity()
+                                  : std::numeric_limits<double>::infinity(),
+            0};
+  for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()}) {
+    const Eigen::VectorXd values = series(*history);
+    Eigen::Index at = 0;
+    const double value = kind == Kind::largest ? values.maxCoeff<Eigen::PropagateNaN>(&at)
+                                               : values.minCoeff<Eigen::PropagateNaN>(&at);
+    if (std::isnan(value)) return {value, history->time(at)};
+    if (kind == Kind::largest ? value > peak.value : value < peak.value)
+      peak = {value, history->time(at)};
+  }
+  return peak;
+}
+
+auto tension_of(int rope) {
+  return [rope](const dynamics::History& history) {
+    return history.ropes[static_cast<std::size_t>(rope)].tension;
+  };
+}
+
+Check at_time(Check check, double time, std::string note = {}) {
+  check.time = time;
+  check.note = std::move(note);
+  return check;
+}
+
+Check check_breaking_load(const LiftRun& lift, const std::string& what, int rope,
+                          double breaking_load, double factor) {
+  const Peak peak = peak_of(lift, Kind::largest, tension_of(rope));
+  return at_time(
+      check_at_most(fmt::format("{}: tension against breaking load / {:g}", what, factor),
+                    peak.value, breaking_load / factor, "N"),
+      peak.time);
+}
+
+void add_capacities(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
+  for (const LiftHoist& hoist : lift.model.hoists) {
+    const Peak peak = peak_of(lift, Kind::largest, tension_of(hoist.rope));
+    checks.push_back(at_time(check_at_most("hoist " + hoist.name + ": load against capacity",
+                                           peak.value, hoist.capacity, "N"),
+                             peak.time, "hook block included"));
+  }
+  for (std::size_t crane = 0; crane < lift_case.cranes.size(); ++crane) {
+    const CraneInCase& in_case = lift_case.cranes[crane];
+    if (!in_case.model->capacity) continue;
+    const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
+      return crane_load(lift.model, history, crane);
+    });
+    checks.push_back(at_time(
+        check_at_most("crane " + in_case.name.value + ": load of all hoists against capacity",
+                      peak.value, *in_case.model->capacity, "N"),
+        peak.time, "hook blocks included"));
+  }
+}
+
+/// Where the load hangs: samples at which no pad bears it and, where it is a vessel, still water at its
+/// place would not bear nine tenths of its weight.
+std::vector<char> find_hanging(const LiftCase& lift_case, const LiftRun& lift,
+                               const dynamics::History& history) {
+  std::vector<char> hangs(static_cast<std::size_t>(history.sample_count()), 1);
+  std::optional<dynamics::HullClusters> hull;
+  if (lift_case.load.vessel) hull.emplace(lift_case.load.vessel->hull);
+  const dynamics::BodyHistory& load = history.bodies[static_cast<std::size_t>(lift.model.load - 1)];
+  for (Eigen::Index k = 0; k < history.sample_count(); ++k) {
+    char& here = hangs[static_cast<std::size_t>(k)];
+    for (const dynamics::SupportHistory& pad : history.supports) {
+      if (pad.normal_force[k] > 0) here = 0;
+    }
+    if (!hull || here == 0) continue;
+    const double displaced = lift_case.sea->density * calc_displaced_volume(*hull, load.X_WB(k));
+    if (displaced >= 0.9 * lift.model.system.mechanism().body(lift.model.load).inertia.mass)
+      here = 0;
+  }
+  return hangs;
+}
+
+/// Ropes at lugs may lie slack while the load stands or floats; all others never.
+void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
+  const auto static_hangs = find_hanging(lift_case, lift, lift.static_history);
+  const auto dynamic_hangs = find_hanging(lift_case, lift, lift.dynamic_history());
+  std::vector<char> is_sling(lift.static_history.ropes.size(), 0);
+  for (const LiftRope& rope : lift.model.ropes) {
+    if (!rope.lug.empty()) is_sling[static_cast<std::size_t>(rope.rope)] = 1;
+  }
+  Peak smallest{std::numeric_limits<double>::infinity(), 0};
+  std::string rope;
+  for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
+    const Peak peak = peak_of(lift, Kind::smallest, [&](const dynamics::History& history) {
+      Eigen::VectorXd tension = history.ropes[i].tension;
+      if (is_sling[i] == 0) return tension;
+      const auto& hangs = &history == &lift.static_history ? static_hangs : dynamic_hangs;
+      for (Eigen::Index k = 0; k < tension.size(); ++k) {
+        if (hangs[static_cast<std::size_t>(k)] == 0 && std::isfinite(tension[k])) {
+          tension[k] = std::numeric_limits<double>::infinity();
+        }
+      }
+      return tension;
+    });
+    if (peak.value >= smallest.value) continue;
+    smallest = peak;
+    rope = lift.static_history.ropes[i].name;
+    if (std::isnan(peak.value)) break;
+  }
+  checks.push_back(at_time(
+      check_at_least("slack: smallest tension of any rope, " + rope, smallest.value,
+                     lift_case.checks.smallest_tension, "N"),
+      smallest.time, "the demand must stay above the limit; ropes at lugs: while the load hangs"));
+}
+
+void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
+  Peak largest{-1, 0};
+  std::string name;
+  for (const LiftHoist& hoist : lift.model.hoists) {
+    const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
+      return swing_angles(history.ropes[static_cast<std::size_t>(hoist.rope)]);
+    });
+    if (peak.value <= largest.value) continue;
+    largest = peak;
+    name = hoist.name;
+    if (std::isnan(peak.value)) break;
+  }
+  checks.push_back(
+      at_time(check_at_most("swing: largest angle of a hoist against the plumb, " + name,
+                            largest.value, limit, "rad"),
+              largest.time));
+}
+
+}  // namespace
+
+std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
+  const double factor = lift_case.checks.rope_safety_factor;
+  std::vector<Check> checks;
+  for (const LiftRope& rope : lift.model.ropes) {
+    checks.push_back(
+        check_breaking_load(lift, "rope " + rope.name, rope.rope, rope.breaking_load, factor));
+  }
+  for (const LiftHoist& hoist : lift.model.hoists) {
+    checks.push_back(
+        check_breaking_load(lift, "tackle " + hoist.name, hoist.rope, hoist.breaking_load, factor));
+  }
+  if (lift_case.checks.crane_capacity) add_capacities(lift_case, lift, checks);
+  add_slack(lift_case, lift, checks);
+  for (Check& check : check_equalisers(lift, lift_case.checks.smallest_tension)) {
+    checks.push_back(std::move(check));
+  }
+  if (lift_case.checks.largest_swing) add_swing(lift, *lift_case.checks.largest_swing, checks);
+  return checks;
+}
+
+std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block,
+                               const HistoryAssessment* history) {
+  std::map<std::string, Check> worst;  // by material
+  const auto consider = [&](const std::string& material, double yield_stress, double stress,
+                            std::optional<double> time, const std::string& place) {
+    Check check = check_at_most(fmt::format("stress in {}: checked von Mises against yield / {:g}",
+                                            material, lift_case.checks.yield_factor),
+                                stress, yield_stress / lift_case.checks.yield_factor, "Pa");
+    check.time = time;
+    check.note = place;
+    const auto found = worst.find(material);
+    if (found == worst.end() || !(check.utilisation <= found->second.utilisation))
+      worst[material] = check;
+  };
+  if (history) {
+    for (const HistoryState* state : {&history->static_state, &history->dynamic_state})
+      for (const HistoryGroup& group : state->groups)
+        consider(group.material, group.yield_stress, group.checked_von_mises.at.value,
+                 group.checked_von_mises.time, group.checked_von_mises.at.part);
+  } else {
+    const LoadComparison& way = block.simultaneous;
+    for (const BlockState* state : {&way.static_state, &way.dynamic_state})
+      for (const structure::GroupStress& group : state->result.groups)
+        consider(group.material, group.yield_stress, group.checked_von_mises.value, state->time,
+                 group.checked_von_mises.part);
+  }
+  std::vector<Check> checks;
+  for (auto& [material, check] : worst) checks.push_back(check);
+  return checks;
+}
+
+}  // namespace blocklift::pipeline

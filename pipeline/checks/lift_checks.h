@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/checks/checks.h"
+#include "pipeline/lift/block_assessment.h"
+#include "pipeline/lift/history_assessment.h"
+#include "pipeline/lift/lift_run.h"
+
+namespace blocklift::pipeline {
+
+/// Ropes and tackle against breaking load, hooks and cranes against capacity, slack and swing; each
+/// by the larger of the static and the dynamic history.
+std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift);
+
+/// Checked von Mises stress against yield with the case's factor, a line a material: the plate with
+/// the highest utilisation at any instant of the lift, or in the load table's states where there is no
+/// history (null).
+std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block,
+                               const HistoryAssessment* history = nullptr);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,114 @@
+#include "pipeline/declaration/diagnostics.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace blocklift::pipeline {
+namespace {
+
+std::string place_text(const Mark& mark) {
+  const std::string& file = mark.file ? *mark.file : std::string("input");
+  if (mark.line == 0) return file;
+  return fmt::format("{}:{}:{}", file, mark.line, mark.column);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+/// Optimal string alignment distance: Damerau (1964), each substring edited once.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> distance(a.size() + 1,
+                                                 std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) distance[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) distance[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = distance[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      distance[i][j] = std::min({distance[i - 1][j] + 1, distance[i][j - 1] + 1, change});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        distance[i][j] = std::min(distance[i][j], distance[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return distance[a.size()][b.size()];
+}
+
+}  // namespace
+
+void Diagnostics::error(Mark mark, std::string message, std::vector<std::string> hints) {
+  errors_.push_back({std::move(mark), std::move(message), std::move(hints)});
+}
+
+std::string Diagnostics::to_text() const {
+  if (errors_.empty()) return {};
+  // Files in the order in which they were first complained about, complaints by line within each.
+  std::map<std::string, std::size_t> order_of_file;
+  const auto file_of = [](const Diagnostic& error) {
+    return error.mark.file ? *error.mark.file : std::string();
+  };
+  for (const Diagnostic& error : errors_) {
+    order_of_file.emplace(file_of(error), order_of_file.size());
+  }
+  std::vector<const Diagnostic*> sorted;
+  for (const Diagnostic& error : errors_) sorted.push_back(&error);
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Diagnostic* a, const Diagnostic* b) {
+    return std::tuple(order_of_file.at(file_of(*a)), a->mark.line, a->mark.column) <
+           std::tuple(order_of_file.at(file_of(*b)), b->mark.line, b->mark.column);
+  });
+
+  std::string text;
+  for (std::size_t i = 0; i < std::min(sorted.size(), most_printed); ++i) {
+    text += fmt::format("{}: error: {}\n", place_text(sorted[i]->mark), sorted[i]->message);
+    for (const std::string& hint : sorted[i]->hints) text += fmt::format("    {}\n", hint);
+  }
+  if (sorted.size() > most_printed) {
+    text += fmt::format("and {} more that are not shown\n", sorted.size() - most_printed);
+  }
+  text += fmt::format("{} error{}\n", sorted.size(), sorted.size() == 1 ? "" : "s");
+  return text;
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  constexpr std::size_t longest = 100;  // the distance takes the product of both lengths
+  if (name.empty() || name.size() > longest) return {};
+  const std::string wrong = lower_case(name);
+  const std::string* nearest = nullptr;
+  std::size_t smallest = std::max<std::size_t>(1, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    if (candidate.size() > longest) continue;
+    const std::size_t distance = edit_distance(wrong, lower_case(candidate));
+    if (distance < smallest) {
+      smallest = distance;
+      nearest = &candidate;
+    }
+  }
+  return nearest ? *nearest : std::string();
+}
+
+std::string list_of_names(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
+    list += (i > 0 ? ", " : "") + names[i];
+  }
+  if (names.size() > most) list += fmt::format(", ... ({} in all)", names.size());
+  return list;
+}
+
+std::string names_hint(std::string_view introduction, const std::vector<std::string>& candidates,
+                       std::string_view wrong_name) {
+  std::string hint =
+      fmt::format("{} {}", introduction, candidates.empty() ? "none" : list_of_names(candidates));
+  const std::string nearest = nearest_name(wrong_name, candidates);
+  if (!nearest.empty()) hint += fmt::format("; did you mean \"{}\"?", nearest);
+  return hint;
+}
+
+}  // namespace blocklift::pipeline

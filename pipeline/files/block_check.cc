@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pipeline/files/block_model.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+const char* axis_name(std::size_t axis) {
+  static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
+  return names.at(axis);
+}
+
+/// Complains about a name that is not in the list; passes over one that could not be read.
+template <class T>
+const T* look_up(const Located<std::string>& name, const std::vector<T>& items,
+                 const std::string& user, const char* noun, Reading& reading) {
+  if (name.value.empty()) return nullptr;
+  const T* found = find_by_name(items, name.value);
+  if (!found) {
+    reading.error(
+        name.mark,
+        fmt::format("{} names {} \"{}\", which the block does not have", user, noun, name.value),
+        {names_hint(fmt::format("its {}s are", noun), names_of(items), name.value)});
+  }
+  return found;
+}
+
+bool has_position(const PlateModel& plate, double at) {
+  return std::any_of(plate.at.begin(), plate.at.end(),
+                     [at](double position) { return std::abs(position - at) < same_place; });
+}
+
+std::string positions_text(const PlateModel& plate) {
+  std::vector<std::string> positions;
+  for (const double at : plate.at) positions.push_back(fmt::format("{:.6g} m", at));
+  return list_of_names(positions);
+}
+
+// The largest floating structures are some 500 m long, the thickest steel plates 0.3 m thick: what is
+// far beyond was written in another unit.
+void doubt_units(const PlateModel& plate, Reading& reading) {
+  constexpr double longest = 1000, thickest = 1;  // m
+  for (const auto& extent : plate.extent) {
+    if (!extent || !(extent->value[1] - extent->value[0] > longest)) continue;
+    reading.error(extent->mark,
+                  fmt::format("plate {} is {:.4g} m long: is its unit mistaken?", plate.name.value,
+                              extent->value[1] - extent->value[0]),
+                  {"plates are up to 1 km long; millimetres are written as 1200 mm"});
+  }
+  if (plate.thickness > thickest)
+    reading.error(plate.name.mark,
+                  fmt::format("plate {} is {:.4g} m thick: is its unit mistaken?", plate.name.value,
+                              plate.thickness),
+                  {"plates are up to 1 m thick; millimetres are written as 20 mm"});
+}
+
+void check_plates(const BlockModel& block, Reading& reading) {
+  for (const PlateModel& plate : block.plates) {
+    doubt_units(plate, reading);
+    if (!plate.material.value.empty()) {
+      look_up(plate.material, block.materials, "plate " + plate.name.value, "material", reading);
+    } else if (block.materials.size() > 1) {
+      reading.error(
+          plate.name.mark,
+          fmt::format("plate {} names no material, and the block has several", plate.name.value),
+          {"its materials are " + list_of_names(names_of(block.materials))});
+    }
+    if (plate.at.size() > 1) {
+      std::vector<double> sorted = plate.at;
+      std::sort(sorted.begin(), sorted.end());
+      for (std::size_t i = 1; i < sorted.size(); ++i) {
+        if (sorted[i] - sorted[i - 1] >= plate.thickness) continue;
+        reading.error(plate.name.mark,
+                      fmt::format("plate {} lies upon itself: positions {:.6g} m and {:.6g} m are "
+                                  "nearer than its thickness of {:.6g} m",
+                                  plate.name.value, sorted[i - 1], sorted[i], plate.thickness));
+        break;
+      }
+    }
+  }
+}
+
+using Extents = std::array<std::optional<Located<std::array<double, 2>>>, 3>;
+
+/// Do two rectangles with this normal share an area? One whose extent was not readable does not.
+bool share_an_area(const Extents& first, const Extents& second, std::size_t normal) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis == normal) continue;
+    if (!first[axis] || !second[axis]) return false;
+    const auto& a = first[axis]->value;
+    const auto& b = second[axis]->value;
+    if (std::min(a[1], b[1]) - std::max(a[0], b[0]) < same_place) return false;
+  }
+  return true;
+}
+
+/// Two plates in one place would be one plate of unknown thickness: the mesh has room for one.
+void check_overlaps(const BlockModel& block, Reading& reading) {
+  for (std::size_t j = 1; j < block.plates.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const PlateModel& earlier = block.plates[i];
+      const PlateModel& later = block.plates[j];
+      if (earlier.normal != later.normal ||
+          !share_an_area(earlier.extent, later.extent, later.normal))
+        continue;
+      const auto shared = std::find_if(later.at.begin(), later.at.end(),
+                                       [&](double at) { return has_position(earlier, at); });
+      if (shared == later.at.end()) continue;
+      reading.error(later.name.mark,
+                    fmt::format("plate {} lies upon plate {} at {} = {:.6g} m", later.name.value,
+                                earlier.name.value, axis_name(later.normal), *shared),
+                    {"where a plate is thicker, divide it, or use a pad"});
+    }
+  }
+}
+
+void check_opening_spares_pads(const BlockModel& block, const OpeningModel& opening,
+                               const PlateModel& plate, Reading& reading) {
+  for (const PadModel& pad : block.pads) {
+    const bool opened = opening.at.empty() ||
+                        std::any_of(opening.at.begin(), opening.at.end(),
+                                    [&](double at) { return std::abs(at - pad.at) < same_place; });
+    if (pad.plate.value != plate.name.value || !opened ||
+        !share_an_area(opening.extent, pad.extent, plate.normal))
+      continue;
+    reading.error(
+        opening.name.mark,
+        fmt::format("opening {} cuts pad {} in plate {} at {} = {:.6g} m", opening.name.value,
+                    pad.name.value, plate.name.value, axis_name(plate.normal), pad.at));
+  }
+}
+
+void check_openings(const BlockModel& block, Reading& reading) {
+  for (const OpeningModel& opening : block.openings) {
+    const std::string user = "opening " + opening.name.value;
+    const PlateModel* plate = look_up(opening.plate, block.plates, user, "plate", reading);
+    if (!plate) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis != plate->normal && !opening.extent[axis]) {
+        reading.error(
+            opening.name.mark, fmt::format("{} lacks the key \"{}\"", user, axis_name(axis)),
+            {fmt::format("plate {} is normal to {}", plate->name.value, axis_name(plate->normal))});
+      }
+    }
+    for (const double at : opening.at) {
+      if (plate->at.empty() || has_position(*plate, at)) continue;
+      reading.error(opening.name.mark,
+                    fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, at,
+                                plate->name.value),
+                    {"its positions are " + positions_text(*plate)});
+    }
+    check_opening_spares_pads(block, opening, *plate, reading);
+  }
+}
+
+void check_pads(const BlockModel& block, Reading& reading) {
+  for (const PadModel& pad : block.pads) {
+    const std::string user = "pad " + pad.name.value;
+    if (!pad.material.value.empty()) {
+      look_up(pad.material, block.materials, user, "material", reading);
+    }
+    const PlateModel* plate = look_up(pad.plate, block.plates, user, "plate", reading);
+    if (!plate) continue;
+    if (pad.normal != plate->normal) {
+      reading.error(pad.name.mark, fmt::format("{} is normal to {}, but its plate {} to {}", user,
+                                               axis_name(pad.normal), plate->name.value,
+                                               axis_name(plate->normal)));
+      continue;
+    }
+    if (!plate->at.empty() && !has_position(*plate, pad.at)) {
+      reading.error(pad.name.mark,
+                    fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, pad.at,
+                                plate->name.value),
+                    {"its positions are " + positions_text(*plate)});
+    }
+    if (pad.thickness <= plate->thickness) {
+      reading.error(pad.name.mark,
+                    fmt::format("{} is {:.6g} m thick, its plate {} already {:.6g} m", user,
+                                pad.thickness, plate->name.value, plate->thickness),
+                    {"a pad's thickness is the total, the plate included"});
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis == pad.normal || !pad.extent[axis] || !plate->extent[axis]) continue;
+      const auto& inner = pad.extent[axis]->value;
+      const auto& outer = plate->extent[axis]->value;
+      if (inner[0] < outer[0] - same_place || inner[1] > outer[1] + same_place) {
+        reading.error(pad.extent[axis]->mark,
+                      fmt::format("{} reaches along {} from {:.6g} m to {:.6g} m, beyond its plate "
+                                  "{}, which ends at {:.6g} m and {:.6g} m",
+                                  user, axis_name(axis), inner[0], inner[1], plate->name.value,
+                                  outer[0], outer[1]));
+      }
+    }
+  }
+}
+
+void check_lugs(const BlockModel& block, Reading& reading) {
+  for (const LugModel& lug : block.lugs) {
+    const std::string user = "lug " + lug.name.value;
+    if (!lug.material.value.empty()) {
+      look_up(lug.material, block.materials, user, "material", reading);
+    }
+    look_up(lug.pad, block.pads, user, "pad", reading);
+    if (!lug.pin.value.allFinite()) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = lug.pin.value[static_cast<Eigen::Index>(axis)];
+      std::array<double, 2> range = {lug.at - lug.thickness / 2, lug.at + lug.thickness / 2};
+      if (axis != lug.normal) {
+        if (!lug.extent[axis]) continue;
+        range = lug.extent[axis]->value;
+      }
+      if (place < range[0] - same_place || place > range[1] + same_place) {
+        reading.error(lug.pin.mark,
+                      fmt::format("the pin of {} is at {} = {:.6g} m, outside the lug plate, which "
+                                  "reaches from {:.6g} m to {:.6g} m",
+                                  user, axis_name(axis), place, range[0], range[1]));
+      }
+    }
+  }
+}
+
+void check_padeyes(const BlockModel& block, Reading& reading) {
+  for (const LugModel& lug : block.lugs) {
+    if (!lug.padeye) continue;
+    const std::string user = "lug " + lug.name.value;
+    const PadeyeDesign* design = look_up(*lug.padeye, block.padeyes, user, "padeye", reading);
+    if (!design || !std::isfinite(design->radius + design->thickness + design->hole + design->pin))
+      continue;
+    std::vector<std::string> faults;
+    place_padeye(*design, block, lug, faults);
+    for (const std::string& fault : faults)
+      reading.error(lug.padeye->mark, fmt::format("{} cannot be made as padeye {}: {}", user,
+                                                  design->name.value, fault));
+  }
+}
+
+}  // namespace
+
+void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
+  if (block.mass.has_value() != block.centre_of_mass.has_value()) {
+    reading.error(block.mass ? block.mass->mark : block.centre_of_mass->mark,
+                  block.mass ? "the block has a mass but no centre_of_mass"
+                             : "the block has a centre_of_mass but no mass",
+                  {"give both, or neither: then they are those of the plates"});
+  }
+  if (block.plates.empty()) reading.error(mark, "the block has no plates");
+  check_plates(block, reading);
+  check_overlaps(block, reading);
+  check_openings(block, reading);
+  check_pads(block, reading);
+  check_lugs(block, reading);
+  check_padeyes(block, reading);
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,280 @@
+#include "pipeline/files/block_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pipeline/declaration/table.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using Extent = std::optional<Located<std::array<double, 2>>>;
+
+const std::vector<std::pair<std::string, std::size_t>> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
+
+Format<std::array<double, 2>> extent_format() {
+  const auto pair = array_of<double, 2>(quantity(Dimension::length));
+  return {pair.description,
+          [pair](const YAML::Node& node, Reading& reading, std::array<double, 2>& value) {
+            if (!pair.read(node, reading, value)) return false;
+            if (value[0] < value[1]) return true;
+            reading.error(node,
+                          fmt::format("extent {} ends at {:.6g} m, where it begins at {:.6g} m",
+                                      reading.key(), value[1], value[0]),
+                          {"an extent is [lower end, upper end]"});
+            return false;
+          }};
+}
+
+/// Positions from, from + spacing, ... to.
+struct Stations {
+  double from = std::nan("");
+  double to = std::nan("");
+  std::optional<double> spacing;
+  std::optional<int> count;
+};
+
+void check_stations(const Stations& s, Reading& reading, const Mark& mark) {
+  if (s.spacing.has_value() == s.count.has_value()) {
+    reading.error(mark, "evenly spaced positions take either spacing or count");
+    return;
+  }
+  if (s.from >= s.to) {
+    reading.error(mark, fmt::format("the positions end at {:.6g} m, where they begin at {:.6g} m",
+                                    s.to, s.from));
+    return;
+  }
+  if (!s.spacing) return;
+  const double steps = (s.to - s.from) / *s.spacing;
+  if (steps > 10000) {
+    reading.error(mark, fmt::format("there would be {:.0f} positions; 10000 are allowed", steps));
+  } else if (std::abs(steps - std::round(steps)) > 1e-6) {
+    reading.error(mark,
+                  fmt::format("a spacing of {:.6g} m does not divide the {:.6g} m from {:.6g} m "
+                              "to {:.6g} m",
+                              *s.spacing, s.to - s.from, s.from, s.to));
+  }
+}
+
+std::vector<double> positions_of(const Stations& s) {
+  const double spaces =
+      s.count ? *s.count - 1 : std::round((s.to - s.from) / s.spacing.value_or(0));
+  std::vector<double> positions;
+  const bool divides = s.count || std::abs((s.to - s.from) / s.spacing.value_or(0) - spaces) < 1e-6;
+  if (!divides || !std::isfinite(spaces) || spaces < 1 || spaces > 10000) return positions;
+  for (int i = 0; i <= static_cast<int>(spaces); ++i) {
+    positions.push_back(s.from + (s.to - s.from) * i / spaces);
+  }
+  return positions;
+}
+
+Format<std::vector<double>> positions_format() {
+  const auto length = quantity(Dimension::length);
+  Table<Stations> table("row of positions", "Evenly spaced positions, both ends included.");
+  table.required("from", &Stations::from, length, "first position")
+      .required("to", &Stations::to, length, "last position")
+      .optional("spacing", &Stations::spacing, quantity(Dimension::length, Range::positive()),
+                "distance between neighbours")
+      .optional("count", &Stations::count, integer(Range::between(2, 10000)),
+                "in place of spacing: how many positions")
+      .rule(check_stations);
+  const auto one = converted<double, std::vector<double>>(
+      length, [](double value) { return std::vector{value}; });
+  const auto row = converted<Stations, std::vector<double>>(table.format(), positions_of);
+  return by_shape<std::vector<double>>(one, list_of(length, 1), row);
+}
+
+/// The extents as the file writes them, three keys of their own.
+template <class T>
+struct Written : T {
+  Extent x, y, z;
+  T taken() const {
+    T value = *this;
+    value.extent = {x, y, z};
+    return value;
+  }
+};
+
+template <class T>
+Table<Written<T>>& extent_keys(Table<Written<T>>& table) {
+  const std::string meaning = "lower and upper end; left out along the normal";
+  return table.optional("x", &Written<T>::x, extent_format(), meaning)
+      .optional("y", &Written<T>::y, extent_format(), meaning)
+      .optional("z", &Written<T>::z, extent_format(), meaning);
+}
+
+template <class T>
+Format<T> taken(const Table<Written<T>>& table) {
+  return converted<Written<T>, T>(table.format(), [](const Written<T>& w) { return w.taken(); });
+}
+
+/// The extents across the normal are given, the one along it is not.
+template <class T>
+void check_rectangle(const Written<T>& written, Reading& reading, const Mark& mark) {
+  const std::array<Extent, 3> extent = {written.x, written.y, written.z};
+  for (const auto& [name, axis] : axes) {
+    if (axis == written.normal && extent[axis]) {
+      reading.error(
+          extent[axis]->mark,
+          fmt::format("{} is normal to {} and so has no extent along it", reading.owner(), name),
+          {"its place along the normal is \"at\""});
+    } else if (axis != written.normal && !extent[axis]) {
+      reading.error(mark, fmt::format("{} lacks the key \"{}\"", reading.owner(), name),
+                    {"it is the extent along " + name + ": [lower end, upper end]"});
+    }
+  }
+}
+
+Format<MaterialModel> material_format() {
+  Table<MaterialModel> table("material", "An isotropic elastic material.");
+  table
+      .required("youngs_modulus", &MaterialModel::youngs_modulus,
+                quantity(Dimension::stress, Range::positive()), "E")
+      .required("poisson_ratio", &MaterialModel::poisson_ratio, number(Range::inside(-1, 0.5)),
+                "nu")
+      .required("density", &MaterialModel::density, quantity(Dimension::density, Range::positive()),
+                "of the bare material")
+      .required("yield_stress", &MaterialModel::yield_stress,
+                quantity(Dimension::stress, Range::positive()), "smallest yield stress");
+  return table.format();
+}
+
+Format<StiffenersModel> stiffeners_format() {
+  Table<StiffenersModel> table("row of stiffeners",
+                               "Stiffeners that a plate carries and its model leaves out (their "
+                               "mass belongs to the outfitting). They divide its panels where "
+                               "buckling is checked, and do nothing else.");
+  table.required("along", &StiffenersModel::along, choice<std::size_t>(axes), "axis they run along")
+      .required("spacing", &StiffenersModel::spacing,
+                quantity(Dimension::length, Range::positive()), "between neighbours");
+  return table.format();
+}
+
+Format<PlateModel> plate_format() {
+  Table<Written<PlateModel>> table("plate",
+                                   "Equal flat rectangular plates, one at each position "
+                                   "along their normal; the thickness lies half on each "
+                                   "side.");
+  table.required("normal", &Rectangle::normal, choice<std::size_t>(axes), "axis across the plate")
+      .required("at", &PlateModel::at, positions_format(), "positions of the mid-planes");
+  extent_keys(table)
+      .required("thickness", &PlateModel::thickness, quantity(Dimension::length, Range::positive()),
+                "of the plate")
+      .optional("material", &PlateModel::material, reference(),
+                "one of the block's materials; may be left out if there is one only")
+      .optional("stiffeners", &PlateModel::stiffeners, stiffeners_format(),
+                "that the plate carries and this model leaves out")
+      .rule([](const Written<PlateModel>& plate, Reading& reading, const Mark& mark) {
+        if (!plate.stiffeners || plate.stiffeners->along != plate.normal) return;
+        reading.error(mark,
+                      fmt::format("the stiffeners of {} run along its normal", reading.owner()),
+                      {"they run along one of its two other axes"});
+      })
+      .rule(check_rectangle<PlateModel>);
+  return taken(table);
+}
+
+Format<OpeningModel> opening_format() {
+  Table<Written<OpeningModel>> table("opening",
+                                     "A rectangular hole through the named plates; what crosses "
+                                     "them there stays.");
+  table.required("plate", &OpeningModel::plate, reference(), "the plates that it cuts")
+      .optional("at", &OpeningModel::at, positions_format(),
+                "positions of the plates that are cut; all of them if left out");
+  return taken(extent_keys(table));
+}
+
+Format<PadModel> pad_format() {
+  Table<Written<PadModel>> table("pad", "A region in which a plate is thicker, around a lug.");
+  table.required("plate", &PadModel::plate, reference(), "the plate that it thickens")
+      .required("normal", &Rectangle::normal, choice<std::size_t>(axes), "that of the plate")
+      .required("at", &PadModel::at, quantity(Dimension::length),
+                "position of the plate's mid-plane");
+  extent_keys(table)
+      .required("thickness", &PadModel::thickness, quantity(Dimension::length, Range::positive()),
+                "in total, the plate included")
+      .optional("material", &PadModel::material, reference(), "that of the plate if left out")
+      .rule(check_rectangle<PadModel>);
+  return taken(table);
+}
+
+Format<LugModel> lug_format() {
+  Table<Written<LugModel>> table("lug",
+                                 "A plate that stands on a pad. The rope pulls at the pin; "
+                                 "its force is spread over the lug plate.");
+  table.required("pad", &LugModel::pad, reference(), "the pad that it is joined to")
+      .required("normal", &Rectangle::normal, choice<std::size_t>(axes),
+                "axis across the lug plate")
+      .required("at", &LugModel::at, quantity(Dimension::length), "position of its mid-plane");
+  extent_keys(table)
+      .required("thickness", &LugModel::thickness, quantity(Dimension::length, Range::positive()),
+                "of the lug plate")
+      .required("pin", &LugModel::pin, position_format(), "centre of the pin")
+      .optional("material", &LugModel::material, reference(), "that of the pad if left out")
+      .optional("padeye", &LugModel::padeye, reference(),
+                "one of the block's padeyes: what the lug is made as, checked by hand formulae and "
+                "by a fine mesh")
+      .rule(check_rectangle<LugModel>);
+  return taken(table);
+}
+
+}  // namespace
+
+const LugModel* BlockModel::find_lug(const std::string& name) const {
+  const auto found = std::find_if(lugs.begin(), lugs.end(),
+                                  [&](const LugModel& lug) { return lug.name.value == name; });
+  return found == lugs.end() ? nullptr : &*found;
+}
+
+const PlateModel* BlockModel::find_plate(const std::string& name) const {
+  const auto found = std::find_if(plates.begin(), plates.end(), [&](const PlateModel& plate) {
+    return plate.name.value == name;
+  });
+  return found == plates.end() ? nullptr : &*found;
+}
+
+const PadeyeDesign* BlockModel::find_padeye(const LugModel& lug) const {
+  return lug.padeye ? find_by_name(padeyes, lug.padeye->value) : nullptr;
+}
+
+std::vector<std::string> BlockModel::lug_names() const {
+  std::vector<std::string> names;
+  for (const LugModel& lug : lugs) names.push_back(lug.name.value);
+  return names;
+}
+
+Format<BlockModel> block_model_format() {
+  Table<BlockModel> table("block",
+                          "A stiffened block of flat plates in its own frame: x along, y "
+                          "across, z up. Where the plates weigh less than the stated "
+                          "mass, the rest is outfitting, spread over them so that mass "
+                          "and centre of mass agree.");
+  table
+      .required("kind", &BlockModel::kind, choice<std::string>({{"block", "block"}}),
+                "what this file describes")
+      .optional("title", &BlockModel::title, text(), "for people")
+      .required("materials", &BlockModel::materials, named_tables(material_format()),
+                "what plates are made of")
+      .optional("mass", &BlockModel::mass, quantity(Dimension::mass, Range::positive()),
+                "in the lift, outfitting included; that of the plates if left out")
+      .optional("centre_of_mass", &BlockModel::centre_of_mass, position_format(),
+                "in the lift, outfitting included; that of the plates if left out")
+      .required("plates", &BlockModel::plates, named_tables(plate_format()),
+                "decks, shells, frames, girders, stiffeners")
+      .optional("openings", &BlockModel::openings, named_tables(opening_format()),
+                "holes in plates")
+      .optional("pads", &BlockModel::pads, named_tables(pad_format()),
+                "thicker regions around lugs")
+      .optional("lugs", &BlockModel::lugs, named_tables(lug_format()), "where ropes may pull")
+      .optional("padeyes", &BlockModel::padeyes, named_tables(padeye_format()),
+                "what lugs are made as; a lug names one of them")
+      .optional("wind_areas", &BlockModel::wind_areas, list_of(wind_area_format()),
+                "areas on which the wind acts")
+      .place(&BlockModel::place)
+      .rule(check_block);
+  return table.format();
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/declaration/geometry_format.h"
+#include "pipeline/files/crane_model.h"
+#include "pipeline/files/padeye_format.h"
+
+namespace blocklift::pipeline {
+
+/// What lies no farther apart than this lies in one place, m.
+inline constexpr double same_place = 1e-6;
+
+/// Isotropic elastic material. SI units.
+struct MaterialModel {
+  Located<std::string> name;
+  double youngs_modulus = std::numeric_limits<double>::quiet_NaN();  ///< Pa
+  double poisson_ratio = std::numeric_limits<double>::quiet_NaN();
+  double density = std::numeric_limits<double>::quiet_NaN();       ///< kg/m^3
+  double yield_stress = std::numeric_limits<double>::quiet_NaN();  ///< Pa
+};
+
+/// Rectangle normal to an axis of the block: its extent along the two other axes, m.
+struct Rectangle {
+  std::size_t normal = 0;  ///< 0, 1, 2 for x, y, z
+  std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
+};
+
+/// Stiffeners that a plate carries and its model does not: they divide its panels in the check of buckling.
+struct StiffenersModel {
+  std::size_t along = 0;                                      ///< axis
+  double spacing = std::numeric_limits<double>::quiet_NaN();  ///< m
+};
+
+/// Equal plates, one at each of several positions along their common normal.
+struct PlateModel : Rectangle {
+  Located<std::string> name;
+  std::vector<double> at;  ///< positions of the mid-planes, m
+  double thickness = std::numeric_limits<double>::quiet_NaN();
+  Located<std::string> material;  ///< the block's only one where the file names none
+  std::optional<StiffenersModel> stiffeners;
+};
+
+/// Rectangular hole in plates.
+struct OpeningModel {
+  Located<std::string> name;
+  Located<std::string> plate;
+  std::vector<double> at;  ///< which of the plates, by position; empty: all
+  std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
+};
+
+/// Thickened region of a plate around a lug.
+struct PadModel : Rectangle {
+  Located<std::string> name;
+  Located<std::string> plate;
+  double at = std::numeric_limits<double>::quiet_NaN();
+  double thickness = std::numeric_limits<double>::quiet_NaN();  ///< in total, m
+  Located<std::string> material;                                ///< empty: that of the plate
+};
+
+/// Lug plate with the pin at which a rope pulls.
+struct LugModel : Rectangle {
+  Located<std::string> name;
+  Located<std::string> pad;
+  double at = std::numeric_limits<double>::quiet_NaN();
+  double thickness = std::numeric_limits<double>::quiet_NaN();
+  Located<std::string> material;               ///< empty: that of the pad
+  Located<Vector3> pin;                        ///< centre of the pin, m
+  std::optional<Located<std::string>> padeye;  ///< that it is made as
+};
+
+/// Stiffened block of flat plates, in its own frame: x along, y across, z up. SI units.
+struct BlockModel {
+  std::string kind;
+  std::string title;
+  std::vector<MaterialModel> materials;
+  std::optional<Located<double>> mass;             ///< in the lift, outfitting included, kg
+  std::optional<Located<Vector3>> centre_of_mass;  ///< likewise, m
+  std::vector<PlateModel> plates;
+  std::vector<OpeningModel> openings;
+  std::vector<PadModel> pads;
+  std::vector<LugModel> lugs;
+  std::vector<PadeyeDesign> padeyes;
+  std::vector<WindAreaModel> wind_areas;
+  Mark place;
+
+  const LugModel* find_lug(const std::string& name) const;
+  const PadeyeDesign* find_padeye(const LugModel& lug) const;  ///< null: the lug has none
+  const PlateModel* find_plate(const std::string& name) const;
+  std::vector<std::string> lug_names() const;
+};
+
+/// The format of a block's model file, with the rules that concern its own keys.
+Format<BlockModel> block_model_format();
+
+/// Rules over several keys: names exist, rectangles have the extents that their normal asks for,
+/// pads lie on their plates, pins in their lugs.
+void check_block(const BlockModel& block, Reading& reading, const Mark& mark);
+
+}  // namespace blocklift::pipeline

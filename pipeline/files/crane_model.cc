@@ -1,0 +1,107 @@
+#include "pipeline/files/crane_model.h"
+
+#include <algorithm>
+
+#include "pipeline/declaration/table.h"
+#include "pipeline/files/crane_check.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+Format<HookBlockModel> hook_block_format() {
+  Table<HookBlockModel> table("hook block",
+                              "Hangs free from the tackle; slings start at its centre.");
+  table
+      .required("mass", &HookBlockModel::mass, quantity(Dimension::mass, Range::positive()),
+                "with hook and lower sheaves")
+      .by_default("wind_area", &HookBlockModel::wind_area,
+                  quantity(Dimension::area, Range::not_negative()), "0 m^2",
+                  "the same from any side")
+      .by_default("wind_coefficient", &HookBlockModel::wind_coefficient,
+                  number(Range::not_negative()), "1.2", "of wind pressure")
+      .by_default("size", &HookBlockModel::size, size_format(), "[1 m, 1 m, 2 m]",
+                  "of the box in the drawing");
+  return table.format();
+}
+
+Format<HoistModel> hoist_format() {
+  Table<HoistModel> table("hoist",
+                          "A winch with its tackle and hook block. The tackle's falls are "
+                          "taken together as one rope.");
+  table.required("body", &HoistModel::body, located(reference()), "that carries the upper sheaves")
+      .required("sheave", &HoistModel::sheave, position_format(),
+                "where the tackle leaves the body, in its frame")
+      .required("hook_block", &HoistModel::hook_block, hook_block_format(), "at its lower end")
+      .required("rope", &HoistModel::rope_choice, rope_choice_format(), "all falls together")
+      .optional("crane_stiffness", &HoistModel::crane_stiffness,
+                quantity(Dimension::stiffness, Range::positive()),
+                "of what the tackle hangs from, in series with it; rigid if left out")
+      .required("capacity", &HoistModel::capacity, quantity(Dimension::load, Range::positive()),
+                "largest load at the hook")
+      .required("winch", &HoistModel::winch, winch_format(),
+                "lets out and takes in the tackle: rope length between sheave and hook block");
+  return table.format();
+}
+
+}  // namespace
+
+const HoistModel* CraneModel::find_hoist(const std::string& name) const {
+  const auto found = std::find_if(hoists.begin(), hoists.end(), [&](const HoistModel& hoist) {
+    return hoist.name.value == name;
+  });
+  return found == hoists.end() ? nullptr : &*found;
+}
+
+Format<DriveLimits> winch_format() {
+  Table<DriveLimits> table("winch",
+                           "Lets out and takes in rope along a motion profile with limited "
+                           "speed, acceleration and jerk.");
+  const Range positive = Range::positive();
+  table
+      .required("speed", &DriveLimits::speed, quantity_of({Dimension::speed}, positive),
+                "largest speed, of the hook")
+      .required("acceleration", &DriveLimits::acceleration,
+                quantity_of({Dimension::acceleration}, positive), "largest acceleration")
+      .required("jerk", &DriveLimits::jerk, quantity_of({Dimension::jerk}, positive),
+                "largest rate of change of the acceleration")
+      .required("range", &DriveLimits::range,
+                array_of<Quantity, 2>(quantity_of({Dimension::length}, positive)),
+                "shortest and longest rope");
+  return table.format();
+}
+
+Format<CraneModel> crane_model_format() {
+  Table<CraneModel> table("crane",
+                          "A crane: bodies joined by joints, drives that move joints, and "
+                          "hoists with their tackle. Its base (\"world\" to the crane) "
+                          "stands where the lift case puts it.");
+  table
+      .required("kind", &CraneModel::kind, choice<std::string>({{"crane", "crane"}}),
+                "what this file describes")
+      .optional("title", &CraneModel::title, text(), "for people")
+      .optional("parameters", &CraneModel::parameters, parameters_format(),
+                "values that expressions in this file may use; the lift case may give others")
+      .early()
+      .required("bodies", &CraneModel::bodies, named_tables(body_format()), "its rigid bodies")
+      .required("joints", &CraneModel::joints, named_tables(joint_format()),
+                "one for each body, which it carries")
+      .optional("loops", &CraneModel::loops, named_tables(loop_format()),
+                "what must hold besides the joints")
+      .optional("springs", &CraneModel::springs, named_tables(spring_format()),
+                "between points or at joints")
+      .optional("drives", &CraneModel::drives, named_tables(drive_table(true).format()),
+                "of joints; a joint without a drive moves freely")
+      .optional("pose", &CraneModel::pose, joint_values_format(joint_positions),
+                "where joints stand when the crane is put together, by name (zero where left out): "
+                "loops close nearest to this pose, lengths that they leave open are taken from it, "
+                "and drives go from it to where a case starts them")
+      .optional("hoists", &CraneModel::hoists, named_tables(hoist_format()),
+                "winches with tackle and hook block")
+      .optional("capacity", &CraneModel::capacity, quantity(Dimension::load, Range::positive()),
+                "largest load of all hooks together")
+      .place(&CraneModel::place)
+      .rule(check_crane);
+  return table.format();
+}
+
+}  // namespace blocklift::pipeline

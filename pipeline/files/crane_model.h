@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/files/rope_model.h"
+#include "pipeline/mechanism/mechanism_parts.h"
+
+namespace blocklift::pipeline {
+
+/// Body of small size in which a tackle ends.
+struct HookBlockModel {
+  double mass = std::numeric_limits<double>::quiet_NaN();  ///< kg
+  double wind_area = 0;                                    ///< m^2, from any side
+  double wind_coefficient = 0;
+  Vector3 size = Vector3::Zero();  ///< of the box in the drawing, m
+};
+
+/// Hoist: a winch on a body lets out a tackle whose hook block hangs free.
+struct HoistModel {
+  Located<std::string> name;
+  Located<std::string> body;
+  Vector3 sheave = Vector3::Zero();  ///< where the tackle leaves the body, in its frame, m
+  HookBlockModel hook_block;
+  RopeChoice rope_choice;
+  RopeModel rope;                                                    ///< after the look-up
+  double crane_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
+  double capacity = std::numeric_limits<double>::quiet_NaN();        ///< load at the hook, N
+  DriveLimits winch;  ///< of the rope length between sheave and hook block
+};
+
+/// Crane as a mechanism of bodies, joints, loops, springs, drives and hoists. SI units.
+struct CraneModel : MechanismParts {
+  std::string kind;
+  std::string title;
+  ParameterValues parameters;
+  JointValues pose;  ///< where joints stand when the crane is put together; zero if left out
+  std::vector<HoistModel> hoists;
+  std::optional<double> capacity;  ///< of the whole crane, N
+  Mark place;
+
+  const HoistModel* find_hoist(const std::string& name) const;
+};
+
+/// The format of a crane's model file, with the rules that concern its own keys.
+Format<CraneModel> crane_model_format();
+
+/// The keys of a winch; shared with ropes that have one of their own.
+Format<DriveLimits> winch_format();
+
+}  // namespace blocklift::pipeline

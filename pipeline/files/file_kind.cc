@@ -1,0 +1,51 @@
+#include "pipeline/files/file_kind.h"
+
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include <yaml-cpp/yaml.h>
+
+#include "pipeline/declaration/document.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool begins_as_xml(const fs::path& path) {
+  std::ifstream stream(path);
+  std::string word;
+  return stream >> word && word.starts_with('<');
+}
+
+}  // namespace
+
+FileKind kind_of_file(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    const bool mechanism =
+        fs::exists(path / "mechanism.yaml", error) && !fs::exists(path / "case.yaml", error);
+    if (fs::exists(path / "part.yaml", error) && !fs::exists(path / "case.yaml", error))
+      return FileKind::part;
+    return mechanism ? FileKind::mechanism : FileKind::lift_case;
+  }
+  if (fs::is_regular_file(path, error) && (path.extension() == ".urdf" || begins_as_xml(path))) {
+    return FileKind::robot;
+  }
+  Diagnostics ignored;  // the reader of the file says the same again
+  const std::optional<Document> document = load_document(path, ignored);
+  if (!document || !document->root.IsMap()) return FileKind::lift_case;
+  if (document->root["mechanism"]) return FileKind::mechanism;
+  if (document->root["part"]) return FileKind::part;
+  const YAML::Node node = document->root["kind"];
+  const std::string kind = node && node.IsScalar() ? node.Scalar() : std::string();
+  if (kind == "crane") return FileKind::crane;
+  if (kind == "block") return FileKind::block;
+  if (kind == "rope") return FileKind::rope;
+  if (kind == "vessel") return FileKind::vessel;
+  if (kind == "vessels") return FileKind::vessels;
+  return FileKind::lift_case;
+}
+
+}  // namespace blocklift::pipeline

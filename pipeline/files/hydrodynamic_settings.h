@@ -1,0 +1,38 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "pipeline/declaration/format.h"
+
+namespace blocklift::pipeline {
+
+/// Angular frequencies at equal distances, rad/s.
+struct FrequencyRange {
+  double lowest = std::numeric_limits<double>::quiet_NaN();
+  double highest = std::numeric_limits<double>::quiet_NaN();
+  int count = 0;
+  Mark place;
+
+  std::vector<double> list() const;
+};
+
+/// What `blocklift hydro` computes for a vessel, or for several together. SI units.
+struct HydrodynamicSettings {
+  FrequencyRange frequencies;
+  std::vector<double> headings;       ///< direction of travel from +x towards +y, rad
+  std::optional<double> water_depth;  ///< m; none: deep
+  double water_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m3
+  std::optional<double> panel_size;                                 ///< m; none: the vessel's own
+  std::vector<double> draughts;  ///< upright, m, ascending; empty: afloat by its own weight
+  bool as_meshed = false;        ///< z = 0 of the hull's own frame is the water
+  bool symmetry = true;          ///< use the planes of symmetry that there are
+};
+
+Format<HydrodynamicSettings> hydrodynamic_settings_format();
+
+/// Draughts as a list of lengths that ascend.
+Format<std::vector<double>> draughts_format();
+
+}  // namespace blocklift::pipeline

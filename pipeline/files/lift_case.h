@@ -1,0 +1,277 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dynamics/force/wind_field.h"
+#include "pipeline/files/block_model.h"
+#include "pipeline/files/crane_model.h"
+#include "pipeline/files/hot_spot_format.h"
+#include "pipeline/files/marine_parts.h"
+#include "pipeline/files/model_library.h"
+
+namespace blocklift::pipeline {
+
+/// A crane of the lift: where it stands and where its drives and winches are at the start.
+struct CraneInCase {
+  Located<std::string> name;
+  Located<std::string> model_name;
+  std::shared_ptr<const CraneModel> model;   ///< after the look-up; null if it failed
+  ParameterValues parameters;                ///< in place of the model's own
+  std::optional<Located<std::string>> base;  ///< vessel that it stands on; none: the world
+  Vector3 position = Vector3::Zero();        ///< of the crane's base in the world or vessel, m
+  Vector3 attitude = Vector3::Zero();        ///< roll, pitch, yaw of the base, rad
+  /// Drives: coordinate. Hoists: unstretched rope length. Ordered as in the file.
+  std::vector<Named<Located<Quantity>>> start;
+
+  const Located<Quantity>* find_start(const std::string& drive_or_hoist) const;
+};
+
+/// Where a load is while it is in the water.
+struct PlaceAfloat {
+  std::array<double, 2> position{};  ///< of its frame's origin in the world, m
+  double heading = 0.0;              ///< of its x axis, rad
+};
+
+/// What is lifted: a block, whose stress is asked; a vessel, which may float; or both, one ship.
+struct LoadInCase {
+  Located<std::string> model_name;          ///< of the block; empty for a vessel
+  std::shared_ptr<const BlockModel> model;  ///< after the look-up; null if it failed
+  std::optional<Located<std::string>> vessel_name;
+  std::shared_ptr<const Vessel>
+      vessel;  ///< after the look-up; null if it failed; beside a block its hull
+  std::vector<Named<Vector3>> lugs;          ///< of a vessel, in its frame, m
+  DampingInCase damping, quadratic_damping;  ///< of a vessel in the water
+  /// Of a vessel for which the water that it sets in motion is computed, from its lowest point, m.
+  std::optional<Located<std::vector<double>>> draughts;
+  std::optional<PlaceAfloat> afloat;   ///< where it is meanwhile; none: as at the start
+  Vector3 position = Vector3::Zero();  ///< of the block's frame at the start, a first guess, m
+  Vector3 attitude = Vector3::Zero();  ///< roll, pitch, yaw, rad; likewise
+
+  /// Upright in the water at the deepest of its draughts. It has a vessel and draughts.
+  dynamics::Pose pose_afloat() const;
+};
+
+/// Where a rope begins, turns or ends: a hook (`C1.upper_1`), a lug (`L1`), or any point of a body.
+struct RopePoint {
+  Located<std::string> name;                 ///< of the hook or lug; empty where `body` is given
+  std::optional<Located<std::string>> body;  ///< "world", "load", "C1.gantry", "C1.upper_1"
+  Vector3 point = Vector3::Zero();           ///< in the body's frame, m
+};
+
+/// What a rope point is after its names have been looked up.
+struct ResolvedPoint {
+  enum class Kind { world, load, crane_body, hook, vessel } kind = Kind::world;
+  std::size_t crane = 0;  ///< index of the crane, for crane_body and hook
+  std::string part;       ///< name of the body or hoist within the crane, or of the vessel
+  std::string lug;        ///< name of the lug, if the point is one
+  Vector3 point = Vector3::Zero();  ///< in the body's frame, m
+
+  /// Name of the body in the lift: "world", "load", "C1.gantry", "C1.upper_1".
+  std::string body_name(const std::vector<CraneInCase>& cranes) const;
+};
+
+/// A rope, sling or line of the lift.
+struct RopeInCase {
+  Located<std::string> name;
+  Located<RopePoint> from;
+  std::vector<Located<RopePoint>> through;
+  Located<RopePoint> to;
+  std::vector<ResolvedPoint> path;  ///< from, through, to; empty if a name could not be found
+  RopeChoice rope_choice;
+  RopeModel rope;                                                  ///< after the look-up
+  Located<double> length;                                          ///< unstretched, at the start, m
+  double end_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
+  std::optional<DriveLimits> winch;  ///< of its own, at the `from` end
+
+  /// The lug at its end, empty if it ends elsewhere.
+  std::string lug() const { return path.empty() ? std::string() : path.back().lug; }
+};
+
+/// Wind, steady or with gusts.
+struct WindInCase {
+  double speed = 0;    ///< at a height of 10 m, m/s
+  double towards = 0;  ///< direction of travel from +x towards +y, rad
+  double air_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m^3
+  dynamics::WindProfile profile = dynamics::WindProfile::uniform;
+  dynamics::GustSpectrum gusts = dynamics::GustSpectrum::none;
+  double gust_height = 10;  ///< at which the spectrum is taken, m
+  int seed = 1;
+
+  /// @param at_rest the mean alone: for static equilibrium.
+  std::shared_ptr<const dynamics::WindField> make_field(bool at_rest) const;
+};
+
+/// Moves of one or several drives or winches, alike.
+struct MoveInCase {
+  std::vector<Located<std::string>> drives;
+  std::optional<Located<Quantity>> by;
+  std::optional<Located<Quantity>> to;
+  std::optional<Located<Quantity>> speed;
+  std::optional<Located<Quantity>> acceleration;
+  std::optional<Located<Quantity>> jerk;
+  std::optional<Located<double>> duration;  ///< s
+  double delay = 0;                         ///< after the stage's start, s
+  std::optional<Located<std::string>> follows;
+  /// Own travel over the leader's travel, both since the start of the leader's move.
+  std::optional<Located<std::vector<std::array<Quantity, 2>>>> table;
+  Mark place;
+};
+
+/// A stage of the operation: its moves begin together, each after its own delay.
+struct StageInCase {
+  Located<std::string> name;
+  double pause = 0;  ///< before the stage, s
+  std::vector<MoveInCase> moves;
+};
+
+/// A pad on which the load stands at the start, and from which it lifts off.
+struct SupportInCase {
+  Located<std::string> name;
+  Vector3 point = Vector3::Zero();  ///< of the load, in the block's frame, m
+  double ground = 0;                ///< height of the ground, m
+  double stiffness = std::numeric_limits<double>::quiet_NaN();  ///< N/m
+  double damping = 0;                                           ///< N s/m
+  double friction_coefficient = 0;
+  double tangential_stiffness = 0;  ///< N/m
+  std::optional<double> reach;      ///< level, beyond which there is no pad, m
+};
+
+/// How the block gives way where the ropes pull at it.
+enum class Flexibility {
+  rigid,    ///< not at all
+  static_,  ///< at once, by the compliance of its lugs
+  modal     ///< by natural modes that vibrate, the rest at once
+};
+
+struct DynamicsSettings {
+  double relative_tolerance = 0;
+  double sample_interval = 0;  ///< s
+  double static_interval = 0;  ///< s
+  Flexibility flexibility = Flexibility::rigid;
+  std::optional<Located<int>> elastic_modes = {};     ///< where the flexibility is modal
+  std::optional<Located<double>> modal_damping = {};  ///< of each, over the critical one
+
+  int mode_count() const { return elastic_modes ? elastic_modes->value : 10; }
+  double mode_damping() const { return modal_damping ? modal_damping->value : 0.01; }
+};
+
+/// How the wear by repeated lifts is judged.
+struct FatigueSettings {
+  std::string curve = "F";  ///< detail category of DNV-RP-C203, in air
+  double stress_concentration = 1;
+  std::string hot_spot_curve = "D";  ///< for structural stress at weld toes
+  double lifts = 1;
+};
+
+struct StructureSettings {
+  int element_degree = 0;
+  double largest_element = 0;                   ///< m
+  std::vector<Named<Vector3>> stress_points{};  ///< whose stress is followed in time, in B, m
+  FatigueSettings fatigue{};
+  std::vector<HotSpotInFile> hot_spots{};  ///< weld toes of the block, in B
+};
+
+struct CheckSettings {
+  double rope_safety_factor = 0;
+  bool crane_capacity = false;
+  double yield_factor = 0;
+  double lug_consequence_factor = 0;      ///< on forces and stresses of padeyes
+  double lug_side_load = 0;               ///< least force along a padeye's pin, share of the rope's
+  std::optional<double> buckling_factor;  ///< absent: yield_factor
+  double smallest_tension = 0;            ///< N
+  std::optional<double> largest_swing;    ///< rad
+};
+
+/// A published or measured pair of largest loads, N.
+struct PublishedLoads {
+  std::optional<double> static_load;
+  std::optional<double> dynamic_load;
+};
+
+/// A measured tension over time.
+struct MeasuredSeries {
+  Located<std::string> file;         ///< CSV: time in s, tension
+  double unit = 0;                   ///< of the tension in the file, N
+  double offset = 0;                 ///< of the measurement's clock behind the operation's, s
+  std::vector<double> time = {};     ///< after the file has been read, s of the operation
+  std::vector<double> tension = {};  ///< N
+};
+
+/// Published or measured figures that are shown beside the computed ones.
+struct Comparison {
+  std::string source;
+  std::vector<Named<PublishedLoads>> ropes;
+  std::vector<Named<MeasuredSeries>> series;   ///< by rope
+  std::optional<double> stress_increase;       ///< as a ratio
+  std::optional<double> deformation_increase;  ///< as a ratio
+};
+
+/// Lug forces given outright in place of a simulated lift.
+struct LoadTable {
+  /// Direction of the pull in the block's frame, unit: one for all lugs, or one for each.
+  std::variant<Vector3, std::vector<Named<Vector3>>> direction;
+  std::vector<Named<double>> static_loads;   ///< by lug, N
+  std::vector<Named<double>> dynamic_loads;  ///< by lug, N
+  Mark place;
+
+  /// The unit direction of the pull at a lug.
+  Vector3 direction_at(const std::string& lug) const;
+};
+
+/// A lift case: what is lifted, by what, how, and what is asked. SI units.
+struct LiftCase : MarineParts {
+  std::string name;
+  std::string title;
+  double gravity = std::numeric_limits<double>::quiet_NaN();  ///< m/s^2
+  LoadInCase load;
+  std::vector<CraneInCase> cranes;
+  std::vector<RopeInCase> ropes;
+  std::vector<SupportInCase> supports;
+  std::optional<WindInCase> wind;
+  std::vector<StageInCase> operation;
+  double settle = 0;  ///< after the last move, s
+  DynamicsSettings dynamics;
+  StructureSettings structure;
+  CheckSettings checks;
+  std::optional<Comparison> compare;
+  std::optional<LoadTable> load_table;
+  Mark place;
+  std::string yaml;            ///< the case file as it stands
+  std::filesystem::path file;  ///< where it is
+
+  /// Is the load a block whose stress is asked?
+  bool has_structure() const { return load.model != nullptr; }
+  const CraneInCase* find_crane(const std::string& name) const;
+  const RopeInCase* find_rope(const std::string& name) const;
+};
+
+/// The keys of a rope; its points are given as the file at hand gives them.
+Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
+                                       bool breaking_load_required);
+/// A stage of an operation; shared with mechanism files.
+Format<StageInCase> stage_format();
+
+/// Constant wind; shared with mechanism files.
+Format<WindInCase> wind_format();
+
+/// The format of a case file, without the look-up of models.
+Format<LiftCase> lift_case_format();
+
+/// Reads a case file, the models that it names, and checks all of it together.
+///
+/// @param path the file, or a folder with a `case.yaml` in it.
+/// @returns the case only if nothing is wrong with it; else the complaints are in `diagnostics`.
+std::optional<LiftCase> read_lift_case(const std::filesystem::path& path, ModelLibrary& library,
+                                       Diagnostics& diagnostics);
+
+/// The same, with the models of the installation. @throws InputError with all complaints.
+LiftCase read_lift_case(const std::filesystem::path& path);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,511 @@
+#include "pipeline/files/lift_case_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "pipeline/files/crane_pose.h"
+#include "pipeline/files/operation_schedule.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+/// "hull-860t" of "blocks/hull-860t".
+std::string short_name(const std::string& model_name) {
+  return std::filesystem::path(model_name).stem().string();
+}
+
+/// The names that a crane part may have, for a hint.
+std::vector<std::string> parts_of(const CraneInCase& crane, bool with_bodies) {
+  std::vector<std::string> parts;
+  for (const HoistModel& hoist : crane.model->hoists) {
+    parts.push_back(crane.name.value + "." + hoist.name.value);
+  }
+  if (with_bodies) {
+    for (const BodyModel& body : crane.model->bodies) {
+      parts.push_back(crane.name.value + "." + body.name.value);
+    }
+  }
+  return parts;
+}
+
+/// Looks up one point of a rope. `does` says in messages what the rope does there: "ends at".
+class PointResolver {
+ public:
+  PointResolver(const LiftCase& lift_case, Diagnostics& diagnostics)
+      : case_(lift_case), diagnostics_(diagnostics) {}
+
+  std::optional<ResolvedPoint> resolve(const RopeInCase& rope, const Located<RopePoint>& point,
+                                       const std::string& does) {
+    const RopePoint& p = point.value;
+    subject_ = fmt::format("rope {} {}", rope.name.value, does);
+    if (p.body) return resolve_body(*p.body, p.point);
+    if (p.name.value.empty()) return std::nullopt;
+    if (p.name.value.find('.') != std::string::npos) {
+      return resolve_part(p.name, false, Vector3::Zero());
+    }
+    return resolve_lug(p.name);
+  }
+
+ private:
+  std::optional<ResolvedPoint> resolve_body(const Located<std::string>& body,
+                                            const Vector3& point) {
+    if (body.value.empty()) return std::nullopt;
+    ResolvedPoint resolved;
+    resolved.point = point;
+    if (body.value == "world") return resolved;
+    if (body.value == "load") {
+      resolved.kind = ResolvedPoint::Kind::load;
+      return resolved;
+    }
+    if (case_.find_vessel(body.value)) {
+      resolved.kind = ResolvedPoint::Kind::vessel;
+      resolved.part = body.value;
+      return resolved;
+    }
+    if (body.value.find('.') == std::string::npos) {
+      const char* kinds =
+          "a body is \"world\", \"load\", a vessel, or crane and body, for example C1.gantry";
+      fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
+           case_.vessels.empty() ? kinds
+                                 : names_hint(std::string(kinds) + "; the vessels are",
+                                              names_of(case_.vessels), body.value));
+      return std::nullopt;
+    }
+    return resolve_part(body, true, point);
+  }
+
+  std::optional<ResolvedPoint> resolve_part(const Located<std::string>& name, bool bodies_too,
+                                            const Vector3& point) {
+    const std::size_t dot = name.value.find('.');
+    const std::string crane_name = name.value.substr(0, dot);
+    const std::string part = name.value.substr(dot + 1);
+    const CraneInCase* crane = case_.find_crane(crane_name);
+    if (!crane) {
+      fail(name,
+           fmt::format("{} \"{}\", but the case has no crane \"{}\"", subject_, name.value,
+                       crane_name),
+           names_hint("its cranes are", names_of(case_.cranes), crane_name));
+      return std::nullopt;
+    }
+    if (!crane->model) return std::nullopt;
+    ResolvedPoint resolved;
+    resolved.crane = static_cast<std::size_t>(crane - case_.cranes.data());
+    resolved.part = part;
+    resolved.point = point;
+    if (crane->model->find_hoist(part)) {
+      resolved.kind = ResolvedPoint::Kind::hook;
+      return resolved;
+    }
+    if (bodies_too && crane->model->find_body(part)) {
+      resolved.kind = ResolvedPoint::Kind::crane_body;
+      return resolved;
+    }
+    if (crane->model->find_body(part)) {
+      fail(name, fmt::format("{} body \"{}\" without saying where", subject_, name.value),
+           fmt::format("give the point: {{body: {}, point: [0 m, 0 m, 0 m]}}", name.value));
+      return std::nullopt;
+    }
+    fail(name,
+         fmt::format("{} \"{}\", but crane {} has no {} \"{}\"", subject_, name.value, crane_name,
+                     bodies_too ? "body or hoist" : "hoist", part),
+         names_hint(bodies_too ? "its bodies and hoists are" : "its hoists are",
+                    parts_of(*crane, bodies_too), name.value));
+    return std::nullopt;
+  }
+
+  std::optional<ResolvedPoint> resolve_lug(const Located<std::string>& name) {
+    if (case_.load.model_name.value.empty()) return resolve_vessel_lug(name);
+    if (!case_.load.model) return std::nullopt;
+    const LugModel* lug = case_.load.model->find_lug(name.value);
+    if (!lug) {
+      fail(name,
+           fmt::format("{} lug \"{}\", which block {} does not have", subject_, name.value,
+                       short_name(case_.load.model_name.value)),
+           names_hint("its lugs are", case_.load.model->lug_names(), name.value));
+      return std::nullopt;
+    }
+    ResolvedPoint resolved;
+    resolved.kind = ResolvedPoint::Kind::load;
+    resolved.lug = name.value;
+    resolved.point = lug->pin.value;
+    return resolved;
+  }
+
+  std::optional<ResolvedPoint> resolve_vessel_lug(const Located<std::string>& name) {
+    for (const Named<Vector3>& lug : case_.load.lugs) {
+      if (lug.name.value != name.value) continue;
+      ResolvedPoint resolved;
+      resolved.kind = ResolvedPoint::Kind::load;
+      resolved.lug = name.value;
+      resolved.point = lug.value;
+      return resolved;
+    }
+    fail(name, fmt::format("{} lug \"{}\", which the load does not have", subject_, name.value),
+         names_hint("its lugs are", names_of(case_.load.lugs), name.value));
+    return std::nullopt;
+  }
+
+  void fail(const Located<std::string>& name, std::string message, std::string hint) {
+    diagnostics_.error(name.mark, std::move(message), {std::move(hint)});
+  }
+
+  const LiftCase& case_;
+  Diagnostics& diagnostics_;
+  std::string subject_;
+};
+
+bool same_point(const ResolvedPoint& a, const ResolvedPoint& b) {
+  return a.kind == b.kind && a.crane == b.crane && a.part == b.part && a.point == b.point;
+}
+
+/// Complains about sheaves on the load: only the forces of rope ends reach its stress.
+void check_sheaves(const RopeInCase& rope, Diagnostics& diagnostics) {
+  for (std::size_t i = 1; i + 1 < rope.path.size(); ++i) {
+    if (rope.path[i].kind != ResolvedPoint::Kind::load) continue;
+    diagnostics.error(
+        rope.through[i - 1].mark,
+        fmt::format("rope {} runs over a sheave on the load, whose force on the block would be "
+                    "missing from its stress",
+                    rope.name.value),
+        {"ropes begin or end at lugs; sheaves stand on cranes, hooks or the world"});
+  }
+}
+
+void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  bool all_known = true;
+  bool load_hangs = false;
+  for (const RopeInCase& rope : lift_case.ropes) {
+    all_known &= !rope.path.empty();
+    check_sheaves(rope, diagnostics);
+    for (std::size_t i = 0; i < rope.path.size(); ++i) {
+      load_hangs |= rope.path[i].kind == ResolvedPoint::Kind::load;
+      if (i > 0 && same_point(rope.path[i - 1], rope.path[i])) {
+        diagnostics.error(rope.name.mark,
+                          fmt::format("rope {} runs from a point to itself", rope.name.value));
+      }
+    }
+    if (rope.winch && rope.winch->range[0].value >= rope.winch->range[1].value) {
+      diagnostics.error(
+          rope.name.mark,
+          fmt::format("the range of the winch of rope {} does not ascend", rope.name.value));
+    }
+  }
+  if (all_known && !lift_case.ropes.empty() && !load_hangs) {
+    diagnostics.error(lift_case.load.vessel_name ? lift_case.load.vessel_name->mark
+                                                 : lift_case.load.model_name.mark,
+                      "no rope holds the load", {"a rope that ends at one of its lugs does"});
+  }
+}
+
+/// Start values of one crane: each drive and hoist has one, of its kind and within its range.
+void check_start(const CraneInCase& crane, Diagnostics& diagnostics) {
+  std::vector<std::string> known;
+  const auto check_one = [&](const std::string& part, const char* noun, const char* example,
+                             const DriveLimits& limits) {
+    known.push_back(part);
+    const Located<Quantity>* start = crane.find_start(part);
+    if (!start) {
+      diagnostics.error(
+          crane.name.mark,
+          fmt::format("crane {} gives no start for its {} {}", crane.name.value, noun, part),
+          {fmt::format("add {}: {} to its start", part, example)});
+      return;
+    }
+    const Quantity& low = limits.range[0];
+    const Quantity& high = limits.range[1];
+    if (!std::isfinite(start->value.value) || !std::isfinite(low.value) ||
+        !std::isfinite(high.value)) {
+      return;
+    }
+    if (start->value.dimension != low.dimension) {
+      diagnostics.error(
+          start->mark,
+          fmt::format("the start of {} {}.{} is {}; {} is due", noun, crane.name.value, part,
+                      text_of(start->value.dimension).noun, text_of(low.dimension).noun));
+    } else if (start->value.value < low.value || start->value.value > high.value) {
+      diagnostics.error(
+          start->mark,
+          fmt::format("{} {}.{} starts at {}, outside its range", noun, crane.name.value, part,
+                      format_quantity(start->value.value, low.dimension)),
+          {fmt::format("its range is {} to {}", format_quantity(low.value, low.dimension),
+                       format_quantity(high.value, high.dimension))});
+    }
+  };
+  for (const DriveModel& drive : crane.model->drives) {
+    check_one(drive.name.value, "drive", "0 m", drive);
+  }
+  for (const HoistModel& hoist : crane.model->hoists) {
+    check_one(hoist.name.value, "hoist", "30 m", hoist.winch);
+  }
+  for (const auto& start : crane.start) {
+    if (std::find(known.begin(), known.end(), start.name.value) != known.end()) continue;
+    diagnostics.error(
+        start.name.mark,
+        fmt::format("crane {} has no drive or hoist \"{}\"", crane.name.value, start.name.value),
+        {names_hint("its drives and hoists are", known, start.name.value)});
+  }
+}
+
+void check_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (crane.name.value == "world" || crane.name.value == "load") {
+      diagnostics.error(crane.name.mark,
+                        fmt::format("a crane cannot be named \"{}\"", crane.name.value));
+    }
+    if (lift_case.find_vessel(crane.name.value)) {
+      diagnostics.error(crane.name.mark, fmt::format("a crane and a vessel are both named \"{}\"",
+                                                     crane.name.value));
+    }
+    if (crane.base && !crane.base->value.empty() && !lift_case.find_vessel(crane.base->value)) {
+      diagnostics.error(
+          crane.base->mark,
+          fmt::format("crane {} stands on vessel \"{}\", which the case does not have",
+                      crane.name.value, crane.base->value),
+          {names_hint("its vessels are", names_of(lift_case.vessels), crane.base->value)});
+    }
+  }
+}
+
+void check_comparison(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (!lift_case.compare) return;
+  std::vector<std::string> known = names_of(lift_case.ropes);
+  const bool by_lug = lift_case.load_table.has_value();
+  if (by_lug) known = names_of(lift_case.load_table->static_loads);
+  const auto check = [&](const Located<std::string>& name) {
+    if (std::find(known.begin(), known.end(), name.value) != known.end()) return;
+    diagnostics.error(name.mark,
+                      fmt::format("compare names {} \"{}\", which the case does not have",
+                                  by_lug ? "lug" : "rope", name.value),
+                      {names_hint(by_lug ? "the lugs of its load table are" : "its ropes are",
+                                  known, name.value)});
+  };
+  for (const auto& loads : lift_case.compare->ropes) check(loads.name);
+  for (const auto& series : lift_case.compare->series) check(series.name);
+  if (by_lug && !lift_case.compare->series.empty()) {
+    diagnostics.error(lift_case.compare->series.front().name.mark,
+                      "a load table has no history that a measured series could be drawn over");
+  }
+}
+
+/// Every lug that the table names exists; static, dynamic and direction name the same ones.
+void check_load_table(const LiftCase& lift_case, const LoadTable& table, Diagnostics& diagnostics) {
+  const auto check_exists = [&](const Located<std::string>& lug) {
+    if (!lift_case.load.model || lift_case.load.model->find_lug(lug.value)) return true;
+    diagnostics.error(lug.mark,
+                      fmt::format("the load table names lug \"{}\", which block {} does not have",
+                                  lug.value, short_name(lift_case.load.model_name.value)),
+                      {names_hint("its lugs are", lift_case.load.model->lug_names(), lug.value)});
+    return false;
+  };
+  const auto check_listed = [&](const Located<std::string>& lug, const auto& list,
+                                const char* list_name) {
+    for (const auto& entry : list) {
+      if (entry.name.value == lug.value) return;
+    }
+    diagnostics.error(lug.mark, fmt::format("lug {} is missing under {} of the load table",
+                                            lug.value, list_name));
+  };
+  if (table.static_loads.empty()) diagnostics.error(table.place, "the load table names no lug");
+  for (const auto& load : table.static_loads) {
+    if (!check_exists(load.name)) continue;
+    check_listed(load.name, table.dynamic_loads, "dynamic");
+    if (const auto* each = std::get_if<std::vector<Named<Vector3>>>(&table.direction)) {
+      check_listed(load.name, *each, "direction");
+    }
+  }
+  for (const auto& load : table.dynamic_loads) {
+    if (check_exists(load.name)) check_listed(load.name, table.static_loads, "static");
+  }
+}
+
+/// A case has cranes, ropes and an operation, or a load table; complains about what is missing or
+/// too much.
+void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (lift_case.load_table) {
+    const auto refuse = [&](bool given, const char* key) {
+      if (!given) return;
+      diagnostics.error(lift_case.load_table->place,
+                        fmt::format("the case has a load table and {}", key),
+                        {"a load table stands in place of cranes, ropes, supports, wind and "
+                         "operation"});
+    };
+    refuse(!lift_case.cranes.empty(), "cranes");
+    refuse(!lift_case.ropes.empty(), "ropes");
+    refuse(!lift_case.supports.empty(), "supports");
+    refuse(lift_case.wind.has_value(), "wind");
+    refuse(lift_case.sea.has_value(), "a sea");
+    refuse(lift_case.load.vessel_name.has_value(), "a vessel as the load");
+    refuse(!lift_case.operation.empty(), "an operation");
+    refuse(lift_case.dynamics.flexibility != Flexibility::rigid, "a flexible block");
+    return;
+  }
+  const auto require = [&](bool missing, const char* key) {
+    if (!missing) return;
+    diagnostics.error(lift_case.place, fmt::format("the lift case lacks the key \"{}\"", key),
+                      {"a case has cranes, ropes and operation, or a load_table"});
+  };
+  require(lift_case.cranes.empty() && lift_case.ropes.empty(), "cranes");
+  require(lift_case.ropes.empty(), "ropes");
+  require(lift_case.operation.empty(), "operation");
+}
+
+/// The operation takes time, and no more samples of it are asked for than a machine holds.
+void check_duration(const LiftCase& lift_case, const Schedule& schedule, Diagnostics& diagnostics) {
+  constexpr double most_samples = 5e5;  // some 10 kB each
+  if (lift_case.operation.empty() || diagnostics.has_errors()) return;
+  if (!(schedule.duration > 0)) {
+    diagnostics.error(lift_case.operation.front().name.mark, "the operation takes no time",
+                      {"give it a move, a pause or a settle time"});
+    return;
+  }
+  const auto check = [&](const char* key, double interval) {
+    if (schedule.duration <= most_samples * interval) return;
+    diagnostics.error(
+        lift_case.operation.front().name.mark,
+        fmt::format("the operation lasts {:.6g} s, with a sample every {:g} s ({})",
+                    schedule.duration, interval, key),
+        {fmt::format("at most {:.0f} samples are recorded; shorten the pauses or lengthen the "
+                     "interval",
+                     most_samples)});
+  };
+  check("sample_interval", lift_case.dynamics.sample_interval);
+  check("static_interval", lift_case.dynamics.static_interval);
+}
+
+/// The keys of the natural modes, which one kind of flexibility alone reads.
+void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostics) {
+  if (dynamics.flexibility == Flexibility::modal) return;
+  const auto refuse = [&](const auto& key, const char* name) {
+    if (!key) return;
+    diagnostics.error(key->mark,
+                      fmt::format("{} is given, and the block has no natural modes", name),
+                      {"they are those of flexibility: modal"});
+  };
+  refuse(dynamics.elastic_modes, "elastic_modes");
+  refuse(dynamics.modal_damping, "modal_damping");
+}
+
+/// A ship that is given as a block and as a vessel is one.
+void check_weights(const LoadInCase& load, Diagnostics& diagnostics) {
+  if (!load.model || !load.vessel || !load.model->mass) return;
+  constexpr double allowed = 0.01;
+  const double of_block = load.model->mass->value, of_vessel = load.vessel->model.mass;
+  if (std::abs(of_block - of_vessel) <= allowed * of_vessel) return;
+  diagnostics.error(
+      load.vessel_name->mark,
+      fmt::format("block {} weighs {}, and vessel {}, whose hull bears it, {}",
+                  short_name(load.model_name.value), format_quantity(of_block, Dimension::mass),
+                  short_name(load.vessel_name->value), format_quantity(of_vessel, Dimension::mass)),
+      {"they are one ship: the block's mass moves, the vessel's must agree with it to 1 %"});
+}
+
+/// The draughts of a load that makes waves.
+void check_draughts(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  const LoadInCase& load = lift_case.load;
+  if (!load.draughts || !load.vessel) return;
+  check_draughts("the load", *load.draughts, *load.vessel, diagnostics);
+  for (const VesselInCase& vessel : lift_case.vessels) {
+    if (vessel.draughts) {
+      diagnostics.error(load.draughts->mark,
+                        fmt::format("the load has draughts, as vessel {} has", vessel.name.value),
+                        {"one body may be lowered into the water that they share"});
+    }
+    if (vessel.radiation.value == RadiationMethod::direct) {
+      diagnostics.error(
+          load.draughts->mark,
+          fmt::format("the load has draughts, and the radiation of vessel {} is direct",
+                      vessel.name.value),
+          {"a surface that is marched has hulls of one draught: give the vessels "
+           "radiation: database, or leave the load's draughts out"});
+    }
+  }
+}
+
+/// Vessels, sea and lines, and the lugs and the water of a load that is a vessel.
+void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  std::vector<std::string> bodies = {"load"};
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.model) continue;
+    for (const std::string& part : parts_of(crane, true)) bodies.push_back(part);
+  }
+  check_marine_parts(lift_case, lift_case.gravity, bodies, diagnostics);
+  if (lift_case.load.vessel_name && lift_case.load.model_name.value.empty() &&
+      lift_case.dynamics.flexibility != Flexibility::rigid) {
+    diagnostics.error(lift_case.load.vessel_name->mark,
+                      "the load is a vessel, whose structure is not known; it cannot be flexible",
+                      {"leave flexibility out, or give a block as the load"});
+  }
+  if (lift_case.load.vessel_name && !lift_case.sea) {
+    diagnostics.error(lift_case.load.vessel_name->mark, "the load is a vessel, and there is no sea",
+                      {"add sea: {} for calm deep sea water"});
+  }
+  check_weights(lift_case.load, diagnostics);
+  check_draughts(lift_case, diagnostics);
+  if (diagnostics.has_errors()) return;
+  std::vector<PlacedHull> hulls = place_hulls(lift_case);
+  if (lift_case.load.draughts) {
+    std::vector<PlacedHull> afloat = hulls;
+    afloat.push_back({"the load in the water", lift_case.load.draughts->mark,
+                      &lift_case.load.vessel->hull, lift_case.load.pose_afloat()});
+    check_hulls_apart(afloat, diagnostics);
+    if (diagnostics.has_errors()) return;
+  }
+  if (lift_case.load.vessel) {
+    hulls.push_back({"the load",
+                     lift_case.load.vessel_name->mark,
+                     &lift_case.load.vessel->hull,
+                     {rotation_of(lift_case.load.attitude), lift_case.load.position}});
+  }
+  check_hulls_apart(hulls, diagnostics);
+}
+
+}  // namespace
+
+void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics) {
+  PointResolver resolver(lift_case, diagnostics);
+  for (RopeInCase& rope : lift_case.ropes) {
+    std::vector<std::optional<ResolvedPoint>> points;
+    points.push_back(resolver.resolve(rope, rope.from, "begins at"));
+    for (const auto& sheave : rope.through) {
+      points.push_back(resolver.resolve(rope, sheave, "runs over"));
+    }
+    points.push_back(resolver.resolve(rope, rope.to, "ends at"));
+    if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.has_value(); })) {
+      continue;
+    }
+    for (auto& point : points) rope.path.push_back(std::move(*point));
+  }
+}
+
+void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  check_kind_of_case(lift_case, diagnostics);
+  check_names(lift_case, diagnostics);
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.model || lift_case.load_table) continue;
+    check_start(crane, diagnostics);
+  }
+  check_ropes(lift_case, diagnostics);
+  check_afloat(lift_case, diagnostics);
+  check_flexibility(lift_case.dynamics, diagnostics);
+  check_comparison(lift_case, diagnostics);
+  if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
+  check_duration(lift_case, schedule_operation(lift_case, diagnostics), diagnostics);
+}
+
+void check_loops_at_start(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (crane.model->loops.empty()) continue;
+    try {
+      pose_at_start(crane);
+    } catch (const dynamics::SimulationError& error) {
+      const Mark mark = crane.start.empty() ? crane.name.mark : crane.start.front().name.mark;
+      diagnostics.error(mark, error.what());
+    }
+  }
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "pipeline/files/lift_case.h"
+
+namespace blocklift::pipeline {
+
+/// Looks up the ends and sheaves of the case's ropes and complains about names that do not exist.
+void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics);
+
+/// Complains about what does not fit together in a case whose models have been read: cranes, ropes
+/// and operation against load table, start values, names, the operation itself. Parts that could
+/// not be read are passed over.
+void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics);
+
+/// Complains about cranes of a case without other mistakes whose loops are open where the case starts
+/// their drives.
+void check_loops_at_start(const LiftCase& lift_case, Diagnostics& diagnostics);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,430 @@
+#include "pipeline/declaration/table.h"
+#include "pipeline/files/lift_case.h"
+#include "structure/practice/fatigue.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+const auto zero_position = "[0 m, 0 m, 0 m]";
+const auto zero_attitude = "[0 deg, 0 deg, 0 deg]";
+
+Format<CraneInCase> crane_format() {
+  Table<CraneInCase> table("crane", "A crane of the lift.");
+  table
+      .required("model", &CraneInCase::model_name, located(reference()),
+                "name of the crane's model file")
+      .optional("parameters", &CraneInCase::parameters, parameter_overrides_format(),
+                "values for parameters of the model, in place of its own")
+      .optional("base", &CraneInCase::base, located(reference()),
+                "vessel of the case that the crane stands on; the world if left out")
+      .by_default("position", &CraneInCase::position, position_format(), zero_position,
+                  "of the crane's base in the world, or in the frame of the vessel")
+      .by_default("orientation", &CraneInCase::attitude, attitude_format(), zero_attitude,
+                  "of the crane's base: roll, pitch, yaw")
+      .required("start", &CraneInCase::start, names_to(located(quantity_of(travels))),
+                "where each drive stands, and how much rope (unstretched) each hoist has out, "
+                "when the operation begins");
+  return table.format();
+}
+
+Format<PlaceAfloat> place_afloat_format() {
+  Table<PlaceAfloat> table("place afloat", "Where a load is lowered into the water.");
+  table
+      .required("position", &PlaceAfloat::position,
+                array_of<double, 2>(quantity(Dimension::length)),
+                "of its frame's origin in the world, [x, y]")
+      .by_default("heading", &PlaceAfloat::heading, quantity(Dimension::angle), "0 deg",
+                  "of its x axis, from the world's +x towards +y");
+  return table.format();
+}
+
+void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
+  const bool block = !load.model_name.value.empty();
+  if (!block && !load.vessel_name) {
+    reading.error(mark, "the load is not described",
+                  {"give model, a block; or vessel with its lugs; or both, a block that floats by "
+                   "the hull of the vessel"});
+  }
+  for (const Named<Vector3>& lug : load.lugs) check_name(lug.name.mark, lug.name.value, reading);
+  if (block && !load.lugs.empty()) {
+    reading.error(load.lugs.front().name.mark, "a block's lugs stand in its model file");
+  }
+  if (load.draughts && !load.vessel_name) {
+    reading.error(load.draughts->mark, "draughts of a load that has no hull",
+                  {"give its vessel, whose hull enters the water"});
+  }
+  if (load.afloat && !load.draughts) {
+    reading.error(mark, "afloat is the place for which draughts are computed, and there are none",
+                  {"add draughts, or leave afloat out"});
+  }
+}
+
+Format<LoadInCase> load_format() {
+  Table<LoadInCase> table("load",
+                          "What is lifted: a block, one model for its motion and its stress; a "
+                          "vessel, which floats where it reaches the water and whose stress is not "
+                          "asked; or both, one ship: the block that she is built as, afloat by "
+                          "the hull of the vessel.");
+  table
+      .optional("model", &LoadInCase::model_name, located(reference()),
+                "name of the block's model file")
+      .optional(
+          "vessel", &LoadInCase::vessel_name, located(reference()),
+          "name of a vessel's model file: in place of model, or beside it for its hull, in the "
+          "frame of the block; the two weigh the same")
+      .optional("lugs", &LoadInCase::lugs, names_to(position_format()),
+                "of a vessel without a block: places of its lugs in its frame")
+      .by_default("damping", &LoadInCase::damping, vessel_damping_format(), "{}",
+                  "of a vessel in the water: linear, in proportion to the wet volume")
+      .by_default("quadratic_damping", &LoadInCase::quadratic_damping,
+                  vessel_quadratic_damping_format(), "{}",
+                  "with the square of the velocity; likewise")
+      .optional(
+          "draughts", &LoadInCase::draughts, located(draughts_format()),
+          "of a vessel, upright, from the lowest point of its hull: for them added mass, memory "
+          "and diffraction are computed together with those vessels whose radiation is, and "
+          "interpolated while it is lowered or lifted; it makes no waves if left out")
+      .optional(
+          "afloat", &LoadInCase::afloat, place_afloat_format(),
+          "where it lies against the vessels at those draughts, these being where they start; "
+          "as its position and orientation say if left out")
+      .by_default("position", &LoadInCase::position, position_format(), zero_position,
+                  "of the load's frame in the world at the start; a first guess, the run begins "
+                  "from equilibrium")
+      .by_default("orientation", &LoadInCase::attitude, attitude_format(), zero_attitude,
+                  "of the load at the start: roll, pitch, yaw; a first guess")
+      .rule(check_load);
+  return table.format();
+}
+
+Format<Located<RopePoint>> rope_point_format() {
+  Table<RopePoint> table("point", "A point of a body of the lift.");
+  table
+      .required("body", &RopePoint::body, reference(),
+                "\"world\", \"load\", a vessel, or crane and body (C1.gantry)")
+      .by_default("point", &RopePoint::point, position_format(), zero_position,
+                  "in the body's frame");
+  const auto by_name = converted<Located<std::string>, RopePoint>(located(reference()),
+                                                                  [](Located<std::string> name) {
+                                                                    RopePoint point;
+                                                                    point.name = std::move(name);
+                                                                    return point;
+                                                                  });
+  return located(by_shape<RopePoint>(by_name, std::nullopt, table.format()));
+}
+
+Format<SupportInCase> support_format() {
+  Table<SupportInCase> table("support", "A pad under the load, from which it lifts off.");
+  table
+      .required("point", &SupportInCase::point, position_format(),
+                "of the load that stands on the pad, in the block's frame")
+      .by_default("ground", &SupportInCase::ground, quantity(Dimension::length), "0 m",
+                  "height of the pad's upper face")
+      .required("stiffness", &SupportInCase::stiffness,
+                quantity(Dimension::stiffness, Range::positive()), "against sinking in")
+      .by_default("damping", &SupportInCase::damping,
+                  quantity(Dimension::damping, Range::not_negative()), "0 kN s/m",
+                  "against sinking in")
+      .by_default("friction_coefficient", &SupportInCase::friction_coefficient,
+                  number(Range::between(0, 2)), "0.3", "level force over the load on the pad")
+      .by_default("tangential_stiffness", &SupportInCase::tangential_stiffness,
+                  quantity(Dimension::stiffness, Range::not_negative()), "1 MN/m",
+                  "against sliding, up to the friction")
+      .optional(
+          "reach", &SupportInCase::reach, quantity(Dimension::length, Range::positive()),
+          "level distance within which there is ground; everywhere if left out. A load that is "
+          "set down elsewhere, lower, needs it");
+  return table.format();
+}
+
+Format<MoveInCase> move_format() {
+  const auto limit = [](Dimension linear, Dimension angular) {
+    return quantity_of({linear, angular}, Range::positive());
+  };
+  Table<MoveInCase> table("move",
+                          "What one or several drives or winches do, alike. It goes `by` a "
+                          "distance or `to` a place, from rest to rest, or `follows` "
+                          "another one.");
+  table
+      .required("drives", &MoveInCase::drives, list_of(located(reference()), 1),
+                "crane and drive or hoist (C1.travel, C1.upper_1), or a rope with its own winch")
+      .optional("by", &MoveInCase::by, quantity_of(travels),
+                "distance or angle; of a winch the change of rope length, negative to hoist")
+      .optional("to", &MoveInCase::to, quantity_of(travels),
+                "in place of by: the coordinate or rope length at the end")
+      .optional("speed", &MoveInCase::speed, limit(Dimension::speed, Dimension::angular_speed),
+                "below the drive's own limit, which holds if left out")
+      .optional("acceleration", &MoveInCase::acceleration,
+                limit(Dimension::acceleration, Dimension::angular_acceleration),
+                "below the drive's own limit, which holds if left out")
+      .optional("jerk", &MoveInCase::jerk, limit(Dimension::jerk, Dimension::angular_jerk),
+                "below the drive's own limit, which holds if left out")
+      .optional("duration", &MoveInCase::duration, quantity(Dimension::time, Range::positive()),
+                "stretches the move to last that long; as short as the limits allow if left out")
+      .by_default("delay", &MoveInCase::delay, quantity(Dimension::time, Range::not_negative()),
+                  "0 s", "after the start of the stage")
+      .optional("follows", &MoveInCase::follows, reference(),
+                "the drive or winch whose travel in this stage leads this one")
+      .optional("table", &MoveInCase::table,
+                list_of(array_of<Quantity, 2>(quantity_of(travels)), 2),
+                "own travel over the leader's travel, a smooth curve through these points: "
+                "[[leader, own], ...]")
+      .place(&MoveInCase::place);
+  return table.format();
+}
+
+Format<DynamicsSettings> dynamics_format() {
+  Table<DynamicsSettings> table("dynamics settings", "How the motion is computed.");
+  table
+      .by_default("relative_tolerance", &DynamicsSettings::relative_tolerance,
+                  number(Range::between(1e-12, 1e-3)), "1e-6", "of the time integration")
+      .by_default("sample_interval", &DynamicsSettings::sample_interval,
+                  quantity(Dimension::time, Range::between(1e-4, 0.2)), "0.05 s",
+                  "between two recorded samples of the motion, among which the largest loads are "
+                  "sought: a small part of the load's bounce on its ropes")
+      .by_default("static_interval", &DynamicsSettings::static_interval,
+                  quantity(Dimension::time, Range::between(1e-3, 30)), "1 s",
+                  "between two static equilibria")
+      .by_default("flexibility", &DynamicsSettings::flexibility,
+                  choice<Flexibility>({{"rigid", Flexibility::rigid},
+                                       {"static", Flexibility::static_},
+                                       {"modal", Flexibility::modal}}),
+                  "rigid",
+                  "how the block gives way where ropes pull at its lugs: not at all; at once, by "
+                  "the compliance of its structure; or by its lowest natural modes, which vibrate, "
+                  "and at once by what they leave of the compliance")
+      .optional("elastic_modes", &DynamicsSettings::elastic_modes,
+                located(integer(Range::between(1, 60))),
+                "number of natural modes of the free block where the flexibility is modal; 10 if "
+                "left out")
+      .optional("modal_damping", &DynamicsSettings::modal_damping,
+                located(number(Range::between(0, 0.5))),
+                "damping of each of these modes over the critical one; 0.01 if left out");
+  return table.format();
+}
+
+Format<std::string> fatigue_curve_format() {
+  std::vector<std::pair<std::string, std::string>> words;
+  for (const std::string& curve : structure::fatigue_curve_names())
+    words.emplace_back(curve, curve);
+  return choice(words);
+}
+
+Format<FatigueSettings> fatigue_format() {
+  Table<FatigueSettings> table("fatigue settings",
+                               "Wear by repeated lifts: rainflow counts of the stress at each "
+                               "followed point against an S-N curve.");
+  table
+      .by_default("curve", &FatigueSettings::curve, fatigue_curve_format(), "F",
+                  "detail category of DNV-RP-C203, in air; F is class 71 MPa, for plates with "
+                  "attachments")
+      .by_default("stress_concentration", &FatigueSettings::stress_concentration,
+                  number(Range::at_least(1)), "1",
+                  "by which stress ranges are multiplied before the curve is read")
+      .by_default("hot_spot_curve", &FatigueSettings::hot_spot_curve, fatigue_curve_format(), "D",
+                  "for the structural stress at named weld toes, without stress_concentration; D "
+                  "is class 90 MPa, as DNV-RP-C203 has it for that stress")
+      .by_default("lifts", &FatigueSettings::lifts, number(Range::at_least(1)), "1",
+                  "lifts of this kind that the block sees");
+  return table.format();
+}
+
+Format<StructureSettings> structure_format() {
+  Table<StructureSettings> table("structure settings", "How the stress is computed.");
+  table
+      .by_default("element_degree", &StructureSettings::element_degree,
+                  integer(Range::between(1, 4)), "3", "polynomial degree of the hexahedra")
+      .by_default("largest_element", &StructureSettings::largest_element,
+                  quantity(Dimension::length, Range::between(0.01, 100)), "2 m",
+                  "longest edge of an element")
+      .optional("stress_points", &StructureSettings::stress_points, names_to(position_format()),
+                "places in the block's frame whose stress is followed in time, each at the nearest "
+                "patch of the checked stress; if left out, the hot spot of the lift and that of "
+                "each lug")
+      .optional("hot_spots", &StructureSettings::hot_spots, hot_spots_format(),
+                "weld toes of the block, by name, in its frame: structural stress in time, cycles "
+                "and damage")
+      .by_default("fatigue", &StructureSettings::fatigue, fatigue_format(), "{}",
+                  "wear by repeated lifts")
+      .rule([](const StructureSettings& settings, Reading& reading, const Mark&) {
+        for (const Named<Vector3>& point : settings.stress_points)
+          check_name(point.name.mark, point.name.value, reading);
+      });
+  return table.format();
+}
+
+Format<CheckSettings> checks_format() {
+  Table<CheckSettings> table("check settings", "What the lift must meet.");
+  table
+      .by_default("rope_safety_factor", &CheckSettings::rope_safety_factor,
+                  number(Range::at_least(1)), "5", "breaking load over the largest rope load")
+      .by_default("crane_capacity", &CheckSettings::crane_capacity, boolean(), "true",
+                  "hook and crane loads against the cranes' capacities")
+      .by_default("yield_factor", &CheckSettings::yield_factor, number(Range::at_least(1)), "1.5",
+                  "yield stress over the largest checked stress")
+      .by_default("lug_consequence_factor", &CheckSettings::lug_consequence_factor,
+                  number(Range::at_least(1)), "1.3",
+                  "on the forces at padeyes (GL Noble Denton 0027/ND, lift points)")
+      .by_default("lug_side_load", &CheckSettings::lug_side_load,
+                  quantity(Dimension::ratio, Range::between(0, 1)), "5 %",
+                  "of the rope's force, along the pin, that hand formulae of padeyes take at least "
+                  "(API RP 2A)")
+      .optional("buckling_factor", &CheckSettings::buckling_factor, number(Range::at_least(1)),
+                "critical stress of a plate panel over the stress in it; the yield factor if left "
+                "out")
+      .by_default("smallest_tension", &CheckSettings::smallest_tension,
+                  quantity(Dimension::load, Range::not_negative()), "0 kN",
+                  "below which a rope counts as slack")
+      .optional("swing", &CheckSettings::largest_swing,
+                quantity(Dimension::angle, Range::positive()),
+                "largest angle of a hoist's tackle against the vertical; not checked if left out");
+  return table.format();
+}
+
+Format<Comparison> comparison_format() {
+  Table<PublishedLoads> loads("loads", "Largest loads of a rope as published or measured.");
+  loads
+      .optional("static", &PublishedLoads::static_load,
+                quantity(Dimension::load, Range::positive()), "at rest")
+      .optional("dynamic", &PublishedLoads::dynamic_load,
+                quantity(Dimension::load, Range::positive()), "in motion");
+  Table<MeasuredSeries> series("measured series", "A tension measured over time.");
+  series
+      .required("file", &MeasuredSeries::file, located(text()),
+                "beside this file: CSV of time in s and tension")
+      .by_default("unit", &MeasuredSeries::unit,
+                  choice<double>({{"N", 1.0}, {"kN", 1e3}, {"MN", 1e6}, {"t", newton_per_tonne}}),
+                  "kN", "of the tension in the file; t is the weight of a tonne")
+      .by_default("offset", &MeasuredSeries::offset, quantity(Dimension::time), "0 s",
+                  "time of the operation at which the file's time is zero");
+  Table<Comparison> table("comparison", "Published or measured figures, shown beside ours.");
+  table.required("source", &Comparison::source, text(), "where they come from")
+      .optional("ropes", &Comparison::ropes, names_to(loads.format()), "largest loads by rope")
+      .optional("series", &Comparison::series, names_to(series.format()),
+                "measured tensions by rope, drawn over the computed ones")
+      .optional("stress_increase", &Comparison::stress_increase, quantity(Dimension::ratio),
+                "of the largest stress by the motion, as \"22.75 %\"")
+      .optional("deformation_increase", &Comparison::deformation_increase,
+                quantity(Dimension::ratio), "of the largest deformation by the motion");
+  return table.format();
+}
+
+Format<LoadTable> load_table_format() {
+  using Direction = std::variant<Vector3, std::vector<Named<Vector3>>>;
+  const auto load = quantity(Dimension::load, Range::positive());
+  const auto one =
+      converted<Vector3, Direction>(direction_format(), [](Vector3 v) { return Direction(v); });
+  const auto each = converted<std::vector<Named<Vector3>>, Direction>(
+      names_to(direction_format()),
+      [](std::vector<Named<Vector3>> v) { return Direction(std::move(v)); });
+  Table<LoadTable> table("load table",
+                         "Forces at the lugs, in place of cranes, ropes and operation.");
+  table
+      .required("direction", &LoadTable::direction, by_shape<Direction>(std::nullopt, one, each),
+                "of the pull, in the block's frame: one for all lugs, or a table with one for each")
+      .required("static", &LoadTable::static_loads, names_to(load), "largest load at rest, by lug")
+      .required("dynamic", &LoadTable::dynamic_loads, names_to(load),
+                "largest load in motion, by lug")
+      .place(&LoadTable::place);
+  return table.format();
+}
+
+}  // namespace
+
+Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
+                                       bool breaking_load_required) {
+  Table<RopeInCase> table("rope",
+                          "A rope, sling or line of the lift. Its ends and the sheaves "
+                          "between them are hooks (crane and hoist: C1.upper_1), lugs of "
+                          "the load (L1), or points of bodies.");
+  table.required("from", &RopeInCase::from, point, "upper end")
+      .optional("through", &RopeInCase::through, list_of(point), "frictionless sheaves on its way")
+      .required("to", &RopeInCase::to, point, "lower end")
+      .required("model", &RopeInCase::rope_choice, rope_choice_format(breaking_load_required),
+                "name of the rope's model file, or the rope's keys")
+      .required("length", &RopeInCase::length, quantity(Dimension::length, Range::positive()),
+                "unstretched, at the start")
+      .optional("end_stiffness", &RopeInCase::end_stiffness,
+                quantity(Dimension::stiffness, Range::positive()),
+                "of what the rope is fastened to, in series with it; rigid if left out")
+      .optional("winch", &RopeInCase::winch, winch_format(),
+                "of its own: then the rope is moved by its name, like a hoist");
+  return table.format();
+}
+
+Format<WindInCase> wind_format() {
+  using dynamics::GustSpectrum;
+  using dynamics::WindProfile;
+  Table<WindInCase> table("wind", "Wind on the wind areas of bodies: steady, or with gusts.");
+  table
+      .required("speed", &WindInCase::speed, quantity(Dimension::speed, Range::not_negative()),
+                "mean of the air, 10 m above z = 0 where it grows with the height")
+      .required("towards", &WindInCase::towards, quantity(Dimension::angle),
+                "where it blows to, from +x towards +y")
+      .by_default("air_density", &WindInCase::air_density,
+                  quantity(Dimension::density, Range::positive()), "1.25 kg/m^3", "of the air")
+      .by_default("profile", &WindInCase::profile,
+                  choice<WindProfile>({{"uniform", WindProfile::uniform},
+                                       {"power", WindProfile::power},
+                                       {"npd", WindProfile::npd}}),
+                  "uniform",
+                  "over the height: the same, to the power of 0.12, or by the NPD (ISO 19901-1)")
+      .by_default("gusts", &WindInCase::gusts,
+                  choice<GustSpectrum>({{"none", GustSpectrum::none},
+                                        {"npd", GustSpectrum::npd},
+                                        {"api", GustSpectrum::api},
+                                        {"davenport", GustSpectrum::davenport}}),
+                  "none", "spectrum of the gusts; static equilibrium is that of the mean wind")
+      .by_default("gust_height", &WindInCase::gust_height,
+                  quantity(Dimension::length, Range::positive()), "10 m",
+                  "at which the spectrum is taken")
+      .by_default("seed", &WindInCase::seed, integer(Range::not_negative()), "1",
+                  "of the gusts' random phases");
+  return table.format();
+}
+
+Format<StageInCase> stage_format() {
+  Table<StageInCase> table("stage", "A part of the operation; it ends with the last of its moves.");
+  table.required("stage", &StageInCase::name, text(), "its name, for people")
+      .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
+                  "0 s", "before the stage begins")
+      .optional("moves", &StageInCase::moves, list_of(move_format()), "what moves");
+  return table.format();
+}
+
+Format<LiftCase> lift_case_format() {
+  Table<LiftCase> table("lift case",
+                        "What is lifted, by what, how, and what is asked. A case has "
+                        "either cranes, ropes and an operation, or a load table.");
+  table.required("case", &LiftCase::name, name(), "its name")
+      .optional("title", &LiftCase::title, text(), "for people")
+      .by_default("gravity", &LiftCase::gravity,
+                  quantity(Dimension::acceleration, Range::between(1, 100)), "9.80665 m/s^2",
+                  "acceleration of gravity; nothing hangs without")
+      .required("load", &LiftCase::load, load_format(), "the block or vessel that is lifted")
+      .optional("cranes", &LiftCase::cranes, named_tables(crane_format()), "by name")
+      .optional("ropes", &LiftCase::ropes,
+                named_tables(rope_in_case_format(rope_point_format(), true)), "by name")
+      .optional("supports", &LiftCase::supports, named_tables(support_format()),
+                "pads on which the load stands at the start")
+      .optional("wind", &LiftCase::wind, wind_format(), "none if left out");
+  add_marine_keys(table);
+  table
+      .optional("operation", &LiftCase::operation, list_of(stage_format()),
+                "stages, one after another")
+      .by_default("settle", &LiftCase::settle, quantity(Dimension::time, Range::not_negative()),
+                  "10 s", "time that is still simulated after the last move")
+      .by_default("dynamics", &LiftCase::dynamics, dynamics_format(), "{}",
+                  "how the motion is computed")
+      .by_default("structure", &LiftCase::structure, structure_format(), "{}",
+                  "how the stress is computed")
+      .by_default("checks", &LiftCase::checks, checks_format(), "{}", "what the lift must meet")
+      .optional("compare", &LiftCase::compare, comparison_format(),
+                "published or measured figures, shown beside ours")
+      .optional("load_table", &LiftCase::load_table, load_table_format(),
+                "in place of cranes, ropes and operation")
+      .place(&LiftCase::place);
+  return table.format();
+}
+
+}  // namespace blocklift::pipeline

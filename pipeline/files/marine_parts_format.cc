@@ -1,0 +1,293 @@
+#include "pipeline/files/marine_parts.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+Format<RegularWaveInCase> regular_wave_format() {
+  Table<RegularWaveInCase> table("regular wave", "An Airy wave.");
+  table
+      .required("amplitude", &RegularWaveInCase::amplitude,
+                quantity(Dimension::length, Range::positive()), "half its height")
+      .optional("frequency", &RegularWaveInCase::frequency,
+                quantity(Dimension::angular_speed, Range::positive()), "angular frequency")
+      .optional("period", &RegularWaveInCase::period, quantity(Dimension::time, Range::positive()),
+                "in place of the frequency")
+      .by_default("heading", &RegularWaveInCase::heading, quantity(Dimension::angle), "0 deg",
+                  "where it travels to, from +x towards +y")
+      .by_default("phase", &RegularWaveInCase::phase, quantity(Dimension::angle), "0 deg",
+                  "at the origin when the operation begins")
+      .rule([](const RegularWaveInCase& wave, Reading& reading, const Mark& mark) {
+        if (wave.frequency.has_value() != wave.period.has_value()) return;
+        reading.error(mark, "a regular wave needs either its frequency or its period");
+      });
+  return table.format();
+}
+
+void check_spectrum(const SpectrumInCase& spectrum, Reading& reading, const Mark& mark) {
+  const auto require = [&](bool given, const char* key) {
+    if (!given) {
+      reading.error(mark, std::string("a spectrum of this shape lacks the key \"") + key + "\"");
+    }
+  };
+  const auto refuse = [&](bool given, const char* key) {
+    if (given) {
+      reading.error(mark, std::string("a spectrum of this shape has no key \"") + key + "\"",
+                    {"jonswap and pierson_moskowitz take significant_height and peak_period, issc "
+                     "significant_height and mean_period, table its table"});
+    }
+  };
+  const bool tabulated = spectrum.shape == SpectrumShape::table;
+  const bool by_mean = spectrum.shape == SpectrumShape::issc;
+  if (tabulated) {
+    require(spectrum.table.has_value(), "table");
+    refuse(spectrum.significant_height.has_value(), "significant_height");
+  } else {
+    require(spectrum.significant_height.has_value(), "significant_height");
+    refuse(spectrum.table.has_value(), "table");
+  }
+  if (by_mean) require(spectrum.mean_period.has_value(), "mean_period");
+  if (!by_mean) refuse(spectrum.mean_period.has_value(), "mean_period");
+  if (!by_mean && !tabulated) require(spectrum.peak_period.has_value(), "peak_period");
+  if (by_mean || tabulated) refuse(spectrum.peak_period.has_value(), "peak_period");
+}
+
+Format<SpectrumInCase> spectrum_format() {
+  Table<SpectrumInCase> table("wave spectrum", "An irregular sea of many Airy waves.");
+  const auto pair =
+      array_of<Quantity, 2>(quantity_of({Dimension::angular_speed, Dimension::wave_spectrum}));
+  table
+      .by_default("shape", &SpectrumInCase::shape,
+                  choice<SpectrumShape>({{"jonswap", SpectrumShape::jonswap},
+                                         {"pierson_moskowitz", SpectrumShape::pierson_moskowitz},
+                                         {"issc", SpectrumShape::issc},
+                                         {"table", SpectrumShape::table}}),
+                  "jonswap", "of the spectrum")
+      .optional("significant_height", &SpectrumInCase::significant_height,
+                quantity(Dimension::length, Range::positive()), "four times the deviation")
+      .optional("peak_period", &SpectrumInCase::peak_period,
+                quantity(Dimension::time, Range::positive()), "of jonswap and pierson_moskowitz")
+      .optional("mean_period", &SpectrumInCase::mean_period,
+                quantity(Dimension::time, Range::positive()), "T1 of issc")
+      .by_default("peakedness", &SpectrumInCase::peakedness, number(Range::between(1, 10)), "3.3",
+                  "gamma of jonswap")
+      .optional("table", &SpectrumInCase::table, list_of(pair, 2),
+                "points [[0.5 rad/s, 0.8 m^2 s/rad], ...], linear between")
+      .by_default("heading", &SpectrumInCase::heading, quantity(Dimension::angle), "0 deg",
+                  "where the waves travel to, from +x towards +y")
+      .optional("spreading", &SpectrumInCase::spreading, number(Range::positive()),
+                "exponent n of the spreading cos^n about the heading; long-crested if left out")
+      .by_default("components", &SpectrumInCase::components, integer(Range::between(1, 2000)),
+                  "100", "regular waves that the sea is made of")
+      .by_default("seed", &SpectrumInCase::seed, integer(Range::not_negative()), "1",
+                  "of the random phases: the same seed makes the same sea")
+      .place(&SpectrumInCase::place)
+      .rule(check_spectrum);
+  return table.format();
+}
+
+Format<WaveRecordInCase> wave_record_format() {
+  Table<WaveRecordInCase> table("wave record", "A measured elevation of the surface.");
+  table
+      .required("file", &WaveRecordInCase::file, located(text()),
+                "beside this file: CSV of time in s, at even steps, and elevation in m")
+      .by_default("heading", &WaveRecordInCase::heading, quantity(Dimension::angle), "0 deg",
+                  "where the waves travel to, from +x towards +y")
+      .optional("lowest_frequency", &WaveRecordInCase::lowest,
+                quantity(Dimension::angular_speed, Range::positive()), "that is kept")
+      .optional("highest_frequency", &WaveRecordInCase::highest,
+                quantity(Dimension::angular_speed, Range::positive()), "that is kept");
+  return table.format();
+}
+
+Format<WavesInCase> waves_format() {
+  using Waves = std::vector<RegularWaveInCase>;
+  const auto one = converted<RegularWaveInCase, Waves>(
+      regular_wave_format(), [](RegularWaveInCase wave) { return Waves{std::move(wave)}; });
+  Table<WavesInCase> table("waves", "Linear waves: regular ones, a spectrum, or a record.");
+  table
+      .optional("regular", &WavesInCase::regular,
+                by_shape<Waves>(std::nullopt, list_of(regular_wave_format(), 1), one),
+                "one wave, or a list of them")
+      .optional("spectrum", &WavesInCase::spectrum, spectrum_format(), "an irregular sea")
+      .optional("record", &WavesInCase::record, wave_record_format(), "a measured sea")
+      .by_default("ramp", &WavesInCase::ramp, quantity(Dimension::time, Range::not_negative()),
+                  "0 s", "time over which the waves grow at the start")
+      .place(&WavesInCase::place)
+      .rule([](const WavesInCase& waves, Reading& reading, const Mark& mark) {
+        const int given =
+            (waves.regular ? 1 : 0) + (waves.spectrum ? 1 : 0) + (waves.record ? 1 : 0);
+        if (given == 1) return;
+        reading.error(mark,
+                      given == 0 ? "the waves are not described" : "the waves are described twice",
+                      {"give one of regular, spectrum and record"});
+      });
+  return table.format();
+}
+
+Format<CurrentInCase> current_format() {
+  Table<CurrentInCase> table("current", "Steady level flow of the water.");
+  table
+      .required("speed", &CurrentInCase::speed, quantity(Dimension::speed, Range::not_negative()),
+                "at the surface")
+      .required("towards", &CurrentInCase::towards, quantity(Dimension::angle),
+                "where it flows to, from +x towards +y")
+      .by_default(
+          "profile", &CurrentInCase::profile,
+          choice<CurrentProfile>({{"uniform", CurrentProfile::uniform},
+                                  {"tidal", CurrentProfile::tidal},
+                                  {"wind_driven", CurrentProfile::wind_driven}}),
+          "uniform",
+          "over the depth: the same, to the power of 1/7 down to the bottom, or linear down "
+          "to 50 m")
+      .place(&CurrentInCase::place);
+  return table.format();
+}
+
+Format<RadiationSettings> radiation_settings_format() {
+  Table<RadiationSettings> table("radiation settings",
+                                 "For what the waves that vessels make are computed.");
+  const auto frequency = quantity(Dimension::angular_speed, Range::positive());
+  table
+      .by_default("lowest_frequency", &RadiationSettings::lowest, frequency, "0.3 rad/s",
+                  "that the waves and motions have")
+      .by_default("highest_frequency", &RadiationSettings::highest, frequency, "1.2 rad/s",
+                  "likewise; its waves must be longer than three panels")
+      .by_default("frequencies", &RadiationSettings::frequencies, integer(Range::between(2, 200)),
+                  "19",
+                  "at which diffraction is computed, evenly between; those of regular waves "
+                  "are added")
+      .place(&RadiationSettings::place)
+      .rule([](const RadiationSettings& settings, Reading& reading, const Mark& mark) {
+        if (settings.lowest < settings.highest) return;
+        reading.error(mark, "the lowest frequency is not below the highest");
+      });
+  return table.format();
+}
+
+Format<DampingInCase> damping_format(const char* noun, Dimension linear, Dimension angular) {
+  Table<DampingInCase> table(noun, "For each motion of the vessel, along and about its axes.");
+  const auto along = quantity(linear, Range::not_negative());
+  const auto about = quantity(angular, Range::not_negative());
+  const std::string zero = linear == Dimension::damping ? "0 kN s/m" : "0 kg/m";
+  const std::string zero_turn =
+      angular == Dimension::rotational_damping ? "0 kN m s/rad" : "0 kN m s^2/rad^2";
+  table.by_default("surge", &DampingInCase::surge, along, zero, "along x")
+      .by_default("sway", &DampingInCase::sway, along, zero, "along y")
+      .by_default("heave", &DampingInCase::heave, along, zero, "along z")
+      .by_default("roll", &DampingInCase::roll, about, zero_turn, "about x")
+      .by_default("pitch", &DampingInCase::pitch, about, zero_turn, "about y")
+      .by_default("yaw", &DampingInCase::yaw, about, zero_turn, "about z");
+  return table.format();
+}
+
+Format<MemberInCase> member_format() {
+  Table<MemberInCase> table("member",
+                            "A slender member with Morison's drag where it is in the water.");
+  table.required("from", &MemberInCase::from, position_format(), "one end, in the vessel's frame")
+      .required("to", &MemberInCase::to, position_format(), "the other end")
+      .required("diameter", &MemberInCase::diameter, quantity(Dimension::length, Range::positive()),
+                "across the flow")
+      .by_default("drag_coefficient", &MemberInCase::drag_coefficient,
+                  number(Range::not_negative()), "1.0", "0.7 to 1.2 for a tube");
+  return table.format();
+}
+
+}  // namespace
+
+Format<DampingInCase> vessel_damping_format() {
+  return damping_format("damping", Dimension::damping, Dimension::rotational_damping);
+}
+
+Format<DampingInCase> vessel_quadratic_damping_format() {
+  return damping_format("quadratic damping", Dimension::mass_per_length,
+                        Dimension::quadratic_rotational_damping);
+}
+
+Format<SeaInCase> sea_format() {
+  Table<SeaInCase> table("sea", "The water: calm surface at z = 0 of the world, waves, current.");
+  table
+      .by_default("density", &SeaInCase::density, quantity(Dimension::density, Range::positive()),
+                  "1025 kg/m^3", "of the water")
+      .optional("depth", &SeaInCase::depth, quantity(Dimension::length, Range::positive()),
+                "of the even bottom; deep if left out")
+      .optional("waves", &SeaInCase::waves, waves_format(), "calm if left out")
+      .optional("current", &SeaInCase::current, current_format(), "none if left out")
+      .by_default("radiation", &SeaInCase::radiation, radiation_settings_format(), "{}",
+                  "settings for vessels whose radiation is asked for")
+      .place(&SeaInCase::place);
+  return table.format();
+}
+
+Format<VesselInCase> vessel_in_case_format() {
+  Table<VesselInCase> table(
+      "vessel",
+      "A floating body: a body of this name that moves freely. Buoyancy and the "
+      "pressure of the undisturbed waves act on its hull as it lies at each "
+      "instant.");
+  table
+      .required("model", &VesselInCase::model_name, located(reference()),
+                "name of the vessel's model file")
+      .by_default("position", &VesselInCase::position,
+                  array_of<double, 2>(quantity(Dimension::length)), "[0 m, 0 m]",
+                  "level, of the vessel's frame at the start")
+      .by_default("heading", &VesselInCase::heading, quantity(Dimension::angle), "0 deg",
+                  "of its x axis, from the world's +x towards +y")
+      .optional("draught", &VesselInCase::draught, quantity(Dimension::length, Range::positive()),
+                "depth of its frame's origin at the start and for its radiation; by its weight and "
+                "that of what stands on it if left out")
+      .by_default("radiation", &VesselInCase::radiation,
+                  located(choice<RadiationMethod>({{"none", RadiationMethod::none},
+                                                   {"database", RadiationMethod::database},
+                                                   {"direct", RadiationMethod::direct}})),
+                  "database",
+                  "waves that it makes and scatters: added mass, memory and diffraction from the "
+                  "panel method, with all such vessels together, from a database or with the "
+                  "water's surface marched directly beside; or none")
+      .optional(
+          "draughts", &VesselInCase::draughts, located(draughts_format()),
+          "of the one vessel that is lowered or lifted: upright, from the lowest point of its "
+          "hull; its radiation is interpolated between them, and to none where it is dry; that "
+          "of its draught alone if left out")
+      .by_default("damping", &VesselInCase::damping, vessel_damping_format(), "{}",
+                  "linear, relative to the current; in proportion to the wet volume")
+      .by_default("quadratic_damping", &VesselInCase::quadratic_damping,
+                  vessel_quadratic_damping_format(), "{}",
+                  "with the square of the velocity; likewise")
+      .optional("members", &VesselInCase::members, list_of(member_format()),
+                "slender members with drag");
+  return table.format();
+}
+
+Format<MooringInCase> mooring_format() {
+  Table<MooringInCase> table("mooring", "A chain or heavy rope, in equilibrium at each instant.");
+  table
+      .required("anchor", &MooringInCase::anchor, point_format(),
+                "lower end, mostly of the body world")
+      .required("fairlead", &MooringInCase::fairlead, point_format(), "upper end, on a vessel")
+      .required("length", &MooringInCase::length, quantity(Dimension::length, Range::positive()),
+                "unstretched")
+      .required("submerged_mass", &MooringInCase::submerged_mass,
+                quantity(Dimension::mass_per_length, Range::positive()),
+                "mass per length less that of the water displaced")
+      .required("axial_stiffness", &MooringInCase::axial_stiffness,
+                quantity(Dimension::force, Range::positive()), "EA")
+      .by_default("on_seabed", &MooringInCase::on_seabed, boolean(), "true",
+                  "lies on a level bottom at the anchor's height where it is slack enough");
+  return table.format();
+}
+
+Format<TuggerInCase> tugger_format() {
+  Table<TuggerInCase> table("tugger line", "A light line that pulls and never pushes.");
+  table.required("from", &TuggerInCase::from, point_format(), "one end")
+      .required("to", &TuggerInCase::to, point_format(), "the other end")
+      .required("length", &TuggerInCase::length, quantity(Dimension::length, Range::positive()),
+                "unstretched")
+      .required("stiffness", &TuggerInCase::stiffness,
+                quantity(Dimension::stiffness, Range::positive()), "of the whole line")
+      .by_default("damping", &TuggerInCase::damping,
+                  quantity(Dimension::damping, Range::not_negative()), "0 kN s/m",
+                  "of the whole line");
+  return table.format();
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,234 @@
+#include "pipeline/files/model_library.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <sstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "pipeline/declaration/document.h"
+#include "pipeline/declaration/reading.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return !error && fs::exists(status) && !fs::is_directory(status);
+}
+
+/// Complains if the file is of another kind than the one that is due.
+bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& diagnostics) {
+  if (!document.root.IsMap()) return true;  // the reader will say what is wrong
+  const YAML::Node found = document.root["kind"];
+  const bool is_case = !found && document.root["case"];
+  if (!is_case && (!found || !found.IsScalar() || found.Scalar() == kind)) return true;
+  diagnostics.error(document.mark_of(is_case ? document.root["case"] : found),
+                    fmt::format("this file describes a {}; a {} is due",
+                                is_case ? "lift case" : found.Scalar(), kind));
+  return false;
+}
+
+/// Reads a model file into a value; null if nothing could be read.
+template <class T>
+std::shared_ptr<T> read_model(const fs::path& file, const std::string& kind,
+                              const Format<T>& format, Diagnostics& diagnostics,
+                              const ParameterValues& parameters = {}) {
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document || !is_of_kind(*document, kind, diagnostics)) return nullptr;
+  auto model = std::make_shared<T>();
+  Reading reading(*document, diagnostics);
+  std::vector<OutsideParameter> outside;
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    outside.push_back({parameter.name.value, parameter.value.value, parameter.value.mark});
+  }
+  reading.set_outside_parameters(std::move(outside));
+  reading.with_owner("the " + kind, [&] { return format.read(document->root, reading, *model); });
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    if (reading.parameters().find(parameter.name.value)) continue;
+    const std::vector<std::string> known = reading.parameters().names();
+    reading.error(parameter.name.mark,
+                  fmt::format("{} has no parameter \"{}\"", *document->file, parameter.name.value),
+                  {known.empty() ? "it has none at all"
+                                 : names_hint("its parameters are", known, parameter.name.value)});
+  }
+  return model;
+}
+
+/// The models of a kind in a folder of models: folders that hold `crane.yaml`, and YAML files below
+/// `cranes`.
+void add_models(const fs::path& folder, const std::string& kind, std::vector<std::string>& names) {
+  constexpr int deepest = 4;
+  constexpr int most_visited = 10000;
+  int visited = 0;
+  std::error_code error;
+  fs::recursive_directory_iterator files(folder, fs::directory_options::skip_permission_denied,
+                                         error);
+  for (; !error && files != fs::recursive_directory_iterator(); files.increment(error)) {
+    if (++visited > most_visited) return;
+    if (files.depth() >= deepest) files.disable_recursion_pending();
+    const fs::path relative = files->path().lexically_relative(folder);
+    if (relative.extension() != ".yaml") continue;
+    if (relative.filename() == kind + ".yaml" && relative.has_parent_path()) {
+      names.push_back(relative.parent_path().string());
+    } else if (*relative.begin() == kind + "s") {
+      names.push_back((relative.parent_path() / relative.stem()).string());
+    }
+  }
+}
+
+std::vector<fs::path> folders_of(const std::string& list) {
+  std::vector<fs::path> folders;
+  std::istringstream stream(list);
+  for (std::string folder; std::getline(stream, folder, ':');) {
+    if (!folder.empty()) folders.emplace_back(folder);
+  }
+  return folders;
+}
+
+}  // namespace
+
+ModelLibrary ModelLibrary::of_installation() {
+  if (const char* list = std::getenv("BLOCKLIFT_MODELS")) return ModelLibrary(folders_of(list));
+  std::vector<fs::path> folders;
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    const fs::path place = executable.parent_path();
+    folders = {place / "models", place.parent_path() / "share" / "blocklift" / "models",
+               place.parent_path().parent_path() / "models"};
+  }
+  folders.emplace_back(BLOCKLIFT_SOURCE_MODELS);
+  std::erase_if(folders, [](const fs::path& folder) {
+    std::error_code ignored;
+    return !fs::is_directory(folder, ignored);
+  });
+  return ModelLibrary(folders);
+}
+
+std::vector<fs::path> ModelLibrary::files_of(const std::string& group,
+                                             const std::string& file_name) const {
+  std::map<std::string, fs::path> by_folder;
+  for (const fs::path& models : model_folders_) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(models / group, error)) {
+      const fs::path file = entry.path() / file_name;
+      if (is_file(file)) by_folder.emplace(entry.path().filename().string(), file);
+    }
+  }
+  std::vector<fs::path> files;
+  for (const auto& [folder, file] : by_folder) files.push_back(file.lexically_normal());
+  return files;
+}
+
+fs::path ModelLibrary::find(const Located<std::string>& name, const std::string& kind,
+                            const fs::path& beside, Diagnostics& diagnostics) const {
+  std::vector<fs::path> places = {beside};
+  places.insert(places.end(), model_folders_.begin(), model_folders_.end());
+  for (const fs::path& place : places) {
+    const fs::path model = place / name.value;
+    for (const fs::path& file :
+         {model, fs::path(model.string() + ".yaml"), model / (kind + ".yaml")}) {
+      if (is_file(file)) return file.lexically_normal();
+    }
+  }
+  std::vector<std::string> looked_in;
+  for (const fs::path& place : places) {
+    const std::string shown = shown_path(place.empty() ? fs::path(".") : place);
+    if (std::find(looked_in.begin(), looked_in.end(), shown) == looked_in.end()) {
+      looked_in.push_back(shown);
+    }
+  }
+  diagnostics.error(
+      name.mark, fmt::format("there is no {} model \"{}\"", kind, name.value),
+      {names_hint(fmt::format("the {} models are", kind), names_of_kind(kind, beside), name.value),
+       "looked for in " + list_of_names(looked_in)});
+  return {};
+}
+
+std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
+                                                     const fs::path& beside) const {
+  std::vector<std::string> names;
+  for (const fs::path& folder : model_folders_) add_models(folder, kind, names);
+  add_models(beside.empty() ? fs::path(".") : beside, kind, names);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::shared_ptr<const CraneModel> ModelLibrary::load_crane(const Located<std::string>& name,
+                                                           const fs::path& beside,
+                                                           Diagnostics& diagnostics,
+                                                           const ParameterValues& parameters) {
+  const fs::path file = find(name, "crane", beside, diagnostics);
+  return file.empty() ? nullptr : read_crane(file, diagnostics, parameters);
+}
+
+std::shared_ptr<const BlockModel> ModelLibrary::load_block(const Located<std::string>& name,
+                                                           const fs::path& beside,
+                                                           Diagnostics& diagnostics) {
+  const fs::path file = find(name, "block", beside, diagnostics);
+  return file.empty() ? nullptr : read_block(file, diagnostics);
+}
+
+std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::string>& name,
+                                                        const fs::path& beside,
+                                                        Diagnostics& diagnostics) {
+  const fs::path file = find(name, "vessel", beside, diagnostics);
+  if (file.empty()) return nullptr;
+  const auto known = vessels_.find(file);
+  if (known != vessels_.end()) return known->second;
+  std::optional<Vessel> vessel = read_vessel(file, diagnostics);
+  return vessels_[file] = vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
+}
+
+RopeModel ModelLibrary::resolve(const RopeChoice& choice, const fs::path& beside,
+                                Diagnostics& diagnostics) {
+  if (choice.keys) return *choice.keys;
+  if (!choice.model_name || choice.model_name->value.empty()) return {};
+  const fs::path file = find(*choice.model_name, "rope", beside, diagnostics);
+  if (file.empty()) return {};
+  const std::shared_ptr<const RopeModel> rope = read_rope(file, diagnostics);
+  return rope ? *rope : RopeModel{};
+}
+
+std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
+                                                           Diagnostics& diagnostics,
+                                                           const ParameterValues& parameters) {
+  std::string key = file.string();
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    key += fmt::format("\n{} = {:a}", parameter.name.value, parameter.value.value.value);
+  }
+  const auto known = cranes_.find(key);
+  if (known != cranes_.end()) return known->second;
+  std::shared_ptr<CraneModel> crane =
+      read_model(file, "crane", crane_model_format(), diagnostics, parameters);
+  if (crane) {
+    for (HoistModel& hoist : crane->hoists) {
+      hoist.rope = resolve(hoist.rope_choice, file.parent_path(), diagnostics);
+    }
+  }
+  return cranes_[key] = crane;
+}
+
+std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
+                                                           Diagnostics& diagnostics) {
+  const auto known = blocks_.find(file);
+  if (known != blocks_.end()) return known->second;
+  return blocks_[file] = read_model(file, "block", block_model_format(), diagnostics);
+}
+
+std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
+                                                         Diagnostics& diagnostics) {
+  const auto known = ropes_.find(file);
+  if (known != ropes_.end()) return known->second;
+  return ropes_[file] = read_model(file, "rope", rope_model_format(), diagnostics);
+}
+
+}  // namespace blocklift::pipeline

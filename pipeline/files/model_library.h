@@ -1,0 +1,89 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/files/block_model.h"
+#include "pipeline/files/crane_model.h"
+#include "pipeline/files/rope_model.h"
+#include "pipeline/files/vessel_model.h"
+
+namespace blocklift::pipeline {
+
+/// Finds and reads model files by name.
+///
+/// A model `cranes/goliath-600t` of the kind crane is one of the files, in this order of places and
+/// names: in the folder of the file that names it, then in each folder of models,
+///   cranes/goliath-600t, cranes/goliath-600t.yaml, cranes/goliath-600t/crane.yaml.
+/// Each file is read once, however often it is named; a crane once for each set of parameters.
+class ModelLibrary {
+ public:
+  explicit ModelLibrary(std::vector<std::filesystem::path> model_folders)
+      : model_folders_(std::move(model_folders)) {}
+
+  /// The folders that BLOCKLIFT_MODELS names (separated by colons) or, without it, `models` beside
+  /// or above the executable, of the installation, and of the source tree.
+  static ModelLibrary of_installation();
+
+  const std::vector<std::filesystem::path>& folders() const { return model_folders_; }
+
+  /// Files of one name in the folders right below `group`, in the order of those folders' names:
+  /// benchmarks/bricard/reference.yaml of the group benchmarks. Of folders of the same name in several
+  /// folders of models the first counts.
+  std::vector<std::filesystem::path> files_of(const std::string& group,
+                                              const std::string& file_name) const;
+
+  /// Reads a model; complains at the place of the name if there is none, and returns null then and
+  /// when the file cannot be read. A model with mistakes inside is returned, too: they have been
+  /// complained about, and the checks pass over what is missing.
+  /// @param parameters values that take the place of the crane's own.
+  std::shared_ptr<const CraneModel> load_crane(const Located<std::string>& name,
+                                               const std::filesystem::path& beside,
+                                               Diagnostics& diagnostics,
+                                               const ParameterValues& parameters = {});
+  std::shared_ptr<const BlockModel> load_block(const Located<std::string>& name,
+                                               const std::filesystem::path& beside,
+                                               Diagnostics& diagnostics);
+  /// @returns null also if the vessel has mistakes inside: its hull cannot be made then.
+  std::shared_ptr<const Vessel> load_vessel(const Located<std::string>& name,
+                                            const std::filesystem::path& beside,
+                                            Diagnostics& diagnostics);
+  /// The rope that is chosen by name or by its keys. @returns an empty rope if there is none.
+  RopeModel resolve(const RopeChoice& choice, const std::filesystem::path& beside,
+                    Diagnostics& diagnostics);
+
+  /// The file of a vessel: vessel.yaml in its folder. Empty after a complaint.
+  std::filesystem::path find_vessel(const Located<std::string>& name,
+                                    const std::filesystem::path& beside,
+                                    Diagnostics& diagnostics) const {
+    return find(name, "vessel", beside, diagnostics);
+  }
+
+  /// Reads a crane's file itself, with the ropes that it names.
+  std::shared_ptr<const CraneModel> read_crane(const std::filesystem::path& file,
+                                               Diagnostics& diagnostics,
+                                               const ParameterValues& parameters = {});
+  std::shared_ptr<const BlockModel> read_block(const std::filesystem::path& file,
+                                               Diagnostics& diagnostics);
+  std::shared_ptr<const RopeModel> read_rope(const std::filesystem::path& file,
+                                             Diagnostics& diagnostics);
+
+ private:
+  /// The file of a model; empty after a complaint.
+  std::filesystem::path find(const Located<std::string>& name, const std::string& kind,
+                             const std::filesystem::path& beside, Diagnostics& diagnostics) const;
+  std::vector<std::string> names_of_kind(const std::string& kind,
+                                         const std::filesystem::path& beside) const;
+
+  std::vector<std::filesystem::path> model_folders_;
+  std::map<std::string, std::shared_ptr<const CraneModel>> cranes_;  ///< by file and parameters
+  std::map<std::filesystem::path, std::shared_ptr<const BlockModel>> blocks_;
+  std::map<std::filesystem::path, std::shared_ptr<const RopeModel>> ropes_;
+  std::map<std::filesystem::path, std::shared_ptr<const Vessel>> vessels_;
+};
+
+}  // namespace blocklift::pipeline

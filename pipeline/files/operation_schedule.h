@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/multibody/motion_profile.h"
+#include "dynamics/simulation/operation.h"
+#include "pipeline/files/mechanism_file.h"
+
+namespace blocklift::pipeline {
+
+/// A drive of a crane's joint, or the winch of a hoist or of a rope: whatever an operation moves.
+struct Mover {
+  std::string name;       ///< "C1.travel", "C1.upper_1", "R7"
+  bool is_winch = false;  ///< its coordinate is a rope length
+  Dimension travel = Dimension::length;
+  dynamics::MotionLimits limits{};
+  double lowest = 0;   ///< coordinate, m or rad
+  double highest = 0;  ///< likewise
+  double start = 0;    ///< coordinate at the start of the operation
+};
+
+/// Drives and winches of the case, in the order of cranes (drives, then hoists) and ropes. Those
+/// that lack a number are left out.
+std::vector<Mover> movers_of(const LiftCase& lift_case);
+
+/// A part of the operation in time, s.
+struct ScheduledStage {
+  std::string name;
+  double start = 0;
+  double end = 0;
+};
+
+/// A move from rest to rest; its times count from the start of the operation.
+struct ScheduledMove {
+  std::size_t mover = 0;
+  std::size_t stage = 0;
+  dynamics::RestToRestMove move;
+  Mark mark;
+};
+
+/// A drive that follows another one's moves in one stage.
+struct ScheduledFollower {
+  std::size_t mover = 0;
+  std::size_t leader = 0;
+  std::size_t stage = 0;
+  dynamics::NaturalSpline own_travel_over_leaders;
+  Mark mark;
+};
+
+/// When everything happens.
+struct Schedule {
+  std::vector<Mover> movers;
+  std::vector<ScheduledStage> stages;
+  std::vector<ScheduledMove> moves;
+  std::vector<ScheduledFollower> followers;
+  double duration = 0;  ///< with the time to settle, s
+};
+
+/// What a schedule is made of.
+struct OperationPlan {
+  std::string owner;  ///< "the case": whose drives they are, for messages
+  std::vector<Mover> movers;
+  const std::vector<StageInCase>* stages = nullptr;
+  double settle = 0;  ///< after the last move, s
+  /// Is it a drive that exists, but could not be read?
+  std::function<bool(const std::string&)> is_incomplete;
+};
+
+/// Sets the stages one after another: each begins when the one before has ended and its own pause
+/// is over, and ends with the last of its moves.
+///
+/// Complains about drives that do not exist, moves beyond a drive's limits or range, ropes that
+/// would be pulled through their sheave, drives that are moved twice at once, and followers that
+/// cannot follow. What was complained about is left out of the schedule.
+Schedule schedule_operation(OperationPlan plan, Diagnostics& diagnostics);
+Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics);
+Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics);
+
+/// Adds a schedule's stages, moves and followers; the drives and winches that it moves come first.
+void add_schedule(const Schedule& schedule, dynamics::OperationBuilder& builder);
+
+}  // namespace blocklift::pipeline

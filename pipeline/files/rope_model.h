@@ -1,0 +1,37 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "pipeline/declaration/format.h"
+#include "pipeline/declaration/table.h"
+
+namespace blocklift::pipeline {
+
+/// Wire rope, sling, or all falls of a tackle taken together. SI units.
+struct RopeModel {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+  std::string kind;
+  std::string title;
+  double axial_stiffness = nan;  ///< EA of all falls together, N
+  double damping_time = nan;     ///< Kelvin-Voigt: damping over stiffness, s
+  double breaking_load = nan;    ///< of all falls together, N
+  Mark place;
+};
+
+/// How a file says which rope it means: the name of a model file, or the rope's own keys.
+struct RopeChoice {
+  std::optional<Located<std::string>> model_name;
+  std::optional<RopeModel> keys;
+};
+
+/// The format of a rope's model file.
+Format<RopeModel> rope_model_format();
+
+/// `ropes/sling-250t`, or `{axial_stiffness: ..., ...}` in its place.
+/// @param breaking_load_required false where nothing is held against it.
+Format<RopeChoice> rope_choice_format(bool breaking_load_required = true);
+
+}  // namespace blocklift::pipeline

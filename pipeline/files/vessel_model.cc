@@ -1,0 +1,68 @@
+#include "pipeline/files/vessel_model.h"
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_diagnosis.h"
+#include "pipeline/declaration/document.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// Even numbers of panels along and across, so that none lies across a plane of symmetry.
+template <class Shape>
+dynamics::PanelDivision division_of(const Shape& shape, double panel_size) {
+  auto division =
+      dynamics::PanelDivision::of_size(panel_size, shape.length, shape.breadth, shape.depth);
+  division.along += division.along % 2;
+  division.across += division.across % 2;
+  return division;
+}
+
+}  // namespace
+
+dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem::path& folder,
+                                double panel_size) {
+  if (model.hull.barge) {
+    return make_barge(*model.hull.barge, division_of(*model.hull.barge, panel_size));
+  }
+  if (model.hull.ship) {
+    return make_ship(*model.hull.ship, division_of(*model.hull.ship, panel_size));
+  }
+  return read_hull(folder / model.hull.file->path.value,
+                   {.close_openings = model.hull.file->close_openings, .panel_size = panel_size});
+}
+
+std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics& diagnostics) {
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  const std::size_t errors_before = diagnostics.error_count();
+  Vessel vessel;
+  Reading reading(*document, diagnostics);
+  const Format<VesselModel> format = vessel_model_format();
+  reading.with_owner("the vessel",
+                     [&] { return format.read(document->root, reading, vessel.model); });
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  const Mark mark = vessel.model.hull.file ? vessel.model.hull.file->path.mark : vessel.model.place;
+  try {
+    vessel.hull = make_vessel_hull(vessel.model, file.parent_path(), vessel.model.panel_size);
+    vessel.hull.set_name(file.parent_path().filename().string());
+    dynamics::HullDemands demands{.largest_warp = 0.5};
+    if (vessel.model.hydrodynamics.as_meshed) demands.water_level = 0.0;
+    for (const dynamics::HullDefect& defect : dynamics::diagnose(vessel.hull, demands)) {
+      diagnostics.error(mark, defect.message);
+    }
+    if (diagnostics.error_count() == errors_before && !vessel.model.hydrodynamics.as_meshed) {
+      find_floating_position(dynamics::HullClusters(vessel.hull), vessel.body());
+    }
+  } catch (const dynamics::ModelError& error) {
+    diagnostics.error(mark, error.what());
+  } catch (const dynamics::SimulationError& error) {
+    diagnostics.error(mark, error.what());
+  } catch (const HullFileError& error) {
+    diagnostics.error(mark, error.what());
+  }
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return vessel;
+}
+
+}  // namespace blocklift::pipeline

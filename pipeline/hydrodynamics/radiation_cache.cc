@@ -1,0 +1,142 @@
+#include "pipeline/hydrodynamics/radiation_cache.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "pipeline/formats/hull_hash.h"
+#include "pipeline/formats/hydrodynamic_database_file.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Grows when the panel method changes what it computes.
+constexpr std::int64_t radiation_method_version = 1;
+
+/// What `compute` makes of the problem; what is wrong with the problem is wrong input.
+template <class Compute>
+auto compute_or_refuse(const RadiationProblem& problem, const Compute& compute) {
+  try {
+    return compute(problem);
+  } catch (const dynamics::ModelError& error) {
+    Diagnostics diagnostics;
+    diagnostics.error(problem.place, error.what());
+    throw InputError(diagnostics);
+  }
+}
+
+std::string names_of_bodies(const RadiationProblem& problem) {
+  std::vector<std::string> names;
+  for (const RadiationProblem::Body& body : problem.bodies) names.push_back(body.name);
+  return list_of_names(names);
+}
+
+}  // namespace
+
+fs::path cache_folder() {
+  if (const char* folder = std::getenv("BLOCKLIFT_CACHE")) return folder;
+  if (const char* folder = std::getenv("XDG_CACHE_HOME")) return fs::path(folder) / "blocklift";
+  if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "blocklift";
+  return {};
+}
+
+std::string identity_of(const RadiationProblem& problem) {
+  ContentHash hash;
+  hash.add(radiation_method_version);
+  for (const RadiationProblem::Body& body : problem.bodies) {
+    hash.add(body.name);
+    add(hash, body.vessel->hull);
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      add(hash, Vector3(body.X_DB.R.col(column)));
+    }
+    add(hash, body.X_DB.p);
+    add(hash, body.p_BoR_B);
+  }
+  hash.add(problem.water.density);
+  hash.add(problem.water.gravity);
+  hash.add(problem.water.depth);
+  hash.add(problem.frequencies);
+  hash.add(problem.headings);
+  return hash.digits();
+}
+
+namespace {
+
+using Say = std::function<void(const std::string&)>;
+
+/// The database of bodies that stay.
+dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
+                                             const std::string& where, const Say& say) {
+  const std::string identity = identity_of(problem);
+  const fs::path folder = cache_folder();
+  const fs::path file = folder / (identity + ".h5");
+  if (!folder.empty() && read_identity(file) == identity) {
+    try {
+      dynamics::HydrodynamicDatabase database = read_hydrodynamic_database(file);
+      say("from " + file.string());
+      return database;
+    } catch (const HydrodynamicFileError&) {
+      // Of an older version, or damaged: computed anew.
+    }
+  }
+  say("computing that of " + names_of_bodies(problem) + where);
+  dynamics::HydrodynamicDatabase database =
+      compute_or_refuse(problem, [](const RadiationProblem& p) { return compute_radiation(p); });
+  if (folder.empty()) return database;
+  try {
+    std::error_code ignored;
+    fs::create_directories(folder, ignored);
+    write_hydrodynamic_database(file, database, identity,
+                                "computed for a case with " + names_of_bodies(problem) + where);
+  } catch (const std::runtime_error&) {
+    // What cannot be kept is computed again.
+  }
+  return database;
+}
+
+/// The databases of a problem with a body that is lowered.
+dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const Say& say) {
+  const int body = problem.lowered_body();
+  const RadiationProblem others = without_lowered(problem);
+  std::optional<dynamics::HydrodynamicDatabase> alone;
+  if (!others.bodies.empty()) alone = find_database(others, "", say);
+  const RadiationProblem::Body& lowered = problem.bodies[static_cast<std::size_t>(body)];
+  std::vector<double> draughts = {0.0};
+  std::vector<dynamics::HydrodynamicDatabase> databases(1);
+  for (const double draught : lowered.draughts) {
+    draughts.push_back(draught);
+    databases.push_back(
+        find_database(at_draught(problem, draught),
+                      fmt::format(", {} at a draught of {:.4g} m", lowered.name, draught), say));
+  }
+  databases[0] = with_dry_body(databases[1], body, alone ? &*alone : nullptr);
+  return dynamics::make_series(body, std::move(draughts), std::move(databases));
+}
+
+}  // namespace
+
+std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
+    const RadiationProblem& problem, const std::function<void(const std::string&)>& report) {
+  if (problem.bodies.empty() || problem.direct) return nullptr;
+  const Say say = [&](const std::string& text) {
+    if (report) report(text);
+  };
+  if (problem.lowered_body() >= 0) {
+    return std::make_shared<const dynamics::HydrodynamicSeries>(find_series(problem, say));
+  }
+  return std::make_shared<const dynamics::HydrodynamicSeries>(
+      dynamics::HydrodynamicSeries{0, {0.0}, {find_database(problem, "", say)}});
+}
+
+MarchedWater find_marched_water(const RadiationProblem& problem) {
+  return compute_or_refuse(problem, make_marched_water);
+}
+
+}  // namespace blocklift::pipeline

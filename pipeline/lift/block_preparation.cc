@@ -1,0 +1,63 @@
+#include "pipeline/lift/block_preparation.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/build/build_lift.h"
+#include "pipeline/build/describe_block.h"
+#include "structure/error.h"
+#include "structure/mesh/plates/block_generator.h"
+#include "structure/practice/hot_spot.h"
+#include "structure/response/block_field.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// Complains about weld toes that are read where the block has no material.
+bool check_hot_spots(const StructureSettings& settings, const structure::BlockMesh& mesh,
+                     Diagnostics& diagnostics) {
+  bool inside = true;
+  for (const HotSpotInFile& asked : settings.hot_spots) {
+    const structure::HotSpot spot{asked.toe, asked.direction, asked.thickness};
+    for (const Vector3& place : spot.places()) {
+      if (structure::find_cell(mesh, place).cell >= 0) continue;
+      inside = false;
+      diagnostics.error(asked.name.mark,
+                        fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, where the "
+                                    "block has no material",
+                                    asked.name.value, place.x(), place.y(), place.z()),
+                        {"the toe lies on a plate's surface and the direction along it"});
+      break;
+    }
+  }
+  return inside;
+}
+
+}  // namespace
+
+std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
+                                                          const std::string& name,
+                                                          const StructureSettings& settings,
+                                                          Diagnostics& diagnostics) {
+  try {
+    const structure::BlockDescription description =
+        describe_block(block, name, settings.largest_element);
+    auto model = std::make_unique<structure::ElasticModel>(
+        structure::generate_block_mesh(description), settings.element_degree,
+        description.total_mass, description.centre_of_mass_B);
+    return check_hot_spots(settings, model->mesh(), diagnostics) ? std::move(model) : nullptr;
+  } catch (const structure::ModelError& error) {
+    diagnostics.error(block.place, error.what());
+    return nullptr;
+  }
+}
+
+void check_block_model(const BlockModel& block, const std::string& name, Diagnostics& diagnostics) {
+  constexpr int coarse_degree = 1;
+  constexpr double coarse_element = 100;  // m: cuts where plates meet, and no others
+  make_block_model(block, name, {coarse_degree, coarse_element}, diagnostics);
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,310 @@
+#include "pipeline/lift/history_assessment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "pipeline/lift/stopwatch.h"
+#include "structure/batches.h"
+#include "structure/error.h"
+#include "structure/response/block_field.h"
+#include "structure/response/cell_stress.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using structure::TimedExtreme;
+using structure::UnitResponses;
+using structure::Vector3;
+
+/// One history on its way to a HistoryState.
+class StateMaker {
+ public:
+  StateMaker(const UnitResponses& responses, const BlockAttachment& attachment,
+             const BlockHistory& history, std::string name)
+      : responses_(responses),
+        mass_(responses.model().mass_properties()),
+        attachment_(attachment),
+        history_(history),
+        name_(std::move(name)) {}
+
+  HistoryState make(const structure::StressRecovery& recovery) {
+    load();
+    const structure::BlockEnvelope envelope =
+        structure::find_block_envelope(responses_, recovery, state_.factors);
+    state_.places = envelope.places;
+    state_.checked_von_mises = named(envelope.checked_von_mises);
+    state_.peak_von_mises = named(envelope.peak_von_mises);
+    state_.largest_principal = named(envelope.largest_principal);
+    state_.smallest_principal = named(envelope.smallest_principal);
+    state_.displacement = named(envelope.displacement);
+    for (const structure::GroupEnvelope& group : envelope.groups)
+      state_.groups.push_back(
+          {group.group, group.material, group.yield_stress, named(group.checked_von_mises)});
+    for (const structure::LugEnvelope& lug : envelope.lugs)
+      state_.lugs.push_back({lug.lug, {}, 0, named(lug.checked_von_mises)});
+    take_patches(recovery.membrane(), envelope.patches);
+    state_.governing =
+        map_instant(history_, state_.checked_von_mises.at.instant, attachment_, mass_);
+    state_.governing.name = fmt::format("largest {} checked stress of the lift", name_);
+    return std::move(state_);
+  }
+
+ private:
+  void load() {
+    state_.time = history_.motion.time;
+    state_.factors.resize(responses_.count(), history_.sample_count());
+    for (Eigen::Index sample = 0; sample < history_.sample_count(); ++sample) {
+      const structure::LoadCase load_case = map_instant(history_, sample, attachment_, mass_);
+      state_.factors.col(sample) = responses_.coefficients(load_case);
+      take_balance(load_case, sample);
+    }
+  }
+
+  // The last six factors are the rigid acceleration that a load case lacks in balance.
+  void take_balance(const structure::LoadCase& load_case, Eigen::Index sample) {
+    const auto lacking = state_.factors.col(sample).tail<6>();
+    const Vector3 at_centre =
+        lacking.head<3>() + Vector3(lacking.tail<3>()).cross(mass_.centre_of_mass_B);
+    double load = mass_.mass * std::max(load_case.field.acceleration_less_gravity.norm(), 9.80665);
+    double pull = 0;
+    for (const Vector3& force : load_case.lug_forces_B) pull += force.norm();
+    load = std::max(load, pull);
+    const double gyration = std::sqrt(mass_.inertia_BBcm_B.trace() / (2 * mass_.mass));
+    const double force = mass_.mass * at_centre.norm() / load;
+    const double moment = (mass_.inertia_BBcm_B * lacking.tail<3>()).norm() / (load * gyration);
+    if (!(force < largest_balance_residual && moment < largest_balance_residual))
+      throw std::runtime_error(fmt::format(
+          "the {} loads on the block at {:g} s are not in balance: force residual {:.1e}, moment "
+          "residual {:.1e} (allowed {:.0e})",
+          name_, history_.motion.time(sample), force, moment, largest_balance_residual));
+    state_.largest_force_residual = std::max(state_.largest_force_residual, force);
+    state_.largest_moment_residual = std::max(state_.largest_moment_residual, moment);
+  }
+
+  // The rope with the largest share in a stress, as its place in the attachment.
+  std::pair<int, double> governing_rope(const Eigen::MatrixXd& unit_stress, int instant) const {
+    const std::vector<Vector3> forces = rope_forces(history_.motion, instant, attachment_);
+    Eigen::MatrixXd parts =
+        Eigen::MatrixXd::Zero(responses_.count(), static_cast<Eigen::Index>(forces.size()));
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      parts.col(static_cast<Eigen::Index>(i)).segment<3>(3 * attachment_.ropes[i].lug) = forces[i];
+    Eigen::Index governing = 0;
+    const double share = structure::stress_shares(unit_stress, parts, state_.factors.col(instant))
+                             .maxCoeff(&governing);
+    if (!(share > 0)) return {-1, 0};
+    return {static_cast<int>(governing), share};
+  }
+
+  HistoryExtreme named(const TimedExtreme& extreme) const {
+    HistoryExtreme result{extreme, 0, {}, 0};
+    if (extreme.instant < 0) return result;
+    result.time = history_.motion.time(extreme.instant);
+    if (extreme.unit_stress.size() == 0) return result;
+    const auto [rope, share] = governing_rope(extreme.unit_stress, extreme.instant);
+    if (rope < 0) return result;
+    result.rope = rope_name(history_.motion, attachment_.ropes[static_cast<std::size_t>(rope)]);
+    result.share = share;
+    return result;
+  }
+
+  void take_patches(const structure::MembraneStress& membrane,
+                    const structure::PointExtremes& von_mises) {
+    state_.patch_von_mises = von_mises.value;
+    state_.patch_time.resize(von_mises.value.size());
+    state_.patch_rope.resize(von_mises.value.size());
+    const auto take = [&](int first, int count) {
+      for (int p = first; p < first + count; ++p) {
+        state_.patch_time[p] = history_.motion.time(von_mises.instant[p]);
+        state_.patch_rope[p] =
+            governing_rope(structure::unit_stress_of_patch(membrane, p), von_mises.instant[p])
+                .first;
+      }
+    };
+    structure::in_batches(static_cast<int>(von_mises.value.size()), 256, 0, take);
+  }
+
+  const UnitResponses& responses_;
+  const structure::MassProperties& mass_;
+  const BlockAttachment& attachment_;
+  const BlockHistory& history_;
+  std::string name_;
+  HistoryState state_;
+};
+
+// A practice's checked stress at each patch, set against the envelope.
+PracticeComparison compare_practice(const structure::BlockMesh& mesh,
+                                    const structure::MembraneStress& membrane,
+                                    const Eigen::VectorXd& practice,
+                                    const Eigen::VectorXd& envelope) {
+  PracticeComparison comparison;
+  comparison.largest_percent = percent_above(practice.maxCoeff(), envelope.maxCoeff());
+  comparison.worst_percent = std::numeric_limits<double>::infinity();
+  int looked_at = 0, short_of = 0;
+  const double half_of_largest = 0.5 * envelope.maxCoeff();
+  for (Eigen::Index p = 0; p < envelope.size(); ++p) {
+    if (envelope[p] < half_of_largest) continue;
+    ++looked_at;
+    const double percent = percent_above(practice[p], envelope[p]);
+    if (percent < -1) ++short_of;
+    if (percent >= comparison.worst_percent) continue;
+    const structure::Patch& patch = membrane.patches()[static_cast<std::size_t>(p)];
+    comparison.worst_percent = percent;
+    comparison.worst = {envelope[p], patch.centre_B,
+                        mesh.sheet_names[static_cast<std::size_t>(patch.sheet)]};
+  }
+  comparison.patches_short = looked_at > 0 ? static_cast<double>(short_of) / looked_at : 0;
+  return comparison;
+}
+
+int nearest_patch(const structure::MembraneStress& membrane, const Vector3& point) {
+  const auto& patches = membrane.patches();
+  const auto nearest =
+      std::min_element(patches.begin(), patches.end(), [&](const auto& a, const auto& b) {
+        return (a.centre_B - point).squaredNorm() < (b.centre_B - point).squaredNorm();
+      });
+  return static_cast<int>(nearest - patches.begin());
+}
+
+// The unit normal of the plane that the largest principal stress acts on.
+Vector3 principal_direction(const structure::Stress& s) {
+  Eigen::Matrix3d tensor;
+  tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
+  return solver.eigenvectors().col(
+      std::abs(solver.eigenvalues()[2]) >= std::abs(solver.eigenvalues()[0]) ? 2 : 0);
+}
+
+// Stress in time of one place, by its unit responses (6 x unit loads, Pa); cycles are counted of the part
+// along `normal`, or along the largest principal stress where none is given.
+void fill_in(const Eigen::MatrixXd& unit, const Vector3* normal, const HistoryAssessment& history,
+             double concentration, const structure::FatigueCurve& curve, StressHistory& result) {
+  const auto von_mises = [&](const Eigen::MatrixXd& stress) {
+    Eigen::VectorXd values(stress.cols());
+    for (Eigen::Index t = 0; t < stress.cols(); ++t)
+      values[t] = structure::von_mises(stress.col(t));
+    return values;
+  };
+  const Eigen::MatrixXd at_rest = unit * history.static_state.factors;
+  const Eigen::MatrixXd in_motion = unit * history.dynamic_state.factors;
+  result.static_von_mises = von_mises(at_rest);
+  result.dynamic_von_mises = von_mises(in_motion);
+  Eigen::Index worst = 0;
+  result.dynamic_von_mises.maxCoeff(&worst);
+  const Eigen::Matrix<double, 1, 6> along =
+      structure::normal_component(normal ? *normal : principal_direction(in_motion.col(worst)));
+  result.static_normal = (along * at_rest).transpose();
+  result.dynamic_normal = (along * in_motion).transpose();
+  result.cycles = structure::count_rainflow_of_repeated(result.dynamic_normal);
+  std::vector<structure::Cycles> raised = result.cycles;
+  for (structure::Cycles& cycle : raised) cycle.range *= concentration;
+  result.damage_per_lift = structure::damage(raised, curve);
+}
+
+StressHistory follow(const structure::UnitResponses& responses,
+                     const structure::MembraneStress& membrane, const FollowedPoint& point,
+                     const HistoryAssessment& history) {
+  const int p = nearest_patch(membrane, point.point_B);
+  const structure::Patch& patch = membrane.patches()[static_cast<std::size_t>(p)];
+  StressHistory result;
+  result.name = point.name;
+  result.point_B = patch.centre_B;
+  result.part = responses.model().mesh().sheet_names[static_cast<std::size_t>(patch.sheet)];
+  fill_in(structure::unit_stress_of_patch(membrane, p), nullptr, history,
+          history.stress_concentration, history.curve, result);
+  return result;
+}
+
+StressHistory follow(const structure::UnitResponses& responses, const FollowedHotSpot& followed,
+                     const HistoryAssessment& history) {
+  const structure::BlockMesh& mesh = responses.model().mesh();
+  StressHistory result;
+  result.name = followed.name;
+  result.point_B = followed.spot.toe;
+  std::vector<Eigen::MatrixXd> unit;
+  for (const Vector3& point : followed.spot.places()) {
+    const structure::CellPlace place = structure::find_cell(mesh, point);
+    if (place.cell < 0)
+      throw structure::ModelError(
+          fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, where the block has no "
+                      "material; the toe lies on a plate's surface and the direction along it",
+                      followed.name, point.x(), point.y(), point.z()));
+    unit.push_back(structure::stresses_at(responses.model(), responses.displacements(), place));
+    result.part = mesh.sheet_names[static_cast<std::size_t>(
+        mesh.cell_sheet[static_cast<std::size_t>(place.cell)])];
+  }
+  fill_in(structure::hot_spot_stress(unit[0], unit[1]), &followed.spot.direction, history, 1,
+          history.hot_spot_curve, result);
+  return result;
+}
+
+std::vector<FollowedPoint> default_points(const HistoryState& state) {
+  std::vector<FollowedPoint> points{{"hot spot", state.checked_von_mises.at.point_B}};
+  for (const HistoryGroup& lug : state.lugs)
+    if (lug.checked_von_mises.at.instant >= 0)
+      points.push_back({lug.name, lug.checked_von_mises.at.point_B});
+  return points;
+}
+
+}  // namespace
+
+double HistoryAssessment::stress_increase_percent() const {
+  return percent_above(dynamic_state.checked_von_mises.at.value,
+                       static_state.checked_von_mises.at.value);
+}
+
+double HistoryAssessment::deformation_increase_percent() const {
+  return percent_above(dynamic_state.displacement.at.value, static_state.displacement.at.value);
+}
+
+HistoryAssessment assess_history(const structure::UnitResponses& responses,
+                                 const structure::StressRecovery& recovery,
+                                 const BlockAttachment& attachment,
+                                 const BlockHistory& static_history,
+                                 const BlockHistory& dynamic_history, const BlockAssessment& block,
+                                 const HistorySettings& settings) {
+  Stopwatch watch;
+  HistoryAssessment result;
+  result.curve = structure::fatigue_curve(settings.fatigue_curve);
+  result.stress_concentration = settings.stress_concentration;
+  result.lifts = settings.lifts;
+  for (const LugRope& end : attachment.ropes)
+    result.ropes.push_back(rope_name(dynamic_history.motion, end));
+  result.static_state = StateMaker(responses, attachment, static_history, "static").make(recovery);
+  result.dynamic_state =
+      StateMaker(responses, attachment, dynamic_history, "dynamic").make(recovery);
+
+  const structure::BlockMesh& mesh = responses.model().mesh();
+  const structure::MembraneStress& membrane = recovery.membrane();
+  result.patches = membrane.patches();
+  result.sheets = mesh.sheet_names;
+  result.weights = structure::response_weights(membrane);
+  const auto checked = [&](const BlockState& state) {
+    return membrane.von_mises(responses.coefficients(state.load));
+  };
+  const Eigen::VectorXd& envelope = result.dynamic_state.patch_von_mises;
+  result.per_rope_maxima =
+      compare_practice(mesh, membrane, checked(block.per_rope_maxima.dynamic_state), envelope);
+  Eigen::VectorXd of_instants = Eigen::VectorXd::Zero(envelope.size());
+  for (const LoadComparison& by_rope : block.simultaneous_by_rope)
+    of_instants = of_instants.cwiseMax(checked(by_rope.dynamic_state));
+  result.rope_instants = compare_practice(mesh, membrane, of_instants, envelope);
+
+  const std::vector<FollowedPoint> points =
+      settings.points.empty() ? default_points(result.dynamic_state) : settings.points;
+  for (const FollowedPoint& point : points)
+    result.points.push_back(follow(responses, membrane, point, result));
+  result.hot_spot_curve = structure::fatigue_curve(settings.hot_spot_curve);
+  for (const FollowedHotSpot& spot : settings.hot_spots)
+    result.hot_spots.push_back(follow(responses, spot, result));
+  result.evaluation_s = watch.lap();
+  return result;
+}
+
+}  // namespace blocklift::pipeline

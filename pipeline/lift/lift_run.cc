@@ -1,0 +1,92 @@
+#include "pipeline/lift/lift_run.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "dynamics/simulation/equilibrium.h"
+#include "pipeline/hydrodynamics/radiation_cache.h"
+#include "pipeline/lift/stopwatch.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+const std::string& lug_of(const BuiltLift& model, int rope) {
+  const auto found = std::find_if(model.ropes.begin(), model.ropes.end(),
+                                  [&](const LiftRope& other) { return other.rope == rope; });
+  return found->lug;
+}
+
+// The load is the one elastic body of a lift.
+void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorkspace& w,
+                 std::optional<LugDisplacement>& largest) {
+  const auto& ends = model.system.elastic_bodies().front().definition().ends;
+  for (std::size_t end = 0; end < ends.size(); ++end) {
+    const double size = dynamics::ElasticBody::displacement(w.elastic.front(), end).norm();
+    if (largest && size <= largest->size) continue;
+    largest = {lug_of(model, ends[end].rope), size, time};
+  }
+}
+
+}  // namespace
+
+LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress) {
+  const auto report = [&](const char* stage) {
+    return [&progress, stage](double fraction, double time) {
+      progress(stage, fraction, fmt::format("t = {:.0f} s", time));
+    };
+  };
+  const dynamics::LiftSystem& system = model.system;
+  const dynamics::LiftSystem& at_rest = model.at_rest();
+  Stopwatch watch;
+  const Eigen::VectorXd times =
+      dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
+  // Both histories begin at the same equilibrium.
+  Eigen::VectorXd q = system.q_start();
+  dynamics::EquilibriumSolver(at_rest).solve(0, q);
+  dynamics::History static_history =
+      dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"));
+  std::vector<NaturalModes> natural_modes =
+      find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
+  const double static_s = watch.lap();
+
+  dynamics::IntegrationSettings settings;
+  settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
+  settings.sample_interval = lift_case.dynamics.sample_interval;
+  settings.progress = report("time integration");
+  std::optional<LugDisplacement> elastic;
+  if (!system.elastic_bodies().empty()) {
+    settings.observe = [&](Eigen::Index, double time, const dynamics::LiftWorkspace& w) {
+      keep_larger(model, time, w, elastic);
+    };
+  }
+  settings.surface = model.marched.radiation.get();
+  settings.surface_step = model.marched.step;
+  dynamics::IntegrationResult dynamic_result =
+      dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+  const double dynamic_s = watch.lap();
+  return {std::move(model), std::move(static_history), std::move(dynamic_result), static_s,
+          dynamic_s,        std::move(natural_modes),  std::move(elastic)};
+}
+
+BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
+                       const LoadFlexibility* flexibility) {
+  const RadiationProblem problem = radiation_problem(lift_case);
+  const auto radiation = find_radiation(
+      problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
+  return build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem));
+}
+
+Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,
+                           std::size_t crane) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(history.sample_count());
+  for (const LiftHoist& hoist : model.hoists) {
+    if (hoist.crane == crane) load += history.ropes[static_cast<std::size_t>(hoist.rope)].tension;
+  }
+  return load;
+}
+
+}  // namespace blocklift::pipeline

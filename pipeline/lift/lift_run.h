@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/simulation/time_integration.h"
+#include "pipeline/build/build_lift.h"
+#include "pipeline/lift/natural_modes.h"
+
+namespace blocklift::pipeline {
+
+/// Called with the stage of the run, the fraction of it that is done, and a word about where it is.
+using Progress = std::function<void(const std::string&, double, const std::string&)>;
+
+/// How far a lug gives way within the block, against the block's mean rigid motion.
+struct LugDisplacement {
+  std::string lug;
+  double size = 0;  ///< m
+  double time = 0;  ///< s
+};
+
+/// The dynamics of a lift: the operation at rest and in motion.
+struct LiftRun {
+  BuiltLift model;
+  dynamics::History static_history;
+  dynamics::IntegrationResult dynamic_result;
+  double static_s = 0;   ///< wall-clock time of the static sweep and the natural modes
+  double dynamic_s = 0;  ///< wall-clock time of the time integration
+  std::vector<NaturalModes> natural_modes = {};
+  /// The largest at the samples of the motion; none if the block is rigid.
+  std::optional<LugDisplacement> elastic_displacement = {};
+
+  const dynamics::History& dynamic_history() const { return dynamic_result.history; }
+  double simulated_s() const { return model.system.operation().duration(); }
+};
+
+/// Sweeps the operation at rest, finds the natural modes on the way, then integrates it in time from the first equilibrium.
+/// @throws dynamics::SimulationError when an equilibrium or the integration fails.
+LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
+
+/// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the rest.
+/// @throws InputError, dynamics::ModelError, dynamics::SimulationError as find_radiation and build_lift.
+/// @param flexibility of the load; null: it is rigid.
+BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
+                       const LoadFlexibility* flexibility = nullptr);
+
+/// Sum of the tackle tensions of a crane's hoists at each sample, N.
+Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,
+                           std::size_t crane);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,201 @@
+#include "pipeline/results/assumptions.h"
+
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "pipeline/results/radiation_summary.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
+  list.emplace_back(
+      "Cranes, hook blocks and the block are rigid bodies; a crane's elasticity acts in series "
+      "with "
+      "each of its tackles. Hook blocks do not turn.");
+  list.emplace_back(
+      "Ropes are weightless springs with damping along their paths; they pull and never push. All "
+      "falls of a tackle are taken together.");
+  list.emplace_back(
+      "Drives and winches follow their motion profiles exactly, whatever force that takes.");
+  list.push_back(fmt::format(
+      "Static: equilibrium at the same winch lengths and crane positions, every {:g} s, with the "
+      "mean wind. Dynamic: time integration with relative tolerance {:g}; largest loads are those "
+      "of samples every {:g} s.",
+      lift_case.dynamics.static_interval, lift_case.dynamics.relative_tolerance,
+      lift_case.dynamics.sample_interval));
+  if (lift_case.has_structure()) {
+    list.emplace_back(
+        lift_case.supports.empty()
+            ? "Forces on the block other than at its lugs (wind) are spread over its mass."
+            : "Forces on the block other than at its lugs (wind, pads under it) are spread over "
+              "its mass: while it stands on pads, the stress is that of the ropes' pull alone.");
+  }
+  if (lift_case.wind) {
+    const bool gusts = lift_case.wind->gusts != dynamics::GustSpectrum::none;
+    list.push_back(fmt::format("{} wind of {:g} m/s towards {:.0f} degrees from +x to +y, {}.",
+                               gusts ? "Mean" : "Constant", lift_case.wind->speed,
+                               lift_case.wind->towards * 180 / std::numbers::pi,
+                               gusts ? "with gusts that act everywhere at once" : "without gusts"));
+  } else {
+    list.push_back("No wind.");
+  }
+}
+
+std::string draughts_sentence(const LiftCase& lift_case) {
+  const LoadInCase& load = lift_case.load;
+  const std::string floats = "The load floats by its hull where it reaches the water; ";
+  if (!load.draughts) {
+    return floats + "it makes no waves, and no added mass of it is counted.";
+  }
+  std::string draughts;
+  for (const double draught : load.draughts->value) {
+    draughts += fmt::format("{}{:.4g}", draughts.empty() ? "" : ", ", draught);
+  }
+  const dynamics::Pose X_WB = load.pose_afloat();
+  return floats +
+         fmt::format(
+             "what it radiates and scatters is computed for draughts of {} m, upright at ({:.4g}, "
+             "{:.4g}) m against the vessels where they start, and interpolated at its draught in "
+             "calm "
+             "water. Water that it takes up on entering has to be set in motion (von Karman's "
+             "momentum theory), spread over the draughts between; water that it leaves keeps its "
+             "motion. Slamming by the rise of the waves themselves is not counted.",
+             draughts, X_WB.p.x(), X_WB.p.y());
+}
+
+void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
+                         std::vector<std::string>& list) {
+  list.emplace_back(
+      "Buoyancy and the pressure of the undisturbed waves act on each hull as it lies at each "
+      "instant, exactly for its panels in still water. Waves are linear; there are no second-order "
+      "drift forces, slamming or water on deck. Static: the sea without its waves.");
+  if (lift_case.load.vessel) {
+    list.push_back(draughts_sentence(lift_case));
+  }
+  const dynamics::LiftSystem& system = lift.model.system;
+  const MarchedWater& marched = lift.model.marched;
+  if (!system.water()) return;
+  list.push_back(fmt::format(
+      "Radiation and diffraction of the vessels, with their interaction: linear, by the Rankine "
+      "panel method about their upright rest in still water, carried along as they move; their "
+      "distance counts as unchanged. Natural periods hold the added mass of infinite frequency "
+      "alone. {}",
+      marched.radiation
+          ? fmt::format(
+                "The water's surface, {} panels in all, is marched beside them by {:.3g} s.",
+                marched.unknowns, marched.step)
+          : fmt::format("The memory of the water is fitted by {} states to within {:.1f} % of its "
+                        "peak.",
+                        system.memory_count(), 100 * system.water()->memory_error())));
+  std::string straying = straying_sentence(record_radiation(lift.model, lift.dynamic_history()));
+  if (!straying.empty()) list.push_back(std::move(straying));
+}
+
+std::string flexibility_sentence(const DynamicsSettings& settings) {
+  switch (settings.flexibility) {
+    case Flexibility::rigid:
+      return "The elastic motion of the block does not act back on the ropes.";
+    case Flexibility::static_:
+      return "The block gives way at its lugs, at once, by the compliance of its structure, which "
+             "the ropes feel; its elastic vibration is left out.";
+    case Flexibility::modal:
+      return fmt::format(
+          "The ropes feel the block give way at its lugs: by {} natural modes with a damping of "
+          "{:g} of the critical one, and at once by what these leave of the compliance. Stress is "
+          "that of the lugs' forces and the rigid inertia; the inertia of the vibration itself is "
+          "not in it.",
+          settings.mode_count(), settings.mode_damping());
+  }
+  return {};
+}
+
+std::string displacement_sentence(const LiftRun& lift) {
+  if (!lift.elastic_displacement) return {};
+  return fmt::format(
+      " Lug {} moves furthest within the block, against its mean motion: {:.1f} mm at {:.1f} s.",
+      lift.elastic_displacement->lug, 1e3 * lift.elastic_displacement->size,
+      lift.elastic_displacement->time);
+}
+
+void add_block_assumptions(const Assessment& assessment, std::vector<std::string>& list) {
+  const structure::MassProperties& mass = assessment.block.model->mass_properties();
+  list.emplace_back(
+      "The block is linear elastic; its loads are the forces at the lugs, gravity and the inertia "
+      "of its motion, which are in balance.");
+  if (assessment.lift)
+    list.push_back(flexibility_sentence(assessment.lift_case.dynamics) +
+                   displacement_sentence(*assessment.lift));
+  if (const auto& pressure = assessment.block.pressure)
+    list.push_back(
+        fmt::format("Water presses on the shell: the pressure on each piece of the hull acts, with "
+                    "its resultant "
+                    "and its centre, on the nearest of {} regions of the block's outer plates; {} "
+                    "fields make up "
+                    "the pressure of every instant to within {:.2g} % of the largest. Pads that "
+                    "bear the block, and what the water does besides (radiation, diffraction, "
+                    "drag), are spread over its mass.",
+                    pressure->regions, pressure->count(), 100 * pressure->error));
+  list.push_back(fmt::format(
+      "Inertia relief: the first elastic period of the free block is about {:.2f} s; loads that "
+      "rise within a few of these periods shake the block itself, which is not part of the "
+      "figures.",
+      assessment.block.assessment.first_elastic_period));
+  list.push_back(fmt::format(
+      "Of {:.1f} t, {:.1f} t are steel of the model; the remaining {:.1f} t of outfitting are "
+      "spread over the plates with a density linear in place (factor {:.2f} to {:.2f} of the "
+      "steel's), so that mass and centre of mass are met.",
+      mass.mass / 1e3, mass.steel_mass / 1e3, mass.outfitting_mass / 1e3,
+      mass.smallest_density_factor, mass.largest_density_factor));
+  list.emplace_back(
+      "Checked stress: von Mises of the membrane stress (averaged through the plate) over patches "
+      "of 50 x 50 mm. The raw peak beside it depends on the mesh and grows with refinement at "
+      "re-entrant corners.");
+  list.emplace_back(
+      "In the block each rope's force is spread over its lug plate; contact of the pin and welds "
+      "are not part of it.");
+  const BlockRun& block = assessment.block;
+  if (!block.padeyes.padeyes.empty())
+    list.push_back(fmt::format(
+        "Padeyes are cut from the block along the pad's edge and driven there by the block's "
+        "displacement; the pin presses with the cosine of the angle from the rope's direction, "
+        "elastic, without contact. Forces and stresses are multiplied by {:g}; hand formulae take "
+        "{:g} % of the force along the pin at least. Stress within the main plate's thickness of "
+        "the cut is left to the block's own.",
+        assessment.lift_case.checks.lug_consequence_factor,
+        100 * assessment.lift_case.checks.lug_side_load));
+  list.push_back(fmt::format(
+      "Buckling: {} panels between crossing plates (and the stiffeners that the block's file "
+      "names), simply supported, under their mean membrane stresses with linear falls; openings "
+      "within a panel do not weaken it beyond their stress, and neither initial deflection nor the "
+      "strength after buckling counts.",
+      block.buckling.panels.size()));
+}
+
+}  // namespace
+
+std::vector<std::string> list_assumptions(const Assessment& assessment) {
+  std::vector<std::string> list;
+  if (assessment.lift) {
+    add_lift_assumptions(assessment.lift_case, list);
+    if (assessment.lift_case.sea) {
+      add_sea_assumptions(assessment.lift_case, *assessment.lift, list);
+    }
+  } else {
+    list.push_back(
+        "The forces at the lugs are those of the case's load table, all at once, balanced by the "
+        "rigid-body acceleration that they give the block.");
+  }
+  if (assessment.block.model) {
+    add_block_assumptions(assessment, list);
+  } else {
+    list.emplace_back(
+        "The load is a vessel: its stress was not asked, its ropes, hoists and cranes alone are "
+        "checked.");
+  }
+  return list;
+}
+
+}  // namespace blocklift::pipeline

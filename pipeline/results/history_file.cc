@@ -1,0 +1,81 @@
+#include "pipeline/results/history_file.h"
+
+#include <string>
+#include <vector>
+
+#include "pipeline/formats/results_layout.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+void write_state(ResultsWriter& file, std::string_view name, const HistoryState& state,
+                 const structure::Surface& surface, const structure::UnitResponses& responses,
+                 const Eigen::VectorXd& weights) {
+  const std::string path = layout::join(layout::structure_group, layout::history, name);
+  file.write(layout::join(path, "von_mises"),
+             surface.envelope(responses, structure::LoadHistory(state.factors, weights)),
+             {"Pa", "largest von Mises stress over all instants"});
+  file.write_points(layout::join(path, "displacement"),
+                    surface.evaluate(responses, state.governing).displacement,
+                    {"m",
+                     "displacement relative to the block's mean rigid motion at the instant of the "
+                     "largest checked stress, block frame"});
+  const auto write_point = [&](const char* point, const HistoryExtreme& extreme) {
+    file.write(layout::join(path, point), std::span<const double>(extreme.at.point_B.data(), 3),
+               {"m", "place in the block frame: " + extreme.at.part});
+  };
+  write_point("peak_stress_point", state.peak_von_mises);
+  write_point("checked_stress_point", state.checked_von_mises);
+  write_point("max_displacement_point", state.displacement);
+  if (!state.checked_von_mises.rope.empty())
+    file.write_attribute(path, "rope", state.checked_von_mises.rope);
+  file.write_attribute(path, "time", state.checked_von_mises.time);
+
+  const std::string patches = layout::join(path, "patches");
+  file.write(layout::join(patches, "von_mises"), span_of(state.patch_von_mises),
+             {"Pa", "largest checked stress of each patch over all instants"});
+  file.write(layout::join(patches, "time"), span_of(state.patch_time), {"s", "when it occurs"});
+  file.write(layout::join(patches, "rope"), span_of(state.patch_rope),
+             {"1", "index into ../../ropes of the rope with the largest share in it; -1: none"});
+}
+
+}  // namespace
+
+void write_block_history(ResultsWriter& file, const structure::Surface& surface,
+                         const structure::UnitResponses& responses,
+                         const HistoryAssessment& history) {
+  const std::string group = layout::join(layout::structure_group, layout::history);
+  write_state(file, layout::static_state, history.static_state, surface, responses,
+              history.weights);
+  write_state(file, layout::dynamic_state, history.dynamic_state, surface, responses,
+              history.weights);
+  file.write_texts(layout::join(group, "ropes"), history.ropes, "ropes at the lugs");
+  std::vector<Eigen::Vector3d> centres;
+  std::vector<std::int32_t> sheets;
+  for (const structure::Patch& patch : history.patches) {
+    centres.push_back(patch.centre_B);
+    sheets.push_back(patch.sheet);
+  }
+  file.write_points(layout::join(group, "patches", "points"), centres,
+                    {"m", "centres of the patches of the checked stress, block frame"});
+  file.write(layout::join(group, "patches", "plate"), sheets, {"1", "index into plates"});
+  file.write_texts(layout::join(group, "patches", "plates"), history.sheets, "single plates");
+  for (const StressHistory& one : history.points) {
+    const std::string path = layout::join(group, "points", one.name);
+    file.write(layout::join(path, "point"), std::span<const double>(one.point_B.data(), 3),
+               {"m", "centre of the patch, block frame: " + one.part});
+    const auto write = [&](std::string_view state, const Eigen::VectorXd& von_mises,
+                           const Eigen::VectorXd& normal) {
+      file.write(layout::join(path, state, "von_mises"), span_of(von_mises),
+                 {"Pa", "von Mises of the membrane stress at each sample"});
+      file.write(
+          layout::join(path, state, "normal_stress"), span_of(normal),
+          {"Pa", "stress across the plane of the largest principal stress at the worst instant"});
+    };
+    write(layout::static_state, one.static_von_mises, one.static_normal);
+    write(layout::dynamic_state, one.dynamic_von_mises, one.dynamic_normal);
+  }
+}
+
+}  // namespace blocklift::pipeline

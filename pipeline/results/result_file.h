@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dynamics/simulation/history.h"
+#include "pipeline/files/lift_case.h"
+#include "pipeline/formats/results_store.h"
+#include "pipeline/lift/block_assessment.h"
+
+/// What of an assessment goes where in results.h5 (pipeline/formats/results_layout.h).
+namespace blocklift::pipeline {
+
+/// A body as it is drawn: boxes fixed in it.
+struct DrawnBox {
+  dynamics::Vector3 size;    ///< along the box's edges, m
+  dynamics::Vector3 centre;  ///< in the body's frame, m
+  dynamics::Vector4 orientation{1, 0, 0,
+                                0};  ///< of the edges in the body's frame, quaternion w x y z
+};
+struct DrawnBody {
+  std::string name;
+  std::string kind;  ///< "crane", "hook block", "load"
+  std::vector<DrawnBox> boxes;
+};
+
+/// Names and roles that the dynamics itself does not know.
+struct Scene {
+  std::vector<DrawnBody> bodies;
+  std::vector<int> hoists;  ///< ropes of the system that are hoist tackle; all others are lines
+  std::string load_body;
+  std::vector<structure::LugRegion> lugs;
+};
+
+/// The time of day in UTC as results carry it (ISO 8601).
+std::string creation_time();
+
+void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
+                const std::string& yaml);
+void write_operation(ResultsWriter& file, const dynamics::Operation& operation);
+/// @param group layout::static_history or layout::dynamic_history
+void write_history(ResultsWriter& file, std::string_view group, const dynamics::LiftSystem& system,
+                   const dynamics::History& history, const Scene& scene);
+void write_scene(ResultsWriter& file, const dynamics::LiftSystem& system, const Scene& scene);
+/// Measured series beside the computed ones.
+void write_measured(ResultsWriter& file, const Comparison& compare);
+/// Surface of the block and the four states of both ways that the report shows.
+void write_block(ResultsWriter& file, const structure::Surface& surface,
+                 const structure::UnitResponses& responses, const BlockAssessment& assessment);
+
+}  // namespace blocklift::pipeline

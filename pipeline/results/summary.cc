@@ -1,0 +1,439 @@
+#include "pipeline/results/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/checks/loop_loads.h"
+#include "pipeline/formats/json_values.h"
+#include "pipeline/lift/history_figures.h"
+#include "pipeline/results/assumptions.h"
+#include "pipeline/results/history_summary.h"
+#include "pipeline/results/padeye_summary.h"
+#include "pipeline/results/radiation_summary.h"
+#include "pipeline/results/result_file.h"
+#include "pipeline/version.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using dynamics::LinkedMaximum;
+
+Json check_json(const Check& check) {
+  Json json{{"name", check.name},
+            {"demand", json_number(check.demand)},
+            {"limit", json_number(check.limit)},
+            {"unit", check.unit},
+            {"utilisation", json_number(check.utilisation)},
+            {"pass", check.pass}};
+  if (check.time) json["time_s"] = *check.time;
+  if (!check.note.empty()) json["note"] = check.note;
+  return json;
+}
+
+/// Largest static and dynamic value of one load with their times.
+Json maxima_json(const std::string& name, double static_value, double static_time,
+                 double dynamic_value, double dynamic_time, const std::string& quantity) {
+  return {{"name", name},
+          {"max_static_" + quantity, static_value},
+          {"time_of_max_static_s", static_time},
+          {"max_dynamic_" + quantity, dynamic_value},
+          {"time_of_max_dynamic_s", dynamic_time},
+          {"dynamic_over_static", json_number(dynamic_value / static_value)}};
+}
+
+/// The ropes, hoists and cranes of a lift with their largest loads.
+class LoadTables {
+ public:
+  LoadTables(const LiftCase& lift_case, const LiftRun& lift)
+      : case_(lift_case),
+        lift_(lift),
+        static_maxima_(dynamics::find_largest_tensions(lift.static_history)),
+        dynamic_maxima_(dynamics::find_largest_tensions(lift.dynamic_history())) {}
+
+  Json ropes() const {
+    Json rows = Json::array();
+    for (const LiftRope& rope : lift_.model.ropes) {
+      Json row = rope_row(rope.name, rope.rope);
+      if (!rope.lug.empty()) row["lug"] = rope.lug;
+      if (!rope.hoist.empty()) row["hoist"] = rope.hoist;
+      row["breaking_load_N"] = rope.breaking_load;
+      row["linked_static_N"] = linked(static_maxima_, rope.rope);
+      row["linked_dynamic_N"] = linked(dynamic_maxima_, rope.rope);
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  Json hoists() const {
+    Json rows = Json::array();
+    for (const LiftHoist& hoist : lift_.model.hoists) {
+      Json row = rope_row(hoist.name, hoist.rope);
+      row["crane"] = case_.cranes[hoist.crane].name.value;
+      row["breaking_load_N"] = hoist.breaking_load;
+      row["capacity_N"] = hoist.capacity;
+      const auto& history = lift_.dynamic_history().ropes[static_cast<std::size_t>(hoist.rope)];
+      row["max_swing_rad"] = swing_angles(history).maxCoeff();
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  Json cranes() const {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) {
+      Eigen::Index static_at = 0, dynamic_at = 0;
+      const double at_rest = crane_load(lift_.model, lift_.static_history, i).maxCoeff(&static_at);
+      const double in_motion =
+          crane_load(lift_.model, lift_.dynamic_history(), i).maxCoeff(&dynamic_at);
+      Json row =
+          maxima_json(case_.cranes[i].name.value, at_rest, lift_.static_history.time(static_at),
+                      in_motion, lift_.dynamic_history().time(dynamic_at), "load_N");
+      if (case_.cranes[i].model->capacity) row["capacity_N"] = *case_.cranes[i].model->capacity;
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  Json comparison(const Comparison& compare) const {
+    Json rows = Json::array();
+    for (const Named<PublishedLoads>& published : compare.ropes) {
+      const auto& ropes = lift_.model.ropes;
+      const auto rope = std::find_if(ropes.begin(), ropes.end(), [&](const LiftRope& r) {
+        return r.name == published.name.value;
+      });
+      if (rope == ropes.end()) continue;
+      const auto index = static_cast<std::size_t>(rope->rope);
+      Json row{{"name", published.name.value}};
+      if (const auto& load = published.value.static_load) {
+        row["published_static_N"] = *load;
+        row["static_difference_percent"] = percent_above(static_maxima_[index].tension, *load);
+      }
+      if (const auto& load = published.value.dynamic_load) {
+        row["published_dynamic_N"] = *load;
+        row["dynamic_difference_percent"] = percent_above(dynamic_maxima_[index].tension, *load);
+      }
+      rows.push_back(row);
+    }
+    return rows;
+  }
+
+  /// The computed tension in motion less the measured one, in per cent of the largest measured.
+  Json series(const Comparison& compare) const {
+    Json rows = Json::array();
+    for (const Named<MeasuredSeries>& named : compare.series) {
+      const dynamics::RopeHistory& rope = lift_.dynamic_history().rope(named.name.value);
+      const MeasuredSeries& measured = named.value;
+      const double largest = *std::max_element(measured.tension.begin(), measured.tension.end());
+      double sum = 0, most = 0, when = 0;
+      int points = 0;
+      for (std::size_t i = 0; i < measured.time.size(); ++i) {
+        const std::optional<double> computed =
+            value_at(lift_.dynamic_history().time, rope.tension, measured.time[i]);
+        if (!computed) continue;
+        const double difference = 100 * (*computed - measured.tension[i]) / largest;
+        ++points;
+        sum += std::abs(difference);
+        if (std::abs(difference) < std::abs(most)) continue;
+        most = difference;
+        when = measured.time[i];
+      }
+      rows.push_back({{"name", named.name.value},
+                      {"points", points},
+                      {"mean_difference_percent", json_number(points > 0 ? sum / points : NAN)},
+                      {"largest_difference_percent", json_number(points > 0 ? most : NAN)},
+                      {"time_of_largest_s", when}});
+    }
+    return rows;
+  }
+
+ private:
+  /// Linear between the samples; none outside of them.
+  static std::optional<double> value_at(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
+                                        double t) {
+    if (time.size() < 2 || t < time[0] || t > time[time.size() - 1]) return std::nullopt;
+    const auto* end = std::lower_bound(time.data() + 1, time.data() + time.size() - 1, t);
+    const Eigen::Index i = end - time.data();
+    const double s = (t - time[i - 1]) / (time[i] - time[i - 1]);
+    return (1 - s) * values[i - 1] + s * values[i];
+  }
+
+  Json rope_row(const std::string& name, int rope) const {
+    const LinkedMaximum& at_rest = static_maxima_[static_cast<std::size_t>(rope)];
+    const LinkedMaximum& in_motion = dynamic_maxima_[static_cast<std::size_t>(rope)];
+    return maxima_json(name, at_rest.tension, at_rest.time, in_motion.tension, in_motion.time,
+                       "tension_N");
+  }
+
+  Json linked(const std::vector<LinkedMaximum>& maxima, int rope) const {
+    Json values = Json::object();
+    for (const LiftRope& other : lift_.model.ropes)
+      values[other.name] = maxima[static_cast<std::size_t>(rope)].tensions(other.rope);
+    return values;
+  }
+
+  const LiftCase& case_;
+  const LiftRun& lift_;
+  std::vector<LinkedMaximum> static_maxima_;
+  std::vector<LinkedMaximum> dynamic_maxima_;
+};
+
+/// @param displacement the largest, which may belong to another instant than the largest stress
+Json state_json(const BlockState& state, double displacement) {
+  const structure::LoadCaseResult& result = state.result;
+  Json json{{"checked_von_mises_Pa", result.checked_von_mises.value},
+            {"peak_von_mises_Pa", result.peak_von_mises.value},
+            {"max_displacement_m", displacement},
+            {"force_residual", result.balance.force_residual},
+            {"moment_residual", result.balance.moment_residual},
+            {"reaction_over_weight", result.balance.reaction_over_weight}};
+  if (!state.rope.empty()) json["rope"] = state.rope;
+  if (state.time) json["time_s"] = *state.time;
+  json["checked_group"] = result.checked_von_mises.part;
+  json["checked_point_m"] = json_point(result.checked_von_mises.point_B);
+  json["peak_group"] = result.peak_von_mises.part;
+  json["peak_point_m"] = json_point(result.peak_von_mises.point_B);
+  json["max_displacement_point_m"] = json_point(result.displacement.point_B);
+  return json;
+}
+
+Json way_json(const LoadComparison& way) {
+  return {{"static", state_json(way.static_state, way.static_displacement)},
+          {"dynamic", state_json(way.dynamic_state, way.dynamic_displacement)},
+          {"stress_increase_percent", way.stress_increase_percent()},
+          {"deformation_increase_percent", way.deformation_increase_percent()}};
+}
+
+Json lug_way_json(const LoadComparison& way, std::size_t lug) {
+  const double at_rest = way.static_state.result.lugs[lug].checked_von_mises.value;
+  const double in_motion = way.dynamic_state.result.lugs[lug].checked_von_mises.value;
+  return {{"static_checked_von_mises_Pa", at_rest},
+          {"dynamic_checked_von_mises_Pa", in_motion},
+          {"stress_increase_percent", json_number(percent_above(in_motion, at_rest))}};
+}
+
+Json lugs_json(const Assessment& assessment) {
+  const BlockAssessment& block = assessment.block.assessment;
+  Json rows = Json::array();
+  const auto& lugs = assessment.block.model->mesh().lugs;
+  for (std::size_t i = 0; i < lugs.size(); ++i) {
+    Json row{{"name", lugs[i].name}};
+    // The instant of the lug's own rope tells most about its neighbourhood.
+    const LoadComparison* own = &block.simultaneous;
+    for (const RopeInCase& rope : assessment.lift_case.ropes) {
+      if (rope.lug() != lugs[i].name) continue;
+      row["rope"] = rope.name.value;
+      for (const LoadComparison& by_rope : block.simultaneous_by_rope) {
+        if (by_rope.static_state.rope == rope.name.value) own = &by_rope;
+      }
+    }
+    row["simultaneous"] = lug_way_json(*own, i);
+    row["per_rope_maxima"] = lug_way_json(block.per_rope_maxima, i);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json error_json(const structure::BlockMesh& mesh, const structure::BlockError& error) {
+  Json json{{"relative", error.relative},
+            {"worst_part", error.worst_part},
+            {"worst_point_m", json_point(error.worst_point)},
+            {"groups", Json::object()}};
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+    json["groups"][mesh.groups[g].name] = error.of_groups[g];
+  return json;
+}
+
+Json structure_json(const Assessment& assessment) {
+  const BlockAssessment& block = assessment.block.assessment;
+  const structure::ElasticModel& model = *assessment.block.model;
+  const structure::MassProperties& mass = model.mass_properties();
+  Json by_rope = Json::array();
+  for (const LoadComparison& comparison : block.simultaneous_by_rope) {
+    Json row{{"rope", comparison.static_state.rope}};
+    row.update(way_json(comparison));
+    by_rope.push_back(row);
+  }
+  const structure::Material& material = model.mesh().materials.front();
+  Json json{{"unknowns", model.unknowns()},
+            {"elements", model.mesh().cells.size()},
+            {"element_degree", assessment.lift_case.structure.element_degree},
+            {"mesh_size_m", assessment.lift_case.structure.largest_element},
+            {"material", material.name},
+            {"yield_Pa", material.yield_stress},
+            {"first_elastic_period_s", block.first_elastic_period},
+            {"per_rope_maxima", way_json(block.per_rope_maxima)},
+            {"simultaneous", way_json(block.simultaneous)},
+            {"simultaneous_by_rope", by_rope},
+            {"lugs", lugs_json(assessment)},
+            {"mass",
+             {{"total_kg", mass.mass},
+              {"steel_kg", mass.steel_mass},
+              {"outfitting_kg", mass.outfitting_mass},
+              {"centre_of_mass_m", json_point(mass.centre_of_mass_B)},
+              {"steel_centre_of_mass_m", json_point(mass.steel_centre_B)},
+              {"smallest_density_factor", mass.smallest_density_factor},
+              {"largest_density_factor", mass.largest_density_factor}}}};
+  json["estimated_error"] = error_json(model.mesh(), assessment.block.error);
+  json["buckling"] = buckling_json(assessment.block.buckling);
+  if (const auto& pressure = assessment.block.pressure) {
+    json["pressure"] = {{"regions", pressure->regions},
+                        {"fields", pressure->count()},
+                        {"error", pressure->error},
+                        {"largest_force_N", pressure->largest_force}};
+  }
+  if (!assessment.block.padeyes.padeyes.empty())
+    json["padeyes"] = padeyes_json(assessment.block.padeyes);
+  if (assessment.block.history) json["history"] = history_json(*assessment.block.history);
+  return json;
+}
+
+// How the block gave way where the ropes pull.
+Json flexibility_json(const DynamicsSettings& settings, const LiftRun& lift) {
+  switch (settings.flexibility) {
+    case Flexibility::rigid:
+      return {{"kind", "rigid"}};
+    case Flexibility::static_:
+    case Flexibility::modal:
+      break;
+  }
+  Json json{{"kind", settings.flexibility == Flexibility::modal ? "modal" : "static"}};
+  if (settings.flexibility == Flexibility::modal) {
+    json["modes"] = settings.mode_count();
+    json["modal_damping"] = settings.mode_damping();
+  }
+  if (const auto& largest = lift.elastic_displacement)
+    json["largest_lug_displacement"] = {
+        {"size_m", largest->size}, {"lug", largest->lug}, {"time_s", largest->time}};
+  return json;
+}
+
+Json energy_json(const LiftRun& lift) {
+  const dynamics::EnergyHistory& energy = lift.dynamic_history().energy;
+  const Eigen::VectorXd stored = energy.kinetic + energy.gravity + energy.elastic;
+  // What the winches and drives have turned over is the measure for what may get lost.
+  const double largest = (stored.array() - stored(0)).abs().maxCoeff<Eigen::PropagateNaN>();
+  const double imbalance = energy_imbalance(energy).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  return {{"largest_energy_J", largest},
+          {"largest_imbalance_J", imbalance},
+          {"relative_imbalance", json_number(imbalance / largest)}};
+}
+
+}  // namespace
+
+Json solver_json(const dynamics::IntegrationStatistics& s, double simulated_s, double elapsed_s) {
+  return {{"steps", s.steps},
+          {"right_hand_sides", s.right_hand_sides},
+          {"right_hand_sides_for_differences", s.difference_right_hand_sides},
+          {"jacobians", s.jacobians},
+          {"factorisations", s.factorisations},
+          {"newton_iterations", s.newton_iterations},
+          {"error_test_failures", s.error_test_failures},
+          {"nonlinear_failures", s.nonlinear_failures},
+          {"restarts", s.restarts},
+          {"ropes_slack_or_taut_again", s.contact_changes},
+          {"times_faster_than_real_time", json_number(simulated_s / elapsed_s)}};
+}
+
+namespace {
+
+void add_structure_timing(const BlockRun& block, Json& timing) {
+  const structure::SolutionTiming& solution = block.responses->timing();
+  timing["mesh_s"] = block.mesh_s;
+  timing["assembly_s"] = solution.assembly_s;
+  timing["analysis_s"] = solution.analysis_s;
+  timing["factorisation_s"] = solution.factorisation_s;
+  timing["solve_s"] = solution.solve_s;
+  timing["evaluation_s"] = block.assessment.evaluation_s;
+  timing["buckling_s"] = block.buckling.evaluation_s;
+  if (!block.padeyes.padeyes.empty()) timing["padeyes_s"] = block.padeyes.evaluation_s;
+  if (block.history) timing["history_s"] = block.history->evaluation_s;
+}
+
+Json dynamics_timing(const LiftRun& lift) {
+  return {{"static_s", lift.static_s},
+          {"dynamic_s", lift.dynamic_s},
+          {"simulated_s", lift.simulated_s()}};
+}
+
+Json timing_json(const Assessment& assessment) {
+  Json timing = assessment.lift ? dynamics_timing(*assessment.lift) : Json::object();
+  if (assessment.block.model) add_structure_timing(assessment.block, timing);
+  timing["total_s"] = assessment.total_s;
+  return timing;
+}
+
+Json comparison_json(const LiftCase& lift_case, const LiftRun* lift) {
+  const Comparison& compare = *lift_case.compare;
+  Json json{{"source", compare.source}};
+  if (lift) {
+    const LoadTables tables(lift_case, *lift);
+    json["ropes"] = tables.comparison(compare);
+    if (!compare.series.empty()) json["series"] = tables.series(compare);
+  }
+  if (compare.stress_increase) json["stress_increase_percent"] = 100 * *compare.stress_increase;
+  if (compare.deformation_increase)
+    json["deformation_increase_percent"] = 100 * *compare.deformation_increase;
+  return json;
+}
+
+void add_loads(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
+  const LoadTables tables(lift_case, lift);
+  summary["ropes"] = tables.ropes();
+  summary["hoists"] = tables.hoists();
+  summary["cranes"] = tables.cranes();
+  if (Json loops = loops_json(lift); !loops.empty()) summary["loops"] = std::move(loops);
+}
+
+void add_motion(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
+  summary["natural_periods"] =
+      natural_periods_json(lift.model.system.mechanism(), lift.natural_modes);
+  summary["flexibility"] = flexibility_json(lift_case.dynamics, lift);
+  const RadiationRecord radiation = record_radiation(lift.model, lift.dynamic_history());
+  add_radiation(radiation, summary);
+  summary["energy"] = energy_json(lift);
+  summary["solver"] =
+      solver_json(lift.dynamic_result.statistics, lift.simulated_s(), lift.dynamic_s);
+}
+
+}  // namespace
+
+Json make_summary(const Assessment& assessment) {
+  Json summary{{"case", assessment.lift_case.name},
+               {"title", assessment.lift_case.title},
+               {"program_version", program_version},
+               {"created", creation_time()},
+               {"verdict", assessment.pass() ? "pass" : "fail"},
+               {"verdict_reasons", verdict_reasons(assessment.checks)},
+               {"checks", Json::array()}};
+  for (const Check& check : assessment.checks) summary["checks"].push_back(check_json(check));
+  const LiftRun* lift = assessment.lift ? &*assessment.lift : nullptr;
+  if (lift) add_loads(assessment.lift_case, *lift, summary);
+  if (assessment.lift_case.compare)
+    summary["comparison"] = comparison_json(assessment.lift_case, lift);
+  if (assessment.block.model) summary["structure"] = structure_json(assessment);
+  if (lift) add_motion(assessment.lift_case, *lift, summary);
+  summary["timing"] = timing_json(assessment);
+  summary["assumptions"] = list_assumptions(assessment);
+  return summary;
+}
+
+Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift) {
+  Json summary{{"case", lift_case.name},
+               {"title", lift_case.title},
+               {"program_version", program_version},
+               {"created", creation_time()}};
+  add_loads(lift_case, lift, summary);
+  if (lift_case.compare) summary["comparison"] = comparison_json(lift_case, &lift);
+  add_motion(lift_case, lift, summary);
+  summary["timing"] = dynamics_timing(lift);
+  return summary;
+}
+
+}  // namespace blocklift::pipeline

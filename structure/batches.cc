@@ -1,0 +1,41 @@
+#include "structure/batches.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace blocklift::structure {
+
+void in_batches(int count, int batch_size, int threads,
+                const std::function<void(int first, int count)>& work) {
+  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::atomic<int> next{0};
+  std::exception_ptr failure;
+  int failed = count;  // first number of the lowest batch that has failed
+  std::mutex failing;
+  const auto run = [&] {
+    int first = 0;
+    try {
+      for (first = next.fetch_add(batch_size); first < count; first = next.fetch_add(batch_size))
+        work(first, std::min(batch_size, count - first));
+    } catch (...) {
+      // Batches below this one have all been dealt out before it: the lowest that fails is always known.
+      const std::lock_guard lock(failing);
+      if (first < failed) {
+        failed = first;
+        failure = std::current_exception();
+      }
+      next = count;
+    }
+  };
+  std::vector<std::thread> others;
+  for (int t = 1; t < threads; ++t) others.emplace_back(run);
+  run();
+  for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace blocklift::structure

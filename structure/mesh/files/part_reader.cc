@@ -1,0 +1,188 @@
+#include "structure/mesh/files/part_reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "structure/error.h"
+#include "structure/index.h"
+#include "structure/mesh/files/abaqus_model.h"
+#include "structure/mesh/files/gmsh_session.h"
+#include "structure/mesh/files/msh_check.h"
+#include "structure/mesh/files/nastran_file.h"
+#include "structure/mesh/files/part_collector.h"
+#include "structure/mesh/files/plate_collector.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+int largest_order() {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, 3);
+  int largest = 0;
+  for (const int type : types) {
+    std::string name;
+    int dimension = 0, order = 0, nodes = 0, corners = 0;
+    std::vector<double> local;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, nodes, local, corners);
+    largest = std::max(largest, order);
+  }
+  return largest;
+}
+
+// Quadratic tetrahedra, the lightest elements, have some 4 unknowns each, coupled with half of 80 others.
+void require_memory(double elements, double memory, const std::string& cause) {
+  const double bytes = 2e3 * elements;
+  if (memory <= 0 || bytes <= memory) return;
+  throw ModelError(
+      fmt::format("{} makes about {:.2g} elements, whose stiffness needs more than {:.3g} GB; "
+                  "{:.3g} GB are free",
+                  cause, elements, bytes / 1e9, memory / 1e9));
+}
+
+// Tetrahedra of an edge h fill h^3 / (6 sqrt 2) each. Volumes are known of OpenCASCADE's solids.
+void require_memory_for_size(const PartReading& reading) {
+  gmsh::vectorpair solids;
+  gmsh::model::occ::getEntities(solids, 3);
+  double volume = 0;
+  for (const auto& [dimension, solid] : solids) {
+    double own = 0;
+    gmsh::model::occ::getMass(dimension, solid, own);
+    volume += own;
+  }
+  const double size = reading.element_size / reading.length_unit;
+  require_memory(6 * std::sqrt(2.0) * volume / std::pow(size, 3), reading.memory,
+                 fmt::format("an element size of {:.3g} m", reading.element_size));
+}
+
+std::size_t solid_count() {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, 3);
+  std::size_t count = 0;
+  for (const auto& of_type : tags) count += of_type.size();
+  return count;
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+// Abaqus' and Nastran's solids by readers of our own, all else by Gmsh.
+void open_file(const std::string& path, std::map<std::string, std::vector<std::size_t>>& points) {
+  const std::string extension = extension_of(path);
+  if (extension == ".inp") {
+    points = add_to_gmsh(read_abaqus(path));
+    return;
+  }
+  if (extension == ".bdf" || extension == ".nas" || extension == ".dat") {
+    const AbaqusMesh solids = read_nastran(path);
+    if (!solids.elements.empty()) {
+      points = add_to_gmsh(solids);
+      return;
+    }
+  }
+  require_known_nodes(path);
+  gmsh::open(path);
+}
+
+// Gmsh's own sizes hold besides where they are smaller.
+void take_sizes(const PartReading& reading) {
+  const SizeField& field = *reading.sizes;
+  const double share = std::pow(2.0, reading.refinements);  // elements are halved later
+  std::vector<double> data;
+  for (Eigen::Index t = 0; t + 3 < field.sizes.size(); t += 4) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = 0; i < 4; ++i) data.push_back(field.places(axis, t + i) / reading.length_unit);
+    for (int i = 0; i < 4; ++i) data.push_back(share * field.sizes[t + i] / reading.length_unit);
+  }
+  const int view = gmsh::view::add("sizes");
+  gmsh::view::addListData(view, "SS", static_cast<int>(field.sizes.size() / 4), data);
+  const int background = gmsh::model::mesh::field::add("PostView");
+  gmsh::model::mesh::field::setNumber(background, "ViewTag", view);
+  gmsh::model::mesh::field::setAsBackgroundMesh(background);
+  gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+}
+
+/// What opening and meshing leaves besides Gmsh's model.
+struct Opened {
+  std::map<std::string, std::vector<std::size_t>> points;  ///< sets of nodes, groups of points
+  bool is_geometry = false;
+};
+
+Opened open_and_mesh(const std::string& path, const PartReading& reading) {
+  Opened opened;
+  gmsh::option::setNumber("Mesh.SaveAll", 1);
+  gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
+  // Geometries come with the unit of the file, never converted.
+  gmsh::option::setString("Geometry.OCCTargetUnit", "");
+  open_file(path, opened.points);
+  if (reading.element_size > 0)
+    gmsh::option::setNumber("Mesh.MeshSizeMax", reading.element_size / reading.length_unit);
+  if (!reading.plates.empty()) {
+    std::map<std::string, double> thickness;
+    for (const auto& [name, value] : reading.plates) thickness[name] = value / reading.length_unit;
+    const AbaqusMesh solid = thicken(collect_plates(thickness));
+    gmsh::model::add("thickened");
+    opened.points = add_to_gmsh(solid);
+  }
+  int order = largest_order();
+  if (order == 0) {
+    opened.is_geometry = reading.plates.empty();
+    if (reading.element_size > 0) require_memory_for_size(reading);
+    if (reading.sizes) take_sizes(reading);
+    gmsh::model::mesh::generate(3);
+    order = largest_order();
+  }
+  if (reading.refinements > 0)
+    require_memory(static_cast<double>(solid_count()) * std::pow(8, reading.refinements),
+                   reading.memory, fmt::format("halving the mesh {} times", reading.refinements));
+  for (int i = 0; i < reading.refinements; ++i) gmsh::model::mesh::refine();
+  if (reading.refinements > 0) order = largest_order();
+  if (order > 0 && order < reading.element_order)
+    gmsh::model::mesh::setOrder(reading.element_order);
+  return opened;
+}
+
+}  // namespace
+
+PartMesh read_part_mesh(const std::string& path, const PartReading& reading) {
+  if (!std::filesystem::is_regular_file(path))
+    throw ModelError("there is no file \"" + path + "\"");
+  const GmshSession session;
+  try {
+    const Opened opened = open_and_mesh(path, reading);
+    PartMesh mesh =
+        PartCollector(reading.length_unit).collect(opened.points, reading.faces, reading.points);
+    mesh.meshed_here = opened.is_geometry;
+    return mesh;
+  } catch (const ModelError& error) {
+    throw ModelError("mesh \"" + path + "\": " + error.what());
+  } catch (const std::string& error) {
+    throw ModelError("Gmsh cannot read \"" + path + "\": " + error);
+  } catch (const std::exception& error) {
+    throw ModelError("Gmsh cannot read \"" + path + "\": " + error.what());
+  }
+}
+
+PartMesh make_part_mesh(const AbaqusMesh& mesh) {
+  const GmshSession session;
+  try {
+    const auto points = add_to_gmsh(mesh);
+    return PartCollector(1).collect(points, {}, {});
+  } catch (const std::string& error) {
+    throw ModelError("Gmsh cannot take the mesh: " + error);
+  }
+}
+
+}  // namespace blocklift::structure

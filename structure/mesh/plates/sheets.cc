@@ -1,0 +1,186 @@
+#include "structure/mesh/plates/sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "structure/error.h"
+
+namespace blocklift::structure {
+
+std::string name_of(Axis axis) { return std::string(1, "xyz"[static_cast<int>(axis)]); }
+
+bool overlap(const Interval& a, const Interval& b, double tolerance) {
+  return std::min(a.upper, b.upper) - std::max(a.lower, b.lower) > tolerance;
+}
+
+bool overlap_in_plane(const Sheet& a, const Sheet& b) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != a.normal && !overlap(a.extent[static_cast<std::size_t>(axis)],
+                                     b.extent[static_cast<std::size_t>(axis)]))
+      return false;
+  return true;
+}
+
+namespace {
+
+template <typename Items>
+std::string names_of(const Items& items) {
+  std::string list;
+  for (const auto& item : items) list += (list.empty() ? "" : ", ") + item.name;
+  return list.empty() ? "none" : list;
+}
+
+void check_names(const BlockDescription& block) {
+  std::set<std::string> seen;
+  const auto check = [&](const std::string& kind, const auto& items) {
+    for (const auto& item : items) {
+      if (item.name.empty()) throw ModelError("a " + kind + " has no name");
+      if (!seen.insert(item.name).second)
+        throw ModelError(kind + " \"" + item.name +
+                         "\" bears a name that another part has; give each its own");
+    }
+  };
+  check("plate", block.plates);
+  check("pad", block.pads);
+  check("lug", block.lugs);
+}
+
+void check_material_exists(const BlockDescription& block, const std::string& what,
+                           const std::string& material) {
+  for (const auto& known : block.materials)
+    if (known.name == material) return;
+  throw ModelError(what + " is made of \"" + material +
+                   "\", which is not among the materials: " + names_of(block.materials));
+}
+
+void check_rectangle(const std::string& what, Axis normal, const std::array<Interval, 3>& extent) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == static_cast<int>(normal)) continue;
+    const Interval& range = extent[static_cast<std::size_t>(axis)];
+    if (!(std::isfinite(range.lower) && std::isfinite(range.upper) &&
+          range.upper - range.lower > 1e-3))
+      throw ModelError(
+          fmt::format("{} extends from {:g} m to {:g} m along {}; the end must lie at least 1 mm "
+                      "beyond the start",
+                      what, range.lower, range.upper, "xyz"[axis]));
+  }
+}
+
+void check_thickness(const std::string& what, double thickness) {
+  if (!(std::isfinite(thickness) && thickness > 0))
+    throw ModelError(
+        fmt::format("{} has a thickness of {:g} m; it must be positive", what, thickness));
+}
+
+Sheet make_sheet(const std::string& name, int group, SheetRank rank, Axis normal, double position,
+                 const std::array<Interval, 3>& extent, double thickness) {
+  if (!std::isfinite(position)) throw ModelError(name + " has a position that is not a number");
+  return {fmt::format("{} at {} = {:g} m", name, name_of(normal), position),
+          group,
+          rank,
+          static_cast<int>(normal),
+          position,
+          extent,
+          thickness};
+}
+
+bool coplanar(const Sheet& a, const Sheet& b) {
+  return a.normal == b.normal && std::abs(a.position - b.position) < 1e-6;
+}
+
+void add_plates(const BlockDescription& block, std::vector<Sheet>& sheets) {
+  for (std::size_t i = 0; i < block.plates.size(); ++i) {
+    const Plate& plate = block.plates[i];
+    const std::string what = "plate \"" + plate.name + "\"";
+    check_material_exists(block, what, plate.material);
+    check_rectangle(what, plate.normal, plate.extent);
+    check_thickness(what, plate.thickness);
+    if (plate.positions.empty()) throw ModelError(what + " has no position along its normal");
+    for (const double position : plate.positions)
+      sheets.push_back(make_sheet(plate.name, static_cast<int>(i), SheetRank::plate, plate.normal,
+                                  position, plate.extent, plate.thickness));
+  }
+  for (std::size_t i = 0; i < sheets.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (coplanar(sheets[i], sheets[j]) && overlap_in_plane(sheets[i], sheets[j]) &&
+          std::abs(sheets[i].thickness - sheets[j].thickness) > 1e-9)
+        throw ModelError(fmt::format(
+            "plates {} ({:g} mm) and {} ({:g} mm) overlap in one plane with different thickness; "
+            "shorten one of them, or make the thicker part a pad",
+            sheets[j].name, sheets[j].thickness * 1e3, sheets[i].name, sheets[i].thickness * 1e3));
+}
+
+// A pad thickens what lies in its plane: plates with the name given, or any.
+void check_pad(const BlockDescription& block, const Pad& pad, const Sheet& sheet,
+               const std::vector<Sheet>& plates) {
+  if (!pad.plate.empty() &&
+      std::none_of(block.plates.begin(), block.plates.end(),
+                   [&](const Plate& plate) { return plate.name == pad.plate; }))
+    throw ModelError("pad \"" + pad.name + "\" thickens plate \"" + pad.plate +
+                     "\", which the block does not have; its plates are " + names_of(block.plates));
+  bool found = false;
+  for (const Sheet& plate : plates) {
+    // The rank first: only a plate's group is a place in block.plates.
+    if (plate.rank != SheetRank::plate || !coplanar(plate, sheet) ||
+        !overlap_in_plane(plate, sheet))
+      continue;
+    if (!pad.plate.empty() && block.plates[static_cast<std::size_t>(plate.group)].name != pad.plate)
+      continue;
+    found = true;
+    if (pad.thickness < plate.thickness - 1e-9)
+      throw ModelError(
+          fmt::format("pad \"{}\" is {:g} mm thick in total, thinner than {} ({:g} mm)", pad.name,
+                      pad.thickness * 1e3, plate.name, plate.thickness * 1e3));
+  }
+  if (!found)
+    throw ModelError(fmt::format("pad \"{}\" at {} = {:g} m lies on no plate{}", pad.name,
+                                 name_of(pad.normal), pad.position,
+                                 pad.plate.empty() ? "" : " named \"" + pad.plate + "\""));
+}
+
+void add_pads_and_lugs(const BlockDescription& block, std::vector<Sheet>& sheets) {
+  int group = static_cast<int>(block.plates.size());
+  for (const Pad& pad : block.pads) {
+    const std::string what = "pad \"" + pad.name + "\"";
+    if (!pad.material.empty()) check_material_exists(block, what, pad.material);
+    check_rectangle(what, pad.normal, pad.extent);
+    check_thickness(what, pad.thickness);
+    const Sheet sheet = make_sheet(pad.name, group++, SheetRank::pad, pad.normal, pad.position,
+                                   pad.extent, pad.thickness);
+    check_pad(block, pad, sheet, sheets);
+    sheets.push_back(sheet);
+  }
+  for (const Lug& lug : block.lugs) {
+    const std::string what = "lug \"" + lug.name + "\"";
+    if (!lug.material.empty()) check_material_exists(block, what, lug.material);
+    if (std::none_of(block.pads.begin(), block.pads.end(),
+                     [&](const Pad& pad) { return pad.name == lug.pad; }))
+      throw ModelError(what + " stands on pad \"" + lug.pad +
+                       "\", which the block does not have; its pads are " + names_of(block.pads));
+    check_rectangle(what, lug.normal, lug.extent);
+    check_thickness(what, lug.thickness);
+    if (!lug.p_BPin.allFinite()) throw ModelError(what + " has a pin centre that is not a number");
+    sheets.push_back(make_sheet(lug.name, group++, SheetRank::lug, lug.normal, lug.position,
+                                lug.extent, lug.thickness));
+  }
+}
+
+}  // namespace
+
+std::vector<Sheet> spread_into_sheets(const BlockDescription& block) {
+  if (block.plates.empty()) throw ModelError("block \"" + block.name + "\" has no plates");
+  check_names(block);
+  for (const Material& material : block.materials) check_material(material);
+  std::vector<Sheet> sheets;
+  add_plates(block, sheets);
+  add_pads_and_lugs(block, sheets);
+  return sheets;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "structure/mesh/plates/block_description.h"
+
+namespace blocklift::structure {
+
+/// What a sheet is; the higher rank owns the cells that several sheets share.
+enum class SheetRank { plate = 0, pad = 1, lug = 2 };
+
+/// One rectangle of plate, pad or lug at one position: the generator's unit of work.
+struct Sheet {
+  std::string name;  ///< for messages: "web_frames at x = 4 m"
+  int group = 0;     ///< plates in order, then pads, then lugs
+  SheetRank rank = SheetRank::plate;
+  int normal = 0;
+  double position = 0;
+  std::array<Interval, 3> extent;
+  double thickness = 0;
+};
+
+/// Spreads a description into sheets, in the order plates, pads, lugs.
+/// @throws ModelError naming what is wrong: names used twice, unknown materials, plates or pads,
+///   empty extents, thickness not positive, overlapping plates of different thickness in one plane,
+///   a pad that lies on no plate or is thinner than it.
+std::vector<Sheet> spread_into_sheets(const BlockDescription& description);
+
+/// True if two intervals have more than `tolerance` in common.
+bool overlap(const Interval& a, const Interval& b, double tolerance = 1e-6);
+
+/// True if two coplanar sheets overlap in their plane.
+bool overlap_in_plane(const Sheet& a, const Sheet& b);
+
+}  // namespace blocklift::structure

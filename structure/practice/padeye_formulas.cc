@@ -1,0 +1,154 @@
+#include "structure/practice/padeye_formulas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace blocklift::structure {
+
+namespace {
+
+const char* const working_stress = "working-stress design: 0.9, 0.4, 0.6, 0.66, 0.75 of yield";
+const char* const dnv = "DNV 2.7-3 (2011), section 3.4";
+const char* const asme = "ASME BTH-1 (2014), section 3-3.3";
+const char* const practice = "GL Noble Denton 0027/ND rev. 11.2 (2016)";
+
+PadeyeFormula at_most(const char* name, double demand, double limit, const char* unit,
+                      const char* source) {
+  return {name, demand, limit, unit, demand / limit, source};
+}
+
+PadeyeFormula at_least(const char* name, double demand, double limit, const char* source) {
+  return {name,
+          demand,
+          limit,
+          "m",
+          demand > 0 ? limit / demand : std::numeric_limits<double>::infinity(),
+          source};
+}
+
+/// Plates of one radius: how thick they are together, and how thick one is.
+struct Plates {
+  double radius = 0, thickness = 0, single = 0;
+};
+
+std::vector<Plates> plates_of(const PadeyeGeometry& g) {
+  std::vector<Plates> plates{{g.radius, g.thickness, g.thickness}};
+  if (g.has_cheeks()) plates.push_back({g.cheek_radius, 2 * g.cheek_thickness, g.cheek_thickness});
+  return plates;
+}
+
+/// sum t (2 R - D_H) over the plates: the section across the hole, m^2.
+double net_section(const PadeyeGeometry& g) {
+  double area = 0;
+  for (const Plates& plates : plates_of(g))
+    area += plates.thickness * (2 * plates.radius - g.hole_diameter);
+  return area;
+}
+
+double hertz_stress(const PadeyeFormulaInput& input, double force) {
+  const PadeyeGeometry& g = input.geometry;
+  const double e = input.material.youngs_modulus, t = g.bearing_thickness();
+  if (g.pin_diameter >= 0.94 * g.hole_diameter)
+    return 0.045 * std::sqrt(force * e / (g.hole_diameter * t));
+  return 0.18 * std::sqrt(force * (1 / g.pin_diameter - 1 / g.hole_diameter) * e / t);
+}
+
+void add_base(const PadeyeFormulaInput& input, const Vector3& force,
+              std::vector<PadeyeFormula>& formulas) {
+  const PadeyeGeometry& g = input.geometry;
+  const double yield = input.material.yield_stress;
+  const double width = g.base_left + g.base_right, area = width * g.thickness;
+  const double aside = (g.base_right - g.base_left) / 2;  // of the base's middle from the hole's
+  const double in_plane = std::abs(force.x() * g.height + force.y() * aside);
+  const double out_of_plane = std::abs(force.z()) * g.height;
+  const double sum = std::abs(force.y()) / area / (0.6 * yield) +
+                     6 * in_plane / (area * width) / (0.66 * yield) +
+                     6 * out_of_plane / (area * g.thickness) / (0.75 * yield);
+  formulas.push_back(at_most("base: tension and bending both ways", sum, 1, "1", working_stress));
+  formulas.push_back(at_most("base: shear", std::hypot(force.x(), force.z()) / area, 0.4 * yield,
+                             "Pa", working_stress));
+}
+
+void add_asme(const PadeyeFormulaInput& input, double force, std::vector<PadeyeFormula>& formulas) {
+  const AsmePinPlate allowed = asme_pin_plate(input);
+  formulas.push_back(at_most("pin plate: tension", force, allowed.tension, "N", asme));
+  formulas.push_back(at_most("pin plate: splitting", force, allowed.splitting, "N", asme));
+  formulas.push_back(at_most("pin plate: double plane shear", force, allowed.shear, "N", asme));
+  formulas.push_back(at_most("pin plate: bearing", force, allowed.bearing, "N", asme));
+}
+
+}  // namespace
+
+std::vector<PadeyeFormula> padeye_strength(const PadeyeFormulaInput& input,
+                                           const Vector3& force_P) {
+  const PadeyeGeometry& g = input.geometry;
+  const double yield = input.material.yield_stress, force = force_P.norm();
+  const double net = net_section(g);
+  std::vector<PadeyeFormula> formulas{
+      at_most("bearing of the pin", force / (g.pin_diameter * g.bearing_thickness()), 0.9 * yield,
+              "Pa", working_stress),
+      at_most("tear-out: shear in two planes", force / net, 0.4 * yield, "Pa", working_stress),
+      at_most("net section: tension", force / net, 0.6 * yield, "Pa", working_stress)};
+  Vector3 at_base = force_P;
+  at_base.z() = std::max(std::abs(force_P.z()), input.side_load * force);
+  add_base(input, at_base, formulas);
+  if (g.has_cheeks()) {
+    const double throat = input.cheek_weld / std::numbers::sqrt2;
+    const double share = g.cheek_thickness / g.bearing_thickness();
+    formulas.push_back(at_most("cheek welds: shear on half a circle",
+                               force * share / (throat * std::numbers::pi * g.cheek_radius),
+                               0.4 * yield, "Pa", working_stress));
+  }
+  formulas.push_back(at_most("bearing (Hertz)", hertz_stress(input, force), yield, "Pa", dnv));
+  formulas.push_back(at_most("tear-out", 2 * force / net, yield, "Pa", dnv));
+  if (input.tensile_strength) add_asme(input, force, formulas);
+  return formulas;
+}
+
+std::vector<PadeyeFormula> padeye_rules(const PadeyeFormulaInput& input) {
+  const PadeyeGeometry& g = input.geometry;
+  const double clearance = g.hole_diameter - g.pin_diameter;
+  constexpr double most = 0.006, least = 0.002;  // m
+  std::vector<PadeyeFormula> rules{
+      at_least("main plate's radius against the hole's diameter", g.radius, g.hole_diameter,
+               practice),
+      at_most("hole larger than the pin, at most 6 mm", clearance, most, "m", practice),
+      at_least("hole larger than the pin, 2 mm or 3 % at least", clearance,
+               std::min(most, std::max(least, 0.03 * g.pin_diameter)), practice)};
+  if (g.has_cheeks())
+    rules.push_back(at_most("cheek plate against the main plate's thickness", g.cheek_thickness,
+                            g.thickness, "m", practice));
+  if (input.jaw) {
+    rules.push_back(at_least("thickness at the pin against 75 % of the jaw", g.bearing_thickness(),
+                             0.75 * *input.jaw, practice));
+    rules.push_back(at_most("thickness at the pin against the jaw", g.bearing_thickness(),
+                            *input.jaw, "m", practice));
+  }
+  return rules;
+}
+
+AsmePinPlate asme_pin_plate(const PadeyeFormulaInput& input) {
+  const PadeyeGeometry& g = input.geometry;
+  const double hole = g.hole_diameter, pin = g.pin_diameter;
+  const double yield = input.material.yield_stress, tensile = *input.tensile_strength;
+  const double by_tensile = tensile / (1.2 * input.design_factor);
+  AsmePinPlate allowed;
+  allowed.clearance_factor = 1 - 0.275 * std::sqrt(1 - pin * pin / (hole * hole));
+  const double phi = 55 * pin / hole * std::numbers::pi / 180;
+  for (const Plates& plates : plates_of(g)) {
+    const double edge = plates.radius - hole / 2;  // a and b_e
+    const double effective =
+        std::min({edge, 4 * plates.single, 0.6 * edge * tensile / yield * std::sqrt(hole / edge)});
+    const double t = plates.thickness;
+    allowed.tension += allowed.clearance_factor * by_tensile * 2 * t * effective;
+    allowed.splitting +=
+        allowed.clearance_factor * by_tensile * (1.13 * edge + 0.92 * edge / (1 + edge / hole)) * t;
+    allowed.shear += 0.7 * by_tensile * 2 * (edge + pin / 2 * (1 - std::cos(phi))) * t;
+    allowed.bearing += 1.25 * yield / input.design_factor * pin * t;
+  }
+  return allowed;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,132 @@
+#include "structure/system/linear_solver.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/CholmodSupport>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+
+namespace blocklift::structure {
+
+struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLower, Eigen::Lower> {
+  explicit Factor(EliminationOrder order) {
+    cholmod().nmethods = 1;
+    const bool given = order == EliminationOrder::given;
+    cholmod().method[0].ordering = given ? CHOLMOD_NATURAL : CHOLMOD_METIS;
+    cholmod().postorder = given ? 0 : 1;  // given unknowns come in postorder already
+    cholmod().print = 0;
+  }
+  double bytes() const {
+    return 8.0 * static_cast<double>(m_cholmodFactor->xsize) +
+           8.0 * static_cast<double>(m_cholmodFactor->ssize);
+  }
+};
+
+double available_memory() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("MemAvailable:", 0) == 0) return 1024 * std::stod(line.substr(13));
+  return std::numeric_limits<double>::infinity();
+}
+
+ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed,
+                                     EliminationOrder order)
+    : fixed_(std::move(fixed)), factor_(new Factor(order)) {
+  stiffness_.swap(stiffness);  // Eigen's sparse matrices do not move, they copy
+  separate_fixed();
+  factor_->analyzePattern(stiffness_);
+  if (factor_->info() != Eigen::Success)
+    throw ModelError("the stiffness matrix could not be analysed for its factorisation");
+  const double needed = 1.3 * factor_bytes(), available = available_memory();
+  if (needed > available)
+    throw NotEnoughMemory(fmt::format(
+        "factorising {} unknowns needs about {:.1f} GB and {:.1f} GB are free; use larger elements "
+        "or a lower element degree",
+        stiffness_.rows(), needed / 1e9, available / 1e9));
+}
+
+ConstrainedSystem::~ConstrainedSystem() = default;
+
+double ConstrainedSystem::factor_bytes() const { return factor_->bytes(); }
+
+// Keeps the rows of fixed unknowns aside, empties them in the matrix and leaves their diagonal.
+void ConstrainedSystem::separate_fixed() {
+  std::vector<int> place(static_cast<std::size_t>(stiffness_.rows()), -1);
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    place[static_cast<std::size_t>(fixed_[i].unknown)] = static_cast<int>(i);
+  std::vector<long> ascending;
+  for (const FixedUnknown& fixed : fixed_) ascending.push_back(fixed.unknown);
+  std::sort(ascending.begin(), ascending.end());
+  std::vector<Eigen::Triplet<double, long>> rows;
+  const auto take = [&](long column, long entry) {
+    const long row = stiffness_.innerIndexPtr()[entry];
+    double& value = stiffness_.valuePtr()[entry];
+    const int of_row = place[static_cast<std::size_t>(row)];
+    const int of_column = place[static_cast<std::size_t>(column)];
+    if (of_row >= 0) rows.emplace_back(of_row, column, value);
+    if (row == column) return;
+    if (of_column >= 0) rows.emplace_back(of_column, row, value);
+    value = 0;
+  };
+  for (long column = 0; column < stiffness_.cols(); ++column) {
+    const long *start = stiffness_.innerIndexPtr() + stiffness_.outerIndexPtr()[column],
+               *end = stiffness_.innerIndexPtr() + stiffness_.outerIndexPtr()[column + 1];
+    if (start == end) continue;
+    if (place[static_cast<std::size_t>(column)] >= 0) {
+      for (const long* row = start; row != end; ++row)
+        take(column, row - stiffness_.innerIndexPtr());
+      continue;
+    }
+    // Rows ascend: those of fixed unknowns are looked up, most columns have none.
+    auto fixed = std::lower_bound(ascending.begin(), ascending.end(), *start);
+    for (const long* row = start; fixed != ascending.end() && *fixed <= *(end - 1); ++fixed) {
+      row = std::lower_bound(row, end, *fixed);
+      if (*row == *fixed) take(column, row - stiffness_.innerIndexPtr());
+    }
+  }
+  fixed_rows_.resize(static_cast<long>(fixed_.size()), stiffness_.cols());
+  fixed_rows_.setFromTriplets(rows.begin(), rows.end());
+}
+
+void ConstrainedSystem::factorise() {
+  factor_->factorize(stiffness_);
+  if (factor_->info() != Eigen::Success)
+    throw ModelError(
+        "the stiffness matrix is not positive definite: the supports leave a part free to move, "
+        "or the memory did not suffice");
+  SparseLower().swap(stiffness_);
+}
+
+Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads) const {
+  Eigen::VectorXd given(static_cast<Eigen::Index>(fixed_.size()));
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    given[static_cast<Eigen::Index>(i)] = fixed_[i].value;
+  const Eigen::Index columns = loads.cols();
+  return solve(std::move(loads), given.replicate(1, columns));
+}
+
+Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads,
+                                         const Eigen::MatrixXd& given) const {
+  if (!given.isZero(0)) loads -= fixed_rows_.transpose() * given;
+  for (const FixedUnknown& fixed : fixed_) loads.row(fixed.unknown).setZero();
+  Eigen::MatrixXd displacements = factor_->solve(loads);
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    displacements.row(fixed_[i].unknown) = given.row(static_cast<Eigen::Index>(i));
+  return displacements;
+}
+
+Eigen::MatrixXd ConstrainedSystem::reactions(const Eigen::MatrixXd& displacements,
+                                             const Eigen::MatrixXd& loads) const {
+  Eigen::MatrixXd forces = fixed_rows_ * displacements;
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    forces.row(static_cast<Eigen::Index>(i)) -= loads.row(fixed_[i].unknown);
+  return forces;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/system/sparse_matrix.h"
+
+namespace blocklift::structure {
+
+/// Unknown whose displacement is given.
+struct FixedUnknown {
+  int unknown = 0;
+  double value = 0;  ///< m
+};
+
+/// Order of elimination: that of the unknowns as they come, or one found by nested dissection.
+enum class EliminationOrder { given, found };
+
+/// K u = f with some displacements given, factorised once for any number of load vectors.
+///
+/// Sparse supernodal Cholesky (CHOLMOD through Eigen), by default in the order of the unknowns, which
+/// the Discretisation has chosen by nested dissection.
+class ConstrainedSystem {
+ public:
+  /// Takes the stiffness over and analyses it; nothing is factorised yet.
+  /// @throws ModelError if the factor would not fit into the memory that is free.
+  ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed,
+                    EliminationOrder order = EliminationOrder::given);
+  ~ConstrainedSystem();
+
+  /// Memory that the factor will take, bytes.
+  double factor_bytes() const;
+  /// Factorises and gives the stiffness free.
+  /// @throws ModelError if the matrix is not positive definite: the supports leave a mechanism.
+  void factorise();
+  /// Displacements for load vectors (one a column; entries at fixed unknowns do not matter).
+  Eigen::MatrixXd solve(Eigen::MatrixXd loads) const;
+  /// The same with displacements of the fixed unknowns that are given here, not by FixedUnknown::value:
+  /// a row a fixed unknown, a column a load vector, m.
+  Eigen::MatrixXd solve(Eigen::MatrixXd loads, const Eigen::MatrixXd& given) const;
+  /// Forces that the supports exert, one row a fixed unknown: (K u - f) there, N.
+  Eigen::MatrixXd reactions(const Eigen::MatrixXd& displacements,
+                            const Eigen::MatrixXd& loads) const;
+  const std::vector<FixedUnknown>& fixed() const { return fixed_; }
+
+ private:
+  struct Factor;
+  void separate_fixed();
+
+  SparseLower stiffness_;
+  std::vector<FixedUnknown> fixed_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor, long> fixed_rows_;  ///< of the full stiffness
+  std::unique_ptr<Factor> factor_;
+};
+
+/// Memory that is free on this machine, bytes; infinity where it cannot be told.
+double available_memory();
+
+}  // namespace blocklift::structure

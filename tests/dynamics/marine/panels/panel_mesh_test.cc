@@ -1,0 +1,209 @@
+#include "dynamics/marine/panels/panel_mesh.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/panels/panel_model.h"
+#include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/panels/surface_mesh.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+TEST(Panel, AreaNormalAndCentroidByHand) {
+  const Panel trapezium = make_panel(
+      std::array{Vector3(0, 0, -1), Vector3(3, 0, -1), Vector3(2, 1, -1), Vector3(0, 1, -1)});
+  EXPECT_DOUBLE_EQ(trapezium.area, 2.5);
+  EXPECT_LT((trapezium.normal - Vector3(0, 0, 1)).norm(), 1e-15);
+  // Square 2 x 2/2 and a triangle: (2 * 1 + 0.5 * (2 + 1/3)) / 2.5.
+  EXPECT_NEAR(trapezium.centroid.x(), (2.0 * 1.0 + 0.5 * (2.0 + 1.0 / 3.0)) / 2.5, 1e-15);
+}
+
+TEST(Panel, RefusesWhatIsNoPanel) {
+  EXPECT_THAT(
+      [] {
+        make_panel(std::array{Vector3(0, 0, 0), Vector3(1, 0, 0)});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("3 or 4")));
+  EXPECT_THAT(
+      [] {
+        make_panel(std::array{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(2, 0, 0)});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("has no area")));
+  EXPECT_THAT(
+      [] {
+        make_panel(std::array{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, not_a_number, 0)});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("not a finite number")));
+}
+
+TEST(PanelShapes, KeepOutTheirVolume) {
+  const RoundDivision division{.meridians = 12, .parallels = 3};
+  EXPECT_NEAR(make_half_ellipsoid({1, 2, 3}, division).displaced_volume(), 4.0 * std::numbers::pi,
+              1e-12);
+  EXPECT_NEAR(make_ellipsoid({1, 2, 3}, {0, 0, -5}, division).displaced_volume(),
+              8.0 * std::numbers::pi, 1e-11);
+  EXPECT_NEAR(make_vertical_cylinder(2, 3, true, division).displaced_volume(),
+              12.0 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(make_box_hull(10, 4, 2).displaced_volume(), 80.0, 1e-12);
+}
+
+TEST(PanelMesh, SymmetricPartAndWholeAreTheSame) {
+  const PanelMesh whole = make_box_hull(10, 4, 2, {.length = 6, .breadth = 4, .draught = 2});
+  const PanelMesh quarter = restrict_to_symmetry(whole, {true, true});
+  EXPECT_EQ(4 * quarter.size(), whole.size());
+  EXPECT_NEAR(quarter.displaced_volume(), 80.0, 1e-12);
+  const PanelMesh again = expand_symmetry(quarter);
+  EXPECT_NEAR(again.displaced_volume(), 80.0, 1e-12);
+  Vector3 sum = Vector3::Zero();
+  for (const Panel& panel : again.panels) sum += panel.area * panel.normal;
+  EXPECT_LT((sum - Vector3(0, 0, -40)).norm(), 1e-12);
+  // Five panels along: the middle one lies across x = 0.
+  EXPECT_THAT(
+      [] {
+        restrict_to_symmetry(make_box_hull(10, 4, 2, {.length = 5}), {true, false});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("crosses the plane of symmetry x = 0")));
+  EXPECT_THAT(
+      [&] {
+        restrict_to_symmetry(translate(whole, {7, 0, 0}), {true, false});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("not symmetric")));
+}
+
+TEST(PanelMesh, FindsTheWaterLine) {
+  const auto lines = find_water_lines(make_box_hull(10, 4, 2, {.length = 6, .breadth = 4}));
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].size(), 20U);
+  EXPECT_NEAR(enclosed_area(lines[0]), 40.0, 1e-12);
+  PanelMesh torn = make_box_hull(10, 4, 2);
+  for (std::size_t k = 0; k < torn.panels.size(); ++k) {
+    if (torn.panels[k].vertices[2].z() == 0.0) {
+      torn.panels.erase(torn.panels.begin() + static_cast<std::ptrdiff_t>(k));
+      break;
+    }
+  }
+  EXPECT_THAT([&] { find_water_lines(torn); },
+              ThrowsMessage<ModelError>(HasSubstr("leave a gap in the water line at (")));
+  EXPECT_TRUE(find_water_lines(make_ellipsoid({1, 1, 1}, {0, 0, -3})).empty());
+}
+
+std::vector<WettedBody> spheres(const std::vector<double>& x) {
+  std::vector<WettedBody> bodies;
+  const PanelMesh sphere = make_half_ellipsoid({1, 1, 1}, {.meridians = 16, .parallels = 4});
+  for (const double at : x) {
+    bodies.push_back(
+        {"sphere at " + std::to_string(at), translate(sphere, {at, 0, 0}), {at, 0, 0}});
+  }
+  return bodies;
+}
+
+/// Area of the regular polygon that the outer edge is, less the water lines.
+double area_to_cover(const std::vector<WaterLine>& lines, double radius, std::size_t sides) {
+  const double n = static_cast<double>(sides);
+  double area = 0.5 * n * radius * radius * std::sin(2.0 * std::numbers::pi / n);
+  for (const WaterLine& line : lines) area -= enclosed_area(line);
+  return area;
+}
+
+TEST(SurfaceMesh, CoversTheWaterAroundOneBody) {
+  const auto lines = find_water_lines(spheres({0}));
+  const SurfaceMesh surface = make_surface_mesh(lines, {.first_ring = 0.1, .radius = 30});
+  EXPECT_NEAR(surface.mesh.total_area(), area_to_cover(lines, 30.0, 16), 1e-9);
+  for (const Panel& panel : surface.mesh.panels) {
+    EXPECT_LT((panel.normal - Vector3(0, 0, -1)).norm(), 1e-15);
+    EXPECT_LT(std::abs(panel.centroid.z()), 1e-15);
+  }
+  EXPECT_EQ(4 * restrict_to_symmetry(surface.mesh, {true, true}).size(), surface.mesh.size());
+}
+
+// The parts of two bodies meet half way: nothing is left out, nothing covered twice, so that the
+// areas add up to that of the outer polygon, whose corners lie on the circle.
+TEST(SurfaceMesh, CoversTheWaterBetweenBodies) {
+  for (const double gap : {0.2, 1.0, 6.0}) {
+    const auto bodies = spheres({-1.0 - gap / 2, 1.0 + gap / 2});
+    const auto lines = find_water_lines(bodies);
+    const SurfaceMesh surface = make_surface_mesh(lines, {.first_ring = 0.1, .radius = 30});
+    double covered = surface.mesh.total_area();
+    for (const WaterLine& line : lines) covered += enclosed_area(line);
+    const double disc = std::numbers::pi * 900.0;
+    EXPECT_LT(covered, disc);
+    EXPECT_GT(covered, 0.9 * disc);  // a polygon of 12 corners and more
+    EXPECT_EQ(4 * restrict_to_symmetry(surface.mesh, {true, true}).size(), surface.mesh.size());
+    // No two panels overlap: each centroid lies in its own panel only (dipole of a flat panel from
+    // just above: 2 pi inside, 0 outside).
+    double worst = 0.0;
+    for (std::size_t i = 0; i < surface.mesh.panels.size(); i += 7) {
+      double angle = 0.0;
+      for (const Panel& panel : surface.mesh.panels) {
+        const Vector3 above = surface.mesh.panels[i].centroid - Vector3(0, 0, 1e-7);
+        angle += calc_panel_potentials(panel, above).dipole;
+      }
+      worst = std::max(worst, std::abs(angle - 2.0 * std::numbers::pi));
+    }
+    EXPECT_LT(worst, 1e-4);
+  }
+}
+
+TEST(SurfaceMesh, ThreeBodiesInARow) {
+  const auto lines = find_water_lines(spheres({-3, 0, 3}));
+  const SurfaceMesh surface = make_surface_mesh(lines, {.first_ring = 0.15, .radius = 40});
+  EXPECT_EQ(4 * restrict_to_symmetry(surface.mesh, {true, true}).size(), surface.mesh.size());
+}
+
+TEST(SurfaceMesh, NamesWhatIsWrong) {
+  const auto lines = find_water_lines(spheres({0, 1.5}));
+  EXPECT_THAT([&] { make_surface_mesh(lines, {.first_ring = 0.1, .radius = 30}); },
+              ThrowsMessage<ModelError>(HasSubstr("two water lines intersect")));
+  const auto one = find_water_lines(spheres({0}));
+  EXPECT_THAT([&] { make_surface_mesh(one, {.first_ring = 0.1, .radius = 1.2}); },
+              ThrowsMessage<ModelError>(HasSubstr("at least one and a half times")));
+  EXPECT_THAT([&] { make_surface_mesh(one, {.first_ring = 0.0, .radius = 30}); },
+              ThrowsMessage<ModelError>(HasSubstr("positive first ring")));
+}
+
+TEST(PanelModel, NamesWhatIsWrongWithAHull) {
+  const SurfaceMesh none;
+  const PanelMesh box = make_box_hull(10, 4, 2);
+  const auto build = [&](const PanelMesh& hull, const Water& water, const Symmetry& symmetry) {
+    return PanelModel({{"barge", hull, Vector3::Zero()}}, none, water, symmetry);
+  };
+  EXPECT_THAT(
+      [&] {
+        build(translate(box, {0, 0, 0.5}), {}, {});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("barge has a panel above the water at")));
+  EXPECT_THAT([&] { build(box, {.depth = 1.5}, {}); },
+              ThrowsMessage<ModelError>(HasSubstr("reaches below the bottom")));
+  EXPECT_THAT(
+      [&] {
+        build(translate(box, {1, 0, 0}), {}, {true, false});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("not symmetric in the plane x = 0")));
+  PanelMesh inverted;
+  for (const Panel& panel : box.panels) {
+    std::vector<Vector3> points(panel.vertices.rbegin(), panel.vertices.rend());
+    inverted.panels.push_back(make_panel(points));
+  }
+  EXPECT_THAT([&] { build(inverted, {}, {}); },
+              ThrowsMessage<ModelError>(HasSubstr("normals point into the body")));
+  PanelMesh open = box;
+  open.panels.erase(open.panels.begin() + 20);  // of the bottom
+  EXPECT_THAT([&] { build(open, {}, {}); }, ThrowsMessage<ModelError>(HasSubstr("is open")));
+}
+
+TEST(PanelModel, FindsThePlanesOfSymmetry) {
+  EXPECT_EQ(find_symmetry(spheres({0})), (Symmetry{true, true}));
+  EXPECT_EQ(find_symmetry(spheres({-2, 2})), (Symmetry{true, true}));
+  EXPECT_EQ(find_symmetry(spheres({0, 3})), (Symmetry{false, true}));
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics

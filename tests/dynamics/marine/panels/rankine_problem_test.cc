@@ -1,0 +1,149 @@
+#include "dynamics/marine/panels/rankine_problem.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/radiation/frequency_domain.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double half_sphere = 2.0 / 3.0 * std::numbers::pi;
+
+PanelModel make_sphere_model(const Symmetry& symmetry, int meridians = 12, int parallels = 4,
+                             double depth = std::numeric_limits<double>::infinity()) {
+  const std::vector<WettedBody> bodies{
+      {"sphere", make_half_ellipsoid({1, 1, 1}, {.meridians = meridians, .parallels = parallels}),
+       Vector3::Zero()}};
+  const SurfaceMesh surface = make_surface_mesh(find_water_lines(bodies),
+                                                {.first_ring = 0.2, .growth = 1.25, .radius = 25});
+  return {bodies, surface, {1.0, 1.0, depth}, symmetry};
+}
+
+DatabaseSettings short_settings() {
+  DatabaseSettings settings;
+  settings.frequencies = {0.6, 1.0, 1.4};
+  settings.headings = {0.0, 0.7};
+  settings.duration = 20.0;
+  return settings;
+}
+
+// Lamb, art. 92: the added mass of a sphere is half the displaced mass. The surface is so far away
+// (1000 radii) that its image changes it by 3/8 (a/2h)^3 = 5e-11. Second order in the panel size.
+TEST(RankineProblem, DeepSphereWithoutASurface) {
+  std::vector<double> error;
+  for (const int n : {8, 16}) {
+    const PanelMesh sphere =
+        make_ellipsoid({1, 1, 1}, {0, 0, -1000}, {.meridians = 2 * n, .parallels = n / 2});
+    const PanelModel model({{"sphere", sphere, {0, 0, -1000}}}, {}, {1, 1});
+    const RankinePart part(model, {});
+    const Eigen::MatrixXd& A = part.infinite_frequency_volume();
+    error.push_back(A(2, 2) / (2.0 * half_sphere) - 0.5);
+    EXPECT_NEAR(A(0, 0), A(1, 1), 1e-9);
+    for (std::size_t m = 0; m < part.modes().size(); ++m) {  // a sphere turns freely
+      const auto k = static_cast<Eigen::Index>(m);
+      if (part.modes()[m] >= roll) {
+        EXPECT_LT(A(k, k), 1e-3);
+      }
+    }
+  }
+  EXPECT_LT(std::abs(error[1]), 0.01 * 0.5);
+  EXPECT_GT(std::abs(error[0] / error[1]), 2.5);
+}
+
+// The planes of symmetry change the order of the sums, and nothing else.
+TEST(RankineProblem, SymmetryDoesNotChangeTheResult) {
+  const PanelModel whole = make_sphere_model({}), quarter = make_sphere_model({true, true});
+  EXPECT_EQ(4 * quarter.body_mesh().size(), whole.body_mesh().size());
+  DatabaseSettings settings = short_settings();
+  settings.time_step = 0.1;
+  const HydrodynamicDatabase a = compute_database(whole, settings),
+                             b = compute_database(quarter, settings);
+  EXPECT_LT((a.infinite_added_mass - b.infinite_added_mass).norm(),
+            1e-9 * a.infinite_added_mass.norm());
+  for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
+    // The march keeps its operator in single precision.
+    EXPECT_LT((a.added_mass[k] - b.added_mass[k]).norm(), 1e-5 * a.added_mass[k].norm());
+    EXPECT_LT((a.damping[k] - b.damping[k]).norm(), 1e-5 * a.added_mass[k].norm());
+    EXPECT_LT((a.excitation(k) - b.excitation(k)).norm(), 1e-5 * a.excitation(k).norm());
+  }
+}
+
+TEST(RankineProblem, OperatorIsSymmetricAndPositive) {
+  const PanelModel model = make_sphere_model({true, true});
+  for (const Parity& parity : model.parities()) {
+    const RankinePart part(model, parity);
+    const Eigen::MatrixXd& M = part.surface_operator();
+    EXPECT_EQ((M - M.transpose()).norm(), 0.0);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M, Eigen::EigenvaluesOnly);
+    EXPECT_GT(eigen.eigenvalues()[0], 0.0);
+    // The step limit is that of the largest eigenvalue, found by power iteration.
+    const FreeSurfaceMarch march(part, Eigen::VectorXd::Zero(M.rows()), 1.0, 1);
+    const double exact = 2.0 / std::sqrt(eigen.eigenvalues()[M.rows() - 1]);
+    EXPECT_LE(march.step_limit(), exact);
+    EXPECT_GT(march.step_limit(), 0.97 * exact);
+  }
+}
+
+// The march in time and the dense system in frequency hold the same matrices: they differ by the end
+// of the run and the damping zone's share in the time step alone.
+TEST(RankineProblem, TimeAndFrequencyDomainAgree) {
+  const PanelModel model = make_sphere_model({true, true});
+  DatabaseSettings settings = short_settings();
+  settings.duration = 200.0;
+  settings.time_step = 0.2;
+  settings.damping_strength = 2.0;
+  const HydrodynamicDatabase database = compute_database(model, settings);
+  RankineSettings rankine;
+  rankine.keep_factors = true;
+  const RankinePart part(model, {1, 1}, rankine);
+  const FrequencyDomain direct(model, part, DampingZone{2.0}.rates(model.surface()));
+  for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
+    Eigen::MatrixXd A, B;
+    const double w = settings.frequencies[k];
+    direct.calc_radiation(w, A, B);
+    ASSERT_EQ(part.modes()[0], heave);
+    EXPECT_NEAR(database.added_mass[k](heave, heave), A(0, 0), 0.004 * A(0, 0));
+    EXPECT_NEAR(database.damping[k](heave, heave), B(0, 0), 0.004 * w * A(0, 0));
+  }
+}
+
+TEST(RankineProblem, RefusesWhatDoesNotFitIntoMemory) {
+  const PanelModel model = make_sphere_model({});
+  RankineSettings settings;
+  settings.memory_limit = 1e5;
+  EXPECT_THAT([&] { RankinePart(model, {}, settings); },
+              ThrowsMessage<SimulationError>(HasSubstr("GB may be used")));
+  // Two and a half square matrices of the surface are most of it.
+  EXPECT_NEAR(rankine_part_bytes(1000, 10000, false), 8.0 * (2.5e8 + 4e7 + 2e6), 1.0);
+}
+
+TEST(HydrodynamicDatabase, RefusesFrequenciesOutOfOrder) {
+  const PanelModel model = make_sphere_model({true, true});
+  DatabaseSettings settings = short_settings();
+  settings.frequencies = {1.0, 0.5};
+  EXPECT_THAT([&] { compute_database(model, settings); },
+              ThrowsMessage<ModelError>(HasSubstr("must be positive and ascend")));
+}
+
+TEST(HydrodynamicDatabase, RefusesWavesTooShortForThePanels) {
+  const PanelModel model = make_sphere_model({true, true});
+  DatabaseSettings settings = short_settings();
+  settings.frequencies = {0.6, 5.0};  // a wave of 2 pi/25 m
+  EXPECT_THAT([&] { compute_database(model, settings); },
+              ThrowsMessage<ModelError>(AllOf(HasSubstr("waves are 0.251327 m long"),
+                                              HasSubstr("at least three must go into a wave"))));
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics

@@ -1,0 +1,166 @@
+// `blocklift validate` and `blocklift schema` as a user meets them: run as a process.
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/run_program.h"
+#include "tests/pipeline/sample_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::SampleLift;
+using test::TemporaryFolder;
+using test::with;
+
+/// Runs the program in the working directory.
+Outcome run(const std::string& arguments) {
+  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+}
+
+std::size_t files_in(const fs::path& folder) {
+  std::size_t count = 0;
+  for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(folder)) ++count;
+  return count;
+}
+
+TEST(ValidateCommand, TakesTheShippedCases) {
+  for (const auto& folder : fs::directory_iterator(BLOCKLIFT_CASES)) {
+    if (!fs::exists(folder.path() / "case.yaml")) continue;
+    const Outcome outcome = run("validate '" + folder.path().string() + "'");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+  }
+}
+
+TEST(ValidateCommand, SaysWhatIsInASoundFile) {
+  const TemporaryFolder folder;
+  SampleLift().write(folder);
+  const Outcome outcome = run("validate . gantry/crane.yaml plate.yaml gantry/ropes/tackle.yaml");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out,
+            ".: valid, lift case small-lift: 1 crane, 2 ropes, 2 stages, 80 s\n"
+            "gantry/crane.yaml: valid, crane with 2 bodies, 2 drives and 2 hoists\n"
+            "plate.yaml: valid, block with 2 kinds of plates and 2 lugs\n"
+            "gantry/ropes/tackle.yaml: valid, rope\n");
+}
+
+TEST(ValidateCommand, SaysEverythingThatIsWrongAndWritesNothing) {
+  const TemporaryFolder folder;
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "to: L2", "to: L7");
+  lift.lift_case = with(lift.lift_case, "speed: 15 m/min", "speed: 3 m");
+  lift.crane = with(lift.crane, "mass: 8 t", "mass: -8 t");
+  lift.write(folder);
+  const std::size_t files_before = files_in(folder.path());
+  const Outcome outcome = run("validate case.yaml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(
+      outcome.err,
+      "case.yaml:10:28: error: rope R2 ends at lug \"L7\", which block plate does not have\n"
+      "    its lugs are L1, L2; did you mean \"L1\"?\n"
+      "case.yaml:18:48: error: speed \"3 m\" is a length; a speed or an angular speed is due, "
+      "for example \"3 m/min\" or \"0.5 deg/s\"\n"
+      "gantry/crane.yaml:10:19: error: mass \"-8 t\" must be at least 0\n"
+      "3 errors\n");
+  EXPECT_EQ(files_in(folder.path()), files_before);
+}
+
+TEST(ValidateCommand, RefusesFilesThatAreNoInput) {
+  const TemporaryFolder folder;
+  folder.write("empty.yaml", "");
+  folder.write("binary.yaml", std::string("\0\1\2\3", 4));
+  folder.write("latin1.yaml",
+               "title: Gr\xfc\xdf"
+               "e\n");
+  folder.write("huge.yaml", "a: 1\n");
+  fs::resize_file("huge.yaml", 50'000'000);
+  const Outcome outcome = run("validate empty.yaml binary.yaml latin1.yaml huge.yaml missing.yaml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err,
+            "empty.yaml: error: the file is empty; keys and values are due\n"
+            "binary.yaml: error: the file is binary, not text; a YAML file is due\n"
+            "latin1.yaml:1:10: error: the byte 0xFC is not UTF-8; save the file as UTF-8\n"
+            "huge.yaml: error: the file has 50.0 MB; an input file has at most 10 MB\n"
+            "missing.yaml: error: there is no such file\n"
+            "5 errors\n");
+}
+
+TEST(ValidateCommand, FindsModelsWhereTheEnvironmentSays) {
+  const TemporaryFolder folder;
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "model: gantry", "model: cranes/small");
+  lift.write(folder);
+  folder.write("elsewhere/cranes/small/crane.yaml", lift.crane);
+  folder.write("elsewhere/ropes/tackle.yaml", lift.rope);
+  setenv("BLOCKLIFT_MODELS", (folder.path() / "elsewhere").c_str(), 1);
+  const Outcome found = run("validate case.yaml");
+  setenv("BLOCKLIFT_MODELS", "/nowhere", 1);
+  const Outcome missing = run("validate case.yaml");
+  unsetenv("BLOCKLIFT_MODELS");
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.err.substr(0, 66),
+            "case.yaml:6:12: error: there is no crane model \"cranes/small\"\n    ");
+}
+
+TEST(ValidateCommand, TellsWrongUseByItsExitCode) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run("").exit_code, 2);
+  EXPECT_EQ(run("validate").exit_code, 2);
+  EXPECT_EQ(run("lift everything").exit_code, 2);
+  EXPECT_EQ(run("--help").exit_code, 0);
+  EXPECT_EQ(run("--version").out.substr(0, 10), "blocklift ");
+}
+
+TEST(SchemaCommand, PrintsSchemaAndManual) {
+  const TemporaryFolder folder;
+  const Outcome schema = run("schema --kind rope");
+  EXPECT_EQ(schema.exit_code, 0);
+  EXPECT_EQ(schema.out.substr(0, 2), "{\n");
+  EXPECT_EQ(run("schema --manual").out.substr(0, 14), "# Input files\n");
+  EXPECT_EQ(run("schema --kind boat").exit_code, 2);
+}
+
+TEST(ValidateCommand, SaysWhatTheMeshGeneratorWillRefuse) {
+  const TemporaryFolder folder;
+  SampleLift lift;
+  lift.block = with(lift.block, "z: [1 m, 1.4 m], thickness: 40 mm, pin: [0 m, 0 m, 1.2 m]",
+                    "z: [1.1 m, 1.4 m], thickness: 40 mm, pin: [0 m, 0 m, 1.2 m]");
+  lift.write(folder);
+  const std::string complaint =
+      "plate.yaml:1:1: error: not joined to the rest of the block: L1 at x = 0 m; extend them "
+      "until they reach another plate\n1 error\n";
+  for (const char* file : {"validate case.yaml", "validate plate.yaml", "assess case.yaml"}) {
+    const Outcome outcome = run(file);
+    EXPECT_EQ(outcome.exit_code, 2) << file;
+    EXPECT_EQ(outcome.err, complaint) << file;
+    EXPECT_FALSE(fs::exists("results"));
+  }
+}
+
+TEST(ValidateCommand, RefusesAnEmptyName) {
+  const Outcome outcome = run("validate ''");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err.substr(0, 45), "input: error: the name of the case is empty\n ");
+}
+
+TEST(AssessCommand, SaysBeforeTheRunThatResultsCannotBeWritten) {
+  const TemporaryFolder folder;
+  SampleLift().write(folder);
+  folder.write("taken", "a file");
+  const Outcome outcome = run("assess case.yaml --output taken/results");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.err, "taken/results: error: results cannot be written here: " +
+                             (folder.path() / "taken").string() +
+                             " is no folder\n    name another folder with --output\n1 error\n");
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline

@@ -1,0 +1,111 @@
+#include "pipeline/lift/block_assessment.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/checks/lift_checks.h"
+#include "tests/pipeline/small_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using structure::Vector3;
+using test::small_lift;
+using test::SmallLift;
+
+/// Responses of the small lift's block, once for all tests.
+class SmallLiftBlock : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    responses_ = new structure::UnitResponses(*small_lift().model);
+    recovery_ = new structure::StressRecovery(*responses_);
+  }
+  static void TearDownTestSuite() {
+    delete recovery_;
+    delete responses_;
+  }
+  static BlockAssessment assess(const dynamics::History& static_history,
+                                const dynamics::History& dynamic_history) {
+    const SmallLift& lift = small_lift();
+    return assess_block(*responses_, *recovery_,
+                        attach_block(lift.system(), lift.run.model.load, lift.lugs()),
+                        static_history, dynamic_history);
+  }
+
+  static structure::UnitResponses* responses_;
+  static structure::StressRecovery* recovery_;
+};
+structure::UnitResponses* SmallLiftBlock::responses_ = nullptr;
+structure::StressRecovery* SmallLiftBlock::recovery_ = nullptr;
+
+TEST_F(SmallLiftBlock, HeadlineIsTheLargerOverAllRopes) {
+  const dynamics::History& at_rest = small_lift().run.static_history;
+  const dynamics::History& in_motion = small_lift().run.dynamic_history();
+  const BlockAssessment block = assess(at_rest, in_motion);
+  ASSERT_EQ(block.simultaneous_by_rope.size(), 4u);
+  double at_rest_stress = 0, in_motion_stress = 0, at_rest_shift = 0, in_motion_shift = 0;
+  for (const LoadComparison& way : block.simultaneous_by_rope) {
+    at_rest_stress = std::max(at_rest_stress, way.static_state.result.checked_von_mises.value);
+    in_motion_stress = std::max(in_motion_stress, way.dynamic_state.result.checked_von_mises.value);
+    at_rest_shift = std::max(at_rest_shift, way.static_state.result.displacement.value);
+    in_motion_shift = std::max(in_motion_shift, way.dynamic_state.result.displacement.value);
+
+    // Each at the instant of its own rope's largest load.
+    Eigen::Index sample = 0;
+    const double tension = in_motion.rope(way.dynamic_state.rope).tension.maxCoeff(&sample);
+    EXPECT_EQ(way.dynamic_state.time, in_motion.time(sample));
+    EXPECT_EQ(way.static_state.rope, way.dynamic_state.rope);
+    const auto& forces = way.dynamic_state.load.lug_forces_B;
+    const auto lug = static_cast<std::size_t>(way.dynamic_state.rope.at(1) - '1');
+    EXPECT_NEAR(forces.at(lug).norm(), tension, 1e-9 * tension);
+  }
+  EXPECT_EQ(block.simultaneous.static_state.result.checked_von_mises.value, at_rest_stress);
+  EXPECT_EQ(block.simultaneous.dynamic_state.result.checked_von_mises.value, in_motion_stress);
+  EXPECT_EQ(block.simultaneous.static_displacement, at_rest_shift);
+  EXPECT_EQ(block.simultaneous.dynamic_displacement, in_motion_shift);
+  EXPECT_NEAR(block.simultaneous.stress_increase_percent(),
+              100 * (in_motion_stress / at_rest_stress - 1), 1e-9);
+  EXPECT_NEAR(block.simultaneous.deformation_increase_percent(),
+              100 * (in_motion_shift / at_rest_shift - 1), 1e-9);
+  EXPECT_GT(block.first_elastic_period, 0);
+}
+
+TEST_F(SmallLiftBlock, AMotionThatDoesNotBelongToTheForcesIsRefused) {
+  const dynamics::History& at_rest = small_lift().run.static_history;
+  dynamics::History wrong = small_lift().run.dynamic_history();
+  for (dynamics::BodyHistory& body : wrong.bodies) {
+    if (body.name == "load") body.acceleration.col(5).array() += 0.01;
+  }
+  try {
+    assess(at_rest, wrong);
+    FAIL() << "a block that accelerates without a force was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("\"largest dynamic load of rope R1\""));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("not in balance"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("1e-08"));
+  }
+}
+
+TEST_F(SmallLiftBlock, LoadTableIsOneWayOnly) {
+  const std::vector<Vector3> at_rest(4, Vector3(0, 0, 20e3));
+  std::vector<Vector3> in_motion;
+  for (const Vector3& force : at_rest) in_motion.push_back(1.1 * force);
+  const BlockAssessment block = assess_load_table(*responses_, *recovery_, at_rest, in_motion);
+  EXPECT_TRUE(block.simultaneous_by_rope.empty());
+  // Linear: ten per cent more load, ten per cent more of everything.
+  for (const LoadComparison* way : {&block.simultaneous, &block.per_rope_maxima}) {
+    EXPECT_NEAR(way->stress_increase_percent(), 10, 1e-6);
+    EXPECT_NEAR(way->deformation_increase_percent(), 10, 1e-6);
+    EXPECT_FALSE(way->static_state.time.has_value());
+  }
+  const std::vector<Check> checks = check_block(small_lift().lift_case, block);
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0].demand, block.simultaneous.dynamic_state.result.checked_von_mises.value);
+  EXPECT_NEAR(checks[0].limit, 355e6 / 1.5, 1e-3);
+  EXPECT_FALSE(checks[0].note.empty());
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline

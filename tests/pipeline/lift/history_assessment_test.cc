@@ -1,0 +1,146 @@
+// Every instant of the small lift.
+#include "pipeline/lift/history_assessment.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/checks/lift_checks.h"
+#include "tests/pipeline/small_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using test::small_lift;
+using test::SmallLift;
+
+class SmallLiftHistory : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const SmallLift& lift = small_lift();
+    responses_ = new structure::UnitResponses(*lift.model);
+    recovery_ = new structure::StressRecovery(*responses_);
+    attachment_ =
+        new BlockAttachment(attach_block(lift.system(), lift.run.model.load, lift.lugs()));
+    block_ = new BlockAssessment(assess_block(*responses_, *recovery_, *attachment_,
+                                              lift.run.static_history, lift.run.dynamic_history()));
+  }
+  static void TearDownTestSuite() {
+    delete block_;
+    delete attachment_;
+    delete recovery_;
+    delete responses_;
+  }
+  static HistoryAssessment assess(const dynamics::History& in_motion,
+                                  const HistorySettings& settings = {}) {
+    return assess_history(*responses_, *recovery_, *attachment_, small_lift().run.static_history,
+                          in_motion, *block_, settings);
+  }
+
+  static structure::UnitResponses* responses_;
+  static structure::StressRecovery* recovery_;
+  static BlockAttachment* attachment_;
+  static BlockAssessment* block_;
+};
+structure::UnitResponses* SmallLiftHistory::responses_ = nullptr;
+structure::StressRecovery* SmallLiftHistory::recovery_ = nullptr;
+BlockAttachment* SmallLiftHistory::attachment_ = nullptr;
+BlockAssessment* SmallLiftHistory::block_ = nullptr;
+
+TEST_F(SmallLiftHistory, IsTheLargestOfEverySample) {
+  const dynamics::History& in_motion = small_lift().run.dynamic_history();
+  const HistoryAssessment history = assess(in_motion);
+  const structure::MassProperties& mass = small_lift().mass();
+  double largest = 0;
+  Eigen::Index when = 0;
+  for (Eigen::Index sample = 0; sample < in_motion.sample_count(); ++sample) {
+    const double stress =
+        recovery_->membrane()
+            .von_mises(responses_->coefficients(map_instant(in_motion, sample, *attachment_, mass)))
+            .maxCoeff();
+    if (stress > largest) {
+      largest = stress;
+      when = sample;
+    }
+  }
+  const HistoryExtreme& checked = history.dynamic_state.checked_von_mises;
+  EXPECT_NEAR(checked.at.value, largest, 1e-9 * largest);
+  EXPECT_EQ(checked.time, in_motion.time(when));
+  EXPECT_GE(largest,
+            block_->simultaneous.dynamic_state.result.checked_von_mises.value * (1 - 1e-9));
+  EXPECT_EQ(history.dynamic_state.patch_von_mises.maxCoeff(), checked.at.value);
+  EXPECT_NEAR(history.stress_increase_percent(),
+              100 * (largest / history.static_state.checked_von_mises.at.value - 1), 1e-6);
+  // A rope governs it, with a share of the stress that is worth the name.
+  EXPECT_THAT(history.ropes, ::testing::Contains(checked.rope));
+  EXPECT_GT(checked.share, 0.25);
+  EXPECT_LT(checked.share, 2);
+  EXPECT_LT(history.dynamic_state.largest_force_residual, largest_balance_residual);
+  EXPECT_GT(history.dynamic_state.largest_principal.at.value, 0);
+  EXPECT_LT(history.dynamic_state.smallest_principal.at.value, 0);
+}
+
+// The instants of the ropes' maxima are among all instants: alone they cannot give more.
+TEST_F(SmallLiftHistory, ChosenInstantsAreNeverMoreThanAllOfThem) {
+  const HistoryAssessment history = assess(small_lift().run.dynamic_history());
+  EXPECT_LE(history.rope_instants.largest_percent, 1e-9);
+  EXPECT_LE(history.rope_instants.worst_percent, 1e-9);
+  EXPECT_GE(history.rope_instants.patches_short, 0);
+  EXPECT_LE(history.rope_instants.patches_short, 1);
+  EXPECT_LE(history.per_rope_maxima.worst_percent, history.per_rope_maxima.largest_percent + 1e-9);
+}
+
+TEST_F(SmallLiftHistory, ChecksTakeTheEnvelope) {
+  const HistoryAssessment history = assess(small_lift().run.dynamic_history());
+  const std::vector<Check> checks = check_block(small_lift().lift_case, *block_, &history);
+  ASSERT_EQ(checks.size(), 1u);
+  EXPECT_EQ(checks[0].demand, std::max(history.dynamic_state.checked_von_mises.at.value,
+                                       history.static_state.checked_von_mises.at.value));
+  EXPECT_TRUE(checks[0].time.has_value());
+}
+
+TEST_F(SmallLiftHistory, FollowsTheHotSpotAndEachLugUnlessPointsAreChosen) {
+  const HistoryAssessment history = assess(small_lift().run.dynamic_history());
+  ASSERT_EQ(history.points.size(), 5u);
+  const StressHistory& hot = history.points[0];
+  EXPECT_EQ(hot.name, "hot spot");
+  EXPECT_NEAR(hot.dynamic_von_mises.maxCoeff(), history.dynamic_state.checked_von_mises.at.value,
+              1e-9 * hot.dynamic_von_mises.maxCoeff());
+  // Membrane stress has two principal stresses; the larger is at most 2/sqrt(3) of von Mises.
+  EXPECT_LE(hot.dynamic_normal.cwiseAbs().maxCoeff(), 1.16 * hot.dynamic_von_mises.maxCoeff());
+  EXPECT_GE(hot.dynamic_normal.cwiseAbs().maxCoeff(), 0.5 * hot.dynamic_von_mises.maxCoeff());
+  EXPECT_FALSE(hot.cycles.empty());
+  EXPECT_GT(hot.damage_per_lift, 0);
+
+  HistorySettings settings;
+  settings.points = {{"corner", small_lift().lugs()[1].p_BPin}};
+  settings.fatigue_curve = "W3";
+  settings.stress_concentration = 2;
+  const HistoryAssessment chosen = assess(small_lift().run.dynamic_history(), settings);
+  ASSERT_EQ(chosen.points.size(), 1u);
+  EXPECT_EQ(chosen.points[0].name, "corner");
+  EXPECT_LT((chosen.points[0].point_B - small_lift().lugs()[1].p_BPin).norm(), 1);
+  // Twice the range on the flat branch of slope 5 (all ranges are small): 32 times the damage.
+  settings.stress_concentration = 1;
+  const double once =
+      assess(small_lift().run.dynamic_history(), settings).points[0].damage_per_lift;
+  EXPECT_NEAR(chosen.points[0].damage_per_lift, 32 * once, 1e-9 * 32 * once);
+}
+
+TEST_F(SmallLiftHistory, ASampleOutOfBalanceIsRefused) {
+  dynamics::History wrong = small_lift().run.dynamic_history();
+  const Eigen::Index sample = wrong.sample_count() / 2;
+  for (dynamics::BodyHistory& body : wrong.bodies)
+    if (body.name == "load") body.acceleration(sample, 5) += 0.01;
+  try {
+    assess(wrong);
+    FAIL() << "a sample that accelerates without a force was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("dynamic loads on the block at"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("not in balance"));
+  }
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline

@@ -1,0 +1,224 @@
+// What a run leaves behind: the whole of its results, or nothing.
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/assessment/assess.h"
+#include "pipeline/results/summary.h"
+#include "tests/pipeline/run_program.h"
+#include "tests/pipeline/small_lift.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+
+Assessment assess_quietly(LiftCase lift_case) {
+  return assess(std::move(lift_case), [](const std::string&, double, const std::string&) {});
+}
+
+/// The small lift's assessment, once in a process.
+Assessment& small_assessment() {
+  static Assessment assessment = assess_quietly(test::read_small_lift());
+  return assessment;
+}
+
+/// Every file below a folder with its content.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    files[fs::relative(entry.path(), folder).string()] =
+        entry.is_directory() ? "folder" : test::text_of_file(entry.path());
+  return files;
+}
+
+/// Gives the assessment a title that no summary can hold, while it lives.
+class Unwritable {
+ public:
+  explicit Unwritable(Assessment& assessment)
+      : title_(assessment.lift_case.title), before_(title_) {
+    title_ = "\xff";
+  }
+  ~Unwritable() { title_ = before_; }
+  Unwritable(const Unwritable&) = delete;
+  Unwritable& operator=(const Unwritable&) = delete;
+
+ private:
+  std::string& title_;
+  std::string before_;
+};
+
+TEST(WriteResults, PutsEverythingIntoTheFolder) {
+  const TemporaryFolder folder;
+  const fs::path report = write_results(small_assessment(), "results/small");
+  EXPECT_EQ(report, "results/small/report.html");
+  std::set<std::string> names;
+  for (const auto& [name, text] : contents("results/small")) {
+    names.insert(name);
+    EXPECT_GT(text.size(), 1000u) << name;
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"block-dynamic.vtu", "block-static.vtu", "lug-L1.vtu",
+                                          "report.html", "results.h5", "summary.json"}));
+}
+
+TEST(WriteResults, LeavesNothingWhenItFails) {
+  const TemporaryFolder folder;
+  {
+    const Unwritable broken(small_assessment());
+    EXPECT_ANY_THROW(write_results(small_assessment(), "new/results"));
+  }
+  EXPECT_TRUE(contents(".").empty()) << contents(".").begin()->first;
+
+  write_results(small_assessment(), "results");
+  folder.write("results/notes.txt", "mine");
+  const auto before = contents(".");
+  {
+    const Unwritable broken(small_assessment());
+    EXPECT_ANY_THROW(write_results(small_assessment(), "results"));
+  }
+  EXPECT_EQ(contents("."), before);
+}
+
+TEST(WriteResults, ReplacesEarlierResults) {
+  const TemporaryFolder folder;
+  folder.write("results/summary.json", "old");
+  folder.write("results/.in-preparation/summary.json", "left by a run that was killed");
+  folder.write("results/notes.txt", "mine");
+  write_results(small_assessment(), "results");
+  EXPECT_NE(test::text_of_file("results/summary.json"), "old");
+  EXPECT_EQ(test::text_of_file("results/notes.txt"), "mine");
+  EXPECT_FALSE(fs::exists("results/.in-preparation"));
+}
+
+void expect_numbers(const nlohmann::json& object, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    ASSERT_TRUE(object.contains(key)) << key << " in " << object.dump().substr(0, 200);
+    EXPECT_TRUE(object[key].is_number()) << key;
+  }
+}
+
+void expect_way(const nlohmann::json& way) {
+  for (const char* state : {"static", "dynamic"})
+    expect_numbers(way.at(state),
+                   {"checked_von_mises_Pa", "peak_von_mises_Pa", "max_displacement_m",
+                    "force_residual", "moment_residual", "reaction_over_weight"});
+  expect_numbers(way, {"stress_increase_percent", "deformation_increase_percent"});
+}
+
+TEST(Summary, HoldsEverythingThatReadersCountOn) {
+  const TemporaryFolder folder;
+  write_results(small_assessment(), ".");
+  const auto summary = nlohmann::json::parse(test::text_of_file("summary.json"));
+  EXPECT_EQ(summary["case"], "small-lift");
+  EXPECT_EQ(summary["verdict"], "pass");
+  ASSERT_EQ(summary["checks"].size(), 17u);
+  for (const auto& check : summary["checks"]) {
+    expect_numbers(check, {"demand", "limit", "utilisation"});
+    EXPECT_TRUE(check["name"].is_string());
+    EXPECT_TRUE(check["unit"].is_string());
+    EXPECT_TRUE(check["pass"].is_boolean());
+  }
+  ASSERT_EQ(summary["structure"]["padeyes"].size(), 1u);
+  const auto& padeye = summary["structure"]["padeyes"][0];
+  EXPECT_EQ(padeye["lug"], "L1");
+  ASSERT_EQ(padeye["states"].size(), 4u);
+  for (const auto& state : padeye["states"])
+    expect_numbers(state, {"main_plate_checked_von_mises_Pa", "cheeks_checked_von_mises_Pa",
+                           "peak_von_mises_Pa", "force_residual", "moment_residual"});
+  for (const auto& formula : padeye["formulas"])
+    expect_numbers(formula, {"demand", "limit", "utilisation"});
+  for (const auto& panel : summary["structure"]["buckling"]["panels"])
+    expect_numbers(panel, {"utilisation", "elastic_utilisation", "thickness_m", "time_s"});
+  ASSERT_EQ(summary["ropes"].size(), 4u);
+  for (const auto& rope : summary["ropes"]) {
+    expect_numbers(rope, {"max_static_tension_N", "time_of_max_static_s", "max_dynamic_tension_N",
+                          "time_of_max_dynamic_s", "dynamic_over_static"});
+    // Linked statistics: at its own largest load the rope itself has that load.
+    const std::string name = rope["name"];
+    EXPECT_EQ(rope["linked_dynamic_N"][name], rope["max_dynamic_tension_N"]);
+    EXPECT_EQ(rope["linked_static_N"].size(), 4u);
+  }
+  EXPECT_EQ(summary["hoists"].size(), 2u);
+  EXPECT_EQ(summary["cranes"].size(), 1u);
+  const auto& structure = summary["structure"];
+  EXPECT_EQ(structure["unknowns"], small_assessment().block.model->unknowns());
+  expect_way(structure["per_rope_maxima"]);
+  expect_way(structure["simultaneous"]);
+  EXPECT_EQ(structure["simultaneous_by_rope"].size(), 4u);
+  EXPECT_EQ(structure["lugs"].size(), 4u);
+  expect_numbers(structure["mass"], {"total_kg", "steel_kg", "outfitting_kg"});
+  // At the start, after each stage, and where a rope is nearest to breaking.
+  ASSERT_GE(summary["natural_periods"].size(), 2u);
+  EXPECT_EQ(summary["natural_periods"][0]["instant"], "start");
+  for (const auto& instant : summary["natural_periods"]) {
+    // Two eigenvalues a degree of freedom: a swing has both, creeping back (its damped hooks) one.
+    int eigenvalues = 0;
+    for (const auto& mode : instant["modes"]) {
+      expect_numbers(mode, {"period_s", "frequency_Hz", "damping_ratio", "elastic_share"});
+      EXPECT_GE(mode["damping_ratio"], 0.0);
+      eigenvalues += mode["kind"] == "oscillating" ? 2 : 1;
+    }
+    EXPECT_EQ(eigenvalues, 2 * small_assessment().lift->model.system.nv_free());
+    EXPECT_EQ(instant["modes"][0]["kind"], "oscillating");
+  }
+  EXPECT_EQ(summary["solver"]["right_hand_sides_for_differences"], 0);
+  expect_numbers(summary["energy"], {"largest_imbalance_J", "relative_imbalance"});
+  EXPECT_LT(summary["energy"]["relative_imbalance"], 1e-3);
+  expect_numbers(summary["timing"], {"static_s", "dynamic_s", "simulated_s", "assembly_s",
+                                     "factorisation_s", "solve_s", "report_s"});
+  EXPECT_FALSE(summary["assumptions"].empty());
+}
+
+TEST(Summary, IsJsonEvenWhereFiguresAreNotFinite) {
+  Assessment assessment = assess_quietly(test::read_small_lift());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  assessment.checks.push_back(check_at_most("broken", nan, nan, "N"));
+  assessment.checks.back().time = nan;
+  assessment.lift->dynamic_result.history.energy.kinetic.setConstant(nan);
+  assessment.lift->static_history.rope("R1");
+  for (auto& rope : assessment.lift->dynamic_result.history.ropes) rope.tension.setConstant(nan);
+  assessment.block.assessment.simultaneous.dynamic_state.result.checked_von_mises.value =
+      std::numeric_limits<double>::infinity();
+  const auto summary = nlohmann::json::parse(make_summary(assessment).dump());
+  EXPECT_EQ(summary["verdict"], "fail");
+  EXPECT_TRUE(summary["checks"].back()["demand"].is_null());
+  EXPECT_TRUE(summary["energy"]["relative_imbalance"].is_null());
+  EXPECT_TRUE(summary["ropes"][0]["dynamic_over_static"].is_null());
+  EXPECT_TRUE(summary["structure"]["simultaneous"]["dynamic"]["checked_von_mises_Pa"].is_null());
+}
+
+// A load table has no dynamics and says so by leaving its parts out.
+TEST(Summary, OfALoadTableHasNoRopes) {
+  const TemporaryFolder folder;
+  const std::string block = test::text_of_file(std::string(BLOCKLIFT_SMALL_LIFT) + "/block.yaml");
+  folder.write("block.yaml", block);
+  folder.write("case.yaml",
+               "case: table\n"
+               "load: {model: block}\n"
+               "load_table:\n"
+               "  direction: [0, 0, 1]\n"
+               "  static: {L1: 2 t, L2: 2 t, L3: 2 t, L4: 2 t}\n"
+               "  dynamic: {L1: 3 t, L2: 2 t, L3: 2 t, L4: 2 t}\n"
+               "structure: {element_degree: 1, largest_element: 1 m}\n");
+  const Assessment assessment = assess_quietly(read_lift_case("."));
+  write_results(assessment, "results");
+  const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
+  EXPECT_FALSE(summary.contains("ropes"));
+  EXPECT_FALSE(summary.contains("energy"));
+  expect_way(summary["structure"]["simultaneous"]);
+  ASSERT_EQ(summary["checks"].size(), 6u);  // stress, panels of three plates, two of the padeye
+  const auto& forces = assessment.block.assessment.simultaneous.dynamic_state.load.lug_forces_B;
+  EXPECT_NEAR(forces[0].z(), 3e3 * 9.80665, 1e-6);
+  EXPECT_NEAR(forces[1].z(), 2e3 * 9.80665, 1e-6);
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline

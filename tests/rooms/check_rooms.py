@@ -1,0 +1,98 @@
+"""Reads every include of the tree against .ci/rooms.txt and prints those that cross a wall.
+
+A file may include headers of its own folder and of the rooms that the list grants to its folder; a room
+may be granted only rooms that stand above it in the list. Tests may include everything, but nothing in
+the rooms may include a test. Libraries: only structure/ may include deal.II, only the rooms named in
+LIBRARIES may include Gmsh, HDF5 and the others.
+
+Usage: check_rooms.py FOLDER; exit code 1 if a wall is crossed.
+"""
+
+import pathlib
+import re
+import sys
+
+HOUSES = ("dynamics", "structure", "pipeline")
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+# Libraries that stay behind walls of their own: beginning of the header's name, and where it may be included.
+LIBRARIES = {
+    "deal.II/": ("structure",),
+    "gmsh.h": ("structure", "pipeline/formats", "pipeline/verification"),
+    "hdf5.h": ("pipeline/formats",),
+    "yaml-cpp/": ("pipeline",),
+    "cvodes/": ("dynamics/simulation",),
+    "kinsol/": ("dynamics/simulation",),
+    "fftw3.h": ("dynamics/marine/waves",),
+}
+
+
+def read_rooms(path):
+    """The rooms in their order with what each may include; what is wrong with the list is returned, too."""
+    rooms, complaints, name = {}, [], None
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        text = line.split("#")[0].rstrip()
+        if not text:
+            continue
+        if not text.startswith(" "):
+            name, _, text = text.partition(":")
+            if name in rooms:
+                complaints.append(f"{path}:{number}: error: the room {name} stands in the list twice")
+            rooms[name] = set()
+        for used in text.split():
+            if used not in rooms or used == name:
+                complaints.append(
+                    f"{path}:{number}: error: {name} may not use {used}, which does not stand above it")
+            rooms[name].add(used)
+    return rooms, complaints
+
+
+def check_library(header, room):
+    """None if the room may include this header of a library."""
+    for beginning, allowed in LIBRARIES.items():
+        if header.startswith(beginning):
+            if not any(room == one or room.startswith(one + "/") for one in allowed):
+                return f"includes <{header}>, which is for {', '.join(allowed)}"
+    return None
+
+
+def check_file(path, root, rooms):
+    """Complaints about one source or header."""
+    room = str(path.parent.relative_to(root))
+    shown = path.relative_to(root)
+    if room not in rooms:
+        return [f"{shown}:1: error: the room {room} does not stand in .ci/rooms.txt"]
+    complaints = []
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        own, library = match.groups()
+        if library:
+            why = check_library(library, room)
+        elif not (root / own).is_file():
+            why = f'includes "{own}", which is not a file of the tree'
+        else:
+            used = str(pathlib.PurePosixPath(own).parent)
+            crossing = used != room and used not in rooms[room]
+            why = f"{room} may not include {used}" if crossing else None
+        if why:
+            complaints.append(f"{shown}:{number}: error: {why}")
+    return complaints
+
+
+def check_tree(root):
+    """All complaints about a tree."""
+    rooms, complaints = read_rooms(root / ".ci" / "rooms.txt")
+    files = [path for house in HOUSES for path in sorted((root / house).rglob("*"))
+             if path.suffix in (".h", ".cc", ".inc") and "node_modules" not in path.parts]
+    for path in files:
+        complaints += check_file(path, root, rooms)
+    inhabited = {str(path.parent.relative_to(root)) for path in files}
+    complaints += [f".ci/rooms.txt: error: the room {room} is empty" for room in rooms if room not in inhabited]
+    return complaints
+
+
+if __name__ == "__main__":
+    found = check_tree(pathlib.Path(sys.argv[1]).resolve())
+    print("\n".join(found) or "no include crosses a wall")
+    sys.exit(1 if found else 0)

@@ -1,0 +1,47 @@
+"""Small trees, each with one breach, which check_rooms must find at its line."""
+
+import pathlib
+import tempfile
+
+import check_rooms
+
+ROOMS = "dynamics:\ndynamics/rope: dynamics\npipeline:\npipeline/build: dynamics/rope\n"
+TREE = {
+    "dynamics/errors.h": "#pragma once\n",
+    "dynamics/rope/rope.h": '#pragma once\n#include "dynamics/errors.h"\n',
+    "pipeline/version.h": "#pragma once\n",
+    "pipeline/build/build.cc": '#include "dynamics/rope/rope.h"\n',
+}
+
+
+def complaints_of(changes, rooms=ROOMS):
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in {**TREE, **changes, ".ci/rooms.txt": rooms}.items():
+            path = root / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text)
+        return check_rooms.check_tree(root)
+
+
+def expect(found, *beginnings):
+    assert len(found) == len(beginnings), found
+    for complaint, beginning in zip(found, beginnings):
+        assert beginning in complaint, (complaint, beginning)
+
+
+expect(complaints_of({}))
+expect(complaints_of({"dynamics/rope/rope.h": '#pragma once\n\n#include "pipeline/version.h"\n'}),
+       "dynamics/rope/rope.h:3: error: dynamics/rope may not include pipeline")
+expect(complaints_of({"pipeline/build/build.cc": '#include "dynamics/errors.h"\n'}),
+       "pipeline/build/build.cc:1: error: pipeline/build may not include dynamics")
+expect(complaints_of({"pipeline/build/build.cc": '#include "dynamics/rope/road.h"\n'}),
+       "pipeline/build/build.cc:1: error: includes \"dynamics/rope/road.h\", which is not a file")
+expect(complaints_of({"dynamics/rope/rope.h": "#include <deal.II/grid/tria.h>\n"}),
+       "dynamics/rope/rope.h:1: error: includes <deal.II/grid/tria.h>, which is for structure")
+expect(complaints_of({"dynamics/attic/thing.h": "#pragma once\n"}),
+       "dynamics/attic/thing.h:1: error: the room dynamics/attic does not stand in")
+expect(complaints_of({}, ROOMS.replace("dynamics:", "dynamics: pipeline/build")),
+       ".ci/rooms.txt:1: error: dynamics may not use pipeline/build", )
+expect(complaints_of({}, ROOMS + "pipeline/cellar:\n"), "the room pipeline/cellar is empty")
+print("every breach is seen")
