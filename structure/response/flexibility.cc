@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "structure/error.h"
+#include "structure/system/matter.h"
 
 namespace blocklift::structure {
 
@@ -16,31 +17,26 @@ namespace {
 
 constexpr int largest_steps = 60;
 
-/// The block with its mass at the nodes: projections onto what is no rigid motion.
+/// The block with its mass: projections onto what is no rigid motion.
 class FreeBlock {
  public:
-  explicit FreeBlock(const UnitResponses& responses) : responses_(responses) {
-    const ElasticModel& model = responses.model();
-    const Eigen::VectorXd nodal = model.mass_moments().col(0);
-    const Eigen::Matrix3Xd& nodes = model.space().nodes;
-    const Vector3 centre = nodes * nodal / nodal.sum();
-    mass_.resize(model.unknowns());
-    rigid_.setZero(model.unknowns(), 6);
-    for (Eigen::Index n = 0; n < nodal.size(); ++n) {
-      mass_.segment<3>(3 * n).setConstant(nodal[n]);
-      rigid_.block<3, 3>(3 * n, 0).setIdentity();
+  explicit FreeBlock(const UnitResponses& responses)
+      : responses_(responses),
+        mass_(mass_matrix(responses.model().space(), responses.model().mass_properties())) {
+    const Eigen::Matrix3Xd& nodes = responses.model().space().nodes();
+    const Vector3 centre = responses.model().mass_properties().centre_of_mass_B;
+    rigid_.setZero(responses.model().freedoms(), 6);
+    for (Eigen::Index n = 0; n < nodes.cols(); ++n) {
+      rigid_.block<6, 6>(6 * n, 0).setIdentity();
       const Vector3 arm = nodes.col(n) - centre;
       for (int axis = 0; axis < 3; ++axis)
-        rigid_.block<3, 1>(3 * n, 3 + axis) = Vector3::Unit(axis).cross(arm);
+        rigid_.block<3, 1>(6 * n, 3 + axis) = Vector3::Unit(axis).cross(arm);
     }
-    const Eigen::Matrix<double, 6, 6> gram = rigid_.transpose() * (mass_.asDiagonal() * rigid_);
+    const Eigen::Matrix<double, 6, 6> gram = rigid_.transpose() * (mass_ * rigid_);
     gram.llt().matrixU().solveInPlace<Eigen::OnTheRight>(rigid_);
   }
 
-  const Eigen::VectorXd& mass() const { return mass_; }
-  Eigen::MatrixXd times_mass(const Eigen::MatrixXd& shapes) const {
-    return mass_.asDiagonal() * shapes;
-  }
+  Eigen::MatrixXd times_mass(const Eigen::MatrixXd& shapes) const { return mass_ * shapes; }
   /// Loads with the inertia of the rigid acceleration that they give the block.
   Eigen::MatrixXd balanced(Eigen::MatrixXd loads) const {
     loads.noalias() -= times_mass(rigid_ * (rigid_.transpose() * loads).eval());
@@ -58,7 +54,7 @@ class FreeBlock {
 
  private:
   const UnitResponses& responses_;
-  Eigen::VectorXd mass_;
+  Eigen::SparseMatrix<double> mass_;
   Eigen::MatrixXd rigid_;  // M-orthonormal
 };
 
@@ -146,7 +142,7 @@ Eigen::MatrixXd start_shapes(const UnitResponses& responses, int width) {
   std::normal_distribution<double> normal;
   const auto noise = [&] { return normal(random); };
   const Eigen::Index lug_forces = 3 * responses.model().lug_count();
-  Eigen::MatrixXd shapes = Eigen::MatrixXd::NullaryExpr(responses.model().unknowns(), width, noise);
+  Eigen::MatrixXd shapes = Eigen::MatrixXd::NullaryExpr(responses.model().freedoms(), width, noise);
   if (lug_forces == 0) return shapes;
   const Eigen::MatrixXd responses_of_lugs = responses.displacements().leftCols(lug_forces) *
                                             Eigen::MatrixXd::NullaryExpr(lug_forces, width, noise);
@@ -198,7 +194,7 @@ LugFlexibility find_lug_flexibility(const UnitResponses& responses, int modes) {
     const FreeModes free = find_modes(responses, block, modes, 1e-5);
     const Eigen::MatrixXd at_lugs = loads.transpose() * free.shapes;
     result.angular_frequencies = free.angular_frequencies;
-    result.shapes = std::sqrt(block.mass().sum() / 3) * at_lugs;
+    result.shapes = std::sqrt(responses.model().mass_properties().mass) * at_lugs;
     const Eigen::MatrixXd by_modes = at_lugs * free.angular_frequencies.cwiseInverse().asDiagonal();
     result.residual_compliance -= by_modes * by_modes.transpose();
   }

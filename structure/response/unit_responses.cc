@@ -11,11 +11,12 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
-#include "structure/response/support.h"
 #include "structure/stopwatch.h"
+#include "structure/system/assembly.h"
 #include "structure/system/linear_solver.h"
+#include "structure/system/matter.h"
+#include "structure/system/support.h"
 
 namespace blocklift::structure {
 
@@ -36,15 +37,15 @@ UnitResponses::~UnitResponses() = default;
 UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(model) {
   if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   Stopwatch watch;
-  SparseLower stiffness = assemble_stiffness(model.mesh(), model.space(), threads);
+  SparseLower stiffness = assemble_stiffness(model.space(), threads);
   timing_.assembly_s = watch.lap();
   system_ = std::make_unique<System>(std::move(stiffness),
-                                     statically_determinate_support(model.space().nodes));
+                                     statically_determinate_support(model.space()));
   timing_.factor_bytes = system_->equations.factor_bytes();
   timing_.analysis_s = watch.lap();
   system_->equations.factorise();
   timing_.factorisation_s = watch.lap();
-  added_loads_.resize(model_.unknowns(), 0);
+  added_loads_.resize(model_.freedoms(), 0);
   solve_basis();
   timing_.solve_s = watch.lap();
 }
@@ -56,7 +57,7 @@ void UnitResponses::balance_loads(Eigen::MatrixXd& loads,
     accelerations.col(k).setZero();
     for (int pass = 0; pass < 2; ++pass) {
       const Eigen::Matrix<double, 6, 1> field =
-          balancing_field(model_.mass_properties(), resultant(model_.space().nodes, loads.col(k)))
+          balancing_field(model_.mass_properties(), resultant(model_.space(), loads.col(k)))
               .coefficients()
               .head<6>();
       loads.col(k) += model_.inertia_loads().leftCols<6>() * field;
@@ -67,14 +68,21 @@ void UnitResponses::balance_loads(Eigen::MatrixXd& loads,
 
 void UnitResponses::solve_basis() {
   const Eigen::Index lug_forces = 3 * model_.lug_count();
-  Eigen::MatrixXd loads(model_.unknowns(), lug_forces + 6);
+  Eigen::MatrixXd loads(model_.freedoms(), lug_forces + 6);
   loads << model_.lug_loads(), model_.inertia_loads().rightCols<6>();
   balancing_.resize(6, lug_forces + 6);
   balance_loads(loads, balancing_);
   loads.conservativeResize(Eigen::NoChange, lug_forces + 12);
   loads.rightCols<6>() = model_.inertia_loads().leftCols<6>();
-  displacements_ = system_->equations.solve(loads);
-  reactions_ = system_->equations.reactions(displacements_, loads);
+  displacements_ = solve(loads, reactions_);
+}
+
+Eigen::MatrixXd UnitResponses::solve(const Eigen::MatrixXd& loads,
+                                     Eigen::MatrixXd& reactions) const {
+  const Eigen::MatrixXd reduced = model_.space().reduce(loads);
+  const Eigen::MatrixXd solution = system_->equations.solve(reduced);
+  reactions = system_->equations.reactions(solution, reduced);
+  return model_.space().expand(solution);
 }
 
 void UnitResponses::add_loads(const Eigen::MatrixXd& added) {
@@ -82,8 +90,8 @@ void UnitResponses::add_loads(const Eigen::MatrixXd& added) {
   Stopwatch watch;
   Eigen::MatrixXd loads = added, accelerations(6, added.cols());
   balance_loads(loads, accelerations);
-  const Eigen::MatrixXd displacements = system_->equations.solve(loads);
-  const Eigen::MatrixXd reactions = system_->equations.reactions(displacements, loads);
+  Eigen::MatrixXd reactions;
+  const Eigen::MatrixXd displacements = solve(loads, reactions);
   // The plain accelerations stay at the end.
   const auto insert = [](Eigen::MatrixXd& all, const Eigen::MatrixXd& more) {
     const Eigen::MatrixXd plain = all.rightCols<6>();
@@ -136,7 +144,7 @@ Eigen::VectorXd UnitResponses::displacement(const LoadCase& load_case) const {
 }
 
 Eigen::VectorXd UnitResponses::solve_directly(const LoadCase& load_case) const {
-  return system_->equations.solve(load_vector(load_case));
+  return solve(load_vector(load_case));
 }
 
 Eigen::VectorXd UnitResponses::without_rigid_motion(const Eigen::VectorXd& displacement) const {
@@ -148,21 +156,25 @@ Eigen::VectorXd UnitResponses::without_rigid_motion(const Eigen::VectorXd& displ
   const Vector3 rotation = mass.inertia_BBcm_B.ldlt().solve(
       work.tail<3>() - mass.centre_of_mass_B.cross(work.head<3>().eval()));
   Eigen::VectorXd relative = displacement;
-  for (Eigen::Index n = 0; n < model_.space().nodes.cols(); ++n)
-    relative.segment<3>(3 * n) -=
-        mean + rotation.cross(model_.space().nodes.col(n) - mass.centre_of_mass_B);
+  for (Eigen::Index n = 0; n < model_.space().node_count(); ++n) {
+    relative.segment<3>(6 * n) -=
+        mean + rotation.cross(model_.space().nodes().col(n) - mass.centre_of_mass_B);
+    relative.segment<3>(6 * n + 3) -= rotation;
+  }
   return relative;
 }
 
 Eigen::Matrix3Xd UnitResponses::elastic_displacement(const LoadCase& load_case) const {
   const Eigen::VectorXd relative = without_rigid_motion(displacement(load_case));
-  return Eigen::Map<const Eigen::Matrix3Xd>(relative.data(), 3, relative.size() / 3);
+  return Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>>(relative.data(), 6,
+                                                                    relative.size() / 6)
+      .topRows<3>();
 }
 
 LoadBalance UnitResponses::balance(const LoadCase& load_case) const {
   const MassProperties& mass = model_.mass_properties();
   LoadBalance result;
-  result.resultant = resultant(model_.space().nodes, load_vector(load_case));
+  result.resultant = resultant(model_.space(), load_vector(load_case));
   result.resultant.moment -= mass.centre_of_mass_B.cross(result.resultant.force);
   // A block that stands still on the ground has neither lug forces nor a field: its weight, which is
   // what cancels there, is the least that residuals are compared with.
@@ -180,7 +192,8 @@ LoadBalance UnitResponses::balance(const LoadCase& load_case) const {
 }
 
 Eigen::MatrixXd UnitResponses::solve(const Eigen::MatrixXd& balanced_loads) const {
-  return system_->equations.solve(balanced_loads);
+  Eigen::MatrixXd reactions;
+  return solve(balanced_loads, reactions);
 }
 
 }  // namespace blocklift::structure

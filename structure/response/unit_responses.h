@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/elastic_model.h"
+#include "structure/response/elastic_model.h"
 
 namespace blocklift::structure {
 
@@ -54,12 +54,12 @@ class UnitResponses {
   const ElasticModel& model() const { return model_; }
   const SolutionTiming& timing() const { return timing_; }
 
-  /// Adds loads to the basis (a column each, N), such as pressures on the shell.
+  /// Adds loads to the basis (a column each, freedoms), such as pressures on the shell.
   void add_loads(const Eigen::MatrixXd& loads);
 
   /// Number of basis loads, 3 lugs + 12 + those added.
   int count() const { return static_cast<int>(displacements_.cols()); }
-  /// Displacements of the basis, unknowns x count, m.
+  /// Motions of the basis, freedoms x count, m and rad.
   const Eigen::MatrixXd& displacements() const { return displacements_; }
   /// Factors of the basis that make up a load case.
   /// In the order: lug forces, products of angular velocities, added loads, the six plain accelerations.
@@ -69,7 +69,7 @@ class UnitResponses {
 
   /// Load vector of a load case, N.
   Eigen::VectorXd load_vector(const LoadCase& load_case) const;
-  /// Displacement of a load case, m, against the 3-2-1 support.
+  /// Motion of a load case against the 3-2-1 support, six rows a node.
   Eigen::VectorXd displacement(const LoadCase& load_case) const;
   /// Displacement relative to the block's mean rigid motion (mass-weighted least squares), m, one
   /// column a node.
@@ -79,21 +79,22 @@ class UnitResponses {
   /// Solves a load case directly, without the basis: for checks of the superposition.
   Eigen::VectorXd solve_directly(const LoadCase& load_case) const;
 
-  /// Displacements against the 3-2-1 support under loads (columns, N) that are in balance.
+  /// Motions against the 3-2-1 support under loads (columns) that are in balance.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& balanced_loads) const;
 
-  /// Takes the best-fitting rigid motion (mass-weighted) out of a displacement.
+  /// Takes the best-fitting rigid motion (mass-weighted) out of a motion.
   Eigen::VectorXd without_rigid_motion(const Eigen::VectorXd& displacement) const;
 
  private:
   struct System;
   void balance_loads(Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> accelerations) const;
   void solve_basis();
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& loads, Eigen::MatrixXd& reactions) const;
 
   const ElasticModel& model_;
   SolutionTiming timing_;
   std::unique_ptr<System> system_;
-  Eigen::MatrixXd added_loads_;    ///< as they came, unknowns x added, N
+  Eigen::MatrixXd added_loads_;    ///< as they came, freedoms x added
   Eigen::MatrixXd balancing_;      ///< 6 x (lug forces + products + added): rigid accelerations
   Eigen::MatrixXd displacements_;  ///< of the basis
   Eigen::MatrixXd reactions_;      ///< 6 x count, N

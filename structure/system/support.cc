@@ -1,4 +1,4 @@
-#include "structure/response/support.h"
+#include "structure/system/support.h"
 
 #include <array>
 #include <vector>
@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 
 #include "structure/error.h"
+#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -22,9 +23,30 @@ Eigen::Matrix<double, 1, 6> rigid_row(const Vector3& x, int axis, double length)
   return row;
 }
 
+/// Unknown that a freedom is; -1 if it is a sum of others.
+int own_unknown(const Space& space, int freedom) {
+  const Space::Term *begin = space.begin_of(freedom), *end = space.end_of(freedom);
+  return end - begin == 1 && begin->weight == 1 ? begin->unknown : -1;
+}
+
+/// Nodes whose displacements are unknowns.
+std::vector<int> free_nodes(const Space& space) {
+  std::vector<int> nodes;
+  for (int node = 0; node < space.node_count(); ++node)
+    if (own_unknown(space, 6 * node) >= 0 && own_unknown(space, 6 * node + 1) >= 0 &&
+        own_unknown(space, 6 * node + 2) >= 0)
+      nodes.push_back(node);
+  return nodes;
+}
+
 }  // namespace
 
-std::vector<FixedUnknown> statically_determinate_support(const Eigen::Matrix3Xd& nodes) {
+std::vector<FixedUnknown> statically_determinate_support(const Space& space) {
+  const std::vector<int> candidates = free_nodes(space);
+  if (candidates.size() < 3) throw ModelError("the mesh has too few nodes to be held");
+  Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    nodes.col(static_cast<Eigen::Index>(i)) = space.nodes().col(candidates[i]);
   const Vector3 middle = nodes.rowwise().mean();
   std::array<Eigen::Index, 3> node{};
   (nodes.colwise() - middle).colwise().squaredNorm().maxCoeff(&node[0]);
@@ -58,9 +80,11 @@ std::vector<FixedUnknown> statically_determinate_support(const Eigen::Matrix3Xd&
         chosen = {i, j, k};
       }
   std::vector<FixedUnknown> support;
-  for (int axis = 0; axis < 3; ++axis) support.push_back({static_cast<int>(3 * node[0]) + axis, 0});
-  for (const int c : chosen)
-    support.push_back({static_cast<int>(3 * node[c < 3 ? 1 : 2]) + c % 3, 0});
+  const auto hold = [&](Eigen::Index at_node, int axis) {
+    support.push_back({own_unknown(space, 6 * candidates[at(at_node)] + axis), 0});
+  };
+  for (int axis = 0; axis < 3; ++axis) hold(node[0], axis);
+  for (const int c : chosen) hold(node[c < 3 ? 1 : 2], c % 3);
   return support;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "structure/space/space.h"
 #include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
@@ -12,6 +13,6 @@ namespace blocklift::structure {
 /// nothing else. The first node is held along x, y, z; of the components at the other two, those
 /// three are held that best resist the rigid motions (largest smallest singular value).
 /// @throws ModelError if all nodes lie on one line.
-std::vector<FixedUnknown> statically_determinate_support(const Eigen::Matrix3Xd& nodes);
+std::vector<FixedUnknown> statically_determinate_support(const Space& space);
 
 }  // namespace blocklift::structure

@@ -1,0 +1,342 @@
+#include "structure/mesh/fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <queue>
+#include <set>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "structure/index.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Edges of a shell in the order in which its outline runs round: corners at their ends.
+constexpr std::array<std::array<int, 2>, 4> round_edges{{{0, 1}, {1, 3}, {3, 2}, {2, 0}}};
+
+Eigen::Vector2d corner_place(int corner) { return {corner & 1, corner >> 1}; }
+
+struct EdgeOfShell {
+  int shell = 0;
+  int edge = 0;  ///< place in round_edges
+};
+
+using EdgeKey = std::pair<int, int>;
+using EdgeMap = std::map<EdgeKey, std::vector<EdgeOfShell>>;
+
+int vertex_of(const Mesh& mesh, int shell, int corner) {
+  return mesh.shells[at(shell)].vertices[at(corner)];
+}
+
+EdgeKey key_of(const Mesh& mesh, const EdgeOfShell& edge) {
+  return std::minmax(vertex_of(mesh, edge.shell, round_edges[at(edge.edge)][0]),
+                     vertex_of(mesh, edge.shell, round_edges[at(edge.edge)][1]));
+}
+
+EdgeMap collect_edges(const Mesh& mesh) {
+  EdgeMap edges;
+  for (int shell = 0; shell < static_cast<int>(mesh.shells.size()); ++shell)
+    for (int edge = 0; edge < 4; ++edge) {
+      const EdgeKey key = key_of(mesh, {shell, edge});
+      if (key.first != key.second) edges[key].push_back({shell, edge});
+    }
+  return edges;
+}
+
+Eigen::Matrix<double, 3, 2> tangents(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
+  const Shell& s = mesh.shells[at(shell)];
+  Eigen::Matrix<double, 3, 2> g;
+  if (s.curvature < 0) {
+    const auto v = [&](std::size_t i) { return mesh.vertices[at(s.vertices[i])]; };
+    g.col(0) = (1 - xi.y()) * (v(1) - v(0)) + xi.y() * (v(3) - v(2));
+    g.col(1) = (1 - xi.x()) * (v(2) - v(0)) + xi.x() * (v(3) - v(1));
+    return g;
+  }
+  const double step = 1e-4;
+  for (int a = 0; a < 2; ++a) {
+    const Eigen::Vector2d along = step * Eigen::Vector2d::Unit(a);
+    g.col(a) = (position(mesh, s, xi + along) - position(mesh, s, xi - along)) / (2 * step);
+  }
+  return g;
+}
+
+Vector3 normal_at(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
+  const Eigen::Matrix<double, 3, 2> g = tangents(mesh, shell, xi);
+  return Vector3(g.col(0)).cross(Vector3(g.col(1))).normalized();
+}
+
+bool same_section(const Mesh& mesh, int a, int b) {
+  const ShellSection &of_a = mesh.section_of(mesh.shells[at(a)]),
+                     &of_b = mesh.section_of(mesh.shells[at(b)]);
+  return of_a.material == of_b.material &&
+         std::abs(of_a.thickness - of_b.thickness) < 1e-6 * of_a.thickness;
+}
+
+/// Two shells that go on into one another across an edge. The normals are those in the edge's middle, since
+/// curved shells are smooth where they meet and not in their middles.
+bool is_smooth(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b, double kink) {
+  if (!same_section(mesh, a.shell, b.shell)) return false;
+  const auto middle = [](const EdgeOfShell& e) -> Eigen::Vector2d {
+    const Eigen::Vector2d on_edge = 0.5 * (corner_place(round_edges[at(e.edge)][0]) +
+                                           corner_place(round_edges[at(e.edge)][1]));
+    return on_edge + 0.01 * (Eigen::Vector2d(0.5, 0.5) - on_edge);
+  };
+  const double cosine = std::abs(
+      normal_at(mesh, a.shell, middle(a)).dot(normal_at(mesh, b.shell, middle(b))));
+  return cosine > std::cos(kink);
+}
+
+/// Does the second shell run round the edge the same way as the first? Then their normals disagree.
+bool disagree(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b) {
+  return vertex_of(mesh, a.shell, round_edges[at(a.edge)][0]) ==
+         vertex_of(mesh, b.shell, round_edges[at(b.edge)][0]);
+}
+
+double corner_angle(const Mesh& mesh, int shell, int vertex) {
+  const Shell& s = mesh.shells[at(shell)];
+  for (std::size_t e = 0; e < 4; ++e) {
+    const int corner = round_edges[e][1];
+    if (s.vertices[at(corner)] != vertex) continue;
+    // The edges before and after it; of a triangle the one that is a point is passed over.
+    int before = round_edges[e][0], after = round_edges[(e + 1) % 4][1];
+    if (s.vertices[at(before)] == vertex) before = round_edges[(e + 3) % 4][0];
+    if (s.vertices[at(after)] == vertex) after = round_edges[(e + 2) % 4][1];
+    const Vector3 here = mesh.vertices[at(vertex)],
+                  a = mesh.vertices[at(s.vertices[at(before)])] - here,
+                  b = mesh.vertices[at(s.vertices[at(after)])] - here;
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return 0;
+}
+
+class FieldFinder {
+ public:
+  FieldFinder(const Mesh& mesh, double kink) : mesh_(mesh), edges_(collect_edges(mesh)) {
+    for (const auto& [key, shells] : edges_) {
+      const bool is_inside = shells.size() == 2 && is_smooth(mesh, shells[0], shells[1], kink);
+      if (is_inside) {
+        inside_.insert(key);
+      } else {
+        ++structural_edges_[key.first];
+        ++structural_edges_[key.second];
+      }
+    }
+  }
+
+  PlateFields find() {
+    result_.field_of_shell.assign(mesh_.shells.size(), -1);
+    is_flipped_.assign(mesh_.shells.size(), false);
+    for (int shell = 0; shell < static_cast<int>(mesh_.shells.size()); ++shell)
+      if (result_.field_of_shell[at(shell)] < 0) grow(shell);
+    for (PlateField& field : result_.fields) outline(field);
+    std::sort(result_.singular_vertices.begin(), result_.singular_vertices.end());
+    const auto last =
+        std::unique(result_.singular_vertices.begin(), result_.singular_vertices.end());
+    result_.singular_vertices.erase(last, result_.singular_vertices.end());
+    return std::move(result_);
+  }
+
+ private:
+  void grow(int first) {
+    const int number = static_cast<int>(result_.fields.size());
+    PlateField& field = result_.fields.emplace_back();
+    std::queue<int> open;
+    open.push(first);
+    result_.field_of_shell[at(first)] = number;
+    std::map<int, int> of_region;
+    while (!open.empty()) {
+      const int shell = open.front();
+      open.pop();
+      field.shells.push_back(shell);
+      field.is_flipped.push_back(is_flipped_[at(shell)]);
+      ++of_region[mesh_.shells[at(shell)].region];
+      for (int edge = 0; edge < 4; ++edge) {
+        const EdgeKey key = key_of(mesh_, {shell, edge});
+        if (inside_.count(key) == 0) continue;
+        const auto& both = edges_.at(key);
+        const EdgeOfShell& other = both[both[0].shell == shell ? 1 : 0];
+        if (result_.field_of_shell[at(other.shell)] >= 0) continue;
+        result_.field_of_shell[at(other.shell)] = number;
+        is_flipped_[at(other.shell)] =
+            is_flipped_[at(shell)] != disagree(mesh_, {shell, edge}, other);
+        open.push(other.shell);
+      }
+    }
+    field.region = std::max_element(of_region.begin(), of_region.end(), [](auto& a, auto& b) {
+                     return a.second < b.second;
+                   })->first;
+  }
+
+  /// The edge that follows on the outline of one shell, in the field's sense of rotation.
+  EdgeOfShell next(const EdgeOfShell& edge) const {
+    const int step = is_flipped_[at(edge.shell)] ? 3 : 1;
+    EdgeOfShell following{edge.shell, (edge.edge + step) % 4};
+    const EdgeKey key = key_of(mesh_, following);
+    if (key.first == key.second) following.edge = (following.edge + step) % 4;
+    return following;
+  }
+  int end_of(const EdgeOfShell& edge) const {
+    return vertex_of(mesh_, edge.shell,
+                     round_edges[at(edge.edge)][is_flipped_[at(edge.shell)] ? 0 : 1]);
+  }
+
+  void outline(PlateField& field) {
+    std::set<std::pair<int, int>> visited;  // shell, edge
+    for (const int shell : field.shells)
+      for (int edge = 0; edge < 4; ++edge) {
+        const EdgeKey key = key_of(mesh_, {shell, edge});
+        if (key.first == key.second || inside_.count(key) != 0 || visited.count({shell, edge}) != 0)
+          continue;
+        walk_round(field, {shell, edge}, visited);
+      }
+  }
+
+  void walk_round(PlateField& field, const EdgeOfShell& start,
+                  std::set<std::pair<int, int>>& visited) {
+    std::vector<EdgeOfShell> loop;
+    std::vector<double> angles;  // at the end of each
+    EdgeOfShell edge = start;
+    do {
+      visited.insert({edge.shell, edge.edge});
+      loop.push_back(edge);
+      const int vertex = end_of(edge);
+      double angle = corner_angle(mesh_, edge.shell, vertex);
+      edge = next(edge);
+      // Round the vertex through the field, until its outline is met again.
+      while (inside_.count(key_of(mesh_, edge)) != 0) {
+        const auto& both = edges_.at(key_of(mesh_, edge));
+        const EdgeOfShell& other = both[both[0].shell == edge.shell ? 1 : 0];
+        angle += corner_angle(mesh_, other.shell, vertex);
+        edge = next(other);
+      }
+      angles.push_back(angle);
+    } while (edge.shell != start.shell || edge.edge != start.edge);
+    field.outlines.push_back(divide(loop, angles));
+  }
+
+  bool is_corner(const EdgeOfShell& before, const EdgeOfShell& after, double angle) const {
+    constexpr double straight = 0.09;  // rad
+    const auto found = structural_edges_.find(end_of(before));
+    return std::abs(angle - std::numbers::pi) > straight || found->second != 2 ||
+           edges_.at(key_of(mesh_, before)).size() != edges_.at(key_of(mesh_, after)).size();
+  }
+
+  std::vector<FieldEdge> divide(const std::vector<EdgeOfShell>& loop,
+                                const std::vector<double>& angles) {
+    const std::size_t count = loop.size();
+    std::size_t first = 0;  // begins after a corner
+    for (std::size_t i = 0; i < count; ++i)
+      if (is_corner(loop[i], loop[(i + 1) % count], angles[i])) {
+        first = (i + 1) % count;
+        break;
+      }
+    std::vector<FieldEdge> edges(1);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = (first + k) % count;
+      append(edges.back(), loop[i]);
+      edges.back().angle_at_end = angles[i];
+      note_singular(loop[i], loop[(i + 1) % count], angles[i]);
+      if (k + 1 < count && is_corner(loop[i], loop[(i + 1) % count], angles[i]))
+        edges.emplace_back();
+    }
+    return edges;
+  }
+
+  void note_singular(const EdgeOfShell& before, const EdgeOfShell& after, double angle) {
+    const bool is_straight = std::abs(angle - std::numbers::pi) < 0.3;
+    const auto meeting = [&](const EdgeOfShell& e) { return edges_.at(key_of(mesh_, e)).size(); };
+    if (angle > std::numbers::pi + 0.3 || (is_straight && meeting(before) != meeting(after)))
+      result_.singular_vertices.push_back(end_of(before));
+  }
+
+  void append(FieldEdge& edge, const EdgeOfShell& part) const {
+    const auto& corners = round_edges[at(part.edge)];
+    const bool is_flipped = is_flipped_[at(part.shell)];
+    FieldEdge::Piece piece;
+    piece.shell = part.shell;
+    piece.begin = corner_place(corners[is_flipped ? 1 : 0]);
+    piece.end = corner_place(corners[is_flipped ? 0 : 1]);
+    piece.from = vertex_of(mesh_, part.shell, corners[is_flipped ? 1 : 0]);
+    piece.to = vertex_of(mesh_, part.shell, corners[is_flipped ? 0 : 1]);
+    const Shell& shell = mesh_.shells[at(part.shell)];
+    const int steps = shell.curvature < 0 ? 1 : 8;
+    for (int i = 0; i < steps; ++i) {
+      const auto on = [&](double t) -> Eigen::Vector2d {
+        return piece.begin + t * (piece.end - piece.begin);
+      };
+      piece.length += (position(mesh_, shell, on((i + 1.0) / steps)) -
+                       position(mesh_, shell, on(static_cast<double>(i) / steps)))
+                          .norm();
+    }
+    edge.length += piece.length;
+    edge.is_free = edges_.at(key_of(mesh_, part)).size() == 1;
+    edge.pieces.push_back(piece);
+  }
+
+  const Mesh& mesh_;
+  EdgeMap edges_;
+  std::set<EdgeKey> inside_;              ///< edges within fields
+  std::map<int, int> structural_edges_;   ///< how many other edges meet in a vertex
+  std::vector<bool> is_flipped_;
+  PlateFields result_;
+};
+
+}  // namespace
+
+PlateFields find_fields(const Mesh& mesh, double kink) { return FieldFinder(mesh, kink).find(); }
+
+FieldWalker::FieldWalker(const Mesh& mesh, const PlateFields& fields)
+    : mesh_(mesh), fields_(fields), neighbours_(mesh.shells.size(), {-1, -1, -1, -1}) {
+  for (const auto& [key, shells] : collect_edges(mesh)) {
+    if (shells.size() != 2 || fields.field_of_shell[at(shells[0].shell)] !=
+                                  fields.field_of_shell[at(shells[1].shell)])
+      continue;
+    neighbours_[at(shells[0].shell)][at(shells[0].edge)] = shells[1].shell;
+    neighbours_[at(shells[1].shell)][at(shells[1].edge)] = shells[0].shell;
+  }
+}
+
+std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPlace& start) const {
+  constexpr double tolerance = 1e-6;
+  constexpr int most_steps = 400;
+  ShellPlace here = start;
+  int came_from = -1;
+  for (int step = 0; step < most_steps; ++step) {
+    const Shell& shell = mesh_.shells[at(here.shell)];
+    for (int newton = 0; newton < 12; ++newton) {
+      const Eigen::Matrix<double, 3, 2> g = tangents(mesh_, here.shell, here.xi);
+      const Eigen::Vector2d change =
+          (g.transpose() * g).ldlt().solve(g.transpose() * (place - position(mesh_, shell, here.xi)));
+      here.xi += change;
+      here.xi = here.xi.cwiseMax(-2.0).cwiseMin(3.0);
+      if (change.cwiseAbs().maxCoeff() < 1e-10) break;
+    }
+    // How far the point lies outside, by the edges in their order: eta < 0, xi > 1, eta > 1, xi < 0.
+    const std::array<double, 4> outside{-here.xi.y(), here.xi.x() - 1, here.xi.y() - 1, -here.xi.x()};
+    const double worst = *std::max_element(outside.begin(), outside.end());
+    if (worst <= tolerance) {
+      here.xi = here.xi.cwiseMax(0.0).cwiseMin(1.0);
+      return here;
+    }
+    int next = -1;
+    double most = tolerance;
+    for (std::size_t e = 0; e < 4; ++e) {
+      const int neighbour = neighbours_[at(here.shell)][e];
+      if (neighbour < 0 || outside[e] <= most || neighbour == came_from) continue;
+      next = neighbour;
+      most = outside[e];
+    }
+    if (next < 0) return std::nullopt;
+    came_from = here.shell;
+    here = {next, {0.5, 0.5}};
+  }
+  return std::nullopt;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/mesh/mesh.h"
+
+namespace blocklift::structure {
+
+/// Straight or evenly curved stretch of a field's outline between two of its corners.
+struct FieldEdge {
+  /// Edge of a shell, in the direction in which the outline runs.
+  struct Piece {
+    int shell = 0;
+    Eigen::Vector2d begin = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();  ///< unit square
+    int from = 0, to = 0;  ///< vertices
+    double length = 0;     ///< m
+  };
+  std::vector<Piece> pieces;
+  double length = 0;         ///< m
+  bool is_free = false;      ///< no other shell meets the field there
+  double angle_at_end = 0;   ///< of the field's material at the vertex where the edge ends, rad
+};
+
+/// Plating that goes on smoothly with one section: bounded by joints with other plates, by kinks, changes of
+/// thickness and free edges. How shells or regions divide it does not matter.
+struct PlateField {
+  std::vector<int> shells;
+  std::vector<bool> is_flipped;  ///< of each shell: its normal is against the field's
+  int region = 0;                ///< that has most of the shells
+  /// Outlines, each running round with the field on its left, seen against its normal; the first one found
+  /// may be a hole's.
+  std::vector<std::vector<FieldEdge>> outlines;
+};
+
+/// The fields of a mesh, and the vertices where linear elasticity knows no limit of the stress in a field's
+/// plane: where an outline turns away from the material (openings' corners, ends of brackets) or a joint on
+/// it begins or ends (lugs' toes).
+struct PlateFields {
+  std::vector<PlateField> fields;
+  std::vector<int> field_of_shell;
+  std::vector<int> singular_vertices;
+};
+
+/// @param kink angle between two shells' normals from which on a field ends, rad.
+PlateFields find_fields(const Mesh& mesh, double kink = 0.15);
+
+/// A point of a shell.
+struct ShellPlace {
+  int shell = 0;
+  Eigen::Vector2d xi = Eigen::Vector2d::Zero();
+};
+
+/// Finds points of a field by walking from shell to shell.
+class FieldWalker {
+ public:
+  /// The mesh and the fields must outlive this object.
+  FieldWalker(const Mesh& mesh, const PlateFields& fields);
+  /// The point of the start's field that lies nearest to a place, if the place lies over it (to 1e-6 of a
+  /// shell's size).
+  std::optional<ShellPlace> find(const Vector3& place, const ShellPlace& start) const;
+
+ private:
+  const Mesh& mesh_;
+  const PlateFields& fields_;
+  std::vector<std::array<int, 4>> neighbours_;  ///< across edges, within the field; -1: none
+};
+
+}  // namespace blocklift::structure

@@ -1,0 +1,294 @@
+#include "structure/response/squares.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "structure/batches.h"
+#include "structure/index.h"
+#include "structure/response/cell_finder.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+constexpr double largest_spacing = 0.5;    // m, between squares
+constexpr double corner_reach = 3;         // squares from a singular vertex
+constexpr int contiguous = 4;              // squares one behind the other from a corner
+
+/// Gauss points on [0, 1].
+constexpr std::array<double, 4> side_points{0.06943184420297371, 0.33000947820757187,
+                                            0.6699905217924281, 0.9305681557970263};
+constexpr std::array<double, 4> side_weights{0.17392742256872693, 0.32607257743127307,
+                                             0.32607257743127307, 0.17392742256872693};
+
+/// A point of the outline with what multiplies the motion there: weight times the outward normal.
+struct ContourPoint {
+  Vector3 place;
+  Eigen::Vector2d normal;  ///< in e_1, e_2, times the length that the point stands for
+};
+
+std::array<ContourPoint, 16> contour(const Square& square) {
+  std::array<ContourPoint, 16> points;
+  const double half = square.size / 2;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double s = square.size * side_points[i] - half, w = square.size * side_weights[i];
+    points[i] = {square.centre_B + s * square.e_1 - half * square.e_2, {0, -w}};
+    points[4 + i] = {square.centre_B + s * square.e_1 + half * square.e_2, {0, w}};
+    points[8 + i] = {square.centre_B - half * square.e_1 + s * square.e_2, {-w, 0}};
+    points[12 + i] = {square.centre_B + half * square.e_1 + s * square.e_2, {w, 0}};
+  }
+  return points;
+}
+
+ShellPlace place_of(const FieldEdge& edge, double s) {
+  for (const FieldEdge::Piece& piece : edge.pieces) {
+    if (s <= piece.length || &piece == &edge.pieces.back())
+      return {piece.shell, piece.begin + std::clamp(s / piece.length, 0.0, 1.0) *
+                                             (piece.end - piece.begin)};
+    s -= piece.length;
+  }
+  return {};
+}
+
+Vector3 normal_of(const Mesh& mesh, const ShellPlace& place) {
+  const Shell& shell = mesh.shells[at(place.shell)];
+  const Eigen::Vector2d inward = place.xi + 0.01 * (Eigen::Vector2d(0.5, 0.5) - place.xi);
+  const double step = 1e-3;
+  const Vector3 g_1 = position(mesh, shell, inward + Eigen::Vector2d(step, 0)) -
+                      position(mesh, shell, inward - Eigen::Vector2d(step, 0));
+  const Vector3 g_2 = position(mesh, shell, inward + Eigen::Vector2d(0, step)) -
+                      position(mesh, shell, inward - Eigen::Vector2d(0, step));
+  return g_1.cross(g_2).normalized();
+}
+
+/// Distances from both ends of an edge at which squares begin: one behind the other at the ends, ever
+/// farther apart towards the middle.
+std::vector<double> starts_along(double length, double size) {
+  std::vector<double> starts;
+  const double room = length - size;
+  if (room < -1e-9 * size) return starts;
+  double s = 0, gap = size;
+  for (int i = 0; s <= room / 2 + 1e-9; ++i) {
+    starts.push_back(s);
+    starts.push_back(room - s);
+    if (i >= contiguous) gap = std::min(1.5 * gap, largest_spacing);
+    s += gap;
+  }
+  std::sort(starts.begin(), starts.end());
+  const auto last = std::unique(starts.begin(), starts.end(),
+                                [&](double a, double b) { return b - a < 0.1 * size; });
+  starts.erase(last, starts.end());
+  return starts;
+}
+
+class SquarePlacer {
+ public:
+  SquarePlacer(const Mesh& mesh, const PlateFields& fields, const FieldWalker& walker, double size)
+      : mesh_(mesh), fields_(fields), walker_(walker), size_(size) {}
+
+  std::vector<Square> place() {
+    for (const PlateField& field : fields_.fields) {
+      const std::size_t before = squares_.size();
+      for (const auto& outline : field.outlines)
+        for (const FieldEdge& edge : outline) along(field, edge);
+      between(field);
+      if (squares_.size() == before) smaller(field);
+    }
+    mark_corners();
+    return std::move(squares_);
+  }
+
+ private:
+  bool lies_inside(const Square& square, const ShellPlace& start) const {
+    const auto points = contour(square);
+    return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
+      const auto found = walker_.find(point.place, start);
+      return found && (position(mesh_, mesh_.shells[at(found->shell)], found->xi) - point.place)
+                              .norm() < 0.2 * square.size;
+    });
+  }
+
+  /// A square with one side on an edge, from s on. @returns false if it does not fit in.
+  bool put_on_edge(const PlateField& field, const FieldEdge& edge, double s, double size) {
+    const ShellPlace begin = place_of(edge, s), middle = place_of(edge, s + size / 2),
+                     end = place_of(edge, s + size);
+    const auto at_place = [&](const ShellPlace& p) {
+      return position(mesh_, mesh_.shells[at(p.shell)], p.xi);
+    };
+    const auto shell = std::find(field.shells.begin(), field.shells.end(), middle.shell);
+    const double side = field.is_flipped[at(shell - field.shells.begin())] ? -1 : 1;
+    Square square;
+    square.size = size;
+    square.shell = middle.shell;
+    square.region = mesh_.shells[at(middle.shell)].region;
+    square.e_1 = (at_place(end) - at_place(begin)).normalized();
+    const Vector3 normal = side * normal_of(mesh_, middle);
+    square.e_1 = (square.e_1 - normal * normal.dot(square.e_1)).normalized();
+    square.e_2 = normal.cross(square.e_1);
+    // On a curved edge either the chord or the tangent has the square inside.
+    for (const Vector3& base : {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
+      square.centre_B = base + 0.5 * size * square.e_2;
+      if (!lies_inside(square, middle)) continue;
+      squares_.push_back(square);
+      return true;
+    }
+    return false;
+  }
+
+  void along(const PlateField& field, const FieldEdge& edge) {
+    for (const double s : starts_along(edge.length, size_)) put_on_edge(field, edge, s, size_);
+  }
+
+  /// A field that has no room for a whole square.
+  void smaller(const PlateField& field) {
+    for (double size = size_ / 2; size > size_ / 20; size /= 2)
+      for (const auto& outline : field.outlines)
+        for (const FieldEdge& edge : outline) {
+          const double s = 0.5 * (edge.length - size);
+          if (s >= 0 && put_on_edge(field, edge, s, size)) return;
+        }
+  }
+
+  void between(const PlateField& field) {
+    // A lattice that hangs on the first corner of the outline.
+    const FieldEdge& first = field.outlines.front().front();
+    const ShellPlace origin = place_of(first, 0);
+    const Vector3 begin = position(mesh_, mesh_.shells[at(origin.shell)], origin.xi);
+    const ShellPlace next = place_of(first, first.length);
+    Vector3 e_1 = position(mesh_, mesh_.shells[at(next.shell)], next.xi) - begin;
+    const Vector3 normal = normal_of(mesh_, origin);
+    e_1 = (e_1 - normal * normal.dot(e_1)).normalized();
+    if (!e_1.allFinite()) return;
+    const Vector3 e_2 = normal.cross(e_1);
+    Eigen::Array2d lower = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array2d upper = -lower;
+    for (const int shell : field.shells)
+      for (const int vertex : mesh_.shells[at(shell)].vertices) {
+        const Vector3 arm = mesh_.vertices[at(vertex)] - begin;
+        const Eigen::Array2d in_plane(arm.dot(e_1), arm.dot(e_2));
+        lower = lower.min(in_plane);
+        upper = upper.max(in_plane);
+      }
+    ShellPlace start = origin;
+    const auto first_step = [](double low) { return std::ceil(low / largest_spacing + 0.01); };
+    for (double j = first_step(lower[1]); j * largest_spacing < upper[1]; ++j)
+      for (double i = first_step(lower[0]); i * largest_spacing < upper[0]; ++i) {
+        const Vector3 wanted = begin + largest_spacing * (i * e_1 + j * e_2);
+        const auto found = walker_.find(wanted, start);
+        if (!found) continue;
+        start = *found;
+        Square square;
+        square.size = size_;
+        square.shell = found->shell;
+        square.region = mesh_.shells[at(found->shell)].region;
+        square.centre_B = position(mesh_, mesh_.shells[at(found->shell)], found->xi);
+        const Vector3 here = normal_of(mesh_, *found);
+        square.e_1 = (e_1 - here * here.dot(e_1)).normalized();
+        square.e_2 = here.cross(square.e_1);
+        if (lies_inside(square, *found)) squares_.push_back(square);
+      }
+  }
+
+  void mark_corners() {
+    for (const int vertex : fields_.singular_vertices)
+      for (Square& square : squares_)
+        if ((square.centre_B - mesh_.vertices[at(vertex)]).norm() <= corner_reach * size_)
+          square.at_corner = true;
+  }
+
+  const Mesh& mesh_;
+  const PlateFields& fields_;
+  const FieldWalker& walker_;
+  double size_;
+  std::vector<Square> squares_;
+};
+
+}  // namespace
+
+std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
+                                  const FieldWalker& walker, double size) {
+  return SquarePlacer(mesh, fields, walker, size).place();
+}
+
+CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions, double size,
+                             int threads) {
+  const PlateFields fields = find_fields(model.mesh());
+  const FieldWalker walker(model.mesh(), fields);
+  squares_ = place_squares(model.mesh(), fields, walker, size);
+  evaluate(model, walker, motions, threads);
+}
+
+void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walker,
+                             const Eigen::MatrixXd& motions, int threads) {
+  const Space& space = model.space();
+  const CellFinder cells(space);
+  // A node's six freedoms of all motions lie together.
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows = motions;
+  const Eigen::Index columns = motions.cols();
+  components_.setZero(3 * static_cast<Eigen::Index>(squares_.size()), columns);
+  bending_ = components_;
+  in_batches(static_cast<int>(squares_.size()), 64, threads, [&](int first, int count) {
+    Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> moved(6, columns);
+    Eigen::MatrixXd strain(3, columns), curvature(3, columns);
+    for (int s = first; s < first + count; ++s) {
+      const Square& square = squares_[at(s)];
+      const Vector3 normal = square.e_1.cross(square.e_2);
+      const Shell& shell = model.mesh().shells[at(square.shell)];
+      const ShellSection& section = model.mesh().section_of(shell);
+      // The section's offset is along the shell's own normal.
+      const double side = normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
+      strain.setZero();
+      curvature.setZero();
+      ShellPlace start{square.shell, {0.5, 0.5}};
+      for (const ContourPoint& point : contour(square)) {
+        const auto found = walker.find(point.place, start);
+        if (!found) continue;  // place_squares has seen that all are there
+        const CellPlace cell = cells.find(*found);
+        const Eigen::VectorXd values = space.shell_values(cell.xi);
+        const int* nodes = space.shell_nodes(cell.cell);
+        moved.setZero();
+        for (int i = 0; i < space.nodes_per_shell(); ++i)
+          moved += values[i] * by_rows.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
+        const Eigen::RowVectorXd u_1 = square.e_1.transpose() * moved.topRows<3>(),
+                                 u_2 = square.e_2.transpose() * moved.topRows<3>();
+        // e . (theta x n) = theta . (n x e)
+        const Eigen::RowVectorXd t_1 = normal.cross(square.e_1).transpose() * moved.bottomRows<3>(),
+                                 t_2 = normal.cross(square.e_2).transpose() * moved.bottomRows<3>();
+        const auto add = [&](Eigen::MatrixXd& sum, const auto& a, const auto& b) {
+          sum.row(0) += point.normal[0] * a;
+          sum.row(1) += point.normal[1] * b;
+          sum.row(2) += point.normal[1] * a + point.normal[0] * b;
+        };
+        add(strain, u_1, u_2);
+        add(curvature, t_1, t_2);
+      }
+      const double area = square.size * square.size;
+      const Material& material = model.mesh().material_of(shell);
+      const double nu = material.poisson_ratio;
+      Eigen::Matrix3d hooke;
+      hooke << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
+      hooke *= material.youngs_modulus / (1 - nu * nu);
+      strain += side * section.offset * curvature;
+      components_.middleRows<3>(3 * s) = hooke * strain / area;
+      bending_.middleRows<3>(3 * s) = hooke * curvature * (section.thickness / (2 * area));
+    }
+  });
+}
+
+Eigen::VectorXd CheckedStress::von_mises(const Eigen::VectorXd& factors) const {
+  const Eigen::VectorXd stress = components_ * factors;
+  Eigen::VectorXd result(static_cast<Eigen::Index>(squares_.size()));
+  for (Eigen::Index s = 0; s < result.size(); ++s) {
+    const double a = stress[3 * s], b = stress[3 * s + 1], c = stress[3 * s + 2];
+    result[s] = std::sqrt(a * a - a * b + b * b + 3 * c * c);
+  }
+  return result;
+}
+
+}  // namespace blocklift::structure
