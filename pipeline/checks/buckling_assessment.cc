@@ -23,7 +23,9 @@ BlockPanels make_panels(const LiftCase& lift_case, const structure::UnitResponse
   for (const PlateModel& plate : lift_case.load.model->plates)
     if (plate.stiffeners)
       stiffening.push_back(
-          {plate.name.value, static_cast<int>(plate.stiffeners->along), plate.stiffeners->spacing});
+          {plate.name.value,
+           structure::Vector3::Unit(static_cast<Eigen::Index>(plate.stiffeners->along)),
+           plate.stiffeners->spacing});
   return {responses.model(), responses.displacements(), stiffening};
 }
 

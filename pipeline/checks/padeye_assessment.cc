@@ -41,11 +41,11 @@ class PadeyeRun {
     result_.placed = *place_padeye(design, block, lug, faults);  // whole: checked when it was read
     result_.consequence_factor = lift_case.checks.lug_consequence_factor;
     structure::PadeyeFormulaInput& input = result_.input;
-    const structure::BlockMesh& mesh = responses.model().mesh();
-    const int group = mesh.lugs[static_cast<std::size_t>(lug_index)].group;
+    const structure::Mesh& mesh = responses.model().mesh();
+    const int region = mesh.lifting_points[static_cast<std::size_t>(lug_index)].region;
     input.geometry = result_.placed.geometry;
-    input.material = mesh.materials[static_cast<std::size_t>(
-        mesh.groups[static_cast<std::size_t>(group)].material)];
+    input.material =
+        mesh.materials[static_cast<std::size_t>(mesh.group_of_region(region).material)];
     input.cheek_weld = design.cheek_weld;
     input.jaw = design.jaw;
     input.tensile_strength = design.tensile_strength;
@@ -107,7 +107,9 @@ class PadeyeRun {
       places.col(static_cast<Eigen::Index>(i)) =
           result_.placed.p_BP +
           result_.placed.R_BP * result_.model->part().mesh.nodes.col(nodes[i]);
-    base_ = structure::displacements_at(responses_.model(), responses_.displacements(), places);
+    // Across the lug's own thickness: the pad or a deck may meet it there.
+    base_ = structure::displacements_at(responses_.model(), responses_.displacements(), places,
+                                        result_.placed.R_BP.col(2));
   }
 
   structure::PadeyeLoad load_of(const LoadCase& load_case, const Vector3& force) const {
@@ -155,7 +157,7 @@ class Models {
 /// All lugs that are padeyes and that a rope pulls at.
 std::vector<PadeyeRun> make_runs(const LiftCase& lift_case, const UnitResponses& responses) {
   std::vector<PadeyeRun> runs;
-  const auto& lugs = responses.model().mesh().lugs;
+  const auto& lugs = responses.model().mesh().lifting_points;
   const BlockModel& block = *lift_case.load.model;
   for (std::size_t i = 0; i < lugs.size(); ++i) {
     const LugModel* lug = block.find_lug(lugs[i].name);

@@ -53,7 +53,7 @@ struct PressureBasis {
   int regions = 0;             ///< of the shell
   double error = 0;            ///< see above
   double largest_force = 0;    ///< of all regions together at any instant, N
-  Eigen::MatrixXd loads;       ///< unknowns x modes, N
+  Eigen::MatrixXd loads;       ///< freedoms x modes, N and N m
   Eigen::MatrixXd resultants;  ///< 6 x modes: force (N), moment about Bo (N m), in B
   Eigen::MatrixXd static_factors, dynamic_factors;  ///< modes x samples
 

@@ -15,7 +15,7 @@ void write_state(ResultsWriter& file, std::string_view name, const HistoryState&
   const std::string path = layout::join(layout::structure_group, layout::history, name);
   file.write(layout::join(path, "von_mises"),
              surface.envelope(responses, structure::LoadHistory(state.factors, weights)),
-             {"Pa", "largest von Mises stress over all instants"});
+             {"Pa", "largest von Mises stress over all instants, of a plate's two surfaces"});
   file.write_points(layout::join(path, "displacement"),
                     surface.evaluate(responses, state.governing).displacement,
                     {"m",

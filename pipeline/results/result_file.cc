@@ -82,7 +82,7 @@ void write_state(ResultsWriter& file, std::string_view way, std::string_view nam
   const structure::SurfaceField field = surface.evaluate(responses, state.load);
   file.write_points(layout::join(path, "displacement"), field.displacement,
                     {"m", "displacement relative to the block's mean rigid motion, block frame"});
-  file.write(layout::join(path, "von_mises"), field.von_mises, {"Pa", "von Mises stress"});
+  file.write(layout::join(path, "von_mises"), field.von_mises, {"Pa", "von Mises stress, the larger of a plate's two surfaces"});
   const auto write_point = [&](const char* point, const structure::Extreme& extreme) {
     file.write(layout::join(path, point), std::span<const double>(extreme.point_B.data(), 3),
                {"m", "place in the block frame: " + extreme.part});
@@ -203,9 +203,9 @@ void write_block(ResultsWriter& file, const structure::Surface& surface,
   const std::vector<std::int32_t> groups(surface.quad_groups().begin(),
                                          surface.quad_groups().end());
   file.write_points(layout::surface_points, surface.points(),
-                    {"m", "points of the block's outer surface, block frame"});
+                    {"m", "points of the block's plates on their mid-surfaces, block frame"});
   file.write_indices(layout::surface_quads, corners, 4,
-                     {"1", "corners of each quadrangle, normal outwards"});
+                     {"1", "corners of each quadrangle; of a triangle two are one"});
   file.write(layout::surface_quad_group, groups, {"1", "index into group_names"});
   file.write_texts(layout::surface_group_names, surface.group_names(), "plates, pads and lugs");
   write_comparison(file, layout::simultaneous, assessment.simultaneous, surface, responses);

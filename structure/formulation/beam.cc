@@ -36,13 +36,67 @@ std::vector<double> lagrange_slopes(int degree, double x) {
   return slopes;
 }
 
-/// Takes a freedom out of a stiffness: no force acts along it. Its row and column become zero.
-void eliminate(Eigen::MatrixXd& stiffness, const Eigen::RowVectorXd& direction, const Beam& beam) {
-  const Eigen::VectorXd force = stiffness * direction.transpose();
-  const double pivot = direction.dot(force);
-  if (!(pivot > 1e-12 * stiffness.diagonal().maxCoeff()))
+/// Stiffness of a beam's cell as if both ends passed everything on.
+Eigen::MatrixXd whole_stiffness(const Space& space, int cell) {
+  const BeamCell& located = space.beams()[at(cell)];
+  const Mesh& mesh = space.mesh();
+  const Beam& beam = mesh.beams[at(located.beam)];
+  const BeamSection& section = mesh.section_of(beam);
+  Eigen::Matrix<double, 6, 6> law =
+      beam_stiffness_law(mesh.materials[at(section.material)], section);
+  if (beam.is_rod) {
+    law.diagonal().segment<2>(1).setZero();
+    law.bottomRightCorner<2, 2>().setZero();
+  }
+  const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree));
+  const Eigen::Index size = 6 * (located.degree + 1);
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
+  for (unsigned q = 0; q < rule.size(); ++q) {
+    const BeamPoint point = beam_point(space, cell, rule.point(q)[0]);
+    stiffness += rule.weight(q) * point.weight * point.strain.transpose() * law * point.strain;
+  }
+  return stiffness;
+}
+
+/// Motions of a cell's ends that its releases leave to themselves, a column each.
+Eigen::MatrixXd released_motions(const Space& space, int cell) {
+  const BeamCell& located = space.beams()[at(cell)];
+  const Beam& beam = space.mesh().beams[at(located.beam)];
+  const Eigen::Matrix3d axes = beam_axes(space.mesh(), beam);
+  Eigen::MatrixXd directions(6 * (located.degree + 1), 0);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const bool is_here =
+        end == 0 ? located.origin < 1e-9 : located.origin + located.size > 1 - 1e-9;
+    if (!is_here) continue;
+    const Eigen::Index node = end == 0 ? 0 : 6 * located.degree;
+    for (int c = 0; c < 6; ++c) {
+      if (!beam.release[end][at(c)]) continue;
+      // Motion of the centroid's end: about an offset end a rotation moves it too.
+      Eigen::VectorXd direction = Eigen::VectorXd::Zero(directions.rows());
+      direction.segment<3>(node + (c < 3 ? 0 : 3)) = axes.row(c % 3).transpose();
+      if (c >= 3)
+        direction.segment<3>(node) = cross_matrix(beam.offset[end]) * axes.row(c % 3).transpose();
+      directions.conservativeResize(Eigen::NoChange, directions.cols() + 1);
+      directions.rightCols<1>() = direction;
+    }
+  }
+  return directions;
+}
+
+/// What released ends do of themselves for motions of the nodes: no force acts along their directions D,
+/// D' K (u + D a) = 0.
+Eigen::MatrixXd motion_with_releases(const Eigen::MatrixXd& stiffness,
+                                     const Eigen::MatrixXd& directions, const Beam& beam) {
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols());
+  if (directions.cols() == 0) return motion;
+  const Eigen::MatrixXd forces = directions.transpose() * stiffness;
+  const Eigen::LLT<Eigen::MatrixXd> solver(forces * directions);
+  const double least = 1e-12 * stiffness.diagonal().maxCoeff();
+  if (solver.info() != Eigen::Success ||
+      !(solver.matrixLLT().diagonal().array().square().minCoeff() > least))
     throw ModelError(fmt::format("beam {}: its releases leave it loose", beam.label));
-  stiffness -= force * force.transpose() / pivot;
+  motion -= directions * solver.solve(forces);
+  return motion;
 }
 
 }  // namespace
@@ -107,40 +161,20 @@ Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
 }
 
 Eigen::MatrixXd beam_stiffness(const Space& space, int cell) {
-  const BeamCell& located = space.beams()[at(cell)];
-  const Mesh& mesh = space.mesh();
-  const Beam& beam = mesh.beams[at(located.beam)];
-  const BeamSection& section = mesh.section_of(beam);
-  Eigen::Matrix<double, 6, 6> law =
-      beam_stiffness_law(mesh.materials[at(section.material)], section);
-  if (beam.is_rod) {
-    law.diagonal().segment<2>(1).setZero();
-    law.bottomRightCorner<2, 2>().setZero();
-  }
-  const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree));
-  const Eigen::Index size = 6 * (located.degree + 1);
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
-  for (unsigned q = 0; q < rule.size(); ++q) {
-    const BeamPoint point = beam_point(space, cell, rule.point(q)[0]);
-    stiffness += rule.weight(q) * point.weight * point.strain.transpose() * law * point.strain;
-  }
-  const Eigen::Matrix3d axes = beam_axes(mesh, beam);
-  for (std::size_t end = 0; end < 2; ++end) {
-    const bool is_here =
-        end == 0 ? located.origin < 1e-9 : located.origin + located.size > 1 - 1e-9;
-    if (!is_here) continue;
-    const Eigen::Index node = end == 0 ? 0 : 6 * located.degree;
-    for (int c = 0; c < 6; ++c) {
-      if (!beam.release[end][at(c)]) continue;
-      // Motion of the centroid's end: about an offset end a rotation moves it too.
-      Eigen::RowVectorXd direction = Eigen::RowVectorXd::Zero(size);
-      direction.segment<3>(node + (c < 3 ? 0 : 3)) = axes.row(c % 3);
-      if (c >= 3)
-        direction.segment<3>(node) = axes.row(c % 3) * cross_matrix(beam.offset[end]).transpose();
-      eliminate(stiffness, direction, beam);
-    }
-  }
-  return stiffness;
+  const Eigen::MatrixXd whole = whole_stiffness(space, cell);
+  const Eigen::MatrixXd directions = released_motions(space, cell);
+  if (directions.cols() == 0) return whole;
+  const Beam& beam = space.mesh().beams[at(space.beams()[at(cell)].beam)];
+  const Eigen::MatrixXd motion = motion_with_releases(whole, directions, beam);
+  return motion.transpose() * whole * motion;
+}
+
+Eigen::MatrixXd beam_motion(const Space& space, int cell) {
+  const Eigen::MatrixXd directions = released_motions(space, cell);
+  if (directions.cols() == 0)
+    return Eigen::MatrixXd::Identity(directions.rows(), directions.rows());
+  const Beam& beam = space.mesh().beams[at(space.beams()[at(cell)].beam)];
+  return motion_with_releases(whole_stiffness(space, cell), directions, beam);
 }
 
 }  // namespace blocklift::structure

@@ -34,4 +34,8 @@ Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
 /// @throws ModelError if the releases leave the beam loose.
 Eigen::MatrixXd beam_stiffness(const Space& space, int cell);
 
+/// The motion of a cell's own ends for that of its nodes: they differ where the beam's ends are released.
+/// Its strains are those of this motion. @throws ModelError as beam_stiffness does.
+Eigen::MatrixXd beam_motion(const Space& space, int cell);
+
 }  // namespace blocklift::structure

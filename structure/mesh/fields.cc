@@ -81,7 +81,6 @@ bool same_section(const Mesh& mesh, int a, int b) {
 /// Two shells that go on into one another across an edge. The normals are those in the edge's middle, since
 /// curved shells are smooth where they meet and not in their middles.
 bool is_smooth(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b, double kink) {
-  if (!same_section(mesh, a.shell, b.shell)) return false;
   const auto middle = [](const EdgeOfShell& e) -> Eigen::Vector2d {
     const Eigen::Vector2d on_edge = 0.5 * (corner_place(round_edges[at(e.edge)][0]) +
                                            corner_place(round_edges[at(e.edge)][1]));
@@ -117,9 +116,14 @@ double corner_angle(const Mesh& mesh, int shell, int vertex) {
 
 class FieldFinder {
  public:
-  FieldFinder(const Mesh& mesh, double kink) : mesh_(mesh), edges_(collect_edges(mesh)) {
+  FieldFinder(const Mesh& mesh, double kink, const GoesOn& goes_on)
+      : mesh_(mesh), edges_(collect_edges(mesh)) {
+    const auto joins = [&](const EdgeKey& key, int a, int b) {
+      return goes_on ? goes_on(a, b, key.first, key.second) : same_section(mesh, a, b);
+    };
     for (const auto& [key, shells] : edges_) {
-      const bool is_inside = shells.size() == 2 && is_smooth(mesh, shells[0], shells[1], kink);
+      const bool is_inside = shells.size() == 2 && joins(key, shells[0].shell, shells[1].shell) &&
+                             is_smooth(mesh, shells[0], shells[1], kink);
       if (is_inside) {
         inside_.insert(key);
       } else {
@@ -289,7 +293,9 @@ class FieldFinder {
 
 }  // namespace
 
-PlateFields find_fields(const Mesh& mesh, double kink) { return FieldFinder(mesh, kink).find(); }
+PlateFields find_fields(const Mesh& mesh, double kink, const GoesOn& goes_on) {
+  return FieldFinder(mesh, kink, goes_on).find();
+}
 
 FieldWalker::FieldWalker(const Mesh& mesh, const PlateFields& fields)
     : mesh_(mesh), fields_(fields), neighbours_(mesh.shells.size(), {-1, -1, -1, -1}) {

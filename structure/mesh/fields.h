@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,8 +46,13 @@ struct PlateFields {
   std::vector<int> singular_vertices;
 };
 
+/// Is a field to go on from one of two shells into the other, which meet nothing else at the edge between
+/// the two vertices?
+using GoesOn = std::function<bool(int shell, int other, int vertex_1, int vertex_2)>;
+
 /// @param kink angle between two shells' normals from which on a field ends, rad.
-PlateFields find_fields(const Mesh& mesh, double kink = 0.15);
+/// @param goes_on empty: into shells of the same section.
+PlateFields find_fields(const Mesh& mesh, double kink = 0.15, const GoesOn& goes_on = {});
 
 /// A point of a shell.
 struct ShellPlace {

@@ -5,158 +5,206 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include <Eigen/Dense>
 
+#include "structure/batches.h"
+#include "structure/formulation/beam.h"
 #include "structure/index.h"
-#include "structure/response/cell_stress.h"
+#include "structure/output/divided_cell.h"
+#include "structure/response/beam_stress.h"
 #include "structure/response/envelope.h"
+#include "structure/response/shell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
 
-// Grid of points on a face of the unit cube; the two free axes in ascending order.
-Eigen::Matrix3Xd face_points(int face, const std::array<int, 2>& parts) {
-  const int normal = face / 2, u = normal == 0 ? 1 : 0, v = normal == 2 ? 1 : 2;
-  Eigen::Matrix3Xd points(3, (parts[0] + 1) * (parts[1] + 1));
-  Eigen::Index q = 0;
-  for (int j = 0; j <= parts[1]; ++j)
-    for (int i = 0; i <= parts[0]; ++i) {
-      points(normal, q) = face % 2;
-      points(u, q) = static_cast<double>(i) / parts[0];
-      points(v, q++) = static_cast<double>(j) / parts[1];
-    }
-  return points;
-}
-
-std::array<int, 2> face_parts(const HexMesh& mesh, int cell, int face, int division) {
-  const int normal = face / 2, u = normal == 0 ? 1 : 0, v = normal == 2 ? 1 : 2;
-  const Eigen::Matrix3d edges = jacobian(mesh, cell, Vector3::Constant(0.5));
-  const double fine = 3 * edges.colwise().norm().minCoeff();
-  const auto parts = [&](int axis) { return edges.col(axis).norm() > fine ? division : 1; };
-  return {parts(u), parts(v)};
+/// The edges of a beam's strip from its centroid: along the section axis in which it reaches farthest.
+std::array<Vector3, 2> strip_of(const Mesh& mesh, const Beam& beam) {
+  Eigen::Vector2d lower = Eigen::Vector2d::Zero(), upper = lower;
+  for (const Eigen::Vector2d& point : stress_points(mesh.section_of(beam))) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  Eigen::Index axis = 0;
+  (upper - lower).maxCoeff(&axis);
+  const Vector3 along = beam_axes(mesh, beam).row(1 + axis).transpose();
+  return {lower[axis] * along, upper[axis] * along};
 }
 
 }  // namespace
 
-Surface::Surface(const ElasticModel& model, int largest_point_count) {
-  for (const CellGroup& group : model.mesh().groups) group_names_.push_back(group.name);
-  for (int division = model.space().element.degree(); division >= 1; --division) {
-    build(model, division);
-    if (static_cast<int>(points_.size()) <= largest_point_count) break;
-  }
-}
+/// Makes the points and quadrangles of a division.
+class Surface::Builder {
+ public:
+  Builder(Surface& surface, const Space& space) : surface_(surface), space_(space) {}
 
-void Surface::build(const ElasticModel& model, int division) {
-  points_.clear();
-  quads_.clear();
-  quad_groups_.clear();
-  faces_.clear();
-  const BlockMesh& mesh = model.mesh();
-  using Key = std::tuple<int, int, std::int64_t, std::int64_t, std::int64_t>;
-  std::map<Key, int> known;  // (plate, face direction, place)
-  for (const auto& [cell, face] : boundary_faces(mesh)) {
-    FacePatch patch{cell, face, face_parts(mesh, cell, face, division), {}};
-    const Eigen::Matrix3Xd unit = face_points(face, patch.parts);
-    for (Eigen::Index q = 0; q < unit.cols(); ++q) {
-      const Vector3 place = position(mesh, cell, unit.col(q));
-      const Key key{mesh.cell_sheet[at(cell)], face, std::llround(place.x() * 1e6),
-                    std::llround(place.y() * 1e6), std::llround(place.z() * 1e6)};
-      const auto [entry, is_new] = known.try_emplace(key, static_cast<int>(points_.size()));
-      if (is_new) points_.push_back(place);
-      patch.points.push_back(entry->second);
+  void build(int division) {
+    surface_.division_ = division;
+    surface_.points_.clear();
+    surface_.quads_.clear();
+    surface_.quad_groups_.clear();
+    surface_.cell_points_.clear();
+    surface_.stations_.clear();
+    known_.clear();
+    for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell)
+      add_shell(cell, division);
+    for (int cell = 0; cell < static_cast<int>(space_.beams().size()); ++cell)
+      add_beam(cell, std::min(division, space_.beams()[at(cell)].degree));
+  }
+
+ private:
+  int point_at(int owner, const Vector3& place) {
+    const auto rounded = [&](int axis) -> std::int64_t { return std::llround(place[axis] * 1e6); };
+    const auto [entry, is_new] = known_.try_emplace({owner, rounded(0), rounded(1), rounded(2)},
+                                                    static_cast<int>(surface_.points_.size()));
+    if (is_new) surface_.points_.push_back(place);
+    return entry->second;
+  }
+
+  void add_shell(int cell, int division) {
+    const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
+    const std::size_t first = surface_.cell_points_.size();
+    const Eigen::Matrix2Xd unit = divided_square(division);
+    for (Eigen::Index q = 0; q < unit.cols(); ++q)
+      surface_.cell_points_.push_back(point_at(shell.region, space_.place(cell, unit.col(q))));
+    for (const std::array<int, 4>& corners : squares_of_division(division)) {
+      std::array<int, 4>& quad = surface_.quads_.emplace_back();
+      for (std::size_t i = 0; i < 4; ++i) quad[i] = surface_.cell_points_[first + at(corners[i])];
+      surface_.quad_groups_.push_back(space_.mesh().regions[at(shell.region)].group);
     }
-    // With the free axes ascending, the quadrangle's normal points along +x, -y, +z.
-    const bool outwards = (face % 2 == 1) != (face / 2 == 1);
-    const int row = patch.parts[0] + 1;
-    for (int j = 0; j < patch.parts[1]; ++j)
-      for (int i = 0; i < patch.parts[0]; ++i) {
-        const auto point = [&](int a, int b) { return patch.points[at((j + b) * row + i + a)]; };
-        if (outwards)
-          quads_.push_back({point(0, 0), point(1, 0), point(1, 1), point(0, 1)});
-        else
-          quads_.push_back({point(0, 0), point(0, 1), point(1, 1), point(1, 0)});
-        quad_groups_.push_back(mesh.cell_group[at(cell)]);
+  }
+
+  void add_beam(int cell, int division) {
+    const int number = space_.beams()[at(cell)].beam;
+    const Beam& beam = space_.mesh().beams[at(number)];
+    const std::array<Vector3, 2> edges = strip_of(space_.mesh(), beam);
+    for (int i = 0; i <= division; ++i) {
+      const double xi = static_cast<double>(i) / division;
+      const Vector3 centroid = beam_point(space_, cell, xi).place;
+      // Each beam for itself: the stresses of those that meet at an end are not mixed.
+      const std::array<int, 2> points{point_at(-1 - number, centroid + edges[0]),
+                                      point_at(-1 - number, centroid + edges[1])};
+      if (i > 0) {
+        const std::array<int, 2>& before = surface_.stations_.back().points;
+        surface_.quads_.push_back({before[0], points[0], points[1], before[1]});
+        surface_.quad_groups_.push_back(space_.mesh().regions[at(beam.region)].group);
       }
-    faces_.push_back(std::move(patch));
+      surface_.stations_.push_back({cell, xi, points});
+    }
+  }
+
+  Surface& surface_;
+  const Space& space_;
+  std::map<std::tuple<int, std::int64_t, std::int64_t, std::int64_t>, int>
+      known_;  // by plate, place
+};
+
+Surface::Surface(const ElasticModel& model, int largest_point_count) {
+  for (const Group& group : model.mesh().groups) group_names_.push_back(group.name);
+  Builder builder(*this, model.space());
+  for (int division = model.space().degree(); division >= 1; --division) {
+    builder.build(division);
+    if (static_cast<int>(points_.size()) <= largest_point_count) break;
   }
 }
 
 std::vector<double> Surface::envelope(const UnitResponses& responses,
                                       const LoadHistory& history) const {
-  const ElasticModel& model = responses.model();
-  std::map<std::array<int, 3>, CellStress> samplers;  // (face, parts)
-  std::vector<int> first_sample{0};                   // of each face
-  for (const FacePatch& face : faces_) {
-    const std::array<int, 3> key{face.face, face.parts[0], face.parts[1]};
-    if (samplers.find(key) == samplers.end())
-      samplers.emplace(key,
-                       CellStress(model.mesh(), model.space(), face_points(face.face, face.parts)));
-    first_sample.push_back(first_sample.back() + static_cast<int>(face.points.size()));
-  }
-  const auto stress = [&](int first, int count) {
-    Eigen::MatrixXd result(6 * count, responses.count());
-    auto face = std::upper_bound(first_sample.begin(), first_sample.end(), first) - 1;
-    for (int done = 0; done < count; ++face) {
-      const FacePatch& patch = faces_[static_cast<std::size_t>(face - first_sample.begin())];
-      const int skipped = first + done - *face;
-      const int taken = std::min(count - done, static_cast<int>(patch.points.size()) - skipped);
-      result.middleRows(6 * done, 6 * taken) =
-          samplers.at({patch.face, patch.parts[0], patch.parts[1]})
-              .of_all(patch.cell, responses.displacements())
-              .middleRows(6 * skipped, 6 * taken);
-      done += taken;
-    }
-    return result;
-  };
-  const PointExtremes of_samples = find_von_mises_envelope(history, first_sample.back(), stress);
   std::vector<double> largest(points_.size(), 0);
-  Eigen::Index sample = 0;
-  for (const FacePatch& face : faces_)
-    for (const int point : face.points)
-      largest[at(point)] = std::max(largest[at(point)], of_samples.value[sample++]);
+  take_envelope_of_shells(responses, history, largest);
+  take_envelope_of_beams(responses, history, largest);
   return largest;
 }
 
+void Surface::take_envelope_of_shells(const UnitResponses& responses, const LoadHistory& history,
+                                      std::vector<double>& largest) const {
+  constexpr int chunk = 256;  // cells whose unit stresses are held at a time
+  const Space& space = responses.model().space();
+  const Eigen::Matrix2Xd unit = divided_square(division_);
+  const int per_cell = static_cast<int>(unit.cols());
+  const int cells = static_cast<int>(space.shells().size());
+  for (int begin = 0; begin < cells; begin += chunk) {
+    const int count = std::min(chunk, cells - begin);
+    // Both surfaces of each point: those of one side first.
+    Eigen::MatrixXd stress(12L * per_cell * count, responses.count());
+    in_batches(count, 16, 0, [&](int first, int taken) {
+      ShellStress recovery(space, unit);
+      for (int i = first; i < first + taken; ++i) {
+        const Eigen::MatrixXd rows = recovery.of_all(begin + i, responses.displacements());
+        stress.middleRows(12L * per_cell * i, 6L * per_cell) = stresses_at_side(rows, 1);
+        stress.middleRows(12L * per_cell * i + 6L * per_cell, 6L * per_cell) =
+            stresses_at_side(rows, -1);
+      }
+    });
+    const PointExtremes extremes = find_von_mises_envelope(
+        history, 2 * per_cell * count, [&](int first, int taken) -> Eigen::MatrixXd {
+          return stress.middleRows(6L * first, 6L * taken);
+        });
+    for (int sample = 0; sample < 2 * per_cell * count; ++sample) {
+      const int cell = begin + sample / (2 * per_cell);
+      double& of_point = largest[at(cell_points_[at(cell * per_cell + sample % per_cell)])];
+      of_point = std::max(of_point, extremes.value[sample]);
+    }
+  }
+}
+
+void Surface::take_envelope_of_beams(const UnitResponses& responses, const LoadHistory& history,
+                                     std::vector<double>& largest) const {
+  const Space& space = responses.model().space();
+  for (const BeamStation& station : stations_) {
+    const Eigen::MatrixXd stress =
+        as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
+    const PointExtremes extremes = find_von_mises_envelope(
+        history, static_cast<int>(stress.rows() / 6),
+        [&](int first, int taken) -> Eigen::MatrixXd {
+          return stress.middleRows(6L * first, 6L * taken);
+        },
+        1);
+    for (const int point : station.points)
+      largest[at(point)] = std::max(largest[at(point)], extremes.value.maxCoeff());
+  }
+}
+
 SurfaceField Surface::evaluate(const UnitResponses& responses, const LoadCase& load_case) const {
-  const ElasticModel& model = responses.model();
-  const BlockMesh& mesh = model.mesh();
-  const Discretisation& space = model.space();
-  const Eigen::VectorXd displacement =
-      responses.without_rigid_motion(responses.displacement(load_case));
-  struct Sampler {
-    CellStress stress;
-    Eigen::MatrixXd shapes;
-  };
-  std::map<std::array<int, 3>, Sampler> samplers;  // (face, parts)
+  const Space& space = responses.model().space();
+  const Eigen::VectorXd motion = responses.without_rigid_motion(responses.displacement(load_case));
+  const Eigen::Matrix2Xd unit = divided_square(division_);
+  Eigen::MatrixXd shapes(unit.cols(), space.nodes_per_shell());
+  for (Eigen::Index q = 0; q < unit.cols(); ++q)
+    shapes.row(q) = space.shell_values(unit.col(q)).transpose();
+  ShellStress recovery(space, unit);
   SurfaceField field;
   field.displacement.assign(points_.size(), Vector3::Zero());
   field.von_mises.assign(points_.size(), 0);
   std::vector<int> shares(points_.size(), 0);
-  for (const FacePatch& patch : faces_) {
-    const std::array<int, 3> key{patch.face, patch.parts[0], patch.parts[1]};
-    auto found = samplers.find(key);
-    if (found == samplers.end()) {
-      const Eigen::Matrix3Xd unit = face_points(patch.face, patch.parts);
-      found =
-          samplers.emplace(key, Sampler{CellStress(mesh, space, unit), space.element.values(unit)})
-              .first;
-    }
-    Eigen::MatrixX3d local(space.nodes_per_cell, 3);
-    for (int i = 0; i < space.nodes_per_cell; ++i)
-      local.row(i) = displacement.segment<3>(3 * space.node(patch.cell, i)).transpose();
-    const Eigen::MatrixX3d moved = found->second.shapes * local;
-    const Eigen::VectorXd stress = found->second.stress.von_mises(patch.cell, displacement);
-    for (std::size_t q = 0; q < patch.points.size(); ++q) {
-      const std::size_t point = at(patch.points[q]);
-      field.displacement[point] = moved.row(static_cast<Eigen::Index>(q)).transpose();
-      field.von_mises[point] += stress[static_cast<Eigen::Index>(q)];
+  for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
+    const Eigen::MatrixXd local = motions_of_cell(space, cell, motion);
+    const Eigen::MatrixXd moved =
+        shapes * local.reshaped(6, local.size() / 6).topRows<3>().transpose();
+    const Eigen::VectorXd rows = recovery.of_all(cell, motion);
+    for (Eigen::Index q = 0; q < unit.cols(); ++q) {
+      const std::size_t point = at(cell_points_[at(cell * unit.cols() + q)]);
+      field.displacement[point] = moved.row(q).transpose();
+      field.von_mises[point] +=
+          plate_von_mises(rows.segment<shell_stress_rows>(shell_stress_rows * q)).largest();
       ++shares[point];
+    }
+  }
+  for (const BeamStation& station : stations_) {
+    const Vector3 centroid = beam_point(space, station.cell, station.xi).place;
+    const BeamMotion moved = beam_motion_at(space, station.cell, station.xi, motion);
+    const double stress =
+        beam_stresses(space, station.cell, station.xi, motion).cwiseAbs().maxCoeff();
+    for (const int point : station.points) {
+      field.displacement[at(point)] =
+          moved.displacement + moved.rotation.cross(points_[at(point)] - centroid);
+      field.von_mises[at(point)] += stress;
+      ++shares[at(point)];
     }
   }
   for (std::size_t p = 0; p < points_.size(); ++p) field.von_mises[p] /= shares[p];

@@ -15,41 +15,51 @@ struct SurfaceField {
   std::vector<double> von_mises;      ///< Pa, averaged over the cells of one plate at a point
 };
 
-/// Outer surface of a block as quadrangles, for pictures. Points are shared within one face of one
-/// plate only, so that edges stay sharp and stresses of different plates are not mixed.
+/// A block's plates as quadrangles on their mid-surfaces, for pictures; beams as strips along their centroid
+/// lines, as high as their sections. Of triangles two corners are one.
+///
+/// The stress of a point is the larger von Mises stress of the plate's two surfaces (which the membrane's
+/// never exceeds), of a beam the largest magnitude of the normal stress over its section. Points are shared
+/// within one plate only, so that edges stay sharp and stresses of different plates are not mixed.
 class Surface {
  public:
-  /// @param largest_point_count long element edges are divided up to as often as the degree, but
-  ///   less if more points than this would result (then at least once).
+  /// @param largest_point_count cells are divided along their edges as often as the degree, but less if
+  ///   more points than this would result (then at least once).
   explicit Surface(const ElasticModel& model, int largest_point_count = 60000);
 
   const std::vector<Vector3>& points() const { return points_; }  ///< in the block frame, m
-  /// Corners running round each quadrangle, normal outwards.
+  /// Corners running round each quadrangle, seen against the shell's normal.
   const std::vector<std::array<int, 4>>& quads() const { return quads_; }
   /// Place of each quadrangle's group in group_names().
   const std::vector<int>& quad_groups() const { return quad_groups_; }
   const std::vector<std::string>& group_names() const { return group_names_; }
 
-  /// Largest von Mises stress at each point over a history (of factors of the responses), Pa: the
-  /// largest of the cells of one plate at a point, nothing averaged.
+  /// Stress of each point, the largest over a history (of factors of the responses), Pa: the largest of
+  /// the cells of one plate at a point, nothing averaged.
   std::vector<double> envelope(const UnitResponses& responses, const LoadHistory& history) const;
   /// Values of a load case at the points; the responses must be of the same model.
   SurfaceField evaluate(const UnitResponses& responses, const LoadCase& load_case) const;
 
  private:
-  struct FacePatch {
-    int cell;
-    int face;
-    std::array<int, 2> parts;
-    std::vector<int> points;  // of the (parts[0] + 1) x (parts[1] + 1) grid, first runs fastest
+  /// Points of a strip at one place along a beam.
+  struct BeamStation {
+    int cell = 0;
+    double xi = 0;
+    std::array<int, 2> points{};
   };
-  void build(const ElasticModel& model, int division);
+  class Builder;
+  void take_envelope_of_shells(const UnitResponses& responses, const LoadHistory& history,
+                               std::vector<double>& largest) const;
+  void take_envelope_of_beams(const UnitResponses& responses, const LoadHistory& history,
+                              std::vector<double>& largest) const;
 
+  int division_ = 1;
   std::vector<Vector3> points_;
   std::vector<std::array<int, 4>> quads_;
   std::vector<int> quad_groups_;
   std::vector<std::string> group_names_;
-  std::vector<FacePatch> faces_;
+  std::vector<int> cell_points_;  ///< (division + 1)^2 of each shell cell, xi fastest
+  std::vector<BeamStation> stations_;
 };
 
 }  // namespace blocklift::structure

@@ -2,133 +2,130 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "structure/error.h"
+#include "structure/formulation/beam.h"
 #include "structure/index.h"
+#include "structure/output/divided_cell.h"
 #include "structure/output/vtk_array.h"
-#include "structure/response/cell_stress.h"
+#include "structure/response/beam_stress.h"
+#include "structure/response/shell_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
 
-// Division of a cell into parts[0] x parts[1] x parts[2] boxes.
-struct Division {
-  std::array<int, 3> parts;
-  Eigen::Matrix3Xd points;                  // on the unit cube, x fastest
-  std::vector<std::array<int, 8>> corners;  // VTK's order of a hexahedron
-};
-
-Division divide(const std::array<int, 3>& parts) {
-  Division division{parts, {}, {}};
-  const int nx = parts[0] + 1, ny = parts[1] + 1, nz = parts[2] + 1;
-  division.points.resize(3, nx * ny * nz);
-  const auto point = [&](int i, int j, int k) { return (k * ny + j) * nx + i; };
-  for (int k = 0; k < nz; ++k)
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i)
-        division.points.col(point(i, j, k)) << static_cast<double>(i) / parts[0],
-            static_cast<double>(j) / parts[1], static_cast<double>(k) / parts[2];
-  for (int k = 0; k < parts[2]; ++k)
-    for (int j = 0; j < parts[1]; ++j)
-      for (int i = 0; i < parts[0]; ++i)
-        division.corners.push_back({point(i, j, k), point(i + 1, j, k), point(i + 1, j + 1, k),
-                                    point(i, j + 1, k), point(i, j, k + 1), point(i + 1, j, k + 1),
-                                    point(i + 1, j + 1, k + 1), point(i, j + 1, k + 1)});
-  return division;
-}
-
-// Long edges are divided as often as the degree; the thickness is not.
-std::array<int, 3> parts_of(const HexMesh& mesh, int cell, int degree) {
-  const Eigen::Matrix3d edges = jacobian(mesh, cell, Vector3::Constant(0.5));
-  const Eigen::RowVector3d length = edges.colwise().norm();
-  std::array<int, 3> parts{};
-  for (int a = 0; a < 3; ++a) parts[at(a)] = length[a] > 3 * length.minCoeff() ? degree : 1;
-  if (length.maxCoeff() <= 3 * length.minCoeff()) parts.fill(length.maxCoeff() > 0.2 ? degree : 1);
-  return parts;
-}
+/// VTK's numbers of cells' shapes.
+constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
 
 struct Content {
-  std::vector<float> points, displacement, von_mises;
+  std::vector<float> points, displacement, von_mises, top, bottom, membrane, thickness;
   std::vector<std::int32_t> connectivity, offsets, group, material, plate;
   std::vector<std::uint8_t> types;
 };
 
-Content collect(const UnitResponses& responses, const LoadCase& load_case) {
-  const ElasticModel& model = responses.model();
-  const BlockMesh& mesh = model.mesh();
-  const Discretisation& space = model.space();
-  const Eigen::VectorXd displacement =
-      responses.without_rigid_motion(responses.displacement(load_case));
-  struct Sampler {
-    Division division;
-    CellStress stress;
-    Eigen::MatrixXd shapes;
-  };
-  std::map<std::array<int, 3>, Sampler> samplers;
-  Content content;
-  for (int cell = 0; cell < space.cell_count(); ++cell) {
-    const auto parts = parts_of(mesh, cell, space.element.degree());
-    auto found = samplers.find(parts);
-    if (found == samplers.end()) {
-      const Division division = divide(parts);
-      found = samplers
-                  .emplace(parts, Sampler{division, CellStress(mesh, space, division.points),
-                                          space.element.values(division.points)})
-                  .first;
-    }
-    const Sampler& sampler = found->second;
-    const auto first = static_cast<std::int32_t>(content.von_mises.size());
-    Eigen::MatrixX3d local(space.nodes_per_cell, 3);
-    for (int i = 0; i < space.nodes_per_cell; ++i)
-      local.row(i) = displacement.segment<3>(3 * space.node(cell, i)).transpose();
-    const Eigen::MatrixX3d moved = sampler.shapes * local;
-    const Eigen::VectorXd stress = sampler.stress.von_mises(cell, displacement);
-    for (Eigen::Index q = 0; q < stress.size(); ++q) {
-      const Vector3 place = position(mesh, cell, sampler.division.points.col(q));
-      for (int a = 0; a < 3; ++a) {
-        content.points.push_back(static_cast<float>(place[a]));
-        content.displacement.push_back(static_cast<float>(moved(q, a)));
+class Collector {
+ public:
+  Collector(const Space& space, const Eigen::VectorXd& motion) : space_(space), motion_(motion) {}
+
+  Content collect() {
+    add_shells();
+    for (int cell = 0; cell < static_cast<int>(space_.beams().size()); ++cell) add_beam(cell);
+    return std::move(content_);
+  }
+
+ private:
+  void add_shells() {
+    const int parts = space_.degree();
+    const Eigen::Matrix2Xd unit = divided_square(parts);
+    const auto squares = squares_of_division(parts);
+    Eigen::MatrixXd shapes(unit.cols(), space_.nodes_per_shell());
+    for (Eigen::Index q = 0; q < unit.cols(); ++q)
+      shapes.row(q) = space_.shell_values(unit.col(q)).transpose();
+    ShellStress recovery(space_, unit);
+    for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell) {
+      const auto first = static_cast<std::int32_t>(content_.von_mises.size());
+      const Eigen::MatrixXd local = motions_of_cell(space_, cell, motion_);
+      const Eigen::MatrixXd moved =
+          shapes * local.reshaped(6, local.size() / 6).topRows<3>().transpose();
+      const Eigen::VectorXd rows = recovery.of_all(cell, motion_);
+      for (Eigen::Index q = 0; q < unit.cols(); ++q)
+        add_point(space_.place(cell, unit.col(q)), moved.row(q).transpose(),
+                  plate_von_mises(rows.segment<shell_stress_rows>(shell_stress_rows * q)));
+      const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
+      const ShellSection& section = space_.mesh().section_of(shell);
+      for (const std::array<int, 4>& corners : squares) {
+        add_corners(first, corners);
+        add_cell(shell.region, section.material, section.thickness);
       }
-      content.von_mises.push_back(static_cast<float>(stress[q]));
-    }
-    for (const auto& corners : sampler.division.corners) {
-      for (const int corner : corners) content.connectivity.push_back(first + corner);
-      content.offsets.push_back(static_cast<std::int32_t>(content.connectivity.size()));
-      content.types.push_back(12);  // VTK_HEXAHEDRON
-      content.group.push_back(mesh.cell_group[at(cell)]);
-      content.material.push_back(mesh.groups[at(mesh.cell_group[at(cell)])].material);
-      content.plate.push_back(mesh.cell_sheet[at(cell)]);
     }
   }
-  return content;
-}
 
-}  // namespace
+  void add_beam(int cell) {
+    const BeamCell& located = space_.beams()[at(cell)];
+    const Beam& beam = space_.mesh().beams[at(located.beam)];
+    for (int i = 0; i <= located.degree; ++i) {
+      const double xi = static_cast<double>(i) / located.degree;
+      const Eigen::VectorXd stress = beam_stresses(space_, cell, xi, motion_);
+      const double largest = stress.cwiseAbs().maxCoeff();
+      add_point(
+          beam_point(space_, cell, xi).place,
+          beam_motion_at(space_, cell, xi, motion_).displacement,
+          {std::abs(beam_stress_at_centroid(space_, cell, xi, motion_)[0]), largest, largest});
+      if (i == 0) continue;
+      const auto last = static_cast<std::int32_t>(content_.von_mises.size()) - 1;
+      content_.connectivity.insert(content_.connectivity.end(), {last - 1, last});
+      content_.types.push_back(vtk_line);
+      add_cell(beam.region, space_.mesh().section_of(beam).material, 0);
+    }
+  }
 
-void write_vtu(const std::string& path, const UnitResponses& responses, const LoadCase& load_case) {
-  const Content content = collect(responses, load_case);
-  const BlockMesh& mesh = responses.model().mesh();
-  std::vector<std::string> groups, materials;
-  for (const CellGroup& group : mesh.groups) groups.push_back(group.name);
-  for (const Material& material : mesh.materials) materials.push_back(material.name);
-  std::ofstream file(path, std::ios::binary);
-  file
-      << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
-      << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-      << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
-  write_names(file, "load_case", {load_case.name});
-  write_names(file, "group_names", groups);
-  write_names(file, "material_names", materials);
-  file << "</FieldData>\n<Piece NumberOfPoints=\"" << content.von_mises.size()
-       << "\" NumberOfCells=\"" << content.types.size() << "\">\n<Points>\n";
+  void add_point(const Vector3& place, const Vector3& moved, const PlateVonMises& stress) {
+    for (int axis = 0; axis < 3; ++axis) {
+      content_.points.push_back(static_cast<float>(place[axis]));
+      content_.displacement.push_back(static_cast<float>(moved[axis]));
+    }
+    content_.von_mises.push_back(static_cast<float>(stress.largest()));
+    content_.top.push_back(static_cast<float>(stress.top));
+    content_.bottom.push_back(static_cast<float>(stress.bottom));
+    content_.membrane.push_back(static_cast<float>(stress.membrane));
+  }
+
+  // Where a triangle's edge is a point, two corners lie there: the cell has three.
+  void add_corners(std::int32_t first, const std::array<int, 4>& corners) {
+    const auto place = [&](int corner) {
+      const auto start = content_.points.begin() + 3 * (first + corner);
+      return std::array<float, 3>{start[0], start[1], start[2]};
+    };
+    const bool is_triangle = place(corners[2]) == place(corners[3]);
+    for (std::size_t i = 0; i < (is_triangle ? 3 : 4); ++i)
+      content_.connectivity.push_back(first + corners[i]);
+    content_.types.push_back(is_triangle ? vtk_triangle : vtk_quad);
+  }
+
+  void add_cell(int region, int material, double thickness) {
+    content_.offsets.push_back(static_cast<std::int32_t>(content_.connectivity.size()));
+    content_.group.push_back(space_.mesh().regions[at(region)].group);
+    content_.material.push_back(material);
+    content_.plate.push_back(region);
+    content_.thickness.push_back(static_cast<float>(thickness));
+  }
+
+  const Space& space_;
+  const Eigen::VectorXd& motion_;
+  Content content_;
+};
+
+void write_arrays(std::ofstream& file, const Content& content) {
+  file << "<Piece NumberOfPoints=\"" << content.von_mises.size() << "\" NumberOfCells=\""
+       << content.types.size() << "\">\n<Points>\n";
   write_array(file, "Float32", "points", 3, content.points);
   file << "</Points>\n<Cells>\n";
   write_array(file, "Int32", "connectivity", 1, content.connectivity);
@@ -137,11 +134,43 @@ void write_vtu(const std::string& path, const UnitResponses& responses, const Lo
   file << "</Cells>\n<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n";
   write_array(file, "Float32", "displacement", 3, content.displacement);
   write_array(file, "Float32", "von_mises", 1, content.von_mises);
+  write_array(file, "Float32", "von_mises_top", 1, content.top);
+  write_array(file, "Float32", "von_mises_bottom", 1, content.bottom);
+  write_array(file, "Float32", "von_mises_membrane", 1, content.membrane);
   file << "</PointData>\n<CellData>\n";
   write_array(file, "Int32", "group", 1, content.group);
   write_array(file, "Int32", "material", 1, content.material);
   write_array(file, "Int32", "plate", 1, content.plate);
-  file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  write_array(file, "Float32", "thickness", 1, content.thickness);
+  file << "</CellData>\n</Piece>\n";
+}
+
+template <typename List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& one : list) names.push_back(one.name);
+  return names;
+}
+
+}  // namespace
+
+// deal.II's DataOut has neither names as field data nor lines and squares in one piece.
+void write_vtu(const std::string& path, const UnitResponses& responses, const LoadCase& load_case) {
+  const Mesh& mesh = responses.model().mesh();
+  const Eigen::VectorXd motion = responses.without_rigid_motion(responses.displacement(load_case));
+  const Content content = Collector(responses.model().space(), motion).collect();
+  std::ofstream file(path, std::ios::binary);
+  file
+      << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
+      << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
+      << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
+  write_names(file, "load_case", {load_case.name});
+  write_names(file, "group_names", names_of(mesh.groups));
+  write_names(file, "material_names", names_of(mesh.materials));
+  write_names(file, "plate_names", names_of(mesh.regions));
+  file << "</FieldData>\n";
+  write_arrays(file, content);
+  file << "</UnstructuredGrid>\n</VTKFile>\n";
   file.close();
   if (!file) throw ModelError("cannot write \"" + path + "\"");
 }

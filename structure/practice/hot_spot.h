@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "structure/response/cell_stress.h"
+#include "structure/response/stress_state.h"
 
 namespace blocklift::structure {
 

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
+#include <set>
+#include <utility>
 
 #include <Eigen/Dense>
 
 #include "structure/batches.h"
+#include "structure/formulation/shell.h"
 #include "structure/index.h"
-#include "structure/response/cell_stress.h"
+#include "structure/response/cell_finder.h"
+#include "structure/response/shell_stress.h"
 
 namespace blocklift::structure {
 
@@ -19,110 +22,185 @@ namespace {
 
 constexpr Eigen::Index rows_per_panel = 5;
 
-using FaceKey = std::array<int, 4>;
+using Edge = std::pair<int, int>;  // vertices, the lower first
 
-struct FaceOfCell {
-  int cell = 0;
-  int face = 0;
-};
-
-/// Cells at each face, by its vertices in order.
-std::map<FaceKey, std::vector<FaceOfCell>> find_faces(const HexMesh& mesh) {
-  std::map<FaceKey, std::vector<FaceOfCell>> faces;
-  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell)
-    for (int face = 0; face < 6; ++face) {
-      FaceKey key{};
-      for (std::size_t i = 0; i < 4; ++i)
-        key[i] = mesh.cells[at(cell)][at(cell_faces[at(face)][i])];
-      std::sort(key.begin(), key.end());
-      faces[key].push_back({cell, face});
-    }
-  return faces;
+std::set<Edge> edges_with_beams(const Mesh& mesh) {
+  std::set<Edge> edges;
+  for (const Beam& beam : mesh.beams) edges.insert(std::minmax(beam.vertices[0], beam.vertices[1]));
+  return edges;
 }
 
-/// Box that holds some cells, m.
-struct Bounds {
-  Vector3 lower = Vector3::Constant(1e300);
-  Vector3 upper = Vector3::Constant(-1e300);
+bool is_lug(const Mesh& mesh, int shell) {
+  return mesh.regions[at(mesh.shells[at(shell)].region)].is_lug;
+}
+
+/// Fields that buckle as one: pads belong to their plates, beams and lugs' edges hold.
+PlateFields find_buckling_fields(const Mesh& mesh, const std::set<Edge>& beams) {
+  return find_fields(mesh, 0.15, [&](int a, int b, int vertex_1, int vertex_2) {
+    return is_lug(mesh, a) == is_lug(mesh, b) && beams.count({vertex_1, vertex_2}) == 0;
+  });
+}
+
+/// A shell as it counts in its panel: area, middle and normal of the field's side.
+struct ShellShare {
+  double area = 0;
+  Vector3 middle = Vector3::Zero();
+  Vector3 normal = Vector3::Zero();
 };
 
-Bounds bounds_of(const HexMesh& mesh, const std::vector<int>& cells) {
+ShellShare share_of_shell(const Mesh& mesh, int number, bool is_flipped) {
+  const Shell& shell = mesh.shells[at(number)];
+  const auto corner = [&](double x, double y) { return position(mesh, shell, {x, y}); };
+  ShellShare share;
+  // Two triangles: the middle of a triangle as a shell lies elsewhere than that of its square.
+  const std::array<std::array<Vector3, 3>, 2> halves{
+      {{corner(0, 0), corner(1, 0), corner(0, 1)}, {corner(1, 1), corner(0, 1), corner(1, 0)}}};
+  Vector3 area_vector = Vector3::Zero();
+  for (const auto& [a, b, c] : halves) {
+    const Vector3 half = 0.5 * (b - a).cross(c - a);
+    area_vector += half;
+    share.area += half.norm();
+    share.middle += half.norm() * (a + b + c) / 3;
+  }
+  share.middle /= share.area;
+  share.normal = (is_flipped ? -1.0 : 1.0) * area_vector.normalized();
+  return share;
+}
+
+/// The direction in which most of a field's outline runs, in the plane across a normal; of two alike the one
+/// nearer to x, then y, so that square panels of a plate lie the same way.
+Vector3 main_direction(const Mesh& mesh, const PlateField& field, const Vector3& normal) {
+  constexpr double parallel = 0.995;  // cosine
+  std::vector<Vector3> chords;
+  for (const auto& outline : field.outlines)
+    for (const FieldEdge& edge : outline) {
+      const Vector3 chord =
+          mesh.vertices[at(edge.pieces.back().to)] - mesh.vertices[at(edge.pieces.front().from)];
+      chords.push_back(chord - normal * normal.dot(chord));
+    }
+  const auto preference = [](const Vector3& d) { return std::abs(d.x()) + 0.5 * std::abs(d.y()); };
+  Vector3 best = normal.unitOrthogonal();
+  double longest = 0;
+  for (const Vector3& chord : chords) {
+    if (chord.norm() == 0) continue;
+    const Vector3 direction = chord.normalized();
+    double total = 0;
+    for (const Vector3& other : chords)
+      if (std::abs(direction.dot(other)) > parallel * other.norm()) total += other.norm();
+    const bool is_alike = std::abs(total - longest) <= 1e-6 * longest;
+    if (is_alike ? preference(direction) <= preference(best) + 1e-6 : total < longest) continue;
+    longest = total;
+    best = direction;
+  }
+  Eigen::Index axis = 0;
+  best.cwiseAbs().maxCoeff(&axis);
+  return best[axis] < 0 ? Vector3(-best) : best;
+}
+
+void find_axes(const Mesh& mesh, const PlateField& field, Panel& panel) {
+  Vector3 normal = Vector3::Zero();
+  for (std::size_t i = 0; i < field.shells.size(); ++i) {
+    const ShellShare share = share_of_shell(mesh, field.shells[i], field.is_flipped[i]);
+    normal += share.area * share.normal;
+  }
+  panel.normal = normal.normalized();
+  panel.e_1 = main_direction(mesh, field, panel.normal);
+  panel.e_2 = panel.normal.cross(panel.e_1);
+}
+
+/// Bounding rectangle in a panel's own axes, m.
+struct Bounds {
+  Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e300);
+  Eigen::Vector2d upper = Eigen::Vector2d::Constant(-1e300);
+};
+
+Eigen::Vector2d in_plane(const Panel& panel, const Vector3& place) {
+  return {panel.e_1.dot(place), panel.e_2.dot(place)};
+}
+
+Bounds bounds_of(const Mesh& mesh, const PlateField& field, const Panel& panel) {
   Bounds bounds;
-  for (const int cell : cells)
-    for (const int vertex : mesh.cells[at(cell)]) {
-      bounds.lower = bounds.lower.cwiseMin(mesh.vertices[at(vertex)]);
-      bounds.upper = bounds.upper.cwiseMax(mesh.vertices[at(vertex)]);
+  for (const int shell : field.shells)
+    for (const int vertex : mesh.shells[at(shell)].vertices) {
+      const Eigen::Vector2d place = in_plane(panel, mesh.vertices[at(vertex)]);
+      bounds.lower = bounds.lower.cwiseMin(place);
+      bounds.upper = bounds.upper.cwiseMax(place);
     }
   return bounds;
 }
 
-/// A panel but for its edges: named after the single plate that has most of its volume, as thick as the
-/// thinnest plate that has a tenth of it.
-Panel describe(const BlockMesh& mesh, const std::vector<int>& cells, const Bounds& bounds) {
-  Panel panel;
-  panel.normal = mesh.cell_normal[at(cells[0])];
-  panel.material = mesh.groups[at(mesh.cell_group[at(cells[0])])].material;
-  const int u = (panel.normal + 1) % 3, v = (panel.normal + 2) % 3;
-  double volume = 0;
-  std::map<int, double> of_sheet;  // volume
-  for (const int cell : cells) {
-    const double own = jacobian(mesh, cell, Vector3::Constant(0.5)).determinant();
-    panel.centre_B += own * position(mesh, cell, Vector3::Constant(0.5));
-    volume += own;
-    of_sheet[mesh.cell_sheet[at(cell)]] += own;
+/// A panel but for its edges: named after the region that has most of its volume, as thick as the thinnest
+/// plate that has a tenth of its area.
+void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Panel& panel) {
+  double volume = 0, area = 0;
+  std::map<int, double> of_region;        // volume
+  std::map<double, double> of_thickness;  // area
+  for (std::size_t i = 0; i < field.shells.size(); ++i) {
+    const Shell& shell = mesh.shells[at(field.shells[i])];
+    const double thickness = mesh.section_of(shell).thickness;
+    const ShellShare share = share_of_shell(mesh, field.shells[i], field.is_flipped[i]);
+    panel.centre_B += share.area * thickness * share.middle;
+    volume += share.area * thickness;
+    area += share.area;
+    of_region[shell.region] += share.area * thickness;
+    of_thickness[thickness] += share.area;
   }
   panel.centre_B /= volume;
-  panel.size = {bounds.upper[u] - bounds.lower[u], bounds.upper[v] - bounds.lower[v], 1e300};
-  int owner = of_sheet.begin()->first;
-  for (const auto& [sheet, own] : of_sheet) {
-    if (own > of_sheet[owner]) owner = sheet;
-    if (own > 0.1 * volume)
-      panel.size.thickness = std::min(panel.size.thickness, mesh.sheet_thickness[at(sheet)]);
-  }
-  panel.plate = mesh.sheet_names[at(owner)];
-  for (const int cell : cells)
-    if (mesh.cell_sheet[at(cell)] == owner)
-      panel.group = mesh.groups[at(mesh.cell_group[at(cell)])].name;
-  return panel;
+  const auto largest = std::max_element(of_region.begin(), of_region.end(),
+                                        [](auto& a, auto& b) { return a.second < b.second; });
+  panel.plate = mesh.regions[at(largest->first)].name;
+  panel.group = mesh.group_of_region(largest->first).name;
+  const auto thinnest = std::find_if(of_thickness.begin(), of_thickness.end(),
+                                     [&](auto& one) { return one.second > 0.1 * area; });
+  const Eigen::Vector2d sides = bounds.upper - bounds.lower;
+  panel.size = {sides[0], sides[1],
+                thinnest == of_thickness.end() ? of_thickness.begin()->first : thinnest->first};
+  for (const int shell : field.shells)
+    if (mesh.section_of(mesh.shells[at(shell)]).thickness == panel.size.thickness)
+      panel.material = mesh.section_of(mesh.shells[at(shell)]).material;
 }
 
-/// Edges of the bounding rectangle near which no column of crossing plates holds the panel over half of
-/// their length. (A pad's layers may reach past the column a little.)
-FreeEdges find_free_edges(const BlockMesh& mesh, const std::vector<int>& cells,
-                          const Bounds& bounds, const std::map<int, std::vector<int>>& held_faces,
-                          const Panel& panel) {
-  const int u = (panel.normal + 1) % 3, v = (panel.normal + 2) % 3;
+/// Edges of the bounding rectangle near which no other plate or beam holds the panel over half of their length.
+FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const Bounds& bounds,
+                          const std::set<Edge>& beams, const Panel& panel) {
   constexpr double near_edge = 0.05;  // of the panel's side
-  // Lengths by their place along the edge, for the lower and upper edge across u and across v.
-  std::array<std::array<std::map<long, double>, 2>, 2> held;
-  for (const int cell : cells) {
-    const auto found = held_faces.find(cell);
-    if (found == held_faces.end()) continue;
-    const Eigen::Matrix3d edges = jacobian(mesh, cell, Vector3::Constant(0.5));
-    const Vector3 middle = position(mesh, cell, Vector3::Constant(0.5));
-    for (const int face : found->second) {
-      const int across = face / 2;
-      if (across == panel.normal) continue;
-      const int along = across == u ? v : u;
-      const int vertex = mesh.cells[at(cell)][at(cell_faces[at(face)][0])];
-      const double end = face % 2 == 0 ? bounds.lower[across] : bounds.upper[across];
-      const double side = bounds.upper[across] - bounds.lower[across];
-      if (std::abs(mesh.vertices[at(vertex)][across] - end) < near_edge * side)
-        held[across == u ? 0 : 1][at(face % 2)][std::lround(middle[along] * 1e4)] =
-            edges.col(along).norm();
-    }
-  }
-  const auto is_free = [](const std::map<long, double>& lengths, double side) {
-    double sum = 0;
-    for (const auto& [place, length] : lengths) sum += length;
-    return sum < side / 2 ? 1 : 0;
-  };
+  const Eigen::Vector2d sides = bounds.upper - bounds.lower;
+  // Held lengths of the lower and upper edge, of those across e_1 and those across e_2.
+  std::array<std::array<double, 2>, 2> held{};
+  for (const auto& outline : field.outlines)
+    for (const FieldEdge& edge : outline)
+      for (const FieldEdge::Piece& piece : edge.pieces) {
+        if (edge.is_free && beams.count(std::minmax(piece.from, piece.to)) == 0) continue;
+        const Eigen::Vector2d from = in_plane(panel, mesh.vertices[at(piece.from)]),
+                              to = in_plane(panel, mesh.vertices[at(piece.to)]);
+        for (int across = 0; across < 2; ++across)
+          for (const bool is_upper : {false, true}) {
+            const double end = (is_upper ? bounds.upper : bounds.lower)[across];
+            const double farthest =
+                std::max(std::abs(from[across] - end), std::abs(to[across] - end));
+            if (farthest < near_edge * sides[across])
+              held[at(across)][is_upper ? 1 : 0] += std::abs(to[1 - across] - from[1 - across]);
+          }
+      }
   FreeEdges result;
   for (std::size_t end = 0; end < 2; ++end) {
-    result.along_b += is_free(held[0][end], panel.size.b);
-    result.along_a += is_free(held[1][end], panel.size.a);
+    result.along_b += held[0][end] < sides[1] / 2 ? 1 : 0;
+    result.along_a += held[1][end] < sides[0] / 2 ? 1 : 0;
   }
   return result;
+}
+
+/// Membrane stresses (11, 22, 12) of a point's rows turned into a panel's axes.
+Eigen::Matrix3d turn_into(const Panel& panel, const ShellPoint& point) {
+  // The point's tangents in the panel's plane; the angle between them and its axes.
+  const double angle = std::atan2(point.e_1.dot(panel.e_2), point.e_1.dot(panel.e_1));
+  const double side = point.normal.dot(panel.normal) < 0 ? -1 : 1;
+  const double c = std::cos(angle), s = std::sin(angle);
+  Eigen::Matrix3d turn;
+  turn << c * c, s * s, -2 * side * c * s,  //
+      s * s, c * c, 2 * side * c * s,       //
+      c * s, -c * s, side * (c * c - s * s);
+  return turn;
 }
 
 /// Factor by which a stress that falls from 1 to psi across the width raises the coefficient.
@@ -157,26 +235,6 @@ Share share_of(double demand, double elastic, double yield) {
 void take_field(double& mean, double& gradient, int fields) {
   mean -= std::abs(gradient) * (1 - 1.0 / fields);
   gradient /= fields;
-}
-
-/// Integrals over a cell: rows 0 to 2 of d u / d x, 3 to 5 of the same times (x_u - c_u), 6 to 8 times
-/// (x_v - c_v), by the nodes' displacements; c the panel's centre.
-Eigen::MatrixXd cell_integrals(const ElasticModel& model, int cell, int normal,
-                               const Vector3& centre, const Eigen::Matrix4Xd& rule,
-                               const Eigen::MatrixXd& gradients) {
-  const HexMesh& mesh = model.mesh();
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(9, gradients.cols());
-  for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-    const Vector3 xi = rule.col(q).head<3>();
-    const Eigen::Matrix3d j = jacobian(mesh, cell, xi);
-    const Eigen::MatrixXd by_place =
-        rule(3, q) * j.determinant() * j.inverse().transpose() * gradients.middleRows<3>(3 * q);
-    const Vector3 off = position(mesh, cell, xi) - centre;
-    result.topRows<3>() += by_place;
-    result.middleRows<3>(3) += off[(normal + 1) % 3] * by_place;
-    result.bottomRows<3>() += off[(normal + 2) % 3] * by_place;
-  }
-  return result;
 }
 
 }  // namespace
@@ -231,119 +289,73 @@ BucklingUtilisation buckling_utilisation(const PanelSize& size, const FreeEdges&
   return {std::sqrt(result.elastic), std::sqrt(result.critical)};
 }
 
-BlockPanels::BlockPanels(const ElasticModel& model, const Eigen::MatrixXd& displacements,
+BlockPanels::BlockPanels(const ElasticModel& model, const Eigen::MatrixXd& motions,
                          const std::vector<PlateStiffening>& stiffening)
     : materials_(model.mesh().materials) {
-  find_panels(model);
-  find_edges(model);
+  describe(model.mesh());
   stiffen(stiffening);
-  integrate(model, displacements);
+  integrate(model, motions);
 }
 
-// Cells of one direction that share a face belong together; columns where plates cross lie between
-// panels, lugs are none.
-void BlockPanels::find_panels(const ElasticModel& model) {
-  const BlockMesh& mesh = model.mesh();
-  std::vector<char> is_lug(mesh.groups.size(), 0);
-  for (const LugRegion& lug : mesh.lugs) is_lug[at(lug.group)] = 1;
-  std::vector<int> parent(mesh.cells.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int cell) {
-    while (parent[at(cell)] != cell) cell = parent[at(cell)] = parent[at(parent[at(cell)])];
-    return cell;
-  };
-  const auto counts = [&](int cell) {
-    return mesh.cell_normal[at(cell)] >= 0 && is_lug[at(mesh.cell_group[at(cell)])] == 0;
-  };
-  for (const auto& [key, cells] : find_faces(mesh)) {
-    if (cells.size() != 2 || !counts(cells[0].cell) || !counts(cells[1].cell)) continue;
-    if (mesh.cell_normal[at(cells[0].cell)] == mesh.cell_normal[at(cells[1].cell)])
-      parent[at(root(cells[0].cell))] = root(cells[1].cell);
-  }
-  std::map<int, int> panel_of_root;
-  for (int cell = 0; cell < static_cast<int>(mesh.cells.size()); ++cell) {
-    if (!counts(cell)) continue;
-    const auto [found, is_new] =
-        panel_of_root.try_emplace(root(cell), static_cast<int>(cells_.size()));
-    if (is_new) cells_.emplace_back();
-    cells_[at(found->second)].push_back(cell);
-  }
-}
-
-void BlockPanels::find_edges(const ElasticModel& model) {
-  const BlockMesh& mesh = model.mesh();
-  std::map<int, std::vector<int>> held_faces;  // by cell
-  for (const auto& [key, cells] : find_faces(mesh)) {
-    if (cells.size() != 2) continue;
-    if (mesh.cell_normal[at(cells[0].cell)] == mesh.cell_normal[at(cells[1].cell)]) continue;
-    for (const FaceOfCell& one : cells) held_faces[one.cell].push_back(one.face);
-  }
-  for (const std::vector<int>& cells : cells_) {
-    const Bounds bounds = bounds_of(mesh, cells);
-    panels_.push_back(describe(mesh, cells, bounds));
-    panels_.back().free = find_free_edges(mesh, cells, bounds, held_faces, panels_.back());
+void BlockPanels::describe(const Mesh& mesh) {
+  const std::set<Edge> beams = edges_with_beams(mesh);
+  for (const PlateField& field : find_buckling_fields(mesh, beams).fields) {
+    if (is_lug(mesh, field.shells.front())) continue;
+    Panel& panel = panels_.emplace_back();
+    find_axes(mesh, field, panel);
+    const Bounds bounds = bounds_of(mesh, field, panel);
+    measure(mesh, field, bounds, panel);
+    panel.free = find_free_edges(mesh, field, bounds, beams, panel);
+    shells_.push_back(field.shells);
   }
 }
 
 void BlockPanels::stiffen(const std::vector<PlateStiffening>& stiffening) {
+  constexpr double in_plane_share = 0.5;  // of a direction: more than 60 degrees out of it none run
   for (const PlateStiffening& stiffeners : stiffening)
     for (Panel& panel : panels_) {
-      if (panel.group != stiffeners.group || stiffeners.along == panel.normal) continue;
-      const bool across_b = stiffeners.along == (panel.normal + 1) % 3;
+      const double along_1 = std::abs(stiffeners.along.dot(panel.e_1)),
+                   along_2 = std::abs(stiffeners.along.dot(panel.e_2));
+      if (panel.group != stiffeners.group ||
+          std::max(along_1, along_2) < in_plane_share * stiffeners.along.norm())
+        continue;
+      const bool across_b = along_1 >= along_2;
       const double side = across_b ? panel.size.b : panel.size.a;
       (across_b ? panel.fields_b : panel.fields_a) =
           std::max(1, static_cast<int>(std::ceil(side / stiffeners.spacing - 1e-6)));
     }
 }
 
-void BlockPanels::integrate(const ElasticModel& model, const Eigen::MatrixXd& displacements) {
-  const Discretisation& space = model.space();
-  const Eigen::Matrix2Xd two = gauss_points(2), three = gauss_points(3);
-  components_.setZero(rows_per_panel * static_cast<Eigen::Index>(panels_.size()),
-                      displacements.cols());
-  std::array<Eigen::Matrix4Xd, 3> rules;
-  std::array<Eigen::MatrixXd, 3> gradients;
-  for (int normal = 0; normal < 3; ++normal) {
-    rules[at(normal)] = tensor_rule(normal == 0 ? two : three, normal == 1 ? two : three,
-                                    normal == 2 ? two : three);
-    gradients[at(normal)] = space.element.gradients(rules[at(normal)].topRows<3>());
-  }
-  const auto add = [&](int p, int cell, Eigen::Vector3d& weights) {
+void BlockPanels::integrate(const ElasticModel& model, const Eigen::MatrixXd& motions) {
+  const Space& space = model.space();
+  const Mesh& mesh = model.mesh();
+  components_.setZero(rows_per_panel * static_cast<Eigen::Index>(panels_.size()), motions.cols());
+  const Eigen::Matrix3Xd rule = square_rule(space.degree() + 1);
+  const CellFinder finder(space);
+  const auto add = [&](int p, int cell, ShellStress& recovery, Eigen::Vector3d& weights) {
     const Panel& panel = panels_[at(p)];
-    const int n = panel.normal, u = (n + 1) % 3, v = (n + 2) % 3;
-    const Eigen::MatrixXd integrals =
-        cell_integrals(model, cell, n, panel.centre_B, rules[at(n)], gradients[at(n)]);
-    const Material& material = model.mesh().material_of_cell(cell);
-    const Eigen::Index cases = displacements.cols();
-    Eigen::MatrixXd local(space.nodes_per_cell, 3 * cases);
-    for (int i = 0; i < space.nodes_per_cell; ++i)
-      for (Eigen::Index m = 0; m < cases; ++m)
-        local.block<1, 3>(i, 3 * m) =
-            displacements.block<3, 1>(3 * space.node(cell, i), m).transpose();
-    const Eigen::MatrixXd products = integrals * local;
-    const auto stress = [&](Eigen::Index row, Eigen::Index m) {
-      return stress_of_gradient(material, products.block<3, 3>(row, 3 * m).transpose());
-    };
-    for (Eigen::Index m = 0; m < cases; ++m) {
-      auto column = components_.block<rows_per_panel, 1>(rows_per_panel * p, m);
-      const Stress mean = stress(0, m);
-      column[0] += mean[u];
-      column[1] += mean[v];
-      column[2] += mean[3 + u];
-      column[3] += stress(6, m)[u];
-      column[4] += stress(3, m)[v];
-    }
-    for (Eigen::Index q = 0; q < rules[at(n)].cols(); ++q) {
-      const Vector3 xi = rules[at(n)].col(q).head<3>();
-      const Vector3 off = position(model.mesh(), cell, xi) - panel.centre_B;
-      weights += rules[at(n)](3, q) * jacobian(model.mesh(), cell, xi).determinant() *
-                 Eigen::Vector3d(1, off[v] * off[v], off[u] * off[u]);
+    const Eigen::MatrixXd rows = recovery.of_all(cell, motions);
+    const double thickness =
+        mesh.section_of(mesh.shells[at(space.shells()[at(cell)].shell)]).thickness;
+    auto sums = components_.middleRows<rows_per_panel>(rows_per_panel * p);
+    for (Eigen::Index q = 0; q < rule.cols(); ++q) {
+      const ShellPoint& point = recovery.points()[at(q)];
+      const Eigen::MatrixXd stress =
+          turn_into(panel, point) * rows.middleRows<3>(shell_stress_rows * q + membrane_stress_11);
+      const double volume = rule(2, q) * point.area * thickness;
+      const Eigen::Vector2d off = in_plane(panel, point.place - panel.centre_B);
+      sums.topRows<3>() += volume * stress;
+      sums.row(3) += volume * off[1] * stress.row(0);
+      sums.row(4) += volume * off[0] * stress.row(1);
+      weights += volume * Eigen::Vector3d(1, off[1] * off[1], off[0] * off[0]);
     }
   };
   in_batches(static_cast<int>(panels_.size()), 4, 0, [&](int first, int count) {
+    ShellStress recovery(space, rule.topRows<2>());
     for (int p = first; p < first + count; ++p) {
       Eigen::Vector3d weights = Eigen::Vector3d::Zero();  // volume and second moments
-      for (const int cell : cells_[at(p)]) add(p, cell, weights);
+      for (const int shell : shells_[at(p)])
+        for (const int cell : finder.cells_of(shell)) add(p, cell, recovery, weights);
       const PanelSize& size = panels_[at(p)].size;
       components_.middleRows<3>(rows_per_panel * p) /= weights[0];
       components_.row(rows_per_panel * p + 3) *= size.b / 2 / weights[1];

@@ -5,7 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/elastic_model.h"
+#include "structure/mesh/fields.h"
+#include "structure/response/elastic_model.h"
 
 namespace blocklift::structure {
 
@@ -63,34 +64,39 @@ struct BucklingUtilisation {
 BucklingUtilisation buckling_utilisation(const PanelSize& size, const FreeEdges& free,
                                          const Material& material, const PanelStress& stress);
 
-/// Panel of a block: a field of plate between its neighbours, of whatever direction.
+/// Panel of a block: a field of plate between its neighbours, its kinks and beams, of whatever direction.
+/// Changes of thickness within it do not hold it; lugs are none.
 struct Panel {
-  std::string plate;  ///< name of the single plate, "web_frames at x = 4 m"
-  std::string group;  ///< name of the plates
-  int normal = 0;     ///< axis across it; the in-plane axes are the next two, in turn
+  std::string plate;  ///< name of the region that has most of it, "web_frames at x = 4 m"
+  std::string group;  ///< name of that region's group
+  Vector3 normal = Vector3::Zero();    ///< mean over the field, unit
+  Vector3 e_1 = Vector3::Zero();       ///< along its side a: as most of its outline runs
+  Vector3 e_2 = Vector3::Zero();       ///< along b, normal x e_1
   Vector3 centre_B = Vector3::Zero();  ///< of its material, m
-  PanelSize size;  ///< of its bounding rectangle; thickness of the thinnest plate of a tenth of it
+  /// Of its bounding rectangle along e_1 and e_2; thickness of the thinnest plate of a tenth of it.
+  PanelSize size;
   FreeEdges free;
   int fields_a = 1, fields_b = 1;  ///< that stiffeners divide the sides a and b into
-  int material = 0;                ///< place in HexMesh::materials
+  int material = 0;                ///< place in Mesh::materials
 };
 
 /// Stiffeners that a plate carries and the mesh does not: they divide each of its panels.
 struct PlateStiffening {
-  std::string group;   ///< name of the plates
-  int along = 0;       ///< axis that the stiffeners run along
-  double spacing = 0;  ///< m
+  std::string group;  ///< name of the plates
+  Vector3 along =
+      Vector3::Zero();  ///< direction that the stiffeners run in; across a plate: none are there
+  double spacing = 0;   ///< m
 };
 
 /// The panels of a block and their mean stresses for its unit loads.
 class BlockPanels {
  public:
-  /// @param displacements unknowns x m, m.
-  BlockPanels(const ElasticModel& model, const Eigen::MatrixXd& displacements,
+  /// @param motions freedoms x m, m and rad.
+  BlockPanels(const ElasticModel& model, const Eigen::MatrixXd& motions,
               const std::vector<PlateStiffening>& stiffening);
 
   const std::vector<Panel>& panels() const { return panels_; }
-  /// Stresses of all panels for factors of the displacements.
+  /// Stresses of all panels for factors of the motions.
   std::vector<PanelStress> stresses(const Eigen::VectorXd& factors) const;
   /// Of the panel, or of that field between its stiffeners which is compressed most.
   BucklingUtilisation utilisation(int panel, const PanelStress& stress) const;
@@ -104,15 +110,14 @@ class BlockPanels {
   std::vector<Worst> find_worst(const Eigen::MatrixXd& factors, int threads = 0) const;
 
  private:
-  void find_panels(const ElasticModel& model);
-  void find_edges(const ElasticModel& model);
+  void describe(const Mesh& mesh);
   void stiffen(const std::vector<PlateStiffening>& stiffening);
-  void integrate(const ElasticModel& model, const Eigen::MatrixXd& displacements);
+  void integrate(const ElasticModel& model, const Eigen::MatrixXd& motions);
 
   std::vector<Material> materials_;
   std::vector<Panel> panels_;
-  std::vector<std::vector<int>> cells_;  ///< of each panel
-  Eigen::MatrixXd components_;           ///< rows 5 panel + (s11, s22, s12, gradients)
+  std::vector<std::vector<int>> shells_;  ///< of each panel
+  Eigen::MatrixXd components_;            ///< rows 5 panel + (s11, s22, s12, gradients)
 };
 
 }  // namespace blocklift::structure

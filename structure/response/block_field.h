@@ -2,27 +2,46 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/elastic_model.h"
+#include "structure/mesh/shell_tree.h"
+#include "structure/response/cell_finder.h"
+#include "structure/response/elastic_model.h"
 
 namespace blocklift::structure {
 
-/// A place within a cell of a block.
-struct CellPlace {
-  int cell = -1;  ///< -1: in no cell
-  Vector3 xi = Vector3::Zero();
+/// A place within a block's plates.
+struct SteelPlace : CellPlace {
+  double height = 0;  ///< above the mid-surface, towards the shell's normal, m
 };
 
-/// The cell that holds a place (m; to 1e-6 of the cell's own coordinates), the first in order of cells.
-CellPlace find_cell(const HexMesh& mesh, const Vector3& place);
+/// Finds the plate that holds a place.
+class SteelFinder {
+ public:
+  /// The space must outlive this object.
+  explicit SteelFinder(const Space& space);
 
-/// Displacements at places of a block: row 3 p + axis for place p, a column for each of `displacements`
-/// (unknowns x m), m. @throws ModelError naming the first place that lies in no cell.
-Eigen::MatrixXd displacements_at(const ElasticModel& model, const Eigen::MatrixXd& displacements,
-                                 const Eigen::Matrix3Xd& places);
+  /// The place within a plate, to a thousandth of its thickness and 1e-6 of its shells' sizes.
+  /// @param normal where several plates meet, the one whose normal is nearest to this direction or its
+  ///   opposite; zero: the one whose mid-surface is nearest, counted in thicknesses.
+  SteelPlace find(const Vector3& place, const Vector3& normal = Vector3::Zero()) const;
 
-/// Stresses at a place in a cell, row a component (xx, yy, zz, xy, yz, zx), a column for each of
-/// `displacements`, Pa.
-Eigen::MatrixXd stresses_at(const ElasticModel& model, const Eigen::MatrixXd& displacements,
-                            const CellPlace& place);
+ private:
+  const Space& space_;
+  ShellTree tree_;
+  CellFinder cells_;
+  double reach_ = 0;  ///< how far a plate's steel lies from its vertices' surface at most, m
+};
+
+/// Displacements at places of a block: row 3 p + axis for place p, a column for each of `motions`
+/// (freedoms x m), m. Off the mid-surface they are those of Reissner and Mindlin, u + theta x arm.
+/// @param normal of the plate that is meant where several meet, see SteelFinder.
+/// @throws ModelError naming the first place that lies in no plate.
+Eigen::MatrixXd displacements_at(const ElasticModel& model, const Eigen::MatrixXd& motions,
+                                 const Eigen::Matrix3Xd& places,
+                                 const Vector3& normal = Vector3::Zero());
+
+/// Stresses at a place, row a component (xx, yy, zz, xy, yz, zx) in the block's axes, a column for each of
+/// `motions`, Pa. At the height z: membrane + 2 z / t bending, and 3/2 (1 - (2 z / t)^2) of the mean shear.
+Eigen::MatrixXd stresses_at(const ElasticModel& model, const Eigen::MatrixXd& motions,
+                            const SteelPlace& place);
 
 }  // namespace blocklift::structure

@@ -24,6 +24,10 @@ class CellFinder {
       cells_[static_cast<std::size_t>(space.shells()[cell].shell)].push_back(
           static_cast<int>(cell));
   }
+  /// The cells that a shell was divided into.
+  const std::vector<int>& cells_of(int shell) const {
+    return cells_[static_cast<std::size_t>(shell)];
+  }
   CellPlace find(const ShellPlace& place) const {
     for (const int cell : cells_[static_cast<std::size_t>(place.shell)]) {
       const ShellCell& located = space_.shells()[static_cast<std::size_t>(cell)];

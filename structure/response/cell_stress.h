@@ -3,20 +3,9 @@
 #include <Eigen/Core>
 
 #include "structure/elasticity/discretisation.h"
+#include "structure/response/stress_state.h"
 
 namespace blocklift::structure {
-
-/// Stress as (xx, yy, zz, xy, yz, zx), Pa.
-using Stress = Eigen::Matrix<double, 6, 1>;
-
-/// Von Mises stress, Pa: sqrt(((sx-sy)^2 + (sy-sz)^2 + (sz-sx)^2) / 2 + 3 (sxy^2 + syz^2 + szx^2)).
-double von_mises(const Stress& stress);
-
-/// s : C^-1 : s, twice the elastic energy of a stress, J/m^3.
-double complementary_energy(const Material& material, const Stress& stress);
-
-/// Hooke's law on a displacement gradient du_a/dx_b.
-Stress stress_of_gradient(const Material& material, const Eigen::Matrix3d& gradient);
 
 /// Stresses of one displacement at fixed unit points of any cell.
 class CellStress {

@@ -1,46 +1,45 @@
 #include "structure/response/shell_regions.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 
 #include "structure/error.h"
+#include "structure/index.h"
+#include "structure/mesh/shell_tree.h"
+#include "structure/system/matter.h"
 
 namespace blocklift::structure {
 
 namespace {
 
-struct Box {
-  Vector3 low, high;
-};
+const Eigen::Vector2d middle(0.5, 0.5);
 
-std::vector<Box> boxes_of(const HexMesh& mesh) {
-  std::vector<Box> boxes(mesh.cells.size());
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-    Box& box = boxes[cell];
-    box.low.setConstant(std::numeric_limits<double>::infinity());
-    box.high = -box.low;
-    for (const int vertex : mesh.cells[cell]) {
-      const Vector3& place = mesh.vertices[static_cast<std::size_t>(vertex)];
-      box.low = box.low.cwiseMin(place);
-      box.high = box.high.cwiseMax(place);
-    }
-  }
-  return boxes;
+/// Normal of a cell in its middle, times its area as a parallelogram there.
+Vector3 area_vector(const Space& space, int cell) {
+  const Vector3 g_1 = space.place(cell, {0.75, 0.5}) - space.place(cell, {0.25, 0.5}),
+                g_2 = space.place(cell, {0.5, 0.75}) - space.place(cell, {0.5, 0.25});
+  return 4 * g_1.cross(g_2);
 }
 
-// Does anything stand before a box, seen along an axis from its side?
-bool is_covered(const std::vector<Box>& boxes, const Box& box, int axis, int side) {
-  const Vector3 middle = 0.5 * (box.low + box.high);
-  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-  for (const Box& other : boxes) {
-    if (middle[i] < other.low[i] || middle[i] > other.high[i] || middle[j] < other.low[j] ||
-        middle[j] > other.high[j])
-      continue;
-    if (side > 0 ? other.low[axis] > middle[axis] : other.high[axis] < middle[axis]) return true;
-  }
-  return false;
+/// The axis that a normal is nearest to; of two alike the first.
+int main_axis(const Vector3& normal) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(normal[axis]) > normal.cwiseAbs().maxCoeff() - 1e-6) return axis;
+  return 2;
+}
+
+bool is_lug(const Mesh& mesh, int shell) {
+  return mesh.regions[at(mesh.shells[at(shell)].region)].is_lug;
+}
+
+std::vector<int> shells_without_lugs(const Mesh& mesh) {
+  std::vector<int> shells;
+  for (int shell = 0; shell < static_cast<int>(mesh.shells.size()); ++shell)
+    if (!is_lug(mesh, shell)) shells.push_back(shell);
+  return shells;
 }
 
 }  // namespace
@@ -49,37 +48,56 @@ ShellRegions::ShellRegions(const ElasticModel& model, double size) : model_(mode
   if (!(size > 0)) throw ModelError("regions of a shell have a positive size");
   divide(size);
   if (regions_.empty()) throw ModelError("no plate of the block looks outwards");
-  const HexMesh& mesh = model_.mesh();
-  for (ShellRegion& region : regions_) {
-    const NodalMoments moments =
-        nodal_moments(mesh, model_.space(), region.cells, [](int, const Vector3&) { return 1.0; });
-    const Eigen::RowVector4d sum = moments.colwise().sum();
-    region.centre_B = sum.tail<3>().transpose() / sum[0];
-  }
+  find_centres();
 }
 
 void ShellRegions::divide(double size) {
-  const BlockMesh& mesh = model_.mesh();
-  const std::vector<Box> boxes = boxes_of(mesh);
-  std::vector<char> is_lug(mesh.groups.size(), 0);
-  for (const LugRegion& lug : mesh.lugs) is_lug[static_cast<std::size_t>(lug.group)] = 1;
-  std::map<std::array<int, 4>, int> found;  // sheet, side, place along two edges
-  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-    const int axis = mesh.cell_normal[cell];
-    if (axis < 0 || is_lug[static_cast<std::size_t>(mesh.cell_group[cell])] != 0) continue;
-    const Box& box = boxes[cell];
+  const Mesh& mesh = model_.mesh();
+  const Space& space = model_.space();
+  const ShellTree tree(mesh, shells_without_lugs(mesh));
+  std::map<std::array<int, 5>, int> found;  // plate, side, axis, place along two others
+  for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
+    const int shell = space.shells()[at(cell)].shell;
+    if (is_lug(mesh, shell)) continue;
+    const Vector3 area = area_vector(space, cell), place = space.place(cell, middle);
+    // The tree's triangles of a curved shell lie a little off the place that a ray starts from.
+    const double own_shell = 5e-3 * std::sqrt(area.norm()) / space.shells()[at(cell)].size;
     for (const int side : {-1, 1}) {
-      if (is_covered(boxes, box, axis, side)) continue;
+      const Vector3 outward = side * area.normalized();
+      if (tree.is_hit(place, outward, own_shell)) continue;
+      const int axis = main_axis(outward);
       const auto band = [&](int along) {
-        return static_cast<int>(std::floor(0.5 * (box.low[along] + box.high[along]) / size));
+        return static_cast<int>(std::floor(place[along] / size));
       };
-      const auto [place, is_new] = found.try_emplace(
-          {mesh.cell_sheet[cell], side, band((axis + 1) % 3), band((axis + 2) % 3)},
-          static_cast<int>(regions_.size()));
-      if (is_new) regions_.emplace_back().outward_B = side * Vector3::Unit(axis);
-      regions_[static_cast<std::size_t>(place->second)].cells.push_back(static_cast<int>(cell));
-      faces_.push_back({box.low, box.high, place->second});
+      const auto [entry, is_new] =
+          found.try_emplace({mesh.shells[at(shell)].region, outward[axis] < 0 ? -1 : 1, axis,
+                             band((axis + 1) % 3), band((axis + 2) % 3)},
+                            static_cast<int>(regions_.size()));
+      if (is_new) regions_.emplace_back();
+      ShellRegion& region = regions_[at(entry->second)];
+      region.cells.push_back(cell);
+      region.outward_B += side * area;
+      Face face;
+      face.outward_B = outward;
+      face.region = entry->second;
+      const Vector3 a = space.place(cell, {0, 0}), b = space.place(cell, {1, 0}),
+                    c = space.place(cell, {0, 1}), d = space.place(cell, {1, 1});
+      face.corners = {a, b - a, c - a, d, c - d, b - d};
+      for (const Vector3& corner : {a, b, c, d}) face.box.extend(corner);
+      faces_.push_back(std::move(face));
     }
+  }
+  for (ShellRegion& region : regions_) region.outward_B.normalize();
+}
+
+void ShellRegions::find_centres() {
+  for (ShellRegion& region : regions_) {
+    double volume = 0;
+    for_each_shell_point(model_.space(), region.cells, [&](const MatterPoint& point) {
+      region.centre_B += point.volume * point.place;
+      volume += point.volume;
+    });
+    region.centre_B /= volume;
   }
 }
 
@@ -89,11 +107,13 @@ int ShellRegions::nearest(const Vector3& place_B, const Vector3& outward_B) cons
   bool is_facing = false;
   double least = std::numeric_limits<double>::infinity();
   for (const Face& face : faces_) {
-    const bool faces =
-        regions_[static_cast<std::size_t>(face.region)].outward_B.dot(outward_B) > least_cosine;
+    const bool faces = face.outward_B.dot(outward_B) > least_cosine;
     if (is_facing && !faces) continue;
-    const double distance =
-        (place_B - place_B.cwiseMax(face.low).cwiseMin(face.high)).squaredNorm();
+    if (faces == is_facing && face.box.squaredExteriorDistance(place_B) >= least) continue;
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < face.corners.size(); i += 3)
+      distance = std::min(distance, squared_distance(place_B, face.corners[i], face.corners[i + 1],
+                                                     face.corners[i + 2]));
     if (faces == is_facing && !(distance < least)) continue;
     is_facing = faces;
     least = distance;
@@ -103,13 +123,11 @@ int ShellRegions::nearest(const Vector3& place_B, const Vector3& outward_B) cons
 }
 
 Eigen::MatrixXd ShellRegions::loads(const Eigen::MatrixXd& wrenches) const {
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(model_.unknowns(), wrenches.cols());
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(model_.freedoms(), wrenches.cols());
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     const auto rows = wrenches.middleRows<6>(static_cast<Eigen::Index>(6 * r));
     if (rows.isZero(0)) continue;
-    const NodalMoments moments = nodal_moments(model_.mesh(), model_.space(), regions_[r].cells,
-                                               [](int, const Vector3&) { return 1.0; });
-    add_spread_wrenches(moments, model_.space().nodes, regions_[r].centre_B, rows, loads);
+    add_spread_wrenches(model_.space(), regions_[r].cells, regions_[r].centre_B, rows, loads);
   }
   return loads;
 }

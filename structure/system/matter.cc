@@ -1,5 +1,6 @@
 #include "structure/system/matter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -206,29 +207,53 @@ Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass) {
   return loads;
 }
 
-Eigen::MatrixXd spread_wrenches(const Space& space, const std::vector<int>& cells,
-                                const Vector3& point, const Eigen::MatrixXd& wrenches) {
-  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(space.freedoms(), 6);
+void add_spread_wrenches(const Space& space, const std::vector<int>& cells, const Vector3& point,
+                         const Eigen::MatrixXd& wrenches, Eigen::MatrixXd& loads) {
+  // The cells' own nodes, numbered for themselves.
+  std::vector<int> nodes;
+  for (const int cell : cells)
+    nodes.insert(nodes.end(), space.shell_nodes(cell),
+                 space.shell_nodes(cell) + space.nodes_per_shell());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<int> own(at(space.nodes_per_shell()));
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), 6);
+  Eigen::Matrix<double, 6, 6> resultants = Eigen::Matrix<double, 6, 6>::Zero();
   double volume = 0;
-  for_each_shell_point(space, cells, [&](const MatterPoint& p) {
+  for_each_shell_point(space, cells, [&](MatterPoint p) {
     Eigen::Matrix<double, 3, 6> forces;
     forces << Eigen::Matrix3d::Identity(), -cross_matrix(p.place - point);
     forces *= p.volume;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      own[i] = static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), p.nodes[i]) -
+                                nodes.begin());
+    p.nodes = own.data();
     add_forces(p, forces, fields);
     volume += p.volume;
   });
   if (!(volume > 0)) throw ModelError("no plate is there to spread a force over");
-  Eigen::Matrix<double, 6, 6> resultants;
-  for (int k = 0; k < 6; ++k) {
-    Wrench sum = resultant(space, fields.col(k));
-    sum.moment -= point.cross(sum.force);
-    resultants.col(k) << sum.force, sum.moment;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const auto forces = fields.middleRows<6>(6 * static_cast<Eigen::Index>(n));
+    resultants.topRows<3>() += forces.topRows<3>();
+    resultants.bottomRows<3>() +=
+        cross_matrix(space.nodes().col(nodes[n]) - point) * forces.topRows<3>() +
+        forces.bottomRows<3>();
   }
   // Twice: the second pass removes the rounding of the first.
   const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> solver(resultants);
   Eigen::MatrixXd factors = solver.solve(wrenches);
   factors += solver.solve(wrenches - resultants * factors);
-  return fields * factors;
+  const Eigen::MatrixXd spread = fields * factors;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    loads.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[n])) +=
+        spread.middleRows<6>(6 * static_cast<Eigen::Index>(n));
+}
+
+Eigen::MatrixXd spread_wrenches(const Space& space, const std::vector<int>& cells,
+                                const Vector3& point, const Eigen::MatrixXd& wrenches) {
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(space.freedoms(), wrenches.cols());
+  add_spread_wrenches(space, cells, point, wrenches, loads);
+  return loads;
 }
 
 Eigen::SparseMatrix<double> mass_matrix(const Space& space, const MassProperties& mass) {

@@ -67,6 +67,10 @@ Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass);
 Eigen::MatrixXd spread_wrenches(const Space& space, const std::vector<int>& cells,
                                 const Vector3& point, const Eigen::MatrixXd& wrenches);
 
+/// Adds the same to load vectors (freedoms x wrenches); only the cells' own nodes are touched.
+void add_spread_wrenches(const Space& space, const std::vector<int>& cells, const Vector3& point,
+                         const Eigen::MatrixXd& wrenches, Eigen::MatrixXd& loads);
+
 /// Consistent mass matrix of all freedoms, outfitting included, kg.
 Eigen::SparseMatrix<double> mass_matrix(const Space& space, const MassProperties& mass);
 

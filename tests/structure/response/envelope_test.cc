@@ -10,7 +10,7 @@
 
 #include "structure/error.h"
 #include "structure/response/block_envelope.h"
-#include "structure/response/cell_stress.h"
+#include "structure/response/stress_state.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/sample_history.h"
 

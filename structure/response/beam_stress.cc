@@ -1,0 +1,95 @@
+#include "structure/response/beam_stress.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "structure/formulation/beam.h"
+#include "structure/index.h"
+#include "structure/space/joints.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+Eigen::MatrixXd motions_of_beam(const BeamCell& cell, const Eigen::MatrixXd& motions) {
+  Eigen::MatrixXd local(6 * static_cast<Eigen::Index>(cell.nodes.size()), motions.cols());
+  for (std::size_t i = 0; i < cell.nodes.size(); ++i)
+    local.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
+        motions.middleRows<6>(6 * static_cast<Eigen::Index>(cell.nodes[i]));
+  return local;
+}
+
+const Beam& beam_of(const Space& space, int cell) {
+  return space.mesh().beams[at(space.beams()[at(cell)].beam)];
+}
+
+double modulus_of(const Mesh& mesh, const BeamSection& section) {
+  return mesh.materials[at(section.material)].youngs_modulus;
+}
+
+Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
+                           const Eigen::MatrixXd& motions) {
+  return beam_point(space, cell, xi).strain * beam_motion(space, cell) *
+         motions_of_beam(space.beams()[at(cell)], motions);
+}
+
+Vector3 arm_of(const Beam& beam, const BeamCell& cell, double xi) {
+  const double share = cell.origin + cell.size * xi;
+  return (1 - share) * beam.offset[0] + share * beam.offset[1];
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> stress_points(const BeamSection& section) {
+  if (!section.stress_points.empty()) return section.stress_points;
+  const double x = std::sqrt(3 * section.second_moment_3 / section.area),
+               y = std::sqrt(3 * section.second_moment_2 / section.area);
+  return {{x, y}, {-x, y}, {-x, -y}, {x, -y}};
+}
+
+Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
+                              const Eigen::MatrixXd& motions) {
+  const Eigen::MatrixXd strain = strains_of(space, cell, xi, motions);
+  const Beam& beam = beam_of(space, cell);
+  const BeamSection& section = space.mesh().section_of(beam);
+  const double modulus = modulus_of(space.mesh(), section);
+  const std::vector<Eigen::Vector2d> points = stress_points(section);
+  Eigen::MatrixXd stresses(static_cast<Eigen::Index>(points.size()), motions.cols());
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    auto row = stresses.row(static_cast<Eigen::Index>(p));
+    row = modulus * strain.row(0);
+    if (!beam.is_rod)
+      row += modulus * (points[p].y() * strain.row(4) - points[p].x() * strain.row(5));
+  }
+  return stresses;
+}
+
+Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,
+                                           const Eigen::MatrixXd& motions) {
+  const BeamSection& section = space.mesh().section_of(beam_of(space, cell));
+  return modulus_of(space.mesh(), section) * strains_of(space, cell, xi, motions).row(0);
+}
+
+Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses) {
+  Eigen::MatrixXd stresses =
+      Eigen::MatrixXd::Zero(6 * normal_stresses.rows(), normal_stresses.cols());
+  for (Eigen::Index p = 0; p < normal_stresses.rows(); ++p)
+    stresses.row(6 * p) = normal_stresses.row(p);
+  return stresses;
+}
+
+BeamMotion beam_motion_at(const Space& space, int cell, double xi, const Eigen::VectorXd& motion) {
+  const BeamCell& located = space.beams()[at(cell)];
+  const Eigen::VectorXd local = beam_motion(space, cell) * motions_of_beam(located, motion);
+  const std::vector<double> values = lagrange_values(located.degree, xi);
+  BeamMotion moved;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    moved.displacement += values[i] * local.segment<3>(6 * static_cast<Eigen::Index>(i));
+    moved.rotation += values[i] * local.segment<3>(6 * static_cast<Eigen::Index>(i) + 3);
+  }
+  moved.displacement += moved.rotation.cross(arm_of(beam_of(space, cell), located, xi));
+  return moved;
+}
+
+}  // namespace blocklift::structure
