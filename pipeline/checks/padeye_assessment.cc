@@ -155,7 +155,7 @@ class Models {
 /// All lugs that are padeyes and that a rope pulls at.
 std::vector<PadeyeRun> make_runs(const LiftCase& lift_case, const UnitResponses& responses) {
   std::vector<PadeyeRun> runs;
-  const auto& lugs = responses.model().mesh().lugs;
+  const auto& lugs = responses.model().mesh().lifting_points;
   const BlockModel& block = *lift_case.load.model;
   for (std::size_t i = 0; i < lugs.size(); ++i) {
     const LugModel* lug = block.find_lug(lugs[i].name);

@@ -13,7 +13,7 @@
 #include <Eigen/Dense>
 
 #include "structure/index.h"
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 #include "structure/response/envelope.h"
 
 namespace blocklift::structure {

@@ -13,7 +13,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/output/vtk_array.h"
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

@@ -11,7 +11,7 @@
 
 #include "structure/batches.h"
 #include "structure/index.h"
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

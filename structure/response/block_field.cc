@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

@@ -9,7 +9,7 @@
 
 #include "structure/index.h"
 #include "structure/mesh/element_shape.h"
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 
