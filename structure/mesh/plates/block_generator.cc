@@ -53,16 +53,6 @@ void add_groups(const BlockDescription& block, BlockMesh& mesh) {
   }
 }
 
-// The sheet that a box belongs to: the highest rank, then the thickest, then the first.
-int owner(const std::vector<Sheet>& sheets, const std::vector<int>& candidates) {
-  return *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) {
-    const Sheet &sa = sheets[at(a)], &sb = sheets[at(b)];
-    if (sa.rank != sb.rank) return sa.rank < sb.rank;
-    if (sa.thickness != sb.thickness) return sa.thickness < sb.thickness;
-    return a > b;
-  });
-}
-
 void add_cells(const PlateGrid& grid, const std::vector<GridBox>& boxes, BlockMesh& mesh) {
   std::unordered_map<std::int64_t, int> vertex_number;
   const auto vertex = [&](int i, int j, int k) {
@@ -178,11 +168,6 @@ void add_lugs(const BlockDescription& block, const PlateGrid& grid,
 }  // namespace
 
 BlockMesh generate_block_mesh(const BlockDescription& block) {
-  for (const Opening& opening : block.openings)
-    if (std::none_of(block.plates.begin(), block.plates.end(),
-                     [&](const Plate& plate) { return plate.name == opening.plate; }))
-      throw ModelError("opening \"" + opening.name + "\" is cut into plate \"" + opening.plate +
-                       "\", which the block does not have");
   const PlateGrid grid(block, spread_into_sheets(block));
   const std::vector<GridBox> boxes = grid.merged_boxes(block.largest_element);
   BlockMesh mesh;

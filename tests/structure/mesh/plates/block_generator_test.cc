@@ -19,6 +19,7 @@
 namespace blocklift::structure {
 namespace {
 
+using testing::cross_of_plates;
 using ::testing::HasSubstr;
 
 // The boundary of a conforming mesh is closed: its area vectors sum to nothing, and the volume that
@@ -43,16 +44,6 @@ void expect_closed_and_conforming(const HexMesh& mesh) {
   EXPECT_NEAR(enclosed, volume(mesh), 1e-9 * volume(mesh));
   for (const auto& [edge, count] : uses)
     EXPECT_EQ(count % 2, 0) << edge.first << " " << edge.second;
-}
-
-BlockDescription cross_of_plates() {
-  BlockDescription block;
-  block.name = "cross";
-  block.materials = {testing::steel()};
-  block.plates = {{"flat", Axis::z, {0}, {{{0, 2}, {0, 1}, {}}}, 0.02, "AH36"},
-                  {"upright", Axis::x, {1}, {{{}, {0, 1}, {-0.5, 0.5}}}, 0.01, "AH36"}};
-  block.largest_element = 0.6;
-  return block;
 }
 
 std::string refusal(const BlockDescription& block) {
