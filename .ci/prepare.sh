@@ -48,3 +48,14 @@ build() {
   cmake --preset "$preset" >/dev/null
   cmake --build "build/$preset" ${1:+--target "$@"}
 }
+
+# verdict [WHAT ...]: says what failed, if anything did; the exit code of the script.
+verdict() {
+  if [ $# -eq 0 ]; then
+    say "All tests pass"
+    return 0
+  fi
+  local IFS=,
+  say "FAILED: $*"
+  return 1
+}

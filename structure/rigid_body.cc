@@ -26,6 +26,16 @@ Eigen::Matrix<double, 12, 1> InertiaField::coefficients() const {
   return all;
 }
 
+Wrench resultant(const Eigen::Matrix3Xd& nodes, const Eigen::Ref<const Eigen::VectorXd>& load) {
+  Wrench sum;
+  for (Eigen::Index n = 0; n < nodes.cols(); ++n) {
+    const Vector3 force = load.segment<3>(3 * n);
+    sum.force += force;
+    sum.moment += nodes.col(n).cross(force);
+  }
+  return sum;
+}
+
 InertiaField balancing_field(const MassProperties& mass, const Wrench& wrench) {
   // Newton-Euler about the centre of mass, then the acceleration of B's origin.
   const Vector3& c = mass.centre_of_mass_B;

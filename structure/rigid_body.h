@@ -70,6 +70,9 @@ struct MassMoments {
   }
 };
 
+/// Resultant of nodal forces (3 a node, N) about the origin.
+Wrench resultant(const Eigen::Matrix3Xd& nodes, const Eigen::Ref<const Eigen::VectorXd>& load);
+
 /// Field whose rigid-body inertia balances a wrench: the steady acceleration that it gives a free
 /// body (no angular velocity). Use it for load tables, where the motion is not known.
 InertiaField balancing_field(const MassProperties& mass, const Wrench& wrench);

@@ -39,7 +39,7 @@ constexpr double regions_along_the_shell = 20;
 /// Forces of a load table in the order of the mesh's lugs, N, in the block frame.
 std::vector<structure::Vector3> table_forces(const LoadTable& table,
                                              const std::vector<Named<double>>& loads,
-                                             const std::vector<structure::LugRegion>& lugs) {
+                                             const std::vector<structure::LiftingPoint>& lugs) {
   std::vector<structure::Vector3> forces(lugs.size(), structure::Vector3::Zero());
   for (const Named<double>& load : loads) {
     for (std::size_t i = 0; i < lugs.size(); ++i) {
@@ -63,8 +63,8 @@ HistorySettings history_settings(const StructureSettings& settings) {
   return result;
 }
 
-std::vector<structure::LugRegion> lugs_of(const Assessment& assessment) {
-  return assessment.block.model ? assessment.block.model->mesh().lugs
+std::vector<structure::LiftingPoint> lugs_of(const Assessment& assessment) {
+  return assessment.block.model ? assessment.block.model->mesh().lifting_points
                                 : vessel_lugs(assessment.lift_case.load);
 }
 
@@ -112,7 +112,7 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
                          const structure::StressRecovery& recovery, const Progress& progress,
                          BlockRun& block) {
   BlockAttachment attachment =
-      attach_block(lift.model.system, lift.model.load, block.model->mesh().lugs);
+      attach_block(lift.model.system, lift.model.load, block.model->mesh().lifting_points);
   BlockHistory at_rest = lift.static_history, in_motion = lift.dynamic_history();
   if (block.pressure) {
     attachment.pressure_resultants = block.pressure->resultants;
@@ -151,7 +151,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
                                  the_case.structure, diagnostics);
   if (!block.model) throw InputError(diagnostics);
   block.mesh_s = watch.lap();
-  const auto& lugs = block.model->mesh().lugs;
+  const auto& lugs = block.model->mesh().lifting_points;
 
   const auto respond = [&] {
     progress("block: stiffness, factorisation, unit responses", 0, "");

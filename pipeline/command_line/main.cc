@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "pipeline/command_line/assess_command.h"
+#include "pipeline/command_line/command_pages.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/hydro_command.h"
@@ -138,12 +138,28 @@ void add_verify(CLI::App& app, int& code) {
   command->callback([options, &code] { code = verify(*options); });
 }
 
+/// Pages about the command line itself, which the installation asks for; not in the help.
+void add_pages(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("pages", "Print the completion for bash or the man page");
+  command->group("");
+  auto page = std::make_shared<std::string>();
+  command->add_option("PAGE", *page, "completion or man")
+      ->required()
+      ->check(CLI::IsMember({"completion", "man"}));
+  command->callback([page, &app] {
+    std::cout << (*page == "man" ? manual_page(app, std::string("blocklift ") + program_version)
+                                 : bash_completion(app));
+  });
+}
+
 /// Says so if the first word is meant as a command and is none.
 bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return false;
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return false;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return false;
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  }
   std::cerr << "blocklift: error: there is no command \"" << argv[1] << "\"\n    "
             << names_hint("the commands are", names, argv[1]) << '\n';
   return true;
@@ -174,6 +190,7 @@ int run(int argc, char** argv) {
   add_report(app, code);
   add_schema(app);
   add_verify(app, code);
+  add_pages(app);
   if (is_unknown_command(app, argc, argv)) return exit_code::wrong_input;
   try {
     app.parse(argc, argv);

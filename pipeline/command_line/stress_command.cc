@@ -8,7 +8,7 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/part/part_assessment.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {
 

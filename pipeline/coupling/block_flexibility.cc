@@ -12,7 +12,7 @@ std::optional<LoadFlexibility> make_flexibility(const structure::UnitResponses& 
   const int modes = settings.flexibility == Flexibility::modal ? settings.mode_count() : 0;
   structure::LugFlexibility at_lugs = structure::find_lug_flexibility(responses, modes);
   LoadFlexibility flexibility;
-  for (const structure::LugRegion& lug : responses.model().mesh().lugs)
+  for (const structure::LiftingPoint& lug : responses.model().mesh().lifting_points)
     flexibility.lugs.push_back(lug.name);
   flexibility.compliance = std::move(at_lugs.residual_compliance);
   flexibility.shapes = std::move(at_lugs.shapes);

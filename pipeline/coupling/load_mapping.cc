@@ -30,7 +30,7 @@ const dynamics::BodyHistory& block_history(const History& history,
 }
 
 Wrench wrench_of_lug_forces(const std::vector<Vector3>& forces,
-                            const std::vector<structure::LugRegion>& lugs) {
+                            const std::vector<structure::LiftingPoint>& lugs) {
   Wrench wrench;
   for (std::size_t i = 0; i < forces.size(); ++i) {
     wrench.force += forces[i];
@@ -64,7 +64,7 @@ InertiaField field_of_motion(const dynamics::BodyHistory& block, Eigen::Index sa
 }  // namespace
 
 BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyIndex body,
-                             const std::vector<structure::LugRegion>& lugs) {
+                             const std::vector<structure::LiftingPoint>& lugs) {
   BlockAttachment attachment;
   attachment.body = body;
   attachment.lugs = lugs;
@@ -138,7 +138,7 @@ LoadCase map_rope_maxima(const History& history, const std::vector<dynamics::Lin
 }
 
 LoadCase map_load_table(const std::vector<Vector3>& lug_forces_B,
-                        const std::vector<structure::LugRegion>& lugs,
+                        const std::vector<structure::LiftingPoint>& lugs,
                         const structure::MassProperties& mass) {
   LoadCase result;
   result.lug_forces_B = lug_forces_B;

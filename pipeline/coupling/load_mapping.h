@@ -25,7 +25,7 @@ struct LugRope {
 struct BlockAttachment {
   dynamics::BodyIndex body = -1;
   std::vector<LugRope> ropes;
-  std::vector<structure::LugRegion> lugs;  ///< all of the block's, loaded or not
+  std::vector<structure::LiftingPoint> lugs;  ///< all of the block's, loaded or not
   dynamics::Vector3 gravity_W = dynamics::Vector3::Constant(dynamics::not_a_number);  ///< m/s2
   /// Resultants of the fields of water pressure on its shell (PressureBasis), 6 x fields.
   Eigen::MatrixXd pressure_resultants = {};
@@ -54,7 +54,7 @@ struct BlockHistory {
 /// coincides (to a micrometre) with the lug's pin.
 /// @throws std::runtime_error if no rope ends at any lug.
 BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyIndex body,
-                             const std::vector<structure::LugRegion>& lugs);
+                             const std::vector<structure::LiftingPoint>& lugs);
 
 /// Loads on the block at one sample: every rope's force at that instant, gravity, and the inertia
 /// of the motion that the dynamics found. Water presses on the shell. What else acts on the body (wind,
@@ -82,7 +82,7 @@ structure::LoadCase map_rope_maxima(const dynamics::History& history,
 /// Forces at the lugs from a table (magnitude in N and unit direction in B, one a lug), balanced by
 /// the rigid-body acceleration that they would give the block.
 structure::LoadCase map_load_table(const std::vector<structure::Vector3>& lug_forces_B,
-                                   const std::vector<structure::LugRegion>& lugs,
+                                   const std::vector<structure::LiftingPoint>& lugs,
                                    const structure::MassProperties& mass);
 
 }  // namespace blocklift::pipeline

@@ -55,6 +55,10 @@ Format<std::string> word_format(Kind kind) {
 
 }  // namespace
 
+ErasedReader::~ErasedReader() = default;
+
+SharedReader share(std::unique_ptr<const ErasedReader> reader) { return reader; }
+
 Format<Quantity> quantity_of(std::vector<Dimension> dimensions, Range range) {
   auto description = describe(Kind::quantity, range);
   description->dimensions = std::move(dimensions);

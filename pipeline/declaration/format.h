@@ -16,6 +16,49 @@
 
 namespace blocklift::pipeline {
 
+/// Reads a value of a type that only its maker knows. Formats are many and their types too: all that
+/// tables do with readers stands once, in sources, for readers without types.
+class ErasedReader {
+ public:
+  ErasedReader() = default;
+  ErasedReader(const ErasedReader&) = delete;
+  ErasedReader& operator=(const ErasedReader&) = delete;
+  virtual ~ErasedReader();
+  /// @param value the T that the reader was made for.
+  virtual bool read(const YAML::Node& node, Reading& reading, void* value) const = 0;
+};
+using SharedReader = std::shared_ptr<const ErasedReader>;
+SharedReader share(std::unique_ptr<const ErasedReader> reader);
+
+/// Reads a value of type T from a node; false after a complaint. Copies share one reader.
+template <class T>
+class ValueReader {
+ public:
+  /// @param read callable with (const YAML::Node&, Reading&, T&), returns false after a complaint.
+  template <class Read>
+  ValueReader(Read read) : reader_(share(std::make_unique<const Of<Read>>(std::move(read)))) {}
+
+  bool operator()(const YAML::Node& node, Reading& reading, T& value) const {
+    return reader_->read(node, reading, &value);
+  }
+  const SharedReader& erased() const { return reader_; }
+
+ private:
+  template <class Read>
+  class Of : public ErasedReader {
+   public:
+    explicit Of(Read read) : read_(std::move(read)) {}
+    bool read(const YAML::Node& node, Reading& reading, void* value) const override {
+      return read_(node, reading, *static_cast<T*>(value));
+    }
+
+   private:
+    Read read_;
+  };
+
+  SharedReader reader_;
+};
+
 /// How a value of type T is written in a file: its description for people and its reader.
 ///
 /// The reader returns false after a complaint; what could be read is then still in the value, so
@@ -24,7 +67,7 @@ namespace blocklift::pipeline {
 template <class T>
 struct Format {
   std::shared_ptr<const ValueDescription> description;
-  std::function<bool(const YAML::Node&, Reading&, T&)> read;
+  ValueReader<T> read;
 };
 
 /// A name with the value that the file gives to it.

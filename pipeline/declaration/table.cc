@@ -6,11 +6,99 @@
 
 namespace blocklift::pipeline::table_detail {
 
+namespace {
+
+/// Parses a default as if it stood in the file. @throws std::logic_error if the declaration is wrong.
 YAML::Node parse_default(const std::string& text) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& exception) {
     throw std::logic_error("the declared default \"" + text + "\" is not YAML: " + exception.msg);
+  }
+}
+
+}  // namespace
+
+Keys::Keys(std::string noun, std::string description)
+    : description_(std::make_shared<TableDescription>()) {
+  description_->noun = std::move(noun);
+  description_->description = std::move(description);
+}
+
+void Keys::add(std::string_view name, std::shared_ptr<const ValueDescription> value, Need need,
+               std::string_view default_text, std::string_view meaning, SharedReader reader,
+               ReadKey read, const MemberBytes& member) {
+  KeyDescription description{std::string(name), std::move(value), need == Need::required,
+                             std::string(default_text), std::string(meaning)};
+  description_->keys.push_back(description);
+  keys_.push_back({std::move(description), std::move(reader), read, member, false});
+}
+
+std::shared_ptr<const ValueDescription> Keys::description() const {
+  auto description = std::make_shared<ValueDescription>();
+  description->kind = ValueDescription::Kind::table;
+  description->table = description_;
+  return description;
+}
+
+bool Keys::read_as_owner(const YAML::Node& node, const ValueDescription& due, Reading& reading,
+                         const std::function<void()>& read) const {
+  const std::string name = reading.take_name();
+  if (!check_table(node, due, reading)) return false;
+  const std::string owner = name.empty() ? description_->noun : description_->noun + " " + name;
+  return reading.with_owner(owner, [&] {
+    const std::size_t errors_before = reading.diagnostics().error_count();
+    read();
+    return reading.diagnostics().error_count() == errors_before;
+  });
+}
+
+void Keys::read(const YAML::Node& node, Reading& reading, void* value) const {
+  const Mark mark = reading.mark_of(node);
+  const std::vector<Entry> entries = reading.entries_of(node);
+  for (const bool early : {true, false}) {
+    for (const Entry& entry : entries) {
+      if (is_early(entry.key) == early) read_entry(entry, reading, value);
+    }
+  }
+  for (const Key& key : keys_) {
+    bool given = false;
+    for (const Entry& entry : entries) given |= entry.key == key.description.name;
+    if (!given) leave_out(key, mark, reading, value);
+  }
+}
+
+bool Keys::is_early(const std::string& name) const {
+  for (const Key& key : keys_) {
+    if (key.description.name == name) return key.early;
+  }
+  return false;
+}
+
+void Keys::read_entry(const Entry& entry, Reading& reading, void* value) const {
+  for (const Key& key : keys_) {
+    if (key.description.name != entry.key) continue;
+    if (!reading.has_value(entry, *key.description.value)) return;
+    reading.with_key(entry.key, [&] {
+      return key.read(*key.reader, key.member, entry.value, reading.mark_of(entry.value), reading,
+                      value);
+    });
+    return;
+  }
+  reading.error(entry.mark, reading.owner() + " has no key \"" + entry.key + "\"",
+                {names_hint("its keys are", description_->key_names(), entry.key)});
+}
+
+void Keys::leave_out(const Key& key, const Mark& mark, Reading& reading, void* value) const {
+  const KeyDescription& description = key.description;
+  if (description.required) {
+    reading.error(mark, reading.owner() + " lacks the key \"" + description.name + "\"",
+                  {"it is " + description.value->phrase() + ": " + description.description});
+  } else if (!description.default_text.empty()) {
+    reading.with_key(description.name, [&] {
+      return key.read(*key.reader, key.member, parse_default(description.default_text), mark,
+                      reading, value);
+    });
   }
 }
 

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,8 +30,63 @@ void store(std::optional<Located<T>>& member, T value, const Mark& mark) {
   member = Located<T>{std::move(value), mark};
 }
 
-/// Parses a default as if it stood in the file. @throws std::logic_error if the declaration is wrong.
-YAML::Node parse_default(const std::string& text);
+/// A pointer to a member of any type, as bytes.
+struct MemberBytes {
+  std::array<std::byte, sizeof(std::ptrdiff_t)> bytes{};
+};
+
+/// Reads a value and stores it in a member of a table's type.
+using ReadKey = bool (*)(const ErasedReader& reader, const MemberBytes& member,
+                         const YAML::Node& node, const Mark& mark, Reading& reading, void* value);
+
+template <class T, class U, class M, class C>
+bool read_key(const ErasedReader& reader, const MemberBytes& member, const YAML::Node& node,
+              const Mark& mark, Reading& reading, void* value) {
+  M C::*place = nullptr;
+  static_assert(sizeof place == sizeof member.bytes);
+  std::memcpy(&place, member.bytes.data(), sizeof place);
+  U read{};
+  const bool done = reader.read(node, reading, &read);
+  store(static_cast<T*>(value)->*place, std::move(read), mark);
+  return done;
+}
+
+/// How a key is declared.
+enum class Need { required, optional };
+
+/// What a table knows without knowing the type that it reads.
+class Keys {
+ public:
+  Keys(std::string noun, std::string description);
+
+  struct Key {
+    KeyDescription description;
+    SharedReader reader;
+    ReadKey read = nullptr;
+    MemberBytes member;
+    bool early = false;
+  };
+  void add(std::string_view name, std::shared_ptr<const ValueDescription> value, Need need,
+           std::string_view default_text, std::string_view meaning, SharedReader reader,
+           ReadKey read, const MemberBytes& member);
+  void make_last_early() { keys_.back().early = true; }
+
+  /// A table's description as a value.
+  std::shared_ptr<const ValueDescription> description() const;
+  /// Reads all keys into `value`, which is of the type that the keys' members belong to.
+  void read(const YAML::Node& node, Reading& reading, void* value) const;
+  /// Calls `read` with complaints in the name of this table; false after a complaint.
+  bool read_as_owner(const YAML::Node& node, const ValueDescription& due, Reading& reading,
+                     const std::function<void()>& read) const;
+
+ private:
+  bool is_early(const std::string& name) const;
+  void read_entry(const Entry& entry, Reading& reading, void* value) const;
+  void leave_out(const Key& key, const Mark& mark, Reading& reading, void* value) const;
+
+  std::shared_ptr<TableDescription> description_;
+  std::vector<Key> keys_;
+};
 
 }  // namespace table_detail
 
@@ -39,35 +98,32 @@ YAML::Node parse_default(const std::string& text);
 template <class T>
 class Table {
  public:
-  Table(std::string noun, std::string description) {
-    description_->noun = std::move(noun);
-    description_->description = std::move(description);
-  }
+  Table(std::string noun, std::string description)
+      : keys_(std::move(noun), std::move(description)) {}
 
   template <class U, class M, class C>
-  Table& required(std::string name, M C::*member, Format<U> format, std::string meaning) {
-    return add({std::move(name), format.description, true, {}, std::move(meaning)}, member, format);
+  Table& required(std::string_view name, M C::*member, const Format<U>& format,
+                  std::string_view meaning) {
+    return add(name, member, format, table_detail::Need::required, {}, meaning);
   }
 
   /// A key that may be left out: the member keeps what T's own constructor gives it (std::nullopt).
   template <class U, class M, class C>
-  Table& optional(std::string name, M C::*member, Format<U> format, std::string meaning) {
-    return add({std::move(name), format.description, false, {}, std::move(meaning)}, member,
-               format);
+  Table& optional(std::string_view name, M C::*member, const Format<U>& format,
+                  std::string_view meaning) {
+    return add(name, member, format, table_detail::Need::optional, {}, meaning);
   }
 
   /// A key that may be left out and then has the value of `default_text`, written as in a file.
   template <class U, class M, class C>
-  Table& by_default(std::string name, M C::*member, Format<U> format, std::string default_text,
-                    std::string meaning) {
-    return add(
-        {std::move(name), format.description, false, std::move(default_text), std::move(meaning)},
-        member, format);
+  Table& by_default(std::string_view name, M C::*member, const Format<U>& format,
+                    std::string_view default_text, std::string_view meaning) {
+    return add(name, member, format, table_detail::Need::optional, default_text, meaning);
   }
 
   /// The key declared last is read before all that are not early, wherever it stands in the file.
   Table& early() {
-    keys_.back().early = true;
+    keys_.make_last_early();
     return *this;
   }
 
@@ -84,94 +140,29 @@ class Table {
   }
 
   Format<T> format() const {
-    auto description = std::make_shared<ValueDescription>();
-    description->kind = ValueDescription::Kind::table;
-    description->table = description_;
+    auto description = keys_.description();
     return {description, [*this, description](const YAML::Node& node, Reading& reading, T& value) {
-              const std::string name = reading.take_name();
-              if (!check_table(node, *description, reading)) return false;
-              const std::string owner =
-                  name.empty() ? description_->noun : description_->noun + " " + name;
-              return reading.with_owner(owner, [&] { return read(node, reading, value); });
+              return keys_.read_as_owner(node, *description, reading, [&] {
+                const Mark mark = reading.mark_of(node);
+                if (place_) value.*place_ = mark;
+                keys_.read(node, reading, &value);
+                for (const auto& rule : rules_) rule(value, reading, mark);
+              });
             }};
   }
 
  private:
-  struct Key {
-    KeyDescription description;
-    std::function<bool(const YAML::Node&, const Mark&, Reading&, T&)> read;
-    bool early = false;
-  };
-
   template <class U, class M, class C>
-  Table& add(KeyDescription description, M C::*member, Format<U> format) {
-    description_->keys.push_back(description);
-    keys_.push_back(
-        {std::move(description),
-         [member, format](const YAML::Node& node, const Mark& mark, Reading& reading, T& value) {
-           U read{};
-           const bool done = format.read(node, reading, read);
-           table_detail::store(value.*member, std::move(read), mark);
-           return done;
-         },
-         false});
+  Table& add(std::string_view name, M C::*member, const Format<U>& format, table_detail::Need need,
+             std::string_view default_text, std::string_view meaning) {
+    table_detail::MemberBytes bytes;
+    std::memcpy(bytes.bytes.data(), &member, sizeof member);
+    keys_.add(name, format.description, need, default_text, meaning, format.read.erased(),
+              &table_detail::read_key<T, U, M, C>, bytes);
     return *this;
   }
 
-  bool read(const YAML::Node& node, Reading& reading, T& value) const {
-    const Mark mark = reading.mark_of(node);
-    const std::size_t errors_before = reading.diagnostics().error_count();
-    if (place_) value.*place_ = mark;
-    const std::vector<Entry> entries = reading.entries_of(node);
-    for (const bool early : {true, false}) {
-      for (const Entry& entry : entries) {
-        if (is_early(entry.key) == early) read_entry(entry, reading, value);
-      }
-    }
-    for (const Key& key : keys_) {
-      bool given = false;
-      for (const Entry& entry : entries) given |= entry.key == key.description.name;
-      if (!given) leave_out(key, mark, reading, value);
-    }
-    for (const auto& rule : rules_) rule(value, reading, mark);
-    return reading.diagnostics().error_count() == errors_before;
-  }
-
-  bool is_early(const std::string& name) const {
-    for (const Key& key : keys_) {
-      if (key.description.name == name) return key.early;
-    }
-    return false;
-  }
-
-  void read_entry(const Entry& entry, Reading& reading, T& value) const {
-    for (const Key& key : keys_) {
-      if (key.description.name != entry.key) continue;
-      if (!reading.has_value(entry, *key.description.value)) return;
-      reading.with_key(entry.key, [&] {
-        return key.read(entry.value, reading.mark_of(entry.value), reading, value);
-      });
-      return;
-    }
-    reading.error(entry.mark, reading.owner() + " has no key \"" + entry.key + "\"",
-                  {names_hint("its keys are", description_->key_names(), entry.key)});
-  }
-
-  void leave_out(const Key& key, const Mark& mark, Reading& reading, T& value) const {
-    const KeyDescription& description = key.description;
-    if (description.required) {
-      reading.error(mark, reading.owner() + " lacks the key \"" + description.name + "\"",
-                    {"it is " + description.value->phrase() + ": " + description.description});
-    } else if (!description.default_text.empty()) {
-      reading.with_key(description.name, [&] {
-        return key.read(table_detail::parse_default(description.default_text), mark, reading,
-                        value);
-      });
-    }
-  }
-
-  std::shared_ptr<TableDescription> description_ = std::make_shared<TableDescription>();
-  std::vector<Key> keys_;
+  table_detail::Keys keys_;
   std::vector<std::function<void(const T&, Reading&, const Mark&)>> rules_;
   Mark T::*place_ = nullptr;
 };

@@ -13,7 +13,7 @@
 #include "structure/batches.h"
 #include "structure/error.h"
 #include "structure/response/block_field.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {
 

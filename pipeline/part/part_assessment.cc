@@ -10,7 +10,7 @@
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/part/part_refinement.h"
 #include "structure/error.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {
 

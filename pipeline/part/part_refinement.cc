@@ -9,7 +9,7 @@
 
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 #include "structure/response/part_refinement.h"
 
 namespace blocklift::pipeline {

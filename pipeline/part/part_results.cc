@@ -15,7 +15,7 @@
 #include "pipeline/results/result_file.h"
 #include "pipeline/version.h"
 #include "structure/output/part_files.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {
 

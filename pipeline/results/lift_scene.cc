@@ -6,10 +6,10 @@ LoadMass load_mass(const structure::MassProperties& mass) {
   return {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B};
 }
 
-std::vector<structure::LugRegion> vessel_lugs(const LoadInCase& load) {
-  std::vector<structure::LugRegion> lugs;
+std::vector<structure::LiftingPoint> vessel_lugs(const LoadInCase& load) {
+  std::vector<structure::LiftingPoint> lugs;
   for (const Named<Vector3>& lug : load.lugs) {
-    structure::LugRegion& region = lugs.emplace_back();
+    structure::LiftingPoint& region = lugs.emplace_back();
     region.name = lug.name.value;
     region.p_BPin = lug.value;
   }
@@ -20,7 +20,7 @@ DrawnBox drawn_box(const BoxShape& box) {
   return {box.size, box.centre, dynamics::quaternion_from_rotation(rotation_of(box.attitude))};
 }
 
-Scene make_scene(const BuiltLift& model, const std::vector<structure::LugRegion>& lugs) {
+Scene make_scene(const BuiltLift& model, const std::vector<structure::LiftingPoint>& lugs) {
   Scene scene;
   for (const LiftBody& body : model.bodies) {
     DrawnBody drawn{body.name, body.kind, {}};

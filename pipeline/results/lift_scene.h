@@ -11,12 +11,12 @@ namespace blocklift::pipeline {
 LoadMass load_mass(const structure::MassProperties& mass);
 
 /// Lugs of a load that is a vessel: names and places.
-std::vector<structure::LugRegion> vessel_lugs(const LoadInCase& load);
+std::vector<structure::LiftingPoint> vessel_lugs(const LoadInCase& load);
 
 /// A box of a file, for the drawing.
 DrawnBox drawn_box(const BoxShape& box);
 
 /// Names and roles of the parts of a lift, for results.h5.
-Scene make_scene(const BuiltLift& model, const std::vector<structure::LugRegion>& lugs);
+Scene make_scene(const BuiltLift& model, const std::vector<structure::LiftingPoint>& lugs);
 
 }  // namespace blocklift::pipeline

@@ -177,7 +177,7 @@ void write_scene(ResultsWriter& file, const LiftSystem& system, const Scene& sce
   }
   std::vector<std::string> names;
   std::vector<structure::Vector3> pins;
-  for (const structure::LugRegion& lug : scene.lugs) {
+  for (const structure::LiftingPoint& lug : scene.lugs) {
     names.push_back(lug.name);
     pins.push_back(lug.p_BPin);
   }

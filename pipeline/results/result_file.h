@@ -30,7 +30,7 @@ struct Scene {
   std::vector<DrawnBody> bodies;
   std::vector<int> hoists;  ///< ropes of the system that are hoist tackle; all others are lines
   std::string load_body;
-  std::vector<structure::LugRegion> lugs;
+  std::vector<structure::LiftingPoint> lugs;
 };
 
 /// The time of day in UTC as results carry it (ISO 8601).

@@ -221,7 +221,7 @@ Json lug_way_json(const LoadComparison& way, std::size_t lug) {
 Json lugs_json(const Assessment& assessment) {
   const BlockAssessment& block = assessment.block.assessment;
   Json rows = Json::array();
-  const auto& lugs = assessment.block.model->mesh().lugs;
+  const auto& lugs = assessment.block.model->mesh().lifting_points;
   for (std::size_t i = 0; i < lugs.size(); ++i) {
     Json row{{"name", lugs[i].name}};
     // The instant of the lug's own rope tells most about its neighbourhood.

@@ -53,7 +53,7 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   if (!lift_case.has_structure()) {
     BuiltLift model = prepare_lift(lift_case, load_mass(lift_case.load.vessel->model), progress);
     LiftRun run = run_lift(lift_case, std::move(model), progress);
-    std::vector<structure::LugRegion> lugs = vessel_lugs(lift_case.load);
+    std::vector<structure::LiftingPoint> lugs = vessel_lugs(lift_case.load);
     return {std::move(lift_case), std::move(lugs), std::move(run)};
   }
   Diagnostics diagnostics;
@@ -68,7 +68,7 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   BuiltLift model = prepare_lift(lift_case, load_mass(block->mass_properties()), progress,
                                  flexibility ? &*flexibility : nullptr);
   LiftRun run = run_lift(lift_case, std::move(model), progress);
-  return {std::move(lift_case), block->mesh().lugs, std::move(run)};
+  return {std::move(lift_case), block->mesh().lifting_points, std::move(run)};
 }
 
 void write_lift_simulation(const LiftSimulation& simulation, const std::filesystem::path& folder,

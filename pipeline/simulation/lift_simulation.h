@@ -11,7 +11,7 @@ namespace blocklift::pipeline {
 /// The motion of a lift case, without the block's stress.
 struct LiftSimulation {
   LiftCase lift_case;
-  std::vector<structure::LugRegion> lugs;
+  std::vector<structure::LiftingPoint> lugs;
   LiftRun run;
 };
 

@@ -97,29 +97,6 @@ NodalMass part_mass_matrix(const PartModel& model) {
   });
 }
 
-NodalMass block_mass_matrix(const ElasticModel& model) {
-  const BlockMesh& mesh = model.mesh();
-  const Discretisation& space = model.space();
-  Elements elements;
-  elements.nodes = space.node_count();
-  elements.members = space.cell_nodes;
-  for (int cell = 0; cell < space.cell_count(); ++cell)
-    elements.first.push_back((cell + 1) * space.nodes_per_cell);
-  const auto line = gauss_points(space.element.degree() + 2);
-  const Eigen::Matrix4Xd rule = tensor_rule(line, line, line);
-  const Eigen::MatrixXd values = space.element.values(rule.topRows<3>());
-  return assemble(elements, [&](int cell) -> Eigen::MatrixXd {
-    Eigen::VectorXd weights(rule.cols());
-    for (Eigen::Index q = 0; q < weights.size(); ++q) {
-      const Vector3 xi = rule.col(q).head<3>();
-      weights[q] = mesh.material_of_cell(cell).density *
-                   model.mass_properties().density_factor(position(mesh, cell, xi)) * rule(3, q) *
-                   jacobian(mesh, cell, xi).determinant();
-    }
-    return products(values, weights);
-  });
-}
-
 Eigen::MatrixXd mass_times(const NodalMass& mass,
                            const Eigen::Ref<const Eigen::MatrixXd>& columns) {
   using ByNode = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;

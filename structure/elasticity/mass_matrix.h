@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "structure/elasticity/elastic_model.h"
 #include "structure/elasticity/part_model.h"
+#include "structure/system/sparse_matrix.h"
 
 namespace blocklift::structure {
 
@@ -14,10 +14,6 @@ using NodalMass = SparseLower;
 
 /// Consistent mass of a part, by the elements' own rules (exact for straight elements).
 NodalMass part_mass_matrix(const PartModel& model);
-
-/// Consistent mass of a block, outfitting included as ElasticModel::mass_properties() spreads it; by
-/// degree + 2 Gauss points an axis (exact for cells with constant Jacobian).
-NodalMass block_mass_matrix(const ElasticModel& model);
 
 /// M v for columns v of displacements (3 a node).
 Eigen::MatrixXd mass_times(const NodalMass& mass, const Eigen::Ref<const Eigen::MatrixXd>& columns);

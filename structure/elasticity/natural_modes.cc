@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include "structure/elasticity/rigid_freedom.h"
-#include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
 #include "structure/process_group.h"
 
@@ -403,14 +402,6 @@ NaturalModes find_part_modes(const PartModel& model, int count) {
   const std::vector<FixedUnknown> fixed = with_idle_nodes(model, held);
   return find_natural_modes(assemble_part_stiffness(model), part_mass_matrix(model),
                             model.mesh.nodes, fixed, rigid, count, EliminationOrder::found);
-}
-
-NaturalModes find_block_modes(const ElasticModel& model, int count,
-                              const std::vector<FixedUnknown>& fixed) {
-  const int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  return find_natural_modes(assemble_stiffness(model.mesh(), model.space(), threads),
-                            block_mass_matrix(model), model.space().nodes, fixed,
-                            fixed.empty() ? 6 : 0, count, EliminationOrder::given);
 }
 
 }  // namespace blocklift::structure

@@ -52,9 +52,4 @@ NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& m
 /// whose first six are rigid. @throws ModelError as above, or if an element is inverted.
 NaturalModes find_part_modes(const PartModel& model, int count);
 
-/// Modes of a free block; the first six are rigid. @throws ModelError as above.
-/// @param fixed unknowns that do not move: none for the free block, or enough to leave no rigid motion.
-NaturalModes find_block_modes(const ElasticModel& model, int count,
-                              const std::vector<FixedUnknown>& fixed = {});
-
 }  // namespace blocklift::structure

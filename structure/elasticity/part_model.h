@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/material.h"
+#include "structure/material.h"
 #include "structure/mesh/part_mesh.h"
 #include "structure/system/linear_solver.h"
 

@@ -16,7 +16,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/output/vtk_array.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

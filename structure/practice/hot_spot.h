@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "structure/mesh/hex_mesh.h"
+#include "structure/material.h"
 #include "structure/mesh/padeye/padeye_geometry.h"
 
 namespace blocklift::structure {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "structure/index.h"
-#include "structure/response/cell_stress.h"
 
 namespace blocklift::structure {
 
@@ -23,89 +22,60 @@ struct Running {
   }
 };
 
-// Largest membrane stresses: of all patches, of each group and each lug's neighbourhood.
-struct PatchMaxima {
-  Running all;
+// Largest membrane stresses: of all squares, away from corners, of each group and lug's neighbourhood.
+struct SquareMaxima {
+  Running all, field;
   std::vector<Running> groups, lugs;
 };
 
-PatchMaxima patch_maxima(const BlockMesh& mesh, const StressRecovery& recovery,
-                         const PointExtremes& von_mises) {
-  PatchMaxima maxima{
-      {}, std::vector<Running>(mesh.groups.size()), std::vector<Running>(mesh.lugs.size())};
-  const std::vector<Patch>& patches = recovery.membrane().patches();
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    const double value = von_mises.value[static_cast<Eigen::Index>(p)];
-    const int point = static_cast<int>(p);
+SquareMaxima square_maxima(const Mesh& mesh, const StressRecovery& recovery,
+                           const PointExtremes& von_mises) {
+  SquareMaxima maxima{{},
+                      {},
+                      std::vector<Running>(mesh.groups.size()),
+                      std::vector<Running>(mesh.lifting_points.size())};
+  const std::vector<Square>& squares = recovery.checked().squares();
+  for (std::size_t s = 0; s < squares.size(); ++s) {
+    const double value = von_mises.value[static_cast<Eigen::Index>(s)];
+    const int point = static_cast<int>(s);
     maxima.all.take(value, point);
-    maxima.groups[at(patches[p].group)].take(value, point);
-    for (std::size_t lug = 0; lug < mesh.lugs.size(); ++lug)
-      if (value > maxima.lugs[lug].value && (patches[p].centre_B - mesh.lugs[lug].p_BPin).norm() <=
-                                                recovery.lug_radius(mesh.lugs[lug]))
+    if (!squares[s].at_corner) maxima.field.take(value, point);
+    maxima.groups[at(mesh.regions[at(squares[s].region)].group)].take(value, point);
+    for (std::size_t lug = 0; lug < mesh.lifting_points.size(); ++lug)
+      if (value > maxima.lugs[lug].value &&
+          (squares[s].centre_B - mesh.lifting_points[lug].p_BPin).norm() <=
+              recovery.lug_radius(mesh.lifting_points[lug]))
         maxima.lugs[lug].take(value, point);
   }
   return maxima;
 }
 
-TimedExtreme of_patch(const BlockMesh& mesh, const MembraneStress& membrane,
-                      const PointExtremes& von_mises, const Running& found) {
+TimedExtreme of_square(const Mesh& mesh, const CheckedStress& checked,
+                       const PointExtremes& von_mises, const Running& found) {
   TimedExtreme extreme;
-  if (found.point < 0) return extreme;  // nothing of it lies between crossings
-  const Patch& patch = membrane.patches()[at(found.point)];
+  if (found.point < 0) return extreme;  // no square lies in it
+  const Square& square = checked.squares()[at(found.point)];
   extreme.value = found.value;
-  extreme.point_B = patch.centre_B;
-  extreme.part = mesh.sheet_names[at(patch.sheet)];
+  extreme.point_B = square.centre_B;
+  extreme.part = mesh.regions[at(square.region)].name;
   extreme.instant = von_mises.instant[found.point];
-  extreme.unit_stress = unit_stress_of_patch(membrane, found.point);
+  extreme.unit_stress = unit_stress_of_square(checked, found.point);
   return extreme;
 }
 
-// Stresses at the nodes of each cell, as the cell sees them: point = nodes_per_cell * cell + node.
-class NodalStress {
- public:
-  explicit NodalStress(const UnitResponses& responses)
-      : responses_(responses),
-        model_(responses.model()),
-        nodes_(model_.space().nodes_per_cell),
-        stress_(model_.mesh(), model_.space(), model_.space().element.nodes()) {}
-
-  int points() const { return nodes_ * model_.space().cell_count(); }
-
-  Eigen::MatrixXd at_points(int first, int count) const {
-    Eigen::MatrixXd result(6 * count, responses_.count());
-    for (int point = first; point < first + count;) {
-      const int cell = point / nodes_, node = point % nodes_;
-      const int taken = std::min(nodes_ - node, first + count - point);
-      result.middleRows(6 * (point - first), 6 * taken) =
-          stress_.of_all(cell, responses_.displacements()).middleRows(6 * node, 6 * taken);
-      point += taken;
-    }
-    return result;
-  }
-
-  TimedExtreme extreme(const LargestStress& largest) const {
-    TimedExtreme result;
-    const int point = largest.point;
-    if (point < 0) return result;
-    const int cell = point / nodes_;
-    const BlockMesh& mesh = model_.mesh();
-    result.value = largest.value;
-    result.instant = largest.instant;
-    result.point_B = model_.space().nodes.col(model_.space().node(cell, point % nodes_));
-    if (mesh.cell_sheet[at(cell)] >= 0)
-      result.part = mesh.sheet_names[at(mesh.cell_sheet[at(cell)])];
-    result.unit_stress = at_points(point, 1);
-    return result;
-  }
-
-  int group(int point) const { return model_.mesh().cell_group[at(point / nodes_)]; }
-
- private:
-  const UnitResponses& responses_;
-  const ElasticModel& model_;
-  int nodes_;
-  CellStress stress_;
-};
+// Extreme of the nodal stress at one of the stress points.
+TimedExtreme of_point(const UnitResponses& responses, const StressPoints& points,
+                      const LargestStress& largest) {
+  TimedExtreme result;
+  if (largest.point < 0) return result;
+  const Mesh& mesh = responses.model().mesh();
+  result.value = largest.value;
+  result.instant = largest.instant;
+  result.point_B = points.place(largest.point);
+  result.part = mesh.regions[at(points.region(largest.point))].name;
+  result.unit_stress = points.stresses(largest.point, 1, responses.displacements());
+  return result;
+}
 
 TimedExtreme largest_displacement(const UnitResponses& responses, const LoadHistory& history,
                                   int threads) {
@@ -115,26 +85,32 @@ TimedExtreme largest_displacement(const UnitResponses& responses, const LoadHist
     relative.col(k) = responses.without_rigid_motion(responses.displacements().col(k));
   const PointExtremes moved = find_displacement_envelope(
       history, model.space().node_count(),
-      [&](int first, int count) { return relative.middleRows(3 * first, 3 * count); }, threads);
+      [&](int first, int count) {
+        Eigen::MatrixXd displacement(3 * count, relative.cols());
+        for (int i = 0; i < count; ++i)
+          displacement.middleRows<3>(3 * i) = relative.middleRows<3>(6 * (first + i));
+        return displacement;
+      },
+      threads);
   Eigen::Index node = 0;
   TimedExtreme extreme;
   extreme.value = moved.value.maxCoeff(&node);
-  extreme.point_B = model.space().nodes.col(node);
+  extreme.point_B = model.space().nodes().col(node);
   extreme.instant = moved.instant[node];
   return extreme;
 }
 
 }  // namespace
 
-Eigen::VectorXd response_weights(const MembraneStress& membrane) {
-  const double rows = std::max<double>(1, static_cast<double>(membrane.components().rows()));
-  return membrane.components().colwise().norm().transpose() / std::sqrt(rows);
+Eigen::VectorXd response_weights(const CheckedStress& checked) {
+  const double rows = std::max<double>(1, static_cast<double>(checked.components().rows()));
+  return checked.components().colwise().norm().transpose() / std::sqrt(rows);
 }
 
-Eigen::MatrixXd unit_stress_of_patch(const MembraneStress& membrane, int patch) {
-  Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6, membrane.components().cols());
-  stress.topRows<2>() = membrane.components().middleRows<2>(3 * patch);
-  stress.row(3) = membrane.components().row(3 * patch + 2);
+Eigen::MatrixXd unit_stress_of_square(const CheckedStress& checked, int square) {
+  Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6, checked.components().cols());
+  stress.topRows<2>() = checked.components().middleRows<2>(3 * square);
+  stress.row(3) = checked.components().row(3 * square + 2);
   return stress;
 }
 
@@ -154,46 +130,53 @@ Eigen::VectorXd stress_shares(const Eigen::MatrixXd& unit_stress, const Eigen::M
 
 BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRecovery& recovery,
                                   const Eigen::MatrixXd& factors, int threads) {
-  const BlockMesh& mesh = responses.model().mesh();
-  const MembraneStress& membrane = recovery.membrane();
-  const LoadHistory history(factors, response_weights(membrane));
-  const int patches = static_cast<int>(membrane.patches().size());
+  const Mesh& mesh = responses.model().mesh();
+  const CheckedStress& checked = recovery.checked();
+  const StressPoints& points = recovery.points();
+  const LoadHistory history(factors, response_weights(checked));
+  const int squares = static_cast<int>(checked.squares().size());
 
   BlockEnvelope envelope;
   envelope.instants = history.instants();
-  envelope.patches = find_von_mises_envelope(
-      history, patches,
+  envelope.squares = find_von_mises_envelope(
+      history, squares,
       [&](int first, int count) {
         Eigen::MatrixXd stress(6 * count, responses.count());
         for (int i = 0; i < count; ++i)
-          stress.middleRows<6>(6 * i) = unit_stress_of_patch(membrane, first + i);
+          stress.middleRows<6>(6 * i) = unit_stress_of_square(checked, first + i);
         return stress;
       },
       threads);
-  const PatchMaxima checked = patch_maxima(mesh, recovery, envelope.patches);
+  const SquareMaxima maxima = square_maxima(mesh, recovery, envelope.squares);
   const auto named = [&](const Running& found) {
-    return of_patch(mesh, membrane, envelope.patches, found);
+    return of_square(mesh, checked, envelope.squares, found);
   };
-  envelope.checked_von_mises = named(checked.all);
-  for (std::size_t lug = 0; lug < mesh.lugs.size(); ++lug)
-    envelope.lugs.push_back({mesh.lugs[lug].name, named(checked.lugs[lug])});
+  envelope.checked_von_mises = named(maxima.all);
+  envelope.field_von_mises = named(maxima.field);
+  for (std::size_t lug = 0; lug < mesh.lifting_points.size(); ++lug)
+    envelope.lugs.push_back({mesh.lifting_points[lug].name, named(maxima.lugs[lug])});
 
-  const NodalStress nodal(responses);
   const int groups = static_cast<int>(mesh.groups.size());
   const LargestStresses peaks = find_largest_stresses(
-      history, nodal.points(), [&](int first, int count) { return nodal.at_points(first, count); },
-      groups, [&](int point) { return nodal.group(point); }, threads);
-  envelope.places = patches + nodal.points();
+      history, points.count(),
+      [&](int first, int count) {
+        return points.stresses(first, count, responses.displacements());
+      },
+      groups, [&](int point) { return mesh.regions[at(points.region(point))].group; }, threads);
+  envelope.places = squares + points.count();
   LargestStress peak;
   for (const LargestStress& of_group : peaks.von_mises)
     if (of_group.point >= 0 && (peak.point < 0 || of_group.value > peak.value)) peak = of_group;
-  envelope.peak_von_mises = nodal.extreme(peak);
-  envelope.largest_principal = nodal.extreme(peaks.largest_principal);
-  envelope.smallest_principal = nodal.extreme(peaks.smallest_principal);
+  const auto at_point = [&](const LargestStress& largest) {
+    return of_point(responses, points, largest);
+  };
+  envelope.peak_von_mises = at_point(peak);
+  envelope.largest_principal = at_point(peaks.largest_principal);
+  envelope.smallest_principal = at_point(peaks.smallest_principal);
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[at(mesh.groups[g].material)];
     envelope.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
-                               named(checked.groups[g]), nodal.extreme(peaks.von_mises[g])});
+                               named(maxima.groups[g]), at_point(peaks.von_mises[g])});
   }
   envelope.displacement = largest_displacement(responses, history, threads);
   return envelope;

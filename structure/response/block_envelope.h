@@ -34,15 +34,16 @@ struct LugEnvelope {
 
 /// What a whole history of loads does to a block, every instant taken.
 struct BlockEnvelope {
-  TimedExtreme checked_von_mises;   ///< largest membrane stress over patches, Pa
+  TimedExtreme checked_von_mises;   ///< largest membrane stress over squares, Pa
+  TimedExtreme field_von_mises;     ///< likewise, of squares away from corners, Pa
   TimedExtreme peak_von_mises;      ///< largest nodal value within any cell, nothing averaged, Pa
   TimedExtreme largest_principal;   ///< at the same places as the peak, Pa
   TimedExtreme smallest_principal;  ///< likewise, Pa
   TimedExtreme displacement;        ///< relative to the mean rigid motion, m
   std::vector<GroupEnvelope> groups;
   std::vector<LugEnvelope> lugs;
-  PointExtremes patches;  ///< von Mises of the membrane stress at each of MembraneStress::patches()
-  int places = 0;         ///< patches, and nodes of cells
+  PointExtremes squares;  ///< von Mises of the membrane stress of each of CheckedStress::squares()
+  int places = 0;         ///< squares, nodes of shells on both surfaces, ends of beams
   int instants = 0;
 };
 
@@ -52,11 +53,11 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
                                   const Eigen::MatrixXd& factors, int threads = 0);
 
 /// Weights for a LoadHistory: root mean square of each unit response's membrane stress, Pa.
-Eigen::VectorXd response_weights(const MembraneStress& membrane);
+Eigen::VectorXd response_weights(const CheckedStress& checked);
 
-/// Unit responses of the membrane stress at a patch as a stress (11, 22 and 12 where xx, yy and xy
+/// Unit responses of the membrane stress of a square as a stress (11, 22 and 12 where xx, yy and xy
 /// stand, the rest zero), 6 x unit loads, Pa.
-Eigen::MatrixXd unit_stress_of_patch(const MembraneStress& membrane, int patch);
+Eigen::MatrixXd unit_stress_of_square(const CheckedStress& checked, int square);
 
 /// How much each part of a load has in a stress: with s_i the deviator of part i's stress and s that
 /// of the whole, (s_i : s) / (s : s), which sum to 1 over parts that make up the whole.

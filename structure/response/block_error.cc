@@ -1,7 +1,5 @@
 #include "structure/response/block_error.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -9,130 +7,202 @@
 #include <Eigen/Dense>
 
 #include "structure/batches.h"
+#include "structure/formulation/shell.h"
 #include "structure/index.h"
-#include "structure/response/cell_stress.h"
+#include "structure/mesh/fields.h"
+#include "structure/space/joints.h"
 
 namespace blocklift::structure {
 
 namespace {
 
-using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using Resultants = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // membrane forces, moments
+using Law = Eigen::Matrix<double, 6, 6>;
 
-// Values at `places` of the polynomials through `points` (both on a line): row a place.
-Eigen::MatrixXd through_points(const Eigen::VectorXd& points, const Eigen::VectorXd& places) {
-  Eigen::MatrixXd values = Eigen::MatrixXd::Ones(places.size(), points.size());
-  for (Eigen::Index i = 0; i < points.size(); ++i)
-    for (Eigen::Index j = 0; j < points.size(); ++j)
-      if (j != i) values.col(i).array() *= (places.array() - points[j]) / (points[i] - points[j]);
-  return values;
+/// Turns (11, 22, 12) of forces and moments from axes at an angle `a` to the field's into the field's; of a
+/// cell whose normal is against the field's moments change their sign.
+Law turn_to_field(double a, bool is_flipped) {
+  const double c = std::cos(a), s = std::sin(a);
+  Eigen::Matrix3d turn;
+  turn << c * c, s * s, -2 * c * s, s * s, c * c, 2 * c * s, c * s, -c * s, c * c - s * s;
+  if (is_flipped) turn.col(2) *= -1;  // the cell's second axis points the other way
+  Law law = Law::Zero();
+  law.topLeftCorner<3, 3>() = turn;
+  law.bottomRightCorner<3, 3>() = (is_flipped ? -1 : 1) * turn;
+  return law;
 }
 
-/// From the accurate points to the nodes of the reference element: nodes x points.
-Eigen::MatrixXd extrapolation(const ReferenceElement& element, const Eigen::VectorXd& line) {
-  const Eigen::Index p = line.size();
-  std::array<Eigen::MatrixXd, 3> along;
-  for (int axis = 0; axis < 3; ++axis)
-    along[at(axis)] = through_points(line, element.nodes().row(axis).transpose());
-  Eigen::MatrixXd result(element.node_count(), p * p * p);
-  for (Eigen::Index k = 0; k < p; ++k)
-    for (Eigen::Index j = 0; j < p; ++j)
-      for (Eigen::Index i = 0; i < p; ++i)
-        result.col((k * p + j) * p + i) =
-            along[0].col(i).cwiseProduct(along[1].col(j)).cwiseProduct(along[2].col(k));
-  return result;
-}
+/// One direction for each field, and on which side its cells' normals lie.
+struct Orientation {
+  explicit Orientation(const ElasticModel& model)
+      : fields(find_fields(model.mesh())), is_flipped(model.mesh().shells.size(), false) {
+    for (const PlateField& field : fields.fields) {
+      const Shell& first = model.mesh().shells[at(field.shells.front())];
+      along.push_back((position(model.mesh(), first, {1, 0.5}) -
+                       position(model.mesh(), first, {0, 0.5}))
+                          .normalized());
+      for (std::size_t i = 0; i < field.shells.size(); ++i)
+        is_flipped[at(field.shells[i])] = field.is_flipped[i];
+    }
+  }
+  Law turn(const ShellPoint& point, int shell) const {
+    const int field = fields.field_of_shell[at(shell)];
+    const Vector3 normal = (is_flipped[at(shell)] ? -1 : 1) * point.normal;
+    const Vector3 e_2 = normal.cross(point.e_1);
+    // The angle of the cell's first axis against the field's direction, in the tangent plane.
+    const Vector3& direction = along[at(field)];
+    return turn_to_field(std::atan2(-direction.dot(e_2), direction.dot(point.e_1)),
+                         is_flipped[at(shell)]);
+  }
 
-/// Points of recovered stress: one for each node and plate (or crossing) that meet.
+  PlateFields fields;
+  std::vector<Vector3> along;
+  std::vector<bool> is_flipped;
+};
+
+/// Points of recovered resultants: one for each node and field that meet.
 class Points {
  public:
-  explicit Points(const ElasticModel& model) : model_(model) {
-    const Discretisation& space = model.space();
+  Points(const Space& space, const PlateFields& fields) : space_(space) {
     std::unordered_map<std::int64_t, int> known;
-    const BlockMesh& mesh = model.mesh();
-    const auto sheets = static_cast<std::int64_t>(mesh.sheet_names.size());
-    for (int cell = 0; cell < space.cell_count(); ++cell) {
-      const std::int64_t plate =
-          mesh.cell_normal[at(cell)] < 0 ? sheets : mesh.cell_sheet[at(cell)];
-      for (int i = 0; i < space.nodes_per_cell; ++i) {
-        const std::int64_t key = (sheets + 1) * space.node(cell, i) + plate;
+    const auto count = static_cast<std::int64_t>(fields.fields.size());
+    for (std::size_t cell = 0; cell < space.shells().size(); ++cell)
+      for (int i = 0; i < space.nodes_per_shell(); ++i) {
+        const int node = space.shell_nodes(static_cast<int>(cell))[i];
+        const Space::Term *begin = space.begin_of(6 * node), *end = space.end_of(6 * node);
+        // Tied nodes share an unknown; what follows a polynomial stands for itself.
+        const std::int64_t place =
+            end - begin == 1 ? begin->unknown : space.unknowns() + static_cast<std::int64_t>(node);
+        const std::int64_t key = count * place + fields.field_of_shell[at(space.shells()[cell].shell)];
         const auto [found, is_new] = known.try_emplace(key, static_cast<int>(shares_.size()));
         if (is_new) shares_.push_back(0);
         ++shares_[at(found->second)];
         of_cell_.push_back(found->second);
       }
-    }
   }
-
   int of(int cell, int local) const {
-    return of_cell_[at(cell) * at(model_.space().nodes_per_cell) + at(local)];
+    return of_cell_[at(cell) * at(space_.nodes_per_shell()) + at(local)];
   }
   int count() const { return static_cast<int>(shares_.size()); }
   int share(int point) const { return shares_[at(point)]; }
 
  private:
-  const ElasticModel& model_;
+  const Space& space_;
   std::vector<int> of_cell_, shares_;
 };
 
-StressColumns recover(const ElasticModel& model, const Eigen::VectorXd& displacement,
-                      const Points& points) {
-  const Discretisation& space = model.space();
-  const Eigen::Matrix2Xd line = gauss_points(space.element.degree());
-  const CellStress stress(model.mesh(), space, tensor_rule(line, line, line).topRows<3>());
-  const Eigen::MatrixXd to_nodes =
-      extrapolation(space.element, line.row(0).transpose()).transpose();
-  StressColumns recovered = StressColumns::Zero(6, points.count());
-  for (int cell = 0; cell < space.cell_count(); ++cell) {
-    const StressColumns at_nodes = stress(cell, displacement) * to_nodes;
-    for (int i = 0; i < space.nodes_per_cell; ++i)
-      recovered.col(points.of(cell, i)) += at_nodes.col(i) / points.share(points.of(cell, i));
+Eigen::VectorXd motion_of_cell(const Space& space, int cell, const Eigen::VectorXd& motion) {
+  Eigen::VectorXd local(6 * space.nodes_per_shell());
+  for (int i = 0; i < space.nodes_per_shell(); ++i)
+    local.segment<6>(6 * i) = motion.segment<6>(6 * space.shell_nodes(cell)[i]);
+  return local;
+}
+
+Law law_of(const ElasticModel& model, int cell) {
+  const Shell& shell = model.mesh().shells[at(model.space().shells()[at(cell)].shell)];
+  return shell_stiffness_law(model.mesh().material_of(shell),
+                             model.mesh().section_of(shell).thickness)
+      .topLeftCorner<6, 6>();
+}
+
+/// Resultants of a cell at an operator's points, in its field's axes.
+Resultants resultants_of(const ElasticModel& model, const Orientation& orientation,
+                         ShellOperator& shell_operator, int cell, const Eigen::VectorXd& motion) {
+  shell_operator.reinit(cell);
+  const Eigen::VectorXd local = motion_of_cell(model.space(), cell, motion);
+  const Law law = law_of(model, cell);
+  Resultants resultants(6, static_cast<Eigen::Index>(shell_operator.points().size()));
+  for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
+    const ShellPoint& point = shell_operator.points()[q];
+    resultants.col(static_cast<Eigen::Index>(q)) =
+        orientation.turn(point, model.space().shells()[at(cell)].shell) *
+        (law * (point.strain.topRows<6>() * local));
   }
-  return recovered;
+  return resultants;
+}
+
+/// From the p x p Gauss points to the nodes: Gauss points x nodes.
+Eigen::MatrixXd to_nodes(int degree) {
+  const Eigen::Matrix3Xd rule = square_rule(degree);
+  const std::vector<double> line = lagrange_places(degree);
+  Eigen::VectorXd places(degree);
+  for (int i = 0; i < degree; ++i) places[i] = rule(0, i);
+  const auto value = [&](int i, double x) {
+    double product = 1;
+    for (int j = 0; j < degree; ++j)
+      if (j != i) product *= (x - places[j]) / (places[i] - places[j]);
+    return product;
+  };
+  const int n = degree + 1;
+  Eigen::MatrixXd result(degree * degree, n * n);
+  for (int b = 0; b < n; ++b)
+    for (int a = 0; a < n; ++a)
+      for (int j = 0; j < degree; ++j)
+        for (int i = 0; i < degree; ++i)
+          result(j * degree + i, b * n + a) = value(i, line[at(a)]) * value(j, line[at(b)]);
+  return result;
+}
+
+double relative_error(double error, double norm) {
+  return error + norm > 0 ? std::sqrt(error / (error + norm)) : 0;
 }
 
 }  // namespace
 
-BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& displacement,
+BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& motion,
                                 int threads) {
-  const Discretisation& space = model.space();
-  const BlockMesh& mesh = model.mesh();
-  const Points points(model);
-  const StressColumns recovered = recover(model, displacement, points);
-  const Eigen::Matrix2Xd line = gauss_points(space.element.degree() + 1);
-  const Eigen::Matrix4Xd rule = tensor_rule(line, line, line);
-  const CellStress own(mesh, space, rule.topRows<3>());
-  const Eigen::MatrixXd values = space.element.values(rule.topRows<3>()).transpose();
-  Eigen::VectorXd error = Eigen::VectorXd::Zero(space.cell_count()), norm = error;
-  in_batches(space.cell_count(), 32, threads, [&](int first, int count) {
-    StressColumns smooth(6, space.nodes_per_cell);
+  const Space& space = model.space();
+  const Mesh& mesh = model.mesh();
+  const int cells = static_cast<int>(space.shells().size()), p = space.degree();
+  const Orientation orientation(model);
+  const Points points(space, orientation.fields);
+
+  Resultants recovered = Resultants::Zero(6, points.count());
+  ShellOperator accurate(space, square_rule(p).topRows<2>());
+  const Eigen::MatrixXd carry = to_nodes(p);
+  for (int cell = 0; cell < cells; ++cell) {
+    const Resultants at_nodes = resultants_of(model, orientation, accurate, cell, motion) * carry;
+    for (int i = 0; i < space.nodes_per_shell(); ++i)
+      recovered.col(points.of(cell, i)) += at_nodes.col(i) / points.share(points.of(cell, i));
+  }
+
+  const Eigen::Matrix3Xd rule = square_rule(p + 1);
+  Eigen::MatrixXd values(space.nodes_per_shell(), rule.cols());
+  for (Eigen::Index q = 0; q < rule.cols(); ++q)
+    values.col(q) = space.shell_values(rule.col(q).head<2>());
+  BlockError result;
+  result.of_cells = Eigen::VectorXd::Zero(cells);
+  Eigen::VectorXd norm = result.of_cells;
+  in_batches(cells, std::max(32, cells / 64), threads, [&](int first, int count) {
+    ShellOperator own(space, rule.topRows<2>());
+    Resultants smooth(6, space.nodes_per_shell());
     for (int cell = first; cell < first + count; ++cell) {
-      for (int i = 0; i < space.nodes_per_cell; ++i)
+      const Resultants s_h = resultants_of(model, orientation, own, cell, motion);
+      for (int i = 0; i < space.nodes_per_shell(); ++i)
         smooth.col(i) = recovered.col(points.of(cell, i));
-      const StressColumns s_h = own(cell, displacement);
-      const StressColumns difference = smooth * values - s_h;
-      const Material& material = mesh.material_of_cell(cell);
+      const Resultants difference = smooth * values - s_h;
+      const Law compliance = law_of(model, cell).inverse();
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-        const double volume =
-            rule(3, q) * jacobian(mesh, cell, rule.col(q).head<3>()).determinant();
-        error[cell] += volume * complementary_energy(material, difference.col(q));
-        norm[cell] += volume * complementary_energy(material, s_h.col(q));
+        const double area = rule(2, q) * own.points()[at(q)].area;
+        result.of_cells[cell] += area * difference.col(q).dot(compliance * difference.col(q));
+        norm[cell] += area * s_h.col(q).dot(compliance * s_h.col(q));
       }
     }
   });
-  const auto relative = [](double e, double s) { return e + s > 0 ? std::sqrt(e / (e + s)) : 0; };
-  BlockError result;
-  result.relative = relative(error.sum(), norm.sum());
+
   std::vector<double> e(mesh.groups.size(), 0), s(mesh.groups.size(), 0);
-  for (int cell = 0; cell < space.cell_count(); ++cell) {
-    e[at(mesh.cell_group[at(cell)])] += error[cell];
-    s[at(mesh.cell_group[at(cell)])] += norm[cell];
+  const auto region_of = [&](int cell) { return mesh.shells[at(space.shells()[at(cell)].shell)].region; };
+  for (int cell = 0; cell < cells; ++cell) {
+    e[at(mesh.regions[at(region_of(cell))].group)] += result.of_cells[cell];
+    s[at(mesh.regions[at(region_of(cell))].group)] += norm[cell];
   }
-  for (std::size_t g = 0; g < e.size(); ++g) result.of_groups.push_back(relative(e[g], s[g]));
+  result.relative = relative_error(result.of_cells.sum(), norm.sum());
+  for (std::size_t g = 0; g < e.size(); ++g) result.of_groups.push_back(relative_error(e[g], s[g]));
+  if (cells == 0) return result;
   Eigen::Index worst = 0;
-  error.maxCoeff(&worst);
-  const int cell = static_cast<int>(worst);
-  result.worst_part = mesh.sheet_names[at(mesh.cell_sheet[at(cell)])];
-  result.worst_point = position(mesh, cell, Vector3::Constant(0.5));
+  result.of_cells.maxCoeff(&worst);
+  result.worst_part = mesh.regions[at(region_of(static_cast<int>(worst)))].name;
+  result.worst_point = space.place(static_cast<int>(worst), {0.5, 0.5});
   return result;
 }
 

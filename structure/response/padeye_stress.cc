@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 
 #include "structure/index.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 #include "structure/response/part_solution.h"
 
 namespace blocklift::structure {

@@ -9,7 +9,7 @@
 
 #include "structure/index.h"
 #include "structure/mesh/element_shape.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

@@ -14,7 +14,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/element_shape.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 #include "structure/response/part_error.h"
 #include "structure/stopwatch.h"
 

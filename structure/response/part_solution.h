@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/elasticity/load.h"
+#include "structure/rigid_body.h"
 #include "structure/elasticity/part_model.h"
 #include "structure/solver_choice.h"
 

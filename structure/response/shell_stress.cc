@@ -38,10 +38,8 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::MatrixXd& motions) {
   current_ = of_triangles_ && shell.is_triangle() ? of_triangles_.get() : &of_squares_;
   current_->reinit(cell);
   const Material& material = mesh.material_of(shell);
-  const double nu = material.poisson_ratio, thickness = mesh.section_of(shell).thickness;
-  Eigen::Matrix3d hooke;
-  hooke << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
-  hooke *= material.youngs_modulus / (1 - nu * nu);
+  const double thickness = mesh.section_of(shell).thickness;
+  const Eigen::Matrix3d hooke = plane_stress_law(material);
   const double shear = 5.0 / 6 * material.shear_modulus();
   const Eigen::MatrixXd local = motions_of_cell(space_, cell, motions);
   Eigen::MatrixXd rows(shell_stress_rows * static_cast<Eigen::Index>(points().size()),

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "structure/formulation/shell.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

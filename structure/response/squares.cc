@@ -12,14 +12,15 @@
 #include "structure/batches.h"
 #include "structure/index.h"
 #include "structure/response/cell_finder.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 
 namespace {
 
-constexpr double largest_spacing = 0.5;    // m, between squares
-constexpr double corner_reach = 3;         // squares from a singular vertex
-constexpr int contiguous = 4;              // squares one behind the other from a corner
+constexpr double largest_spacing = 0.5;  // m, between squares
+constexpr double corner_reach = 3;       // squares from a singular vertex
+constexpr int contiguous = 4;            // squares one behind the other from a corner
 
 /// Gauss points on [0, 1].
 constexpr std::array<double, 4> side_points{0.06943184420297371, 0.33000947820757187,
@@ -49,8 +50,8 @@ std::array<ContourPoint, 16> contour(const Square& square) {
 ShellPlace place_of(const FieldEdge& edge, double s) {
   for (const FieldEdge::Piece& piece : edge.pieces) {
     if (s <= piece.length || &piece == &edge.pieces.back())
-      return {piece.shell, piece.begin + std::clamp(s / piece.length, 0.0, 1.0) *
-                                             (piece.end - piece.begin)};
+      return {piece.shell,
+              piece.begin + std::clamp(s / piece.length, 0.0, 1.0) * (piece.end - piece.begin)};
     s -= piece.length;
   }
   return {};
@@ -109,8 +110,9 @@ class SquarePlacer {
     const auto points = contour(square);
     return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
       const auto found = walker_.find(point.place, start);
-      return found && (position(mesh_, mesh_.shells[at(found->shell)], found->xi) - point.place)
-                              .norm() < 0.2 * square.size;
+      return found &&
+             (position(mesh_, mesh_.shells[at(found->shell)], found->xi) - point.place).norm() <
+                 0.2 * square.size;
     });
   }
 
@@ -132,7 +134,8 @@ class SquarePlacer {
     square.e_1 = (square.e_1 - normal * normal.dot(square.e_1)).normalized();
     square.e_2 = normal.cross(square.e_1);
     // On a curved edge either the chord or the tangent has the square inside.
-    for (const Vector3& base : {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
+    for (const Vector3& base :
+         {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
       square.centre_B = base + 0.5 * size * square.e_2;
       if (!lies_inside(square, middle)) continue;
       squares_.push_back(square);
@@ -242,7 +245,8 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
       const Shell& shell = model.mesh().shells[at(square.shell)];
       const ShellSection& section = model.mesh().section_of(shell);
       // The section's offset is along the shell's own normal.
-      const double side = normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
+      const double side =
+          normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
       strain.setZero();
       curvature.setZero();
       ShellPlace start{square.shell, {0.5, 0.5}};
@@ -269,11 +273,7 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
         add(curvature, t_1, t_2);
       }
       const double area = square.size * square.size;
-      const Material& material = model.mesh().material_of(shell);
-      const double nu = material.poisson_ratio;
-      Eigen::Matrix3d hooke;
-      hooke << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
-      hooke *= material.youngs_modulus / (1 - nu * nu);
+      const Eigen::Matrix3d hooke = plane_stress_law(model.mesh().material_of(shell));
       strain += side * section.offset * curvature;
       components_.middleRows<3>(3 * s) = hooke * strain / area;
       bending_.middleRows<3>(3 * s) = hooke * curvature * (section.thickness / (2 * area));

@@ -5,7 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "structure/response/patches.h"
+#include "structure/response/squares.h"
+#include "structure/response/stress_points.h"
 #include "structure/response/unit_responses.h"
 
 namespace blocklift::structure {
@@ -38,7 +39,8 @@ struct LugNeighbourhood {
 /// Stress and deformation of the block in one load case.
 struct LoadCaseResult {
   std::string name;
-  Extreme checked_von_mises;  ///< largest membrane stress over patches (MembraneStress), Pa
+  Extreme checked_von_mises;  ///< largest membrane stress over squares (CheckedStress), Pa
+  Extreme field_von_mises;    ///< likewise, of squares away from corners, Pa
   Extreme peak_von_mises;     ///< largest nodal value within any cell, nothing averaged, Pa
   Extreme displacement;       ///< largest, relative to the mean rigid motion, m
   std::vector<GroupStress> groups;
@@ -51,7 +53,7 @@ struct LoadCaseResult {
 class StressRecovery {
  public:
   struct Options {
-    double patch_size = 0.05;  ///< of the checked stress, m
+    double square_size = 0.05;  ///< of the checked stress, m
     /// Radius about each pin that counts as its neighbourhood, m; 0: as far as pad and lug reach.
     double lug_radius = 3;
   };
@@ -61,16 +63,18 @@ class StressRecovery {
   StressRecovery(const UnitResponses& responses, const Options& options);
 
   LoadCaseResult evaluate(const LoadCase& load_case) const;
-  const MembraneStress& membrane() const { return membrane_; }
+  const CheckedStress& checked() const { return checked_; }
+  const StressPoints& points() const { return points_; }
   /// Radius about a lug's pin that counts as its neighbourhood, m.
-  double lug_radius(const LugRegion& lug) const {
-    return options_.lug_radius > 0 ? options_.lug_radius : lug.pad_radius;
+  double lug_radius(const LiftingPoint& lug) const {
+    return options_.lug_radius > 0 ? options_.lug_radius : lug.radius;
   }
 
  private:
   const UnitResponses& responses_;
   Options options_;
-  MembraneStress membrane_;
+  CheckedStress checked_;
+  StressPoints points_;
 };
 
 }  // namespace blocklift::structure

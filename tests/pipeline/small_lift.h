@@ -15,7 +15,7 @@ struct SmallLift {
   LiftRun run;
 
   const dynamics::LiftSystem& system() const { return run.model.system; }
-  const std::vector<structure::LugRegion>& lugs() const { return model->mesh().lugs; }
+  const std::vector<structure::LiftingPoint>& lugs() const { return model->mesh().lifting_points; }
   const structure::MassProperties& mass() const { return model->mass_properties(); }
 };
 

@@ -62,6 +62,16 @@ BlockDescription hull_block() {
   return block;
 }
 
+BlockDescription cross_of_plates() {
+  BlockDescription block;
+  block.name = "cross";
+  block.materials = {steel()};
+  block.plates = {{"flat", Axis::z, {0}, {{{0, 2}, {0, 1}, {}}}, 0.02, "AH36"},
+                  {"upright", Axis::x, {1}, {{{}, {0, 1}, {-0.5, 0.5}}}, 0.01, "AH36"}};
+  block.largest_element = 0.6;
+  return block;
+}
+
 BlockDescription small_block() {
   BlockDescription block;
   block.name = "small";

@@ -17,7 +17,7 @@ TEST(HullBlock, LiftAtFullSize) {
   const UnitResponses responses(model);
   LoadCase load_case{"lift", {}, {}};
   Wrench pull;
-  for (const LugRegion& lug : model.mesh().lugs) {
+  for (const LiftingPoint& lug : model.mesh().lifting_points) {
     const Vector3 force(0, 0, model.mass_properties().mass * 9.80665 / 6);
     load_case.lug_forces_B.push_back(force);
     pull.force += force;

@@ -1,5 +1,5 @@
-// Bundles the page and writes it as a C++ source that defines report_page().
-//   node build.mjs report_page.cc
+// Bundles the page and writes it as a C++ source that defines report_page(), and the licences of what is bundled.
+//   node build.mjs report_page.cc notice.txt
 import { readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
@@ -14,6 +14,14 @@ const fill = (text, mark, content) => {
   return parts[0] + content + parts[1];
 };
 let page = readFileSync("src/page.html", "utf8");
+
+// What is in the page beside our own: the libraries that package.json depends on.
+const libraries = Object.keys(JSON.parse(readFileSync("package.json", "utf8")).dependencies).map((name) => {
+  const { version, license, homepage } = JSON.parse(readFileSync(`node_modules/${name}/package.json`, "utf8"));
+  return { name, version, license, homepage, text: readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim() };
+});
+const listed = libraries.map(({ name, version, license }) => `${name} ${version} (${license} licence)`).join(" and ");
+page = fill(page, "%LICENCES%", `Made by Blocklift (GPL-3.0-or-later), which is free software without any warranty. This page draws with ${listed}.`);
 for (const mark of ["%TITLE%", "%DATA%"]) fill(page, mark, "");
 page = fill(page, "%STYLE%", style.replaceAll("</style", "<\\/style"));
 page = fill(page, "%SCRIPT%", script.replaceAll("</script", "<\\/script").replaceAll("<!--", "\\x3c!--"));
@@ -48,4 +56,10 @@ std::string_view report_page() { return {page, sizeof(page) - 1}; }
 
 }  // namespace blocklift::pipeline
 `,
+);
+
+writeFileSync(
+  process.argv[3],
+  "Reports hold these libraries.\n" +
+    libraries.map(({ name, version, homepage, text }) => `\n== ${name} ${version}, ${homepage ?? ""}\n\n${text}\n`).join(""),
 );

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "pipeline/verification/structure/structure_cases.h"
+#include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/block_envelope.h"
+#include "structure/system/matter.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -45,7 +47,7 @@ BlockDescription tray() {
 // An instant of a lift: pulls that sway and bounce, balanced by the motion that they cause.
 LoadCase instant(const ElasticModel& model, int t) {
   LoadCase load_case{"instant " + std::to_string(t), {}, {}};
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(model.unknowns());
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(model.freedoms());
   for (int lug = 0; lug < 4; ++lug) {
     const Vector3 force(900 * std::sin(0.5 * t + lug), 700 * std::cos(0.7 * t),
                         15000 + 3000 * std::sin(0.9 * t + 2 * lug));
@@ -56,14 +58,16 @@ LoadCase instant(const ElasticModel& model, int t) {
   const InertiaField spin =
       InertiaField::moving(Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), w);
   pull += model.inertia_loads() * spin.coefficients();
-  load_case.field = balancing_field(model.mass_properties(), resultant(model.space().nodes, pull));
+  load_case.field = balancing_field(model.mass_properties(), resultant(model.space(), pull));
   load_case.field.angular_velocity_products = spin.angular_velocity_products;
   return load_case;
 }
 
 std::vector<VerificationRow> compute() {
   constexpr int instants = 60;
-  const ElasticModel model = make_elastic_model(tray(), 3);
+  const BlockDescription block = tray();
+  const ElasticModel model(generate_shell_mesh(block), {3, {}}, block.total_mass,
+                           block.centre_of_mass_B);
   const UnitResponses responses(model);
   const StressRecovery recovery(responses);
   Eigen::MatrixXd factors(responses.count(), instants);

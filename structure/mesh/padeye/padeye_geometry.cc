@@ -1,7 +1,6 @@
 #include "structure/mesh/padeye/padeye_geometry.h"
 
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,8 +10,8 @@ std::vector<std::string> padeye_faults(const PadeyeGeometry& padeye) {
   std::vector<std::string> faults;
   const double hole = padeye.hole_diameter / 2;
   const auto mm = [](double length) { return fmt::format("{:.6g} mm", 1000 * length); };
-  const auto require = [&](bool right, std::string text) {
-    if (!right) faults.push_back(std::move(text));
+  const auto require = [&](bool right, const std::string& text) {
+    if (!right) faults.push_back(text);
   };
   require(padeye.thickness > 0 && hole > 0 && padeye.pin_diameter > 0,
           "thickness, hole and pin need a size above zero");

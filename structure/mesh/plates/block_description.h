@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/material.h"
+#include "structure/material.h"
 
 namespace blocklift::structure {
 

@@ -51,10 +51,10 @@ void check_names(const BlockDescription& block) {
   check("lug", block.lugs);
 }
 
-void check_material_exists(const BlockDescription& block, const std::string& what,
-                           const std::string& material) {
-  for (const auto& known : block.materials)
-    if (known.name == material) return;
+int place_of_material(const BlockDescription& block, const std::string& what,
+                      const std::string& material) {
+  for (std::size_t i = 0; i < block.materials.size(); ++i)
+    if (block.materials[i].name == material) return static_cast<int>(i);
   throw ModelError(what + " is made of \"" + material +
                    "\", which is not among the materials: " + names_of(block.materials));
 }
@@ -87,7 +87,9 @@ Sheet make_sheet(const std::string& name, int group, SheetRank rank, Axis normal
           static_cast<int>(normal),
           position,
           extent,
-          thickness};
+          thickness,
+          0,
+          {}};
 }
 
 bool coplanar(const Sheet& a, const Sheet& b) {
@@ -98,13 +100,15 @@ void add_plates(const BlockDescription& block, std::vector<Sheet>& sheets) {
   for (std::size_t i = 0; i < block.plates.size(); ++i) {
     const Plate& plate = block.plates[i];
     const std::string what = "plate \"" + plate.name + "\"";
-    check_material_exists(block, what, plate.material);
+    const int material = place_of_material(block, what, plate.material);
     check_rectangle(what, plate.normal, plate.extent);
     check_thickness(what, plate.thickness);
     if (plate.positions.empty()) throw ModelError(what + " has no position along its normal");
-    for (const double position : plate.positions)
+    for (const double position : plate.positions) {
       sheets.push_back(make_sheet(plate.name, static_cast<int>(i), SheetRank::plate, plate.normal,
                                   position, plate.extent, plate.thickness));
+      sheets.back().material = material;
+    }
   }
   for (std::size_t i = 0; i < sheets.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -116,15 +120,35 @@ void add_plates(const BlockDescription& block, std::vector<Sheet>& sheets) {
             sheets[j].name, sheets[j].thickness * 1e3, sheets[i].name, sheets[i].thickness * 1e3));
 }
 
-// A pad thickens what lies in its plane: plates with the name given, or any.
-void check_pad(const BlockDescription& block, const Pad& pad, const Sheet& sheet,
-               const std::vector<Sheet>& plates) {
+void cut_openings(const BlockDescription& block, std::vector<Sheet>& sheets) {
+  for (const Opening& opening : block.openings) {
+    bool is_cut = false;
+    for (Sheet& sheet : sheets) {
+      const Plate& plate = block.plates[static_cast<std::size_t>(sheet.group)];
+      if (plate.name != opening.plate) continue;
+      is_cut = true;
+      check_rectangle("opening \"" + opening.name + "\"", plate.normal, opening.extent);
+      if (opening.positions.empty() ||
+          std::any_of(opening.positions.begin(), opening.positions.end(),
+                      [&](double p) { return std::abs(p - sheet.position) < 1e-6; }))
+        sheet.holes.push_back(opening.extent);
+    }
+    if (!is_cut)
+      throw ModelError("opening \"" + opening.name + "\" is cut into plate \"" + opening.plate +
+                       "\", which the block does not have; its plates are " +
+                       names_of(block.plates));
+  }
+}
+
+// A pad thickens what lies in its plane: plates with the name given, or any. Returns their material.
+int check_pad(const BlockDescription& block, const Pad& pad, const Sheet& sheet,
+              const std::vector<Sheet>& plates) {
   if (!pad.plate.empty() &&
       std::none_of(block.plates.begin(), block.plates.end(),
                    [&](const Plate& plate) { return plate.name == pad.plate; }))
     throw ModelError("pad \"" + pad.name + "\" thickens plate \"" + pad.plate +
                      "\", which the block does not have; its plates are " + names_of(block.plates));
-  bool found = false;
+  int material = -1;
   for (const Sheet& plate : plates) {
     // The rank first: only a plate's group is a place in block.plates.
     if (plate.rank != SheetRank::plate || !coplanar(plate, sheet) ||
@@ -132,35 +156,37 @@ void check_pad(const BlockDescription& block, const Pad& pad, const Sheet& sheet
       continue;
     if (!pad.plate.empty() && block.plates[static_cast<std::size_t>(plate.group)].name != pad.plate)
       continue;
-    found = true;
+    if (material < 0) material = plate.material;
     if (pad.thickness < plate.thickness - 1e-9)
       throw ModelError(
           fmt::format("pad \"{}\" is {:g} mm thick in total, thinner than {} ({:g} mm)", pad.name,
                       pad.thickness * 1e3, plate.name, plate.thickness * 1e3));
   }
-  if (!found)
+  if (material < 0)
     throw ModelError(fmt::format("pad \"{}\" at {} = {:g} m lies on no plate{}", pad.name,
                                  name_of(pad.normal), pad.position,
                                  pad.plate.empty() ? "" : " named \"" + pad.plate + "\""));
+  return material;
 }
 
 void add_pads_and_lugs(const BlockDescription& block, std::vector<Sheet>& sheets) {
+  const std::size_t first_pad = sheets.size();
   int group = static_cast<int>(block.plates.size());
   for (const Pad& pad : block.pads) {
     const std::string what = "pad \"" + pad.name + "\"";
-    if (!pad.material.empty()) check_material_exists(block, what, pad.material);
     check_rectangle(what, pad.normal, pad.extent);
     check_thickness(what, pad.thickness);
-    const Sheet sheet = make_sheet(pad.name, group++, SheetRank::pad, pad.normal, pad.position,
-                                   pad.extent, pad.thickness);
-    check_pad(block, pad, sheet, sheets);
+    Sheet sheet = make_sheet(pad.name, group++, SheetRank::pad, pad.normal, pad.position,
+                             pad.extent, pad.thickness);
+    sheet.material = check_pad(block, pad, sheet, sheets);
+    if (!pad.material.empty()) sheet.material = place_of_material(block, what, pad.material);
     sheets.push_back(sheet);
   }
   for (const Lug& lug : block.lugs) {
     const std::string what = "lug \"" + lug.name + "\"";
-    if (!lug.material.empty()) check_material_exists(block, what, lug.material);
-    if (std::none_of(block.pads.begin(), block.pads.end(),
-                     [&](const Pad& pad) { return pad.name == lug.pad; }))
+    const auto pad = std::find_if(block.pads.begin(), block.pads.end(),
+                                  [&](const Pad& known) { return known.name == lug.pad; });
+    if (pad == block.pads.end())
       throw ModelError(what + " stands on pad \"" + lug.pad +
                        "\", which the block does not have; its pads are " + names_of(block.pads));
     check_rectangle(what, lug.normal, lug.extent);
@@ -168,10 +194,24 @@ void add_pads_and_lugs(const BlockDescription& block, std::vector<Sheet>& sheets
     if (!lug.p_BPin.allFinite()) throw ModelError(what + " has a pin centre that is not a number");
     sheets.push_back(make_sheet(lug.name, group++, SheetRank::lug, lug.normal, lug.position,
                                 lug.extent, lug.thickness));
+    sheets.back().material =
+        lug.material.empty()
+            ? sheets[first_pad + static_cast<std::size_t>(pad - block.pads.begin())].material
+            : place_of_material(block, what, lug.material);
   }
 }
 
 }  // namespace
+
+int owner(const std::vector<Sheet>& sheets, const std::vector<int>& candidates) {
+  return *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) {
+    const Sheet &sa = sheets[static_cast<std::size_t>(a)],
+                &sb = sheets[static_cast<std::size_t>(b)];
+    if (sa.rank != sb.rank) return sa.rank < sb.rank;
+    if (sa.thickness != sb.thickness) return sa.thickness < sb.thickness;
+    return a > b;
+  });
+}
 
 std::vector<Sheet> spread_into_sheets(const BlockDescription& block) {
   if (block.plates.empty()) throw ModelError("block \"" + block.name + "\" has no plates");
@@ -179,6 +219,7 @@ std::vector<Sheet> spread_into_sheets(const BlockDescription& block) {
   for (const Material& material : block.materials) check_material(material);
   std::vector<Sheet> sheets;
   add_plates(block, sheets);
+  cut_openings(block, sheets);
   add_pads_and_lugs(block, sheets);
   return sheets;
 }

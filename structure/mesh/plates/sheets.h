@@ -20,13 +20,19 @@ struct Sheet {
   double position = 0;
   std::array<Interval, 3> extent;
   double thickness = 0;
+  int material = 0;                            ///< place in BlockDescription::materials
+  std::vector<std::array<Interval, 3>> holes;  ///< openings cut into it
 };
 
 /// Spreads a description into sheets, in the order plates, pads, lugs.
 /// @throws ModelError naming what is wrong: names used twice, unknown materials, plates or pads,
 ///   empty extents, thickness not positive, overlapping plates of different thickness in one plane,
-///   a pad that lies on no plate or is thinner than it.
+///   an opening in a plate that does not exist, a pad that lies on no plate or is thinner than it.
 std::vector<Sheet> spread_into_sheets(const BlockDescription& description);
+
+/// The sheet that a place belongs to of those that lie there: the highest rank, then the thickest, then
+/// the first.
+int owner(const std::vector<Sheet>& sheets, const std::vector<int>& candidates);
 
 /// True if two intervals have more than `tolerance` in common.
 bool overlap(const Interval& a, const Interval& b, double tolerance = 1e-6);

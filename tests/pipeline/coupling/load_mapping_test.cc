@@ -77,8 +77,8 @@ TEST(LoadMapping, FindsTheRopesAtTheLugs) {
     const std::string& rope = lift.system().ropes()[static_cast<std::size_t>(end.rope)].name();
     EXPECT_EQ(rope.substr(1), lift.lugs()[static_cast<std::size_t>(end.lug)].name.substr(1));
   }
-  std::vector<structure::LugRegion> moved = lift.lugs();
-  for (structure::LugRegion& lug : moved) lug.p_BPin.z() += 1e-3;
+  std::vector<structure::LiftingPoint> moved = lift.lugs();
+  for (structure::LiftingPoint& lug : moved) lug.p_BPin.z() += 1e-3;
   EXPECT_THROW(attach_block(lift.system(), lift.run.model.load, moved), std::runtime_error);
   EXPECT_THROW(attach_block(lift.system(), lift.run.model.hoists[0].hook, lift.lugs()),
                std::runtime_error);
@@ -207,7 +207,7 @@ TEST(LoadMapping, LoadTableIsBalancedByTheAccelerationThatItGives) {
   EXPECT_LT(imbalance(load), 1e-12);
   // A pull through the centre of mass gives no turn.
   const Vector3 c = lift.mass().centre_of_mass_B;
-  std::vector<structure::LugRegion> one = {lift.lugs()[0]};
+  std::vector<structure::LiftingPoint> one = {lift.lugs()[0]};
   one[0].p_BPin = Vector3(c.x(), c.y(), 5);
   const LoadCase plumb = map_load_table({Vector3(0, 0, 4e4)}, one, lift.mass());
   EXPECT_LT(plumb.field.angular_acceleration.norm(), 1e-12);

@@ -11,7 +11,7 @@
 #include "structure/elasticity/load.h"
 #include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 #include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {
@@ -147,7 +147,7 @@ TEST(Mass, CentreOutOfReachIsRefusedWithWhatTheSteelWeighs) {
 TEST(Load, LugForceHasItsResultantAndNoMomentAboutThePin) {
   const ElasticModel model = make_elastic_model(testing::small_block(), 3);
   for (int lug = 0; lug < model.lug_count(); ++lug) {
-    const Vector3 pin = model.mesh().lugs[static_cast<std::size_t>(lug)].p_BPin;
+    const Vector3 pin = model.mesh().lifting_points[static_cast<std::size_t>(lug)].p_BPin;
     for (int a = 0; a < 3; ++a) {
       const Wrench sum = resultant(model.space().nodes, model.lug_loads().col(3 * lug + a));
       EXPECT_LT((sum.force - Vector3::Unit(a)).norm(), 1e-10);

@@ -10,7 +10,7 @@
 
 #include "structure/error.h"
 #include "structure/response/block_envelope.h"
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/sample_history.h"
 
@@ -172,7 +172,7 @@ TEST(BlockEnvelope, IsTheLargestOfAllInstants) {
                           19000 + 4000 * std::sin(0.9 * t + 2 * lug));
       load_case.lug_forces_B.push_back(force);
       pull.force += force;
-      pull.moment += model.mesh().lugs[static_cast<std::size_t>(lug)].p_BPin.cross(force);
+      pull.moment += model.mesh().lifting_points[static_cast<std::size_t>(lug)].p_BPin.cross(force);
     }
     load_case.field = balancing_field(model.mass_properties(), pull);
     instants.push_back(load_case);

@@ -13,7 +13,7 @@
 #include "structure/output/surface.h"
 #include "structure/output/vtu.h"
 #include "structure/response/block_error.h"
-#include "structure/response/cell_stress.h"
+#include "structure/stress_tensor.h"
 #include "structure/response/flexibility.h"
 #include "structure/response/stress.h"
 #include "structure/response/unit_responses.h"
@@ -185,7 +185,7 @@ TEST(BlockErrorEstimate, IsOfTheTrueErrorsSizeAndFallsWithTheDegree) {
     const ElasticModel model = make_elastic_model(testing::small_block(), degree);
     if (degree == 1) {
       Wrench pull;
-      for (const LugRegion& lug : model.mesh().lugs) {
+      for (const LiftingPoint& lug : model.mesh().lifting_points) {
         pull.force += Vector3(0, 0, 20e3);
         pull.moment += lug.p_BPin.cross(Vector3(0, 0, 20e3));
       }

@@ -2,7 +2,7 @@
 import { History, known, PageData, State, states } from "./data";
 import { Child, Column, h, table } from "./dom";
 import { energyPlot } from "./histories";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import { fixed, missing, scientific, significant } from "./numbers";
 
 const left = (head: string): Column => ({ head, align: "left" });

@@ -5,7 +5,7 @@ import { Clock } from "./clock";
 import { measuredColour, stateColour } from "./colours";
 import { History, known, PackedSeries, PageData, Series, Stage, stageAt, State, states } from "./data";
 import { h } from "./dom";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import { change, fixed, kilonewtons, seconds, tonnesForce } from "./numbers";
 
 interface Peak { time: number; value: number }

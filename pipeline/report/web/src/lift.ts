@@ -6,7 +6,7 @@ import { stateColour } from "./colours";
 import { PageData, Scene, Series, stageAt, State, states } from "./data";
 import { checkbox, choice, h, slider } from "./dom";
 import { elevation, frameOf } from "./elevation";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import type { Vibration, VibrationPlayer } from "./modes";
 import { Bodies, boxCorners, inWorld, ropePath, Vector } from "./motion";
 import { kilonewtons, missing, seconds, significant, tonnesForce } from "./numbers";

@@ -2,7 +2,7 @@
 import { Clock } from "./clock";
 import { known, LoadMaxima, PageData, stageAt, State } from "./data";
 import { Child, Column, h, table } from "./dom";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import { change, fixed, kilonewtons, missing, ratio, seconds, share, tonnesForce } from "./numbers";
 
 function timeCell(data: PageData, clock: Clock, time: unknown): Child {

@@ -10,10 +10,9 @@ import { liftSection } from "./lift";
 import { loadsSection } from "./loads";
 import { modesSection, VibrationPlayer } from "./modes";
 import { padeyesSection } from "./padeyes";
+import { Section } from "./section";
 import { stressSection } from "./stress";
 import { structureSection } from "./structure";
-
-export interface Section { id: string; title: string; short?: string; content: Child }
 
 function clockOf(data: PageData): Clock {
   const histories = states.map((state) => data.histories[state]).filter((one) => one !== null);

@@ -2,7 +2,7 @@
 import { Clock } from "./clock";
 import { known, ModeShapes, NaturalMode, PageData, unpack } from "./data";
 import { Child, Column, h, table } from "./dom";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import type { Pose, Vector } from "./motion";
 import { fixed, missing, seconds, share, significant } from "./numbers";
 

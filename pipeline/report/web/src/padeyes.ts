@@ -2,7 +2,7 @@
 import { scaleCss } from "./colours";
 import { known, PadeyePicture, PadeyeSummary, PageData } from "./data";
 import { Child, h, svg, table } from "./dom";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import { inReportUnit, kilonewtons, megapascals, missing, scientific, seconds, share, significant } from "./numbers";
 
 const width = 300;  // of a picture, px

@@ -4,7 +4,7 @@ import * as three from "three";
 import { scaleColour, scaleCss } from "./colours";
 import { Field, known, PageData, State, states, Way } from "./data";
 import { checkbox, choice, h, slider } from "./dom";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import { fixed, megapascals, millimetres, seconds, significant } from "./numbers";
 import { StressPane, StressScale } from "./stress_pane";
 import { BlockSurface } from "./surface";

@@ -1,7 +1,7 @@
 // What the loads do to the block: three ways of taking maxima, lugs, balance, masses.
 import { known, PageData, Structure, StructureWay } from "./data";
 import { Child, Column, h, table } from "./dom";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import { change, fixed, megapascals, millimetres, missing, point, scientific, seconds, tonnes } from "./numbers";
 
 const left = (head: string): Column => ({ head, align: "left" });

@@ -1,7 +1,7 @@
 // The verdict, first on the page, and the checks it rests on.
 import { Check, known, LoadMaxima, PageData, Structure } from "./data";
 import { Child, h, table } from "./dom";
-import type { Section } from "./main";
+import type { Section } from "./section";
 import { change, inReportUnit, kilonewtons, megapascals, millimetres, missing, ratio, seconds, share, tonnesForce } from "./numbers";
 
 // What stands for the utilisation where nothing finite describes it: a rope that has gone slack.

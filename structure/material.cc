@@ -1,4 +1,4 @@
-#include "structure/mesh/material.h"
+#include "structure/material.h"
 
 #include <cmath>
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/material.h"
+#include "structure/material.h"
 
 namespace blocklift::structure {
 
@@ -19,5 +19,8 @@ double complementary_energy(const Material& material, const Stress& stress);
 
 /// Hooke's law on a displacement gradient du_a/dx_b.
 Stress stress_of_gradient(const Material& material, const Eigen::Matrix3d& gradient);
+
+/// Hooke's law in a plane without stress across it, of (e_11, e_22, 2 e_12), Pa.
+Eigen::Matrix3d plane_stress_law(const Material& material);
 
 }  // namespace blocklift::structure

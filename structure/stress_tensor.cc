@@ -1,6 +1,8 @@
-#include "structure/response/stress_state.h"
+#include "structure/stress_tensor.h"
 
 #include <cmath>
+
+#include <Eigen/Dense>
 
 namespace blocklift::structure {
 
@@ -24,6 +26,13 @@ Stress stress_of_gradient(const Material& material, const Eigen::Matrix3d& g) {
   stress << pressure + 2 * mu * g(0, 0), pressure + 2 * mu * g(1, 1), pressure + 2 * mu * g(2, 2),
       mu * (g(0, 1) + g(1, 0)), mu * (g(1, 2) + g(2, 1)), mu * (g(2, 0) + g(0, 2));
   return stress;
+}
+
+Eigen::Matrix3d plane_stress_law(const Material& material) {
+  const double nu = material.poisson_ratio;
+  Eigen::Matrix3d law;
+  law << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
+  return material.youngs_modulus / (1 - nu * nu) * law;
 }
 
 }  // namespace blocklift::structure

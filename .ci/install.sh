@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# The installation as others meet it, of the program in build/release: a program of somebody else finds the libraries
+# and simulates a pendulum with them; the Debian package's dependencies can be had, and what it holds runs from an
+# empty folder. (Unpacked, not installed: a root file system of its own takes longer than all else here.)
+source "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
+
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+
+say "Installing, and a program that stands on the installed libraries"
+cmake --install build/release --prefix "$place/usr" >/dev/null
+cmake -S tests/install -B "$place/somebody" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$place/usr" >/dev/null
+cmake --build "$place/somebody"
+ctest --test-dir "$place/somebody" --output-on-failure --no-tests=error
+
+say "Debian packages"
+(cd "$place" && cpack --config "$OLDPWD/build/release/CPackConfig.cmake" >/dev/null)
+for package in "$place"/*.deb; do
+  echo "$(basename "$package"): $(dpkg-deb --field "$package" Depends)"
+  apt-get install --simulate -qq "$package" >/dev/null
+done
+dpkg-deb --extract "$place"/blocklift_*.deb "$place/clean"
+clean() { (cd "$place/clean" && env -i HOME="$place/clean" PATH=/usr/bin:/bin "$@"); }
+clean usr/bin/blocklift --version
+clean usr/bin/blocklift validate usr/share/blocklift/cases/goliath-turnover
+clean usr/bin/blocklift simulate usr/share/blocklift/models/mechanisms/slider-crank -o result >/dev/null
+test -s "$place/clean/result/report.html"
+grep -q 'three.*licence' "$place/clean/result/report.html"
+grep -q '^\.SS assess' "$place/clean/usr/share/man/man1/blocklift.1"
+
+say "Completion"
+source "$place/clean/usr/share/bash-completion/completions/blocklift"
+completed() {
+  COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
+  _blocklift
+  printf '%s ' "${COMPREPLY[@]}"
+}
+[ "$(completed blocklift ass)" = "assess " ]
+[ "$(completed blocklift stress --calc)" = "--calculix " ]
+[ "$(completed blocklift hydro --export b)" = "bemio " ]
+echo "commands, options and words are completed"

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "structure/mesh/plates/sheets.h"
+
+namespace blocklift::structure {
+
+/// Rectangle between cuts that belongs to one sheet.
+struct Panel {
+  int normal = 0;
+  /// Places of its corners among the planes of each axis; alike along the normal.
+  std::array<int, 3> lower{}, upper{};
+  std::vector<int> sheets;  ///< that lie here
+  int owner = 0;            ///< the one of them that it belongs to
+};
+
+/// Mid-planes of all sheets, cut into rectangles that meet along whole edges.
+///
+/// Along each axis lie planes through the mid-planes and the edges of sheets and openings. An edge that
+/// ends within the thickness of another sheet is led to that sheet's mid-plane. Of each plane's cuts
+/// stay those that something needs: a piece of steel that is connected along the plane is cut throughout
+/// or not at all.
+class SheetGrid {
+ public:
+  /// @throws ModelError if two parallel planes of sheets are nearer to one another than their thickness,
+  ///   a sheet lies within another's thickness, or the grid would not fit into any memory.
+  explicit SheetGrid(std::vector<Sheet> sheets);
+
+  const std::vector<Sheet>& sheets() const { return sheets_; }
+  /// Places of the planes along an axis, ascending, m.
+  const std::vector<double>& planes(int axis) const {
+    return planes_[static_cast<std::size_t>(axis)];
+  }
+  /// Conforming: two of them share a whole edge, a corner or nothing.
+  std::vector<Panel> panels() const;
+
+ private:
+  using Place = std::array<int, 3>;
+
+  int count(int axis) const { return static_cast<int>(planes(axis).size()); }
+  std::size_t index(const Place& place) const {
+    const auto row =
+        static_cast<std::size_t>(place[2]) * planes_[1].size() + static_cast<std::size_t>(place[1]);
+    return row * planes_[0].size() + static_cast<std::size_t>(place[0]);
+  }
+  /// Signature of the rectangle normal to an axis from a point of the grid upwards; 0: no steel.
+  int face(int normal, const Place& place) const {
+    return faces_[static_cast<std::size_t>(normal)][index(place)];
+  }
+  void check_stations(int axis) const;
+  bool reaches(const Sheet& sheet, const Sheet& end, int axis) const;
+  double snapped(int axis, double coordinate, const Sheet* end) const;
+  void collect_planes(int axis);
+  int plane_at(int axis, double coordinate) const;
+  Panel box_of(const Sheet& sheet) const;
+  Panel box_of_hole(const Sheet& sheet, const std::array<Interval, 3>& hole) const;
+  void fill();
+  bool is_cut_at(int axis, const Place& point) const;
+  void find_cuts(int axis, int plane);
+
+  std::vector<Sheet> sheets_;
+  std::array<std::vector<double>, 3> planes_;
+  std::vector<std::vector<int>> signatures_;  ///< sets of sheets that occur
+  std::vector<int> owners_;                   ///< of each of them; -1: none
+  std::array<std::vector<int>, 3> faces_;     ///< by normal and point
+  std::array<std::vector<char>, 3> is_kept_;  ///< by axis and point: lines along the axis end here
+};
+
+}  // namespace blocklift::structure

@@ -1,0 +1,291 @@
+#include "structure/mesh/plates/shell_generator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "structure/error.h"
+#include "structure/index.h"
+#include "structure/mesh/plates/sheet_grid.h"
+#include "structure/mesh/plates/sheets.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+constexpr double most_shells = 5e6;
+
+using Place = std::array<int, 3>;
+using PanelEdge = std::pair<Place, Place>;
+
+std::array<PanelEdge, 4> edges_of(const Panel& panel) {
+  const std::size_t u = at((panel.normal + 1) % 3);
+  Place right = panel.lower, left = panel.upper;
+  right[u] = panel.upper[u];
+  left[u] = panel.lower[u];
+  return {{{panel.lower, right}, {left, panel.upper}, {panel.lower, left}, {right, panel.upper}}};
+}
+
+/// Division of what lies between two planes into equal parts, the same wherever it occurs.
+class Divisions {
+ public:
+  Divisions(const SheetGrid& grid, double largest_element)
+      : grid_(grid), largest_element_(largest_element) {
+    if (!(largest_element > 0))
+      throw ModelError(
+          fmt::format("the largest element is {:g} m; it must be positive", largest_element));
+    for (int axis = 0; axis < 3; ++axis) coordinates_[at(axis)] = grid.planes(axis);
+  }
+
+  double parts(int axis, int lower, int upper) const {
+    const std::vector<double>& planes = grid_.planes(axis);
+    return std::max(1.0,
+                    std::ceil((planes[at(upper)] - planes[at(lower)]) / largest_element_ - 1e-9));
+  }
+  /// Number of the coordinate after some of the parts.
+  int number(int axis, int lower, int upper, int part) {
+    const auto count = static_cast<int>(parts(axis, lower, upper));
+    if (part == 0) return lower;
+    if (part == count) return upper;
+    std::vector<double>& coordinates = coordinates_[at(axis)];
+    const auto [entry, is_new] =
+        numbers_.try_emplace({axis, lower, upper, part}, static_cast<int>(coordinates.size()));
+    if (is_new)
+      coordinates.push_back(coordinates[at(lower)] +
+                            (coordinates[at(upper)] - coordinates[at(lower)]) * part / count);
+    return entry->second;
+  }
+  double coordinate(int axis, int number) const { return coordinates_[at(axis)][at(number)]; }
+
+ private:
+  const SheetGrid& grid_;
+  double largest_element_;
+  std::array<std::vector<double>, 3> coordinates_;
+  std::map<std::tuple<int, int, int, int>, int> numbers_;
+};
+
+void check_size(const std::vector<Panel>& panels, const Divisions& divisions,
+                double largest_element) {
+  double shells = 0;
+  for (const Panel& panel : panels) {
+    double here = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis != panel.normal)
+        here *= divisions.parts(axis, panel.lower[at(axis)], panel.upper[at(axis)]);
+    shells += here;
+  }
+  if (shells > most_shells)
+    throw ModelError(
+        fmt::format("elements of at most {:g} m make {:.2g} shells, and {:.2g} are "
+                    "allowed; use larger elements",
+                    largest_element, shells, most_shells));
+}
+
+/// Makes the shells of panels, on common vertices.
+class ShellMaker {
+ public:
+  ShellMaker(Divisions divisions, Mesh& mesh) : divisions_(std::move(divisions)), mesh_(mesh) {}
+
+  void add(const Panel& panel, int section) {
+    const int u = (panel.normal + 1) % 3, v = (panel.normal + 2) % 3;
+    const auto parts = [&](int axis) {
+      return static_cast<int>(divisions_.parts(axis, panel.lower[at(axis)], panel.upper[at(axis)]));
+    };
+    for (int j = 0; j < parts(v); ++j)
+      for (int i = 0; i < parts(u); ++i) {
+        Shell shell;
+        for (int corner = 0; corner < 4; ++corner) {
+          Place place = panel.lower;
+          for (const auto& [axis, part] : {std::pair{u, i + corner % 2}, {v, j + corner / 2}})
+            place[at(axis)] =
+                divisions_.number(axis, panel.lower[at(axis)], panel.upper[at(axis)], part);
+          shell.vertices[at(corner)] = vertex(place);
+        }
+        shell.section = section;
+        shell.region = panel.owner;
+        shell.label = static_cast<long>(mesh_.shells.size()) + 1;
+        mesh_.shells.push_back(shell);
+      }
+  }
+
+ private:
+  int vertex(const Place& place) {
+    const auto [entry, is_new] =
+        vertices_.try_emplace(place, static_cast<int>(mesh_.vertices.size()));
+    if (is_new) {
+      mesh_.vertices.emplace_back(divisions_.coordinate(0, place[0]),
+                                  divisions_.coordinate(1, place[1]),
+                                  divisions_.coordinate(2, place[2]));
+      mesh_.vertex_labels.push_back(static_cast<long>(mesh_.vertices.size()));
+    }
+    return entry->second;
+  }
+
+  Divisions divisions_;
+  Mesh& mesh_;
+  std::map<Place, int> vertices_;
+};
+
+void add_groups_and_regions(const BlockDescription& block, const std::vector<Sheet>& sheets,
+                            Mesh& mesh) {
+  mesh.materials = block.materials;
+  for (const auto& plate : block.plates) mesh.groups.push_back({plate.name, 0});
+  for (const auto& pad : block.pads) mesh.groups.push_back({pad.name, 0});
+  for (const auto& lug : block.lugs) mesh.groups.push_back({lug.name, 0});
+  for (const Sheet& sheet : sheets) {
+    mesh.groups[at(sheet.group)].material = sheet.material;
+    mesh.regions.push_back({sheet.name, sheet.group, sheet.rank == SheetRank::lug});
+  }
+}
+
+/// Place of a sheet's thickness and material among the mesh's sections.
+int section_of(const Sheet& sheet, Mesh& mesh) {
+  const auto known = std::find_if(
+      mesh.shell_sections.begin(), mesh.shell_sections.end(), [&](const ShellSection& section) {
+        return section.thickness == sheet.thickness && section.material == sheet.material;
+      });
+  const auto place = static_cast<int>(known - mesh.shell_sections.begin());
+  if (known == mesh.shell_sections.end())
+    mesh.shell_sections.push_back({sheet.thickness, sheet.material, 0});
+  return place;
+}
+
+/// Numbers of the parts that hang together along edges, a panel each.
+std::vector<int> joined_parts(const std::vector<Panel>& panels) {
+  std::map<PanelEdge, std::vector<int>> meeting;
+  for (std::size_t p = 0; p < panels.size(); ++p)
+    for (const PanelEdge& edge : edges_of(panels[p])) meeting[edge].push_back(static_cast<int>(p));
+  std::vector<int> part(panels.size(), -1);
+  int parts = 0;
+  std::vector<int> front;
+  for (std::size_t start = 0; start < panels.size(); ++start) {
+    if (part[start] >= 0) continue;
+    front.assign(1, static_cast<int>(start));
+    part[start] = parts;
+    while (!front.empty()) {
+      const Panel& panel = panels[at(front.back())];
+      front.pop_back();
+      for (const PanelEdge& edge : edges_of(panel))
+        for (const int next : meeting[edge])
+          if (std::exchange(part[at(next)], parts) < 0) front.push_back(next);
+    }
+    ++parts;
+  }
+  return part;
+}
+
+double area_of(const SheetGrid& grid, const Panel& panel) {
+  double area = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != panel.normal)
+      area *= grid.planes(axis)[at(panel.upper[at(axis)])] -
+              grid.planes(axis)[at(panel.lower[at(axis)])];
+  return area;
+}
+
+void check_joined(const SheetGrid& grid, const std::vector<Panel>& panels) {
+  const std::vector<int> part = joined_parts(panels);
+  const int parts = *std::max_element(part.begin(), part.end()) + 1;
+  if (parts == 1) return;
+  std::vector<double> area(at(parts), 0);
+  std::vector<std::set<std::string>> names(at(parts));
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    area[at(part[p])] += area_of(grid, panels[p]);
+    for (const int s : panels[p].sheets) names[at(part[p])].insert(grid.sheets()[at(s)].name);
+  }
+  const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
+  std::string list;
+  int named = 0;
+  for (int p = 0; p < parts; ++p) {
+    if (p == largest) continue;
+    for (const std::string& name : names[at(p)])
+      if (named++ < 8) list += (list.empty() ? "" : ", ") + name;
+  }
+  if (named > 8) list += fmt::format(" and {} more", named - 8);
+  throw ModelError("not joined to the rest of the block: " + list +
+                   "; extend them until they reach another plate");
+}
+
+// A lug stands on its pad when they share a panel, or panels of theirs share an edge.
+void check_lug_on_pad(const std::vector<Panel>& panels, const Lug& lug, int lug_sheet,
+                      int pad_sheet) {
+  const auto has = [](const Panel& panel, int sheet) {
+    return std::find(panel.sheets.begin(), panel.sheets.end(), sheet) != panel.sheets.end();
+  };
+  std::set<PanelEdge> lug_edges;
+  for (const Panel& panel : panels) {
+    if (!has(panel, lug_sheet)) continue;
+    if (has(panel, pad_sheet)) return;
+    for (const PanelEdge& edge : edges_of(panel)) lug_edges.insert(edge);
+  }
+  for (const Panel& panel : panels)
+    if (has(panel, pad_sheet))
+      for (const PanelEdge& edge : edges_of(panel))
+        if (lug_edges.count(edge) != 0) return;
+  throw ModelError("lug \"" + lug.name + "\" does not touch its pad \"" + lug.pad +
+                   "\"; let its plate end on the pad's edge or lie in it");
+}
+
+void add_lifting_point(const Lug& lug, int lug_sheet, int pad_sheet, Mesh& mesh) {
+  LiftingPoint point{lug.name, lug.p_BPin, lug_sheet, pad_sheet, 0};
+  double size = 0, reach = 1e300;
+  for (const Shell& shell : mesh.shells) {
+    if (shell.region != lug_sheet && shell.region != pad_sheet) continue;
+    const Vector3& first = mesh.vertices[at(shell.vertices[0])];
+    for (const int v : shell.vertices) {
+      const double distance = (mesh.vertices[at(v)] - lug.p_BPin).norm();
+      point.radius = std::max(point.radius, distance);
+      if (shell.region != lug_sheet) continue;
+      reach = std::min(reach, distance);
+      size = std::max(size, (mesh.vertices[at(v)] - first).norm());
+    }
+  }
+  if (reach > 2 * size + 0.5)
+    throw ModelError(fmt::format("the pin of lug \"{}\" lies {:g} m away from the lug's plate",
+                                 lug.name, reach));
+  mesh.lifting_points.push_back(point);
+}
+
+void add_lifting_points(const BlockDescription& block, const SheetGrid& grid,
+                        const std::vector<Panel>& panels, Mesh& mesh) {
+  const auto first_lug = static_cast<int>(grid.sheets().size() - block.lugs.size());
+  const int first_pad = first_lug - static_cast<int>(block.pads.size());
+  for (std::size_t i = 0; i < block.lugs.size(); ++i) {
+    const Lug& lug = block.lugs[i];
+    const auto pad = std::find_if(block.pads.begin(), block.pads.end(),
+                                  [&](const Pad& known) { return known.name == lug.pad; });
+    const int lug_sheet = first_lug + static_cast<int>(i);
+    const int pad_sheet = first_pad + static_cast<int>(pad - block.pads.begin());
+    check_lug_on_pad(panels, lug, lug_sheet, pad_sheet);
+    add_lifting_point(lug, lug_sheet, pad_sheet, mesh);
+  }
+}
+
+}  // namespace
+
+Mesh generate_shell_mesh(const BlockDescription& block) {
+  const SheetGrid grid(spread_into_sheets(block));
+  const std::vector<Panel> panels = grid.panels();
+  Divisions divisions(grid, block.largest_element);
+  check_size(panels, divisions, block.largest_element);
+  check_joined(grid, panels);
+  Mesh mesh;
+  add_groups_and_regions(block, grid.sheets(), mesh);
+  ShellMaker maker(std::move(divisions), mesh);
+  for (const Panel& panel : panels)
+    maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
+  add_lifting_points(block, grid, panels, mesh);
+  return mesh;
+}
+
+}  // namespace blocklift::structure
