@@ -41,11 +41,11 @@ class PadeyeRun {
     result_.placed = *place_padeye(design, block, lug, faults);  // whole: checked when it was read
     result_.consequence_factor = lift_case.checks.lug_consequence_factor;
     structure::PadeyeFormulaInput& input = result_.input;
-    const structure::BlockMesh& mesh = responses.model().mesh();
-    const int group = mesh.lugs[static_cast<std::size_t>(lug_index)].group;
+    const structure::Mesh& mesh = responses.model().mesh();
+    const int region = mesh.lifting_points[static_cast<std::size_t>(lug_index)].region;
     input.geometry = result_.placed.geometry;
-    input.material = mesh.materials[static_cast<std::size_t>(
-        mesh.groups[static_cast<std::size_t>(group)].material)];
+    input.material =
+        mesh.materials[static_cast<std::size_t>(mesh.group_of_region(region).material)];
     input.cheek_weld = design.cheek_weld;
     input.jaw = design.jaw;
     input.tensile_strength = design.tensile_strength;

@@ -17,9 +17,9 @@ namespace blocklift::structure {
 
 namespace {
 
-constexpr double largest_spacing = 0.5;    // m, between squares
-constexpr double corner_reach = 3;         // squares from a singular vertex
-constexpr int contiguous = 4;              // squares one behind the other from a corner
+constexpr double largest_spacing = 0.5;  // m, between squares
+constexpr double corner_reach = 3;       // squares from a singular vertex
+constexpr int contiguous = 4;            // squares one behind the other from a corner
 
 /// Gauss points on [0, 1].
 constexpr std::array<double, 4> side_points{0.06943184420297371, 0.33000947820757187,
@@ -49,8 +49,8 @@ std::array<ContourPoint, 16> contour(const Square& square) {
 ShellPlace place_of(const FieldEdge& edge, double s) {
   for (const FieldEdge::Piece& piece : edge.pieces) {
     if (s <= piece.length || &piece == &edge.pieces.back())
-      return {piece.shell, piece.begin + std::clamp(s / piece.length, 0.0, 1.0) *
-                                             (piece.end - piece.begin)};
+      return {piece.shell,
+              piece.begin + std::clamp(s / piece.length, 0.0, 1.0) * (piece.end - piece.begin)};
     s -= piece.length;
   }
   return {};
@@ -109,8 +109,9 @@ class SquarePlacer {
     const auto points = contour(square);
     return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
       const auto found = walker_.find(point.place, start);
-      return found && (position(mesh_, mesh_.shells[at(found->shell)], found->xi) - point.place)
-                              .norm() < 0.2 * square.size;
+      return found &&
+             (position(mesh_, mesh_.shells[at(found->shell)], found->xi) - point.place).norm() <
+                 0.2 * square.size;
     });
   }
 
@@ -132,7 +133,8 @@ class SquarePlacer {
     square.e_1 = (square.e_1 - normal * normal.dot(square.e_1)).normalized();
     square.e_2 = normal.cross(square.e_1);
     // On a curved edge either the chord or the tangent has the square inside.
-    for (const Vector3& base : {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
+    for (const Vector3& base :
+         {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
       square.centre_B = base + 0.5 * size * square.e_2;
       if (!lies_inside(square, middle)) continue;
       squares_.push_back(square);
@@ -224,6 +226,13 @@ CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& m
   evaluate(model, walker, motions, threads);
 }
 
+CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions,
+                             std::vector<Square> squares, int threads)
+    : squares_(std::move(squares)) {
+  const PlateFields fields = find_fields(model.mesh());
+  evaluate(model, FieldWalker(model.mesh(), fields), motions, threads);
+}
+
 void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walker,
                              const Eigen::MatrixXd& motions, int threads) {
   const Space& space = model.space();
@@ -242,7 +251,8 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
       const Shell& shell = model.mesh().shells[at(square.shell)];
       const ShellSection& section = model.mesh().section_of(shell);
       // The section's offset is along the shell's own normal.
-      const double side = normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
+      const double side =
+          normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
       strain.setZero();
       curvature.setZero();
       ShellPlace start{square.shell, {0.5, 0.5}};

@@ -11,11 +11,11 @@ namespace blocklift::structure {
 
 /// Square of plating over which the checked stress is a mean.
 struct Square {
-  Vector3 centre_B = Vector3::Zero();  ///< on the plate's surface, m
+  Vector3 centre_B = Vector3::Zero();                    ///< on the plate's surface, m
   Vector3 e_1 = Vector3::Zero(), e_2 = Vector3::Zero();  ///< along its sides
-  double size = 0;       ///< of a side, m
-  int region = 0;        ///< place in Mesh::regions
-  int shell = 0;         ///< place in Mesh::shells
+  double size = 0;                                       ///< of a side, m
+  int region = 0;                                        ///< place in Mesh::regions
+  int shell = 0;                                         ///< place in Mesh::shells
   bool at_corner = false;  ///< near a place where linear elasticity knows no limit of the stress
 };
 
@@ -32,6 +32,9 @@ class CheckedStress {
   /// @param motions freedoms x m, m and rad. The model must outlive this object.
   CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions, double size = 0.05,
                 int threads = 0);
+  /// The same of given squares of the same mesh.
+  CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions,
+                std::vector<Square> squares, int threads = 0);
 
   const std::vector<Square>& squares() const { return squares_; }
   /// Membrane von Mises stress of each square for factors of the m motions, Pa:
@@ -43,8 +46,8 @@ class CheckedStress {
   const Eigen::MatrixXd& bending() const { return bending_; }
 
  private:
-  void evaluate(const ElasticModel& model, const FieldWalker& walker, const Eigen::MatrixXd& motions,
-                int threads);
+  void evaluate(const ElasticModel& model, const FieldWalker& walker,
+                const Eigen::MatrixXd& motions, int threads);
 
   std::vector<Square> squares_;
   Eigen::MatrixXd components_, bending_;

@@ -106,9 +106,9 @@ void StressPoints::shell_stresses(int first, int count, const Eigen::MatrixXd& m
     }
     const auto& strain = shell_operator->points()[at(point % points_per_cell() / 2)].strain;
     const double height = point % 2 == 0 ? half : -half;
-    const Eigen::MatrixXd stress = law * ((strain.middleRows<3>(membrane_11) +
-                                           height * strain.middleRows<3>(curvature_11)) *
-                                          local);
+    const Eigen::MatrixXd stress =
+        law *
+        ((strain.middleRows<3>(membrane_11) + height * strain.middleRows<3>(curvature_11)) * local);
     rows.row(6 * i) = stress.row(0);
     rows.row(6 * i + 1) = stress.row(1);
     rows.row(6 * i + 3) = stress.row(2);
@@ -123,10 +123,10 @@ Eigen::RowVectorXd StressPoints::beam_stress(const BeamPointOf& point,
   const BeamPoint strained = beam_point(space_, point.cell, point.end);
   Eigen::MatrixXd local(6 * static_cast<Eigen::Index>(cell.nodes.size()), motions.cols());
   for (std::size_t i = 0; i < cell.nodes.size(); ++i)
-    local.middleRows<6>(6 * static_cast<Eigen::Index>(i)) = motions.middleRows<6>(6 * cell.nodes[i]);
+    local.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
+        motions.middleRows<6>(6 * cell.nodes[i]);
   const Eigen::MatrixXd strain = strained.strain * local;
-  const Material& material =
-      space_.mesh().materials[at(space_.mesh().section_of(beam).material)];
+  const Material& material = space_.mesh().materials[at(space_.mesh().section_of(beam).material)];
   return material.youngs_modulus *
          (strain.row(0) + point.at[1] * strain.row(4) - point.at[0] * strain.row(5));
 }
