@@ -94,31 +94,65 @@ void write_result_file(const Assessment& assessment, const fs::path& path) {
 }
 
 /// Water that presses on the block's shell joins its loads.
-void find_pressure(const LiftRun& lift, BlockRun& block) {
+void find_pressure(const LiftRun& lift, const structure::ElasticModel& model,
+                   structure::UnitResponses& responses, std::optional<PressureBasis>& pressure) {
   const dynamics::HullForce* in_motion = find_hull(lift.model.system, lift.model.load);
   const dynamics::HullForce* at_rest = find_hull(lift.model.at_rest(), lift.model.load);
   if (!in_motion || !at_rest) return;
-  const Eigen::Matrix3Xd& nodes = block.model->space().nodes;
+  const Eigen::Matrix3Xd& nodes = model.space().nodes();
   PressureSettings settings;
   settings.region_size = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff() /
                          regions_along_the_shell;
-  block.pressure = find_pressure_basis(*block.model, *at_rest, lift.static_history, *in_motion,
-                                       lift.dynamic_history(), settings);
-  if (block.pressure) block.responses->add_loads(block.pressure->loads);
+  pressure = find_pressure_basis(model, *at_rest, lift.static_history, *in_motion,
+                                 lift.dynamic_history(), settings);
+  if (pressure) responses.add_loads(pressure->loads);
 }
 
-/// Stresses of a block that was lifted.
-void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
-                         const structure::StressRecovery& recovery, const Progress& progress,
-                         BlockRun& block) {
-  BlockAttachment attachment =
-      attach_block(lift.model.system, lift.model.load, block.model->mesh().lifting_points);
-  BlockHistory at_rest = lift.static_history, in_motion = lift.dynamic_history();
-  if (block.pressure) {
+/// What pulls and presses on a lifted block, at rest and in motion.
+struct BlockLoads {
+  BlockLoads(const LiftRun& lift, const BlockRun& block)
+      : attachment(
+            attach_block(lift.model.system, lift.model.load, block.model->mesh().lifting_points)),
+        at_rest(lift.static_history),
+        in_motion(lift.dynamic_history()) {
+    if (!block.pressure) return;
     attachment.pressure_resultants = block.pressure->resultants;
     at_rest.pressure = block.pressure->static_factors;
     in_motion.pressure = block.pressure->dynamic_factors;
   }
+  BlockAttachment attachment;
+  BlockHistory at_rest, in_motion;
+};
+
+/// Divides elements until the checked stress stands.
+void refine(const LiftCase& the_case, const LiftRun* lift, const Eigen::MatrixXd& static_factors,
+            const Eigen::MatrixXd& dynamic_factors, BlockRun& block) {
+  const auto prepare = [&](const structure::ElasticModel& model,
+                           structure::UnitResponses& responses) {
+    if (lift) find_pressure(*lift, model, responses, block.pressure);
+  };
+  structure::RefinedBlock refined = structure::refine_checked_stress(
+      std::move(block.model), std::move(block.responses), static_factors, dynamic_factors, prepare,
+      {the_case.structure.accuracy, the_case.structure.most_unknowns});
+  block.model = std::move(refined.model);
+  block.responses = std::move(refined.responses);
+  block.accuracy = std::move(refined.accuracy);
+}
+
+/// Stresses of a block that was lifted.
+void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Progress& progress,
+                         BlockRun& block) {
+  find_pressure(lift, *block.model, *block.responses, block.pressure);
+  progress("block: division of elements", 0.4, "");
+  {
+    const BlockLoads loads(lift, block);
+    refine(the_case, &lift, factors_of(*block.responses, loads.attachment, loads.at_rest),
+           factors_of(*block.responses, loads.attachment, loads.in_motion), block);
+  }
+  progress("block: stresses", 0.5, "");
+  const BlockLoads loads(lift, block);
+  const auto& [attachment, at_rest, in_motion] = loads;
+  const structure::StressRecovery recovery(*block.responses);
   block.assessment = assess_block(*block.responses, recovery, attachment, at_rest, in_motion);
   progress("block: every instant", 0.7, "");
   block.history = assess_history(*block.responses, recovery, attachment, at_rest, in_motion,
@@ -127,6 +161,23 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
   block.buckling = assess_buckling(the_case, *block.responses, *block.history);
   progress("block: padeyes", 0.9, "");
   block.padeyes = assess_padeyes(the_case, *block.responses, attachment, at_rest, in_motion);
+}
+
+/// Stresses under a table of loads.
+void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& block) {
+  const LoadTable& table = *the_case.load_table;
+  const auto& lugs = block.model->mesh().lifting_points;
+  const auto static_forces = table_forces(table, table.static_loads, lugs);
+  const auto dynamic_forces = table_forces(table, table.dynamic_loads, lugs);
+  const auto factors = [&](const std::vector<structure::Vector3>& forces) -> Eigen::MatrixXd {
+    return block.responses->coefficients(
+        map_load_table(forces, lugs, block.model->mass_properties()));
+  };
+  progress("block: division of elements", 0.4, "");
+  refine(the_case, nullptr, factors(static_forces), factors(dynamic_forces), block);
+  progress("block: stresses", 0.5, "");
+  const structure::StressRecovery recovery(*block.responses);
+  block.assessment = assess_load_table(*block.responses, recovery, static_forces, dynamic_forces);
 }
 
 }  // namespace
@@ -151,7 +202,6 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
                                  the_case.structure, diagnostics);
   if (!block.model) throw InputError(diagnostics);
   block.mesh_s = watch.lap();
-  const auto& lugs = block.model->mesh().lifting_points;
 
   const auto respond = [&] {
     progress("block: stiffness, factorisation, unit responses", 0, "");
@@ -170,16 +220,10 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     assessment.checks = check_lift(the_case, *assessment.lift);
   }
   if (!block.responses) respond();
-  if (assessment.lift) find_pressure(*assessment.lift, block);
-  progress("block: stresses", 0.5, "");
-  const structure::StressRecovery recovery(*block.responses);
   if (assessment.lift) {
-    assess_lifted_block(the_case, *assessment.lift, recovery, progress, block);
+    assess_lifted_block(the_case, *assessment.lift, progress, block);
   } else {
-    const LoadTable& table = *the_case.load_table;
-    block.assessment =
-        assess_load_table(*block.responses, recovery, table_forces(table, table.static_loads, lugs),
-                          table_forces(table, table.dynamic_loads, lugs));
+    assess_table(the_case, progress, block);
     block.buckling = assess_buckling(the_case, *block.responses, block.assessment);
     block.padeyes = assess_padeyes(the_case, *block.responses, block.assessment);
   }

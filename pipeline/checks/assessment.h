@@ -11,6 +11,7 @@
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/lift/history_assessment.h"
 #include "pipeline/lift/lift_run.h"
+#include "structure/response/accuracy.h"
 #include "structure/response/block_error.h"
 
 namespace blocklift::pipeline {
@@ -22,6 +23,7 @@ struct BlockRun {
   std::unique_ptr<structure::UnitResponses> responses;
   BlockAssessment assessment;
   std::optional<HistoryAssessment> history;  ///< every sample of the lift; none for a load table
+  structure::CheckedAccuracy accuracy;       ///< of the checked stress
   structure::BlockError error;               ///< estimated, at the load that governs the stress
   BucklingAssessment buckling;               ///< of every panel
   PadeyesAssessment padeyes;                 ///< of lugs that are made as padeyes

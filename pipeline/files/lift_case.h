@@ -172,7 +172,9 @@ struct FatigueSettings {
 
 struct StructureSettings {
   int element_degree = 0;
-  double largest_element = 0;                   ///< m
+  double largest_element = 0;   ///< m
+  double accuracy = 0.03;       ///< of the checked stress and of its increase, share
+  int most_unknowns = 1000000;  ///< that are spent on it
   std::vector<Named<Vector3>> stress_points{};  ///< whose stress is followed in time, in B, m
   FatigueSettings fatigue{};
   std::vector<HotSpotInFile> hot_spots{};  ///< weld toes of the block, in B

@@ -233,13 +233,22 @@ Format<StructureSettings> structure_format() {
   Table<StructureSettings> table("structure settings", "How the stress is computed.");
   table
       .by_default("element_degree", &StructureSettings::element_degree,
-                  integer(Range::between(1, 4)), "3", "polynomial degree of the hexahedra")
+                  integer(Range::between(1, 4)), "3", "polynomial degree of shells and beams")
       .by_default("largest_element", &StructureSettings::largest_element,
                   quantity(Dimension::length, Range::between(0.01, 100)), "2 m",
-                  "longest edge of an element")
+                  "longest edge of an element, before any are divided for accuracy")
+      .by_default(
+          "accuracy", &StructureSettings::accuracy,
+          quantity(Dimension::ratio, Range::between(0.001, 1)), "3 %",
+          "elements about the largest checked stresses are divided until these, at rest and "
+          "in motion, and the increase between them change by less; the report says by how "
+          "much they still moved")
+      .by_default("most_unknowns", &StructureSettings::most_unknowns,
+                  integer(Range::between(1000, 100000000)), "1000000",
+                  "no finer elements are tried than make so many unknowns")
       .optional("stress_points", &StructureSettings::stress_points, names_to(position_format()),
                 "places in the block's frame whose stress is followed in time, each at the nearest "
-                "patch of the checked stress; if left out, the hot spot of the lift and that of "
+                "square of the checked stress; if left out, the hot spot of the lift and that of "
                 "each lug")
       .optional("hot_spots", &StructureSettings::hot_spots, hot_spots_format(),
                 "weld toes of the block, by name, in its frame: structural stress in time, cycles "

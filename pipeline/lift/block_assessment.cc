@@ -142,7 +142,8 @@ BlockAssessment assess_load_table(const structure::UnitResponses& responses,
   Stopwatch watch;
   const structure::ElasticModel& model = responses.model();
   const auto state_of = [&](const std::vector<structure::Vector3>& forces_B, const char* name) {
-    return make_state(map_load_table(forces_B, model.mesh().lifting_points, model.mass_properties()), name);
+    return make_state(
+        map_load_table(forces_B, model.mesh().lifting_points, model.mass_properties()), name);
   };
   std::vector<BlockState> states{state_of(static_forces_B, "static loads of the table"),
                                  state_of(dynamic_forces_B, "dynamic loads of the table")};

@@ -7,7 +7,7 @@
 #include "pipeline/build/build_lift.h"
 #include "pipeline/build/describe_block.h"
 #include "structure/error.h"
-#include "structure/mesh/plates/block_generator.h"
+#include "structure/mesh/plates/shell_generator.h"
 #include "structure/practice/hot_spot.h"
 #include "structure/response/block_field.h"
 
@@ -16,13 +16,13 @@ namespace blocklift::pipeline {
 namespace {
 
 /// Complains about weld toes that are read where the block has no material.
-bool check_hot_spots(const StructureSettings& settings, const structure::BlockMesh& mesh,
+bool check_hot_spots(const StructureSettings& settings, const structure::Space& space,
                      Diagnostics& diagnostics) {
   bool inside = true;
   for (const HotSpotInFile& asked : settings.hot_spots) {
     const structure::HotSpot spot{asked.toe, asked.direction, asked.thickness};
     for (const Vector3& place : spot.places()) {
-      if (structure::find_cell(mesh, place).cell >= 0) continue;
+      if (structure::find_cell(space, place).cell >= 0) continue;
       inside = false;
       diagnostics.error(asked.name.mark,
                         fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, where the "
@@ -45,9 +45,10 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
     const structure::BlockDescription description =
         describe_block(block, name, settings.largest_element);
     auto model = std::make_unique<structure::ElasticModel>(
-        structure::generate_block_mesh(description), settings.element_degree,
-        description.total_mass, description.centre_of_mass_B);
-    return check_hot_spots(settings, model->mesh(), diagnostics) ? std::move(model) : nullptr;
+        structure::generate_shell_mesh(description),
+        structure::Resolution{settings.element_degree, {}}, description.total_mass,
+        description.centre_of_mass_B);
+    return check_hot_spots(settings, model->space(), diagnostics) ? std::move(model) : nullptr;
   } catch (const structure::ModelError& error) {
     diagnostics.error(block.place, error.what());
     return nullptr;
@@ -57,7 +58,10 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
 void check_block_model(const BlockModel& block, const std::string& name, Diagnostics& diagnostics) {
   constexpr int coarse_degree = 1;
   constexpr double coarse_element = 100;  // m: cuts where plates meet, and no others
-  make_block_model(block, name, {coarse_degree, coarse_element}, diagnostics);
+  StructureSettings settings;
+  settings.element_degree = coarse_degree;
+  settings.largest_element = coarse_element;
+  make_block_model(block, name, settings, diagnostics);
 }
 
 }  // namespace blocklift::pipeline

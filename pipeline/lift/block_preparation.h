@@ -4,7 +4,7 @@
 #include <string>
 
 #include "pipeline/files/lift_case.h"
-#include "structure/elasticity/elastic_model.h"
+#include "structure/response/elastic_model.h"
 
 namespace blocklift::pipeline {
 

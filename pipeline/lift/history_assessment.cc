@@ -40,6 +40,7 @@ class StateMaker {
         structure::find_block_envelope(responses_, recovery, state_.factors);
     state_.places = envelope.places;
     state_.checked_von_mises = named(envelope.checked_von_mises);
+    state_.field_von_mises = named(envelope.field_von_mises);
     state_.peak_von_mises = named(envelope.peak_von_mises);
     state_.largest_principal = named(envelope.largest_principal);
     state_.smallest_principal = named(envelope.smallest_principal);
@@ -49,7 +50,7 @@ class StateMaker {
           {group.group, group.material, group.yield_stress, named(group.checked_von_mises)});
     for (const structure::LugEnvelope& lug : envelope.lugs)
       state_.lugs.push_back({lug.lug, {}, 0, named(lug.checked_von_mises)});
-    take_patches(recovery.membrane(), envelope.patches);
+    take_squares(recovery.checked(), envelope.squares);
     state_.governing =
         map_instant(history_, state_.checked_von_mises.at.instant, attachment_, mass_);
     state_.governing.name = fmt::format("largest {} checked stress of the lift", name_);
@@ -59,12 +60,9 @@ class StateMaker {
  private:
   void load() {
     state_.time = history_.motion.time;
-    state_.factors.resize(responses_.count(), history_.sample_count());
-    for (Eigen::Index sample = 0; sample < history_.sample_count(); ++sample) {
-      const structure::LoadCase load_case = map_instant(history_, sample, attachment_, mass_);
-      state_.factors.col(sample) = responses_.coefficients(load_case);
-      take_balance(load_case, sample);
-    }
+    state_.factors = factors_of(responses_, attachment_, history_);
+    for (Eigen::Index sample = 0; sample < history_.sample_count(); ++sample)
+      take_balance(map_instant(history_, sample, attachment_, mass_), sample);
   }
 
   // The last six factors are the rigid acceleration that a load case lacks in balance.
@@ -114,16 +112,16 @@ class StateMaker {
     return result;
   }
 
-  void take_patches(const structure::MembraneStress& membrane,
+  void take_squares(const structure::CheckedStress& checked,
                     const structure::PointExtremes& von_mises) {
-    state_.patch_von_mises = von_mises.value;
-    state_.patch_time.resize(von_mises.value.size());
-    state_.patch_rope.resize(von_mises.value.size());
+    state_.square_von_mises = von_mises.value;
+    state_.square_time.resize(von_mises.value.size());
+    state_.square_rope.resize(von_mises.value.size());
     const auto take = [&](int first, int count) {
       for (int p = first; p < first + count; ++p) {
-        state_.patch_time[p] = history_.motion.time(von_mises.instant[p]);
-        state_.patch_rope[p] =
-            governing_rope(structure::unit_stress_of_patch(membrane, p), von_mises.instant[p])
+        state_.square_time[p] = history_.motion.time(von_mises.instant[p]);
+        state_.square_rope[p] =
+            governing_rope(structure::unit_stress_of_square(checked, p), von_mises.instant[p])
                 .first;
       }
     };
@@ -138,9 +136,9 @@ class StateMaker {
   HistoryState state_;
 };
 
-// A practice's checked stress at each patch, set against the envelope.
-PracticeComparison compare_practice(const structure::BlockMesh& mesh,
-                                    const structure::MembraneStress& membrane,
+// A practice's checked stress at each square, set against the envelope.
+PracticeComparison compare_practice(const structure::Mesh& mesh,
+                                    const structure::CheckedStress& checked,
                                     const Eigen::VectorXd& practice,
                                     const Eigen::VectorXd& envelope) {
   PracticeComparison comparison;
@@ -154,22 +152,22 @@ PracticeComparison compare_practice(const structure::BlockMesh& mesh,
     const double percent = percent_above(practice[p], envelope[p]);
     if (percent < -1) ++short_of;
     if (percent >= comparison.worst_percent) continue;
-    const structure::Patch& patch = membrane.patches()[static_cast<std::size_t>(p)];
+    const structure::Square& square = checked.squares()[static_cast<std::size_t>(p)];
     comparison.worst_percent = percent;
-    comparison.worst = {envelope[p], patch.centre_B,
-                        mesh.sheet_names[static_cast<std::size_t>(patch.sheet)]};
+    comparison.worst = {envelope[p], square.centre_B,
+                        mesh.regions[static_cast<std::size_t>(square.region)].name};
   }
-  comparison.patches_short = looked_at > 0 ? static_cast<double>(short_of) / looked_at : 0;
+  comparison.squares_short = looked_at > 0 ? static_cast<double>(short_of) / looked_at : 0;
   return comparison;
 }
 
-int nearest_patch(const structure::MembraneStress& membrane, const Vector3& point) {
-  const auto& patches = membrane.patches();
+int nearest_square(const structure::CheckedStress& checked, const Vector3& point) {
+  const auto& squares = checked.squares();
   const auto nearest =
-      std::min_element(patches.begin(), patches.end(), [&](const auto& a, const auto& b) {
+      std::min_element(squares.begin(), squares.end(), [&](const auto& a, const auto& b) {
         return (a.centre_B - point).squaredNorm() < (b.centre_B - point).squaredNorm();
       });
-  return static_cast<int>(nearest - patches.begin());
+  return static_cast<int>(nearest - squares.begin());
 }
 
 // The unit normal of the plane that the largest principal stress acts on.
@@ -208,36 +206,37 @@ void fill_in(const Eigen::MatrixXd& unit, const Vector3* normal, const HistoryAs
 }
 
 StressHistory follow(const structure::UnitResponses& responses,
-                     const structure::MembraneStress& membrane, const FollowedPoint& point,
+                     const structure::CheckedStress& checked, const FollowedPoint& point,
                      const HistoryAssessment& history) {
-  const int p = nearest_patch(membrane, point.point_B);
-  const structure::Patch& patch = membrane.patches()[static_cast<std::size_t>(p)];
+  const int p = nearest_square(checked, point.point_B);
+  const structure::Square& square = checked.squares()[static_cast<std::size_t>(p)];
   StressHistory result;
   result.name = point.name;
-  result.point_B = patch.centre_B;
-  result.part = responses.model().mesh().sheet_names[static_cast<std::size_t>(patch.sheet)];
-  fill_in(structure::unit_stress_of_patch(membrane, p), nullptr, history,
+  result.point_B = square.centre_B;
+  result.part = responses.model().mesh().regions[static_cast<std::size_t>(square.region)].name;
+  fill_in(structure::unit_stress_of_square(checked, p), nullptr, history,
           history.stress_concentration, history.curve, result);
   return result;
 }
 
 StressHistory follow(const structure::UnitResponses& responses, const FollowedHotSpot& followed,
                      const HistoryAssessment& history) {
-  const structure::BlockMesh& mesh = responses.model().mesh();
+  const structure::Space& space = responses.model().space();
   StressHistory result;
   result.name = followed.name;
   result.point_B = followed.spot.toe;
   std::vector<Eigen::MatrixXd> unit;
   for (const Vector3& point : followed.spot.places()) {
-    const structure::CellPlace place = structure::find_cell(mesh, point);
+    const structure::SteelPlace place = structure::find_cell(space, point);
     if (place.cell < 0)
       throw structure::ModelError(
           fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, where the block has no "
                       "material; the toe lies on a plate's surface and the direction along it",
                       followed.name, point.x(), point.y(), point.z()));
     unit.push_back(structure::stresses_at(responses.model(), responses.displacements(), place));
-    result.part = mesh.sheet_names[static_cast<std::size_t>(
-        mesh.cell_sheet[static_cast<std::size_t>(place.cell)])];
+    const structure::ShellCell& cell = space.shells()[static_cast<std::size_t>(place.cell)];
+    const structure::Shell& shell = space.mesh().shells[static_cast<std::size_t>(cell.shell)];
+    result.part = space.mesh().regions[static_cast<std::size_t>(shell.region)].name;
   }
   fill_in(structure::hot_spot_stress(unit[0], unit[1]), &followed.spot.direction, history, 1,
           history.hot_spot_curve, result);
@@ -263,6 +262,15 @@ double HistoryAssessment::deformation_increase_percent() const {
   return percent_above(dynamic_state.displacement.at.value, static_state.displacement.at.value);
 }
 
+Eigen::MatrixXd factors_of(const structure::UnitResponses& responses,
+                           const BlockAttachment& attachment, const BlockHistory& history) {
+  Eigen::MatrixXd factors(responses.count(), history.sample_count());
+  for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample)
+    factors.col(sample) = responses.coefficients(
+        map_instant(history, sample, attachment, responses.model().mass_properties()));
+  return factors;
+}
+
 HistoryAssessment assess_history(const structure::UnitResponses& responses,
                                  const structure::StressRecovery& recovery,
                                  const BlockAttachment& attachment,
@@ -280,26 +288,26 @@ HistoryAssessment assess_history(const structure::UnitResponses& responses,
   result.dynamic_state =
       StateMaker(responses, attachment, dynamic_history, "dynamic").make(recovery);
 
-  const structure::BlockMesh& mesh = responses.model().mesh();
-  const structure::MembraneStress& membrane = recovery.membrane();
-  result.patches = membrane.patches();
-  result.sheets = mesh.sheet_names;
-  result.weights = structure::response_weights(membrane);
-  const auto checked = [&](const BlockState& state) {
-    return membrane.von_mises(responses.coefficients(state.load));
+  const structure::Mesh& mesh = responses.model().mesh();
+  const structure::CheckedStress& checked = recovery.checked();
+  result.squares = checked.squares();
+  for (const structure::Region& region : mesh.regions) result.regions.push_back(region.name);
+  result.weights = structure::response_weights(checked);
+  const auto checked_in = [&](const BlockState& state) {
+    return checked.von_mises(responses.coefficients(state.load));
   };
-  const Eigen::VectorXd& envelope = result.dynamic_state.patch_von_mises;
+  const Eigen::VectorXd& envelope = result.dynamic_state.square_von_mises;
   result.per_rope_maxima =
-      compare_practice(mesh, membrane, checked(block.per_rope_maxima.dynamic_state), envelope);
+      compare_practice(mesh, checked, checked_in(block.per_rope_maxima.dynamic_state), envelope);
   Eigen::VectorXd of_instants = Eigen::VectorXd::Zero(envelope.size());
   for (const LoadComparison& by_rope : block.simultaneous_by_rope)
-    of_instants = of_instants.cwiseMax(checked(by_rope.dynamic_state));
-  result.rope_instants = compare_practice(mesh, membrane, of_instants, envelope);
+    of_instants = of_instants.cwiseMax(checked_in(by_rope.dynamic_state));
+  result.rope_instants = compare_practice(mesh, checked, of_instants, envelope);
 
   const std::vector<FollowedPoint> points =
       settings.points.empty() ? default_points(result.dynamic_state) : settings.points;
   for (const FollowedPoint& point : points)
-    result.points.push_back(follow(responses, membrane, point, result));
+    result.points.push_back(follow(responses, checked, point, result));
   result.hot_spot_curve = structure::fatigue_curve(settings.hot_spot_curve);
   for (const FollowedHotSpot& spot : settings.hot_spots)
     result.hot_spots.push_back(follow(responses, spot, result));

@@ -33,32 +33,32 @@ struct HistoryGroup {
 struct HistoryState {
   Eigen::MatrixXd factors;  ///< of the unit responses, a column a sample
   Eigen::VectorXd time;     ///< s
-  HistoryExtreme checked_von_mises, peak_von_mises, largest_principal, smallest_principal,
-      displacement;
+  HistoryExtreme checked_von_mises, field_von_mises, peak_von_mises, largest_principal,
+      smallest_principal, displacement;
   std::vector<HistoryGroup> groups, lugs;
-  Eigen::VectorXd patch_von_mises;     ///< largest at each patch of the checked stress, Pa
-  Eigen::VectorXd patch_time;          ///< when, s
-  Eigen::VectorXi patch_rope;          ///< governing, place in BlockAttachment::ropes; -1: none
+  Eigen::VectorXd square_von_mises;    ///< largest of each square of the checked stress, Pa
+  Eigen::VectorXd square_time;         ///< when, s
+  Eigen::VectorXi square_rope;         ///< governing, place in BlockAttachment::ropes; -1: none
   structure::LoadCase governing;       ///< the instant of the largest checked stress
   double largest_force_residual = 0;   ///< of all samples, over the load (LoadBalance)
   double largest_moment_residual = 0;  ///< likewise
-  int places = 0;                      ///< patches and nodes of elements that were searched
+  int places = 0;                      ///< squares and stress points that were searched
 };
 
 /// What a simpler practice gives in place of the envelope. Per cent; negative is unsafe.
 struct PracticeComparison {
   double largest_percent = 0;  ///< its largest checked stress against the envelope's
-  /// Its checked stress against the envelope's at the same patch, where it falls short most, among
-  /// patches whose envelope is at least half of the largest.
+  /// Its checked stress against the envelope's at the same square, where it falls short most, among
+  /// squares whose envelope is at least half of the largest.
   double worst_percent = 0;
   structure::Extreme worst;  ///< the envelope there, Pa
-  double patches_short = 0;  ///< share of those patches where it falls short by more than 1 %
+  double squares_short = 0;  ///< share of those squares where it falls short by more than 1 %
 };
 
 /// Stress in time at one place, and what it wears out.
 struct StressHistory {
   std::string name;
-  structure::Vector3 point_B = structure::Vector3::Zero();  ///< the patch's centre, m
+  structure::Vector3 point_B = structure::Vector3::Zero();  ///< the square's centre, m
   std::string part;
   Eigen::VectorXd static_von_mises, dynamic_von_mises;  ///< of the membrane stress, Pa
   /// Normal stress across the plane of the largest principal stress (in magnitude) at the instant of
@@ -71,12 +71,12 @@ struct StressHistory {
 /// The block over the whole lift: every sample of both histories, none chosen.
 struct HistoryAssessment {
   HistoryState static_state, dynamic_state;
-  std::vector<structure::Patch> patches;  ///< that the states' patch values belong to
-  std::vector<std::string> sheets;        ///< names of single plates, by Patch::sheet
-  Eigen::VectorXd weights;                ///< of the factors, for a LoadHistory
-  std::vector<std::string> ropes;         ///< of BlockAttachment::ropes
-  PracticeComparison per_rope_maxima;     ///< every rope at its own largest dynamic load, at once
-  PracticeComparison rope_instants;       ///< only the instants of each rope's largest dynamic load
+  std::vector<structure::Square> squares;  ///< that the states' square values belong to
+  std::vector<std::string> regions;        ///< names of single plates, by Square::region
+  Eigen::VectorXd weights;                 ///< of the factors, for a LoadHistory
+  std::vector<std::string> ropes;          ///< of BlockAttachment::ropes
+  PracticeComparison per_rope_maxima;      ///< every rope at its own largest dynamic load, at once
+  PracticeComparison rope_instants;  ///< only the instants of each rope's largest dynamic load
   std::vector<StressHistory> points;
   structure::FatigueCurve curve;
   /// Structural stress at weld toes (structure::hot_spot_stress): von Mises of it, and the part of it
@@ -91,7 +91,7 @@ struct HistoryAssessment {
   double deformation_increase_percent() const;
 };
 
-/// A place whose stress is followed in time: the patch of the checked stress that is nearest.
+/// A place whose stress is followed in time: the square of the checked stress that is nearest.
 struct FollowedPoint {
   std::string name;
   structure::Vector3 point_B = structure::Vector3::Zero();  ///< m
@@ -112,6 +112,10 @@ struct HistorySettings {
   std::vector<FollowedHotSpot> hot_spots;
   std::string hot_spot_curve = "D";
 };
+
+/// Factors of the unit responses, a column a sample.
+Eigen::MatrixXd factors_of(const structure::UnitResponses& responses,
+                           const BlockAttachment& attachment, const BlockHistory& history);
 
 /// Superposes every sample of both histories.
 /// @throws std::runtime_error if a sample is not in balance to largest_balance_residual;

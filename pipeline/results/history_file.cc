@@ -33,10 +33,10 @@ void write_state(ResultsWriter& file, std::string_view name, const HistoryState&
   file.write_attribute(path, "time", state.checked_von_mises.time);
 
   const std::string patches = layout::join(path, "patches");
-  file.write(layout::join(patches, "von_mises"), span_of(state.patch_von_mises),
-             {"Pa", "largest checked stress of each patch over all instants"});
-  file.write(layout::join(patches, "time"), span_of(state.patch_time), {"s", "when it occurs"});
-  file.write(layout::join(patches, "rope"), span_of(state.patch_rope),
+  file.write(layout::join(patches, "von_mises"), span_of(state.square_von_mises),
+             {"Pa", "largest checked stress of each square over all instants"});
+  file.write(layout::join(patches, "time"), span_of(state.square_time), {"s", "when it occurs"});
+  file.write(layout::join(patches, "rope"), span_of(state.square_rope),
              {"1", "index into ../../ropes of the rope with the largest share in it; -1: none"});
 }
 
@@ -52,19 +52,19 @@ void write_block_history(ResultsWriter& file, const structure::Surface& surface,
               history.weights);
   file.write_texts(layout::join(group, "ropes"), history.ropes, "ropes at the lugs");
   std::vector<Eigen::Vector3d> centres;
-  std::vector<std::int32_t> sheets;
-  for (const structure::Patch& patch : history.patches) {
-    centres.push_back(patch.centre_B);
-    sheets.push_back(patch.sheet);
+  std::vector<std::int32_t> regions;
+  for (const structure::Square& square : history.squares) {
+    centres.push_back(square.centre_B);
+    regions.push_back(square.region);
   }
   file.write_points(layout::join(group, "patches", "points"), centres,
-                    {"m", "centres of the patches of the checked stress, block frame"});
-  file.write(layout::join(group, "patches", "plate"), sheets, {"1", "index into plates"});
-  file.write_texts(layout::join(group, "patches", "plates"), history.sheets, "single plates");
+                    {"m", "centres of the squares of the checked stress, block frame"});
+  file.write(layout::join(group, "patches", "plate"), regions, {"1", "index into plates"});
+  file.write_texts(layout::join(group, "patches", "plates"), history.regions, "single plates");
   for (const StressHistory& one : history.points) {
     const std::string path = layout::join(group, "points", one.name);
     file.write(layout::join(path, "point"), std::span<const double>(one.point_B.data(), 3),
-               {"m", "centre of the patch, block frame: " + one.part});
+               {"m", "centre of the square, block frame: " + one.part});
     const auto write = [&](std::string_view state, const Eigen::VectorXd& von_mises,
                            const Eigen::VectorXd& normal) {
       file.write(layout::join(path, state, "von_mises"), span_of(von_mises),

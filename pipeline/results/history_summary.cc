@@ -64,7 +64,7 @@ Json practice_json(const PracticeComparison& practice) {
           {"worst_part", practice.worst.part},
           {"worst_point_m", json_point(practice.worst.point_B)},
           {"worst_envelope_Pa", practice.worst.value},
-          {"share_of_patches_short", practice.patches_short}};
+          {"share_of_patches_short", practice.squares_short}};
 }
 
 Json points_json(const std::vector<StressHistory>& points, double lifts) {

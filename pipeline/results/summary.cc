@@ -240,7 +240,7 @@ Json lugs_json(const Assessment& assessment) {
   return rows;
 }
 
-Json error_json(const structure::BlockMesh& mesh, const structure::BlockError& error) {
+Json error_json(const structure::Mesh& mesh, const structure::BlockError& error) {
   Json json{{"relative", error.relative},
             {"worst_part", error.worst_part},
             {"worst_point_m", json_point(error.worst_point)},
@@ -248,6 +248,22 @@ Json error_json(const structure::BlockMesh& mesh, const structure::BlockError& e
   for (std::size_t g = 0; g < mesh.groups.size(); ++g)
     json["groups"][mesh.groups[g].name] = error.of_groups[g];
   return json;
+}
+
+Json accuracy_json(const structure::CheckedAccuracy& accuracy, const StructureSettings& asked) {
+  Json steps = Json::array();
+  for (const structure::AccuracyStep& step : accuracy.steps)
+    steps.push_back({{"unknowns", step.unknowns},
+                     {"elements", step.shells},
+                     {"smallest_edge_m", step.smallest_edge},
+                     {"static_checked_von_mises_Pa", step.at_rest},
+                     {"dynamic_checked_von_mises_Pa", step.in_motion},
+                     {"stress_increase_percent", 100 * step.increase()}});
+  return {{"asked", asked.accuracy},
+          {"is_reached", accuracy.is_reached},
+          {"stress_change", accuracy.stress_change()},
+          {"increase_change_percent", 100 * accuracy.increase_change()},
+          {"steps", std::move(steps)}};
 }
 
 Json structure_json(const Assessment& assessment) {
@@ -261,8 +277,8 @@ Json structure_json(const Assessment& assessment) {
     by_rope.push_back(row);
   }
   const structure::Material& material = model.mesh().materials.front();
-  Json json{{"unknowns", model.unknowns()},
-            {"elements", model.mesh().cells.size()},
+  Json json{{"unknowns", model.space().unknowns()},
+            {"elements", model.space().shells().size() + model.space().beams().size()},
             {"element_degree", assessment.lift_case.structure.element_degree},
             {"mesh_size_m", assessment.lift_case.structure.largest_element},
             {"material", material.name},
@@ -281,6 +297,7 @@ Json structure_json(const Assessment& assessment) {
               {"smallest_density_factor", mass.smallest_density_factor},
               {"largest_density_factor", mass.largest_density_factor}}}};
   json["estimated_error"] = error_json(model.mesh(), assessment.block.error);
+  json["accuracy"] = accuracy_json(assessment.block.accuracy, assessment.lift_case.structure);
   json["buckling"] = buckling_json(assessment.block.buckling);
   if (const auto& pressure = assessment.block.pressure) {
     json["pressure"] = {{"regions", pressure->regions},

@@ -15,7 +15,7 @@
 #include "pipeline/results/lift_scene.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/mechanism_results.h"
-#include "structure/elasticity/elastic_model.h"
+#include "structure/response/elastic_model.h"
 
 namespace blocklift::pipeline {
 namespace {

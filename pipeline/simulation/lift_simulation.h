@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pipeline/lift/lift_run.h"
-#include "structure/mesh/hex_mesh.h"
+#include "structure/mesh/mesh.h"
 
 namespace blocklift::pipeline {
 

@@ -82,12 +82,12 @@ bool same_section(const Mesh& mesh, int a, int b) {
 /// curved shells are smooth where they meet and not in their middles.
 bool is_smooth(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b, double kink) {
   const auto middle = [](const EdgeOfShell& e) -> Eigen::Vector2d {
-    const Eigen::Vector2d on_edge = 0.5 * (corner_place(round_edges[at(e.edge)][0]) +
-                                           corner_place(round_edges[at(e.edge)][1]));
+    const Eigen::Vector2d on_edge =
+        0.5 * (corner_place(round_edges[at(e.edge)][0]) + corner_place(round_edges[at(e.edge)][1]));
     return on_edge + 0.01 * (Eigen::Vector2d(0.5, 0.5) - on_edge);
   };
-  const double cosine = std::abs(
-      normal_at(mesh, a.shell, middle(a)).dot(normal_at(mesh, b.shell, middle(b))));
+  const double cosine =
+      std::abs(normal_at(mesh, a.shell, middle(a)).dot(normal_at(mesh, b.shell, middle(b))));
   return cosine > std::cos(kink);
 }
 
@@ -285,8 +285,8 @@ class FieldFinder {
 
   const Mesh& mesh_;
   EdgeMap edges_;
-  std::set<EdgeKey> inside_;              ///< edges within fields
-  std::map<int, int> structural_edges_;   ///< how many other edges meet in a vertex
+  std::set<EdgeKey> inside_;             ///< edges within fields
+  std::map<int, int> structural_edges_;  ///< how many other edges meet in a vertex
   std::vector<bool> is_flipped_;
   PlateFields result_;
 };
@@ -300,8 +300,8 @@ PlateFields find_fields(const Mesh& mesh, double kink, const GoesOn& goes_on) {
 FieldWalker::FieldWalker(const Mesh& mesh, const PlateFields& fields)
     : mesh_(mesh), fields_(fields), neighbours_(mesh.shells.size(), {-1, -1, -1, -1}) {
   for (const auto& [key, shells] : collect_edges(mesh)) {
-    if (shells.size() != 2 || fields.field_of_shell[at(shells[0].shell)] !=
-                                  fields.field_of_shell[at(shells[1].shell)])
+    if (shells.size() != 2 ||
+        fields.field_of_shell[at(shells[0].shell)] != fields.field_of_shell[at(shells[1].shell)])
       continue;
     neighbours_[at(shells[0].shell)][at(shells[0].edge)] = shells[1].shell;
     neighbours_[at(shells[1].shell)][at(shells[1].edge)] = shells[0].shell;
@@ -318,13 +318,16 @@ std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPla
     for (int newton = 0; newton < 12; ++newton) {
       const Eigen::Matrix<double, 3, 2> g = tangents(mesh_, here.shell, here.xi);
       const Eigen::Vector2d change =
-          (g.transpose() * g).ldlt().solve(g.transpose() * (place - position(mesh_, shell, here.xi)));
+          (g.transpose() * g)
+              .ldlt()
+              .solve(g.transpose() * (place - position(mesh_, shell, here.xi)));
       here.xi += change;
       here.xi = here.xi.cwiseMax(-2.0).cwiseMin(3.0);
       if (change.cwiseAbs().maxCoeff() < 1e-10) break;
     }
     // How far the point lies outside, by the edges in their order: eta < 0, xi > 1, eta > 1, xi < 0.
-    const std::array<double, 4> outside{-here.xi.y(), here.xi.x() - 1, here.xi.y() - 1, -here.xi.x()};
+    const std::array<double, 4> outside{-here.xi.y(), here.xi.x() - 1, here.xi.y() - 1,
+                                        -here.xi.x()};
     const double worst = *std::max_element(outside.begin(), outside.end());
     if (worst <= tolerance) {
       here.xi = here.xi.cwiseMax(0.0).cwiseMin(1.0);

@@ -16,14 +16,15 @@ struct FieldEdge {
   /// Edge of a shell, in the direction in which the outline runs.
   struct Piece {
     int shell = 0;
-    Eigen::Vector2d begin = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();  ///< unit square
-    int from = 0, to = 0;  ///< vertices
-    double length = 0;     ///< m
+    Eigen::Vector2d begin = Eigen::Vector2d::Zero(),
+                    end = Eigen::Vector2d::Zero();  ///< unit square
+    int from = 0, to = 0;                           ///< vertices
+    double length = 0;                              ///< m
   };
   std::vector<Piece> pieces;
-  double length = 0;         ///< m
-  bool is_free = false;      ///< no other shell meets the field there
-  double angle_at_end = 0;   ///< of the field's material at the vertex where the edge ends, rad
+  double length = 0;        ///< m
+  bool is_free = false;     ///< no other shell meets the field there
+  double angle_at_end = 0;  ///< of the field's material at the vertex where the edge ends, rad
 };
 
 /// Plating that goes on smoothly with one section: bounded by joints with other plates, by kinks, changes of

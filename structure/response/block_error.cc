@@ -38,9 +38,9 @@ struct Orientation {
       : fields(find_fields(model.mesh())), is_flipped(model.mesh().shells.size(), false) {
     for (const PlateField& field : fields.fields) {
       const Shell& first = model.mesh().shells[at(field.shells.front())];
-      along.push_back((position(model.mesh(), first, {1, 0.5}) -
-                       position(model.mesh(), first, {0, 0.5}))
-                          .normalized());
+      along.push_back(
+          (position(model.mesh(), first, {1, 0.5}) - position(model.mesh(), first, {0, 0.5}))
+              .normalized());
       for (std::size_t i = 0; i < field.shells.size(); ++i)
         is_flipped[at(field.shells[i])] = field.is_flipped[i];
     }
@@ -73,7 +73,8 @@ class Points {
         // Tied nodes share an unknown; what follows a polynomial stands for itself.
         const std::int64_t place =
             end - begin == 1 ? begin->unknown : space.unknowns() + static_cast<std::int64_t>(node);
-        const std::int64_t key = count * place + fields.field_of_shell[at(space.shells()[cell].shell)];
+        const std::int64_t key =
+            count * place + fields.field_of_shell[at(space.shells()[cell].shell)];
         const auto [found, is_new] = known.try_emplace(key, static_cast<int>(shares_.size()));
         if (is_new) shares_.push_back(0);
         ++shares_[at(found->second)];
@@ -191,7 +192,9 @@ BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd
   });
 
   std::vector<double> e(mesh.groups.size(), 0), s(mesh.groups.size(), 0);
-  const auto region_of = [&](int cell) { return mesh.shells[at(space.shells()[at(cell)].shell)].region; };
+  const auto region_of = [&](int cell) {
+    return mesh.shells[at(space.shells()[at(cell)].shell)].region;
+  };
   for (int cell = 0; cell < cells; ++cell) {
     e[at(mesh.regions[at(region_of(cell))].group)] += result.of_cells[cell];
     s[at(mesh.regions[at(region_of(cell))].group)] += norm[cell];

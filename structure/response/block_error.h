@@ -21,7 +21,7 @@ struct BlockError {
   double relative = 0;  ///< |e| over the square root of |e|^2 + |s_h|^2, of the whole block
   /// The same of each group of cells, in the order of Mesh::groups.
   std::vector<double> of_groups;
-  std::string worst_part;  ///< the region that holds the cell with the largest |e|
+  std::string worst_part;                 ///< the region that holds the cell with the largest |e|
   Vector3 worst_point = Vector3::Zero();  ///< that cell's centre, m
   Eigen::VectorXd of_cells;               ///< |e|^2 of each of Space::shells(), J
 };

@@ -8,8 +8,8 @@
 #include <Eigen/Dense>
 
 #include "structure/index.h"
-#include "structure/stress_tensor.h"
 #include "structure/response/part_solution.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

@@ -14,9 +14,9 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/element_shape.h"
-#include "structure/stress_tensor.h"
 #include "structure/response/part_error.h"
 #include "structure/stopwatch.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "structure/rigid_body.h"
 #include "structure/elasticity/part_model.h"
+#include "structure/rigid_body.h"
 #include "structure/solver_choice.h"
 
 namespace blocklift::structure {

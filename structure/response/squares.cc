@@ -227,6 +227,13 @@ CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& m
   evaluate(model, walker, motions, threads);
 }
 
+CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions,
+                             std::vector<Square> squares, int threads)
+    : squares_(std::move(squares)) {
+  const PlateFields fields = find_fields(model.mesh());
+  evaluate(model, FieldWalker(model.mesh(), fields), motions, threads);
+}
+
 void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walker,
                              const Eigen::MatrixXd& motions, int threads) {
   const Space& space = model.space();

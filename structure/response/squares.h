@@ -32,6 +32,9 @@ class CheckedStress {
   /// @param motions freedoms x m, m and rad. The model must outlive this object.
   CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions, double size = 0.05,
                 int threads = 0);
+  /// The same of given squares of the same mesh.
+  CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions,
+                std::vector<Square> squares, int threads = 0);
 
   const std::vector<Square>& squares() const { return squares_; }
   /// Membrane von Mises stress of each square for factors of the m motions, Pa:

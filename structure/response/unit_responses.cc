@@ -39,8 +39,8 @@ UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(mo
   Stopwatch watch;
   SparseLower stiffness = assemble_stiffness(model.space(), threads);
   timing_.assembly_s = watch.lap();
-  system_ = std::make_unique<System>(std::move(stiffness),
-                                     statically_determinate_support(model.space()));
+  system_ =
+      std::make_unique<System>(std::move(stiffness), statically_determinate_support(model.space()));
   timing_.factor_bytes = system_->equations.factor_bytes();
   timing_.analysis_s = watch.lap();
   system_->equations.factorise();

@@ -69,7 +69,7 @@ TEST_F(SmallLiftHistory, IsTheLargestOfEverySample) {
   EXPECT_EQ(checked.time, in_motion.time(when));
   EXPECT_GE(largest,
             block_->simultaneous.dynamic_state.result.checked_von_mises.value * (1 - 1e-9));
-  EXPECT_EQ(history.dynamic_state.patch_von_mises.maxCoeff(), checked.at.value);
+  EXPECT_EQ(history.dynamic_state.square_von_mises.maxCoeff(), checked.at.value);
   EXPECT_NEAR(history.stress_increase_percent(),
               100 * (largest / history.static_state.checked_von_mises.at.value - 1), 1e-6);
   // A rope governs it, with a share of the stress that is worth the name.
@@ -86,8 +86,8 @@ TEST_F(SmallLiftHistory, ChosenInstantsAreNeverMoreThanAllOfThem) {
   const HistoryAssessment history = assess(small_lift().run.dynamic_history());
   EXPECT_LE(history.rope_instants.largest_percent, 1e-9);
   EXPECT_LE(history.rope_instants.worst_percent, 1e-9);
-  EXPECT_GE(history.rope_instants.patches_short, 0);
-  EXPECT_LE(history.rope_instants.patches_short, 1);
+  EXPECT_GE(history.rope_instants.squares_short, 0);
+  EXPECT_LE(history.rope_instants.squares_short, 1);
   EXPECT_LE(history.per_rope_maxima.worst_percent, history.per_rope_maxima.largest_percent + 1e-9);
 }
 

@@ -1,0 +1,155 @@
+#include "structure/response/accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "structure/index.h"
+#include "structure/response/block_envelope.h"
+#include "structure/response/squares.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+constexpr double looked_at = 0.6;   // of the largest stress: squares that later steps look at
+constexpr double refined_at = 0.8;  // likewise: about which cells are divided
+constexpr double growth = 0.6;      // of cells with the distance from a square
+constexpr double first_edge = 0.1;  // m
+constexpr int most_steps = 6;
+constexpr std::size_t most_centres = 60;
+
+/// Largest stress of each square over all instants.
+Eigen::VectorXd largest_of(const CheckedStress& checked, const Eigen::MatrixXd& factors) {
+  const LoadHistory history(factors, response_weights(checked));
+  return find_von_mises_envelope(history, static_cast<int>(checked.squares().size()),
+                                 [&](int first, int count) {
+                                   Eigen::MatrixXd stress(6 * count, factors.rows());
+                                   for (int i = 0; i < count; ++i)
+                                     stress.middleRows<6>(6 * i) =
+                                         unit_stress_of_square(checked, first + i);
+                                   return stress;
+                                 })
+      .value;
+}
+
+struct Evaluation {
+  std::vector<Square> squares;
+  Eigen::VectorXd at_rest, in_motion;
+};
+
+Evaluation evaluate(CheckedStress checked, const Eigen::MatrixXd& static_factors,
+                    const Eigen::MatrixXd& dynamic_factors) {
+  return {checked.squares(), largest_of(checked, static_factors),
+          largest_of(checked, dynamic_factors)};
+}
+
+double smallest_edge_of(const ElasticModel& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ShellCell& cell : model.space().shells())
+    smallest = std::min(
+        smallest, cell.size * longest_edge(model.mesh(), model.mesh().shells[at(cell.shell)]));
+  return smallest;
+}
+
+AccuracyStep step_of(const ElasticModel& model, const Evaluation& found) {
+  return {model.space().unknowns(), static_cast<int>(model.space().shells().size()),
+          smallest_edge_of(model), found.at_rest.maxCoeff(), found.in_motion.maxCoeff()};
+}
+
+/// Squares that may come to govern.
+std::vector<Square> candidates(const Evaluation& found) {
+  std::vector<Square> result;
+  for (std::size_t s = 0; s < found.squares.size(); ++s) {
+    const auto i = static_cast<Eigen::Index>(s);
+    if (found.at_rest[i] >= looked_at * found.at_rest.maxCoeff() ||
+        found.in_motion[i] >= looked_at * found.in_motion.maxCoeff())
+      result.push_back(found.squares[s]);
+  }
+  return result;
+}
+
+/// Places about which cells are divided: the squares of the largest stress, the largest first, one of those
+/// that lie together.
+std::vector<Vector3> centres_of(const Evaluation& found) {
+  const Eigen::VectorXd share = (found.at_rest / found.at_rest.maxCoeff())
+                                    .cwiseMax(found.in_motion / found.in_motion.maxCoeff());
+  std::vector<int> order(found.squares.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return share[a] > share[b]; });
+  std::vector<Vector3> centres;
+  for (const int s : order) {
+    if (share[s] < refined_at || centres.size() >= most_centres) break;
+    const Square& square = found.squares[at(s)];
+    const auto is_near = [&](const Vector3& centre) {
+      return (centre - square.centre_B).norm() < 2 * square.size;
+    };
+    if (std::none_of(centres.begin(), centres.end(), is_near)) centres.push_back(square.centre_B);
+  }
+  return centres;
+}
+
+Resolution graded(const Resolution& base, std::vector<Vector3> centres, double edge) {
+  Resolution resolution = base;
+  resolution.largest_edge = [base = base.largest_edge, centres = std::move(centres),
+                             edge](const Vector3& place) {
+    double size = base ? base(place) : std::numeric_limits<double>::infinity();
+    for (const Vector3& centre : centres)
+      size = std::min(size, std::max(edge, growth * (place - centre).norm()));
+    return size;
+  };
+  return resolution;
+}
+
+double share_of_change(double now, double before) {
+  return before > 0 ? std::abs(now / before - 1) : 0;
+}
+
+}  // namespace
+
+double CheckedAccuracy::stress_change() const {
+  if (steps.size() < 2) return 0;
+  const AccuracyStep &now = steps.back(), &before = steps[steps.size() - 2];
+  return std::max(share_of_change(now.at_rest, before.at_rest),
+                  share_of_change(now.in_motion, before.in_motion));
+}
+
+double CheckedAccuracy::increase_change() const {
+  if (steps.size() < 2) return 0;
+  return std::abs(steps.back().increase() - steps[steps.size() - 2].increase());
+}
+
+RefinedBlock refine_checked_stress(
+    std::unique_ptr<ElasticModel> model, std::unique_ptr<UnitResponses> responses,
+    const Eigen::MatrixXd& static_factors, const Eigen::MatrixXd& dynamic_factors,
+    const std::function<void(const ElasticModel&, UnitResponses&)>& prepare,
+    const AccuracyGoal& goal) {
+  RefinedBlock block{std::move(model), std::move(responses), {}};
+  const Resolution base = block.model->resolution();
+  Evaluation found =
+      evaluate(CheckedStress(*block.model, block.responses->displacements(), goal.square_size),
+               static_factors, dynamic_factors);
+  block.accuracy.steps.push_back(step_of(*block.model, found));
+  std::vector<Vector3> centres;
+  double edge = first_edge;
+  for (int step = 1; step < most_steps; ++step, edge /= 2) {
+    for (const Vector3& centre : centres_of(found)) centres.push_back(centre);
+    auto finer = block.model->with(graded(base, centres, edge));
+    if (finer->space().unknowns() > goal.most_unknowns) break;
+    auto solved = std::make_unique<UnitResponses>(*finer);
+    prepare(*finer, *solved);
+    found = evaluate(CheckedStress(*finer, solved->displacements(), candidates(found)),
+                     static_factors, dynamic_factors);
+    block.responses = std::move(solved);
+    block.model = std::move(finer);
+    block.accuracy.steps.push_back(step_of(*block.model, found));
+    block.accuracy.is_reached = block.accuracy.stress_change() <= goal.change &&
+                                block.accuracy.increase_change() <= goal.change;
+    if (block.accuracy.is_reached) break;
+  }
+  return block;
+}
+
+}  // namespace blocklift::structure
