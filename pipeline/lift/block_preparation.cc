@@ -18,11 +18,12 @@ namespace {
 /// Complains about weld toes that are read where the block has no material.
 bool check_hot_spots(const StructureSettings& settings, const structure::Space& space,
                      Diagnostics& diagnostics) {
+  const structure::SteelFinder finder(space);
   bool inside = true;
   for (const HotSpotInFile& asked : settings.hot_spots) {
     const structure::HotSpot spot{asked.toe, asked.direction, asked.thickness};
     for (const Vector3& place : spot.places()) {
-      if (structure::find_cell(space, place).cell >= 0) continue;
+      if (finder.find(place).cell >= 0) continue;
       inside = false;
       diagnostics.error(asked.name.mark,
                         fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, where the "

@@ -222,12 +222,13 @@ StressHistory follow(const structure::UnitResponses& responses,
 StressHistory follow(const structure::UnitResponses& responses, const FollowedHotSpot& followed,
                      const HistoryAssessment& history) {
   const structure::Space& space = responses.model().space();
+  const structure::SteelFinder finder(space);
   StressHistory result;
   result.name = followed.name;
   result.point_B = followed.spot.toe;
   std::vector<Eigen::MatrixXd> unit;
   for (const Vector3& point : followed.spot.places()) {
-    const structure::SteelPlace place = structure::find_cell(space, point);
+    const structure::SteelPlace place = finder.find(point);
     if (place.cell < 0)
       throw structure::ModelError(
           fmt::format("hot spot {} is read at ({:.6g}, {:.6g}, {:.6g}) m, where the block has no "
