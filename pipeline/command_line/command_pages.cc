@@ -71,7 +71,8 @@ std::string bash_completion(const CLI::App& app) {
       const std::string words = words_of(*option);
       if (words.empty() || pattern.empty()) continue;
       values += fmt::format(
-          "        {}) COMPREPLY=($(IFS=$'\\n' compgen -W \"$(printf '%s\\n' {})\" -- \"$word\")); "
+          "        {}) local IFS=$'\\n'; COMPREPLY=($(compgen -W \"$(printf '%s\\n' {})\" -- "
+          "\"$word\")); "
           "return ;;\n",
           pattern, words);
     }
