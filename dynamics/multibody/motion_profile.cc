@@ -35,7 +35,7 @@ RestToRestMove::RestToRestMove(double start, double distance, const MotionLimits
   if (!std::isfinite(distance)) refuse("a move's distance is not finite");
   if (!positive(limits.speed) || !positive(limits.acceleration) || !positive(limits.jerk)) {
     refuse("a move's limits are speed ", limits.speed, ", acceleration ", limits.acceleration,
-         ", jerk ", limits.jerk, "; all three must be positive and finite");
+           ", jerk ", limits.jerk, "; all three must be positive and finite");
   }
   const double length = std::abs(distance);
   if (length == 0) return;
@@ -72,8 +72,8 @@ RestToRestMove::RestToRestMove(double start, double distance, const MotionLimits
   if (!positive(duration)) refuse("a move's duration is ", duration, " s; it must be positive");
   if (duration < least * (1 - 1e-12)) {
     refuse("a move over ", distance, " is to last ", duration, " s but takes at least ", least,
-         " s with speed ", limits.speed, ", acceleration ", limits.acceleration, ", jerk ",
-         limits.jerk, "; give it more time, less distance or a faster drive");
+           " s with speed ", limits.speed, ", acceleration ", limits.acceleration, ", jerk ",
+           limits.jerk, "; give it more time, less distance or a faster drive");
   }
   if (least == 0) {
     cruise_time_ = duration;  // a rest of that length
@@ -209,8 +209,8 @@ MotionProfile MotionProfile::sequence(double initial, std::vector<RestToRestMove
     const double slack = 1e-9 * (1 + std::abs(moves[i].start()));
     if (i > 0 && moves[i].start() < moves[i - 1].end() - slack) {
       refuse("a move starts at ", moves[i].start(), " s while the one before it, started at ",
-           moves[i - 1].start(), " s, lasts until ", moves[i - 1].end(),
-           " s; let it start later or make the other faster");
+             moves[i - 1].start(), " s, lasts until ", moves[i - 1].end(),
+             " s; let it start later or make the other faster");
     }
     const std::vector<double> times = moves[i].breakpoints();
     breakpoints.insert(breakpoints.end(), times.begin(), times.end());
@@ -223,8 +223,8 @@ MotionProfile MotionProfile::cam(MotionProfile leader, NaturalSpline spline) {
   const double slack = 1e-9 * (spline.last_x() - spline.first_x());
   if (range.lowest < spline.first_x() - slack || range.highest > spline.last_x() + slack) {
     refuse("a cam is given from ", spline.first_x(), " to ", spline.last_x(),
-         " but its leader goes from ", range.lowest, " to ", range.highest,
-         "; give points over the whole travel");
+           " but its leader goes from ", range.lowest, " to ", range.highest,
+           "; give points over the whole travel");
   }
   std::vector<double> breakpoints = leader.breakpoints();
   return {std::make_shared<const Cam>(Cam{std::move(leader), std::move(spline)}),
