@@ -1,5 +1,6 @@
 #include "pipeline/command_line/command_pages.h"
 
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -21,17 +22,17 @@ std::vector<std::string> flags_of(const CLI::Option& option) {
   return flags;
 }
 
-/// The words that an option takes, where it takes only some ("TEXT:{bemio,wamit}"); separated by spaces.
+/// The words that an option takes, where it takes only some ("TEXT:{bemio,wamit}"): each in quotes of a shell.
 std::string words_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  const auto open = type.find('{'), close = type.find('}');
-  if (open == std::string::npos || close == std::string::npos) return {};
-  std::string words = type.substr(open + 1, close - open - 1);
-  // A word with a space in it stays one word.
-  for (std::size_t i = words.find(' '); i != std::string::npos; i = words.find(' ', i + 2))
-    words.insert(i, "\\");
-  for (char& c : words) c = c == ',' ? ' ' : c;
-  return words;
+  std::string words;
+  bool inside = false;
+  for (const char c : type) {
+    if (c == '}') inside = false;
+    if (inside) words.append(c == ',' ? std::string_view("' '") : std::string_view(&c, 1));
+    if (c == '{') inside = true;
+  }
+  return words.empty() ? words : fmt::format("'{}'", words);
 }
 
 /// A text in which man reads no macro and no hyphenation.
@@ -70,7 +71,8 @@ std::string bash_completion(const CLI::App& app) {
       const std::string words = words_of(*option);
       if (words.empty() || pattern.empty()) continue;
       values += fmt::format(
-          "        {}) COMPREPLY=($(IFS=$'\\n' compgen -W \"$(printf '%s\\n' {})\" -- \"$word\")); "
+          "        {}) local IFS=$'\\n'; COMPREPLY=($(compgen -W \"$(printf '%s\\n' {})\" -- "
+          "\"$word\")); "
           "return ;;\n",
           pattern, words);
     }

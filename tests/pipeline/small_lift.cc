@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "pipeline/build/describe_block.h"
 #include "structure/mesh/plates/block_generator.h"
 
 namespace blocklift::pipeline::test {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/checks/lift_checks.h"
-#include "pipeline/results/result_file.h"
+#include "pipeline/lift/history_figures.h"
 #include "tests/pipeline/small_lift.h"
 
 namespace blocklift::pipeline {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/checks/loop_loads.h"
-#include "pipeline/results/result_file.h"
+#include "pipeline/lift/history_figures.h"
 #include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {
