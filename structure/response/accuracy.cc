@@ -16,6 +16,8 @@ namespace {
 
 constexpr double looked_at = 0.6;   // of the largest stress: squares that later steps look at
 constexpr double refined_at = 0.8;  // likewise: about which cells are divided
+// A first mesh shows little of what gathers in a corner: there squares of less stress are followed too.
+constexpr double looked_at_in_corners = 0.25;
 constexpr double growth = 0.6;      // of cells with the distance from a square
 constexpr double first_edge = 0.1;  // m
 constexpr int most_steps = 6;
@@ -38,6 +40,11 @@ Eigen::VectorXd largest_of(const CheckedStress& checked, const Eigen::MatrixXd& 
 struct Evaluation {
   std::vector<Square> squares;
   Eigen::VectorXd at_rest, in_motion;
+
+  /// Of the largest, at rest or in motion, whichever is more.
+  Eigen::VectorXd share() const {
+    return (at_rest / at_rest.maxCoeff()).cwiseMax(in_motion / in_motion.maxCoeff());
+  }
 };
 
 Evaluation evaluate(CheckedStress checked, const Eigen::MatrixXd& static_factors,
@@ -61,28 +68,28 @@ AccuracyStep step_of(const ElasticModel& model, const Evaluation& found) {
 
 /// Squares that may come to govern.
 std::vector<Square> candidates(const Evaluation& found) {
+  const Eigen::VectorXd share = found.share();
   std::vector<Square> result;
-  for (std::size_t s = 0; s < found.squares.size(); ++s) {
-    const auto i = static_cast<Eigen::Index>(s);
-    if (found.at_rest[i] >= looked_at * found.at_rest.maxCoeff() ||
-        found.in_motion[i] >= looked_at * found.in_motion.maxCoeff())
+  for (std::size_t s = 0; s < found.squares.size(); ++s)
+    if (share[static_cast<Eigen::Index>(s)] >=
+        (found.squares[s].at_corner ? looked_at_in_corners : looked_at))
       result.push_back(found.squares[s]);
-  }
   return result;
 }
 
 /// Places about which cells are divided: the squares of the largest stress, the largest first, one of those
 /// that lie together.
-std::vector<Vector3> centres_of(const Evaluation& found) {
-  const Eigen::VectorXd share = (found.at_rest / found.at_rest.maxCoeff())
-                                    .cwiseMax(found.in_motion / found.in_motion.maxCoeff());
+/// @param corners the share of the largest stress from which on those in corners are taken.
+std::vector<Vector3> centres_of(const Evaluation& found, double corners) {
+  const Eigen::VectorXd share = found.share();
   std::vector<int> order(found.squares.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return share[a] > share[b]; });
   std::vector<Vector3> centres;
   for (const int s : order) {
-    if (share[s] < refined_at || centres.size() >= most_centres) break;
+    if (share[s] < corners || centres.size() >= most_centres) break;
     const Square& square = found.squares[at(s)];
+    if (share[s] < refined_at && !square.at_corner) continue;
     const auto is_near = [&](const Vector3& centre) {
       return (centre - square.centre_B).norm() < 2 * square.size;
     };
@@ -135,7 +142,8 @@ RefinedBlock refine_checked_stress(
   std::vector<Vector3> centres;
   double edge = first_edge;
   for (int step = 1; step < most_steps; ++step, edge /= 2) {
-    for (const Vector3& centre : centres_of(found)) centres.push_back(centre);
+    const double corners = step == 1 ? looked_at_in_corners : refined_at;
+    for (const Vector3& centre : centres_of(found, corners)) centres.push_back(centre);
     auto finer = block.model->with(graded(base, centres, edge));
     if (finer->space().unknowns() > goal.most_unknowns) break;
     auto solved = std::make_unique<UnitResponses>(*finer);

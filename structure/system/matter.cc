@@ -256,24 +256,60 @@ Eigen::MatrixXd spread_wrenches(const Space& space, const std::vector<int>& cell
   return loads;
 }
 
-Eigen::SparseMatrix<double> mass_matrix(const Space& space, const MassProperties& mass) {
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::Matrix<double, 6, 6> block;
-  for_each_matter_point(space, [&](const MatterPoint& p) {
-    const double dm = p.mass * mass.density_factor(p.place);
-    const Eigen::Matrix3d arm = cross_matrix(p.arm);
+namespace {
+
+/// Sums the mass matrix of one cell after another, whose points come one behind the other.
+class MassSum {
+ public:
+  explicit MassSum(const Space& space) : space_(space) {}
+
+  void add(const MatterPoint& point, double dm) {
+    if (point.nodes != nodes_) flush(point);
+    const Eigen::Matrix3d arm = cross_matrix(point.arm);
+    Eigen::Matrix<double, 6, 6> block;
     block << Eigen::Matrix3d::Identity(), -arm, arm, -arm * arm;
-    for (int i = 0; i < p.node_count; ++i)
-      for (int j = 0; j < p.node_count; ++j)
-        for (int a = 0; a < 6; ++a)
-          for (int b = 0; b < 6; ++b)
-            if (block(a, b) != 0)
-              entries.emplace_back(6 * p.nodes[i] + a, 6 * p.nodes[j] + b,
-                                   dm * p.values[i] * p.values[j] * block(a, b));
+    for (int j = 0; j < count_; ++j)
+      for (int i = 0; i < count_; ++i)
+        own_.block<6, 6>(6 * i, 6 * j) += dm * point.values[i] * point.values[j] * block;
+  }
+  Eigen::SparseMatrix<double> finish() {
+    flush({});
+    Eigen::SparseMatrix<double> matrix(space_.freedoms(), space_.freedoms());
+    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    return matrix;
+  }
+
+ private:
+  void flush(const MatterPoint& next) {
+    // What the two faces of a plate have against each other is rounding.
+    const double least = own_.size() > 0 ? 1e-14 * own_.cwiseAbs().maxCoeff() : 0;
+    for (int j = 0; j < 6 * count_; ++j)
+      for (int i = 0; i < 6 * count_; ++i)
+        if (std::abs(own_(i, j)) > least)
+          entries_.emplace_back(6 * members_[at(i / 6)] + i % 6, 6 * members_[at(j / 6)] + j % 6,
+                                own_(i, j));
+    nodes_ = next.nodes;
+    count_ = next.node_count;
+    members_.assign(next.nodes, next.nodes + next.node_count);
+    own_.setZero(6 * count_, 6 * count_);
+  }
+
+  const Space& space_;
+  const int* nodes_ = nullptr;
+  int count_ = 0;
+  std::vector<int> members_;
+  Eigen::MatrixXd own_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+}  // namespace
+
+Eigen::SparseMatrix<double> mass_matrix(const Space& space, const MassProperties& mass) {
+  MassSum sum(space);
+  for_each_matter_point(space, [&](const MatterPoint& point) {
+    sum.add(point, point.mass * mass.density_factor(point.place));
   });
-  Eigen::SparseMatrix<double> matrix(space.freedoms(), space.freedoms());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return sum.finish();
 }
 
 }  // namespace blocklift::structure
