@@ -1,8 +1,5 @@
-// Unit responses, stress recovery and output on a free block.
+// Unit responses and stress recovery on a free block.
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include <Eigen/Dense>
@@ -10,8 +7,6 @@
 
 #include "pipeline/verification/models/box_mesh.h"
 #include "structure/error.h"
-#include "structure/output/surface.h"
-#include "structure/output/vtu.h"
 #include "structure/response/block_error.h"
 #include "structure/stress_tensor.h"
 #include "structure/response/flexibility.h"
@@ -139,38 +134,6 @@ TEST_F(SmallBlock, WrongNumberOfLugForcesIsRefused) {
   LoadCase load_case = lift();
   load_case.lug_forces_B.pop_back();
   EXPECT_THROW(responses_->coefficients(load_case), ModelError);
-}
-
-TEST_F(SmallBlock, SurfaceIsClosedAndCarriesTheDisplacementOfItsNodes) {
-  const Surface surface(*model_);
-  const SurfaceField field = surface.evaluate(*responses_, lift());
-  ASSERT_EQ(field.von_mises.size(), surface.points().size());
-  ASSERT_EQ(surface.quad_groups().size(), surface.quads().size());
-  double enclosed = 0;
-  for (const auto& quad : surface.quads()) {
-    const auto x = [&](std::size_t i) {
-      return surface.points()[static_cast<std::size_t>(quad[i])];
-    };
-    enclosed += x(0).dot(x(1).cross(x(2))) / 6 + x(0).dot(x(2).cross(x(3))) / 6;
-  }
-  EXPECT_NEAR(enclosed, volume(model_->mesh()), 1e-9);
-  double largest = 0;
-  for (const Vector3& u : field.displacement) largest = std::max(largest, u.norm());
-  const double expected = StressRecovery(*responses_).evaluate(lift()).displacement.value;
-  EXPECT_NEAR(largest, expected, 0.05 * expected);
-  EXPECT_LE(static_cast<int>(Surface(*model_, 2500).points().size()), 2500);
-}
-
-TEST_F(SmallBlock, VtuFileHoldsAllPoints) {
-  const auto path = std::filesystem::temp_directory_path() / "blocklift_response_test.vtu";
-  write_vtu(path.string(), *responses_, lift());
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::filesystem::remove(path);
-  for (const char* needed :
-       {"Name=\"displacement\"", "Name=\"von_mises\"", "Name=\"group_names\"", "</VTKFile>"})
-    EXPECT_NE(text.find(needed), std::string::npos) << needed;
-  EXPECT_THROW(write_vtu("/nowhere/at/all.vtu", *responses_, lift()), ModelError);
 }
 
 // Free bar of length L pulled at one end: the stress falls linearly from F/A to 0 (d'Alembert: a
