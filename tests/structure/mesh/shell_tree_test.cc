@@ -1,6 +1,7 @@
 // Which shells lie near a place, what a ray meets.
 #include "structure/mesh/shell_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -47,8 +48,8 @@ TEST(ShellTree, FindsTheShellsNearAPlace) {
       const double beside = Eigen::Vector2d(place.x() - std::clamp(place.x(), x, x + 1),
                                             place.y() - std::clamp(place.y(), y, y + 1))
                                 .norm();
-      if (std::hypot(beside, place.z()) < distance)
-        EXPECT_TRUE(std::find(found.begin(), found.end(), shell) != found.end()) << place;
+      if (std::hypot(beside, place.z()) >= distance) continue;
+      EXPECT_TRUE(std::find(found.begin(), found.end(), shell) != found.end()) << place;
     }
     EXPECT_LE(found.size(), 16U);  // those of a leaf at most come along
   }
