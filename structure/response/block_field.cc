@@ -103,6 +103,10 @@ SteelPlace SteelFinder::find(const Vector3& place, const Vector3& normal) const 
   return best;
 }
 
+SteelPlace find_cell(const Space& space, const Vector3& place) {
+  return SteelFinder(space).find(place);
+}
+
 Eigen::MatrixXd displacements_at(const ElasticModel& model, const Eigen::MatrixXd& motions,
                                  const Eigen::Matrix3Xd& places, const Vector3& normal) {
   const Space& space = model.space();

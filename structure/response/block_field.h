@@ -31,6 +31,9 @@ class SteelFinder {
   double reach_ = 0;  ///< how far a plate's steel lies from its vertices' surface at most, m
 };
 
+/// SteelFinder for one place: cell -1 if it lies in no plate.
+SteelPlace find_cell(const Space& space, const Vector3& place);
+
 /// Displacements at places of a block: row 3 p + axis for place p, a column for each of `motions`
 /// (freedoms x m), m. Off the mid-surface they are those of Reissner and Mindlin, u + theta x arm.
 /// @param normal of the plate that is meant where several meet, see SteelFinder.

@@ -9,6 +9,7 @@
 
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "structure/error.h"
+#include "structure/mesh/plates/shell_generator.h"
 #include "tests/dynamics/force/one_body.h"
 
 namespace blocklift::pipeline {
@@ -34,6 +35,10 @@ structure::BlockDescription box_block(double largest_element) {
                   {"across", structure::Axis::x, {-6, 0, 6}, all, 0.01, "steel"}};
   block.largest_element = largest_element;
   return block;
+}
+
+structure::ElasticModel box_model(double largest_element, int degree) {
+  return {structure::generate_shell_mesh(box_block(largest_element)), {degree, {}}};
 }
 
 dynamics::Hull box_hull(int n) { return dynamics::make_box(size, {3 * n, 2 * n, n, 1}); }
@@ -63,7 +68,7 @@ dynamics::ForceVector sum_of(const structure::ShellRegions& shell, const Eigen::
 }
 
 TEST(ShellPressure, RegionsTogetherFeelTheForceThatMovesTheHull) {
-  const structure::ElasticModel model = structure::make_elastic_model(box_block(3), 1);
+  const structure::ElasticModel model = box_model(3, 1);
   const structure::ShellRegions shell(model, 3);
   const ShellPressure pressure(box_hull(4), shell);
   Eigen::VectorXd wrenches(static_cast<Eigen::Index>(6 * shell.regions().size()));
@@ -90,14 +95,14 @@ TEST(ShellPressure, RegionsTogetherFeelTheForceThatMovesTheHull) {
 }
 
 TEST(ShellPressure, OuterPlatesAloneMakeTheShell) {
-  const structure::ElasticModel model = structure::make_elastic_model(box_block(3), 1);
+  const structure::ElasticModel model = box_model(3, 1);
   const structure::ShellRegions shell(model, 100);
   EXPECT_EQ(shell.regions().size(), 4u + 4u * 4u + 4u);  // bands begin at the planes through Bo
   for (const structure::ShellRegion& region : shell.regions())
     EXPECT_GT(region.centre_B.dot(region.outward_B), 1.99) << region.centre_B.transpose();
   const auto& below = shell.regions()[static_cast<std::size_t>(
       shell.nearest(Vector3(2, 2.9, -2.5), Vector3(0, 0.3, -0.95).normalized()))];
-  EXPECT_EQ(below.outward_B, Vector3(0, 0, -1));
+  EXPECT_LT((below.outward_B - Vector3(0, 0, -1)).norm(), 1e-14);
   EXPECT_THROW(structure::ShellRegions(model, 0), structure::ModelError);
 }
 
@@ -116,7 +121,7 @@ double work_error(const structure::ElasticModel& model, double region_size) {
   const Eigen::VectorXd load = shell.loads(wrenches);
   double work = 0;
   for (Eigen::Index n = 0; n < model.space().node_count(); ++n)
-    work += load.segment<3>(3 * n).dot(bulge(model.space().nodes.col(n)));
+    work += load.segment<3>(6 * n).dot(bulge(model.space().nodes().col(n)));
   // The same by a fine midpoint rule on the box's faces.
   double exact = 0;
   constexpr int points = 400;
@@ -136,10 +141,10 @@ double work_error(const structure::ElasticModel& model, double region_size) {
   return std::abs(work / exact - 1);
 }
 
-// Each region has the right force and moment: regions of a third of the box already give the work to the share
-// that plates of finite thickness and their corners, which belong to no region, make out (10 mm of 4 m).
+// Each region has the right force and moment: regions of a third of the box already give the work of a field
+// that no region follows.
 TEST(ShellPressure, PressureOfAHalfSubmergedBoxDoesTheWorkOfThatOnItsFaces) {
-  const structure::ElasticModel model = structure::make_elastic_model(box_block(1), 2);
+  const structure::ElasticModel model = box_model(1, 2);
   for (const double region_size : {4.0, 2.0, 1.0})
     EXPECT_LT(work_error(model, region_size), 0.0025);
 }
@@ -158,7 +163,7 @@ dynamics::History lowering(const dynamics::LiftSystem& system, int instants, dou
 }
 
 TEST(ShellPressure, FewFieldsMakeUpThePressureOfEveryInstant) {
-  const structure::ElasticModel model = structure::make_elastic_model(box_block(3), 1);
+  const structure::ElasticModel model = box_model(3, 1);
   dynamics::ForceElements elements;
   std::get<std::vector<HullForce>>(elements).push_back(
       hull_force(box_hull(4), WaveField(deep, {{0.3, 0.9, 0.7, 0}})));
@@ -200,7 +205,7 @@ TEST(ShellPressure, FewFieldsMakeUpThePressureOfEveryInstant) {
   EXPECT_LT(worst, std::sqrt(static_cast<double>(basis->regions)) * settings.tolerance * largest);
   // The loads carry these resultants, mode by mode.
   for (int k = 0; k < basis->count(); ++k) {
-    const structure::Wrench sum = structure::resultant(model.space().nodes, basis->loads.col(k));
+    const structure::Wrench sum = structure::resultant(model.space(), basis->loads.col(k));
     const double unit = basis->loads.col(k).cwiseAbs().sum();
     EXPECT_LT((sum.force - basis->resultants.col(k).head<3>()).norm(), 1e-10 * unit);
     EXPECT_LT((sum.moment - basis->resultants.col(k).tail<3>()).norm(), 1e-9 * unit);

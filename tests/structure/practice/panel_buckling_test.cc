@@ -1,12 +1,15 @@
 // Buckling of plate panels.
 #include "structure/practice/panel_buckling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "structure/mesh/plates/block_generator.h"
+#include "structure/mesh/plates/shell_generator.h"
+#include "tests/structure/hull_block.h"
+#include "tests/structure/motions.h"
 
 namespace blocklift::structure {
 namespace {
@@ -78,23 +81,35 @@ BlockDescription box() {
   return block;
 }
 
+using Motion6 = Eigen::Matrix<double, 6, 1>;
+
+BlockPanels panels_at_rest(const ElasticModel& model,
+                           const std::vector<PlateStiffening>& stiffening = {}) {
+  return {model, Eigen::MatrixXd::Zero(model.freedoms(), 1), stiffening};
+}
+
 TEST(BlockPanels, AreTheFieldsBetweenCrossingPlates) {
-  const ElasticModel model = make_elastic_model(box(), 2);
-  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(model.unknowns(), 1);
-  const BlockPanels panels(model, none, {{"bottom", 0, 0.5}});
+  const ElasticModel model(generate_shell_mesh(box()), {2, {}});
+  const BlockPanels panels =
+      panels_at_rest(model, {{"bottom", Vector3::UnitX(), 0.5}, {"deck", Vector3::UnitZ(), 0.5}});
   int decks = 0, webs = 0, bottoms = 0;
   for (const Panel& panel : panels.panels()) {
+    EXPECT_NEAR((panel.e_1.cross(panel.e_2) - panel.normal).norm(), 0, 1e-12);
     if (panel.group == "deck") {
       ++decks;  // divided by the web and the middle frame
-      EXPECT_NEAR(panel.size.a, 2, 0.02);
-      EXPECT_NEAR(panel.size.b, 1, 0.02);
+      EXPECT_NEAR(panel.size.a, 2, 1e-9);
+      EXPECT_NEAR(panel.size.b, 1, 1e-9);
       EXPECT_EQ(panel.free.along_a + panel.free.along_b, 0);
       EXPECT_DOUBLE_EQ(panel.size.thickness, 0.010);
+      EXPECT_NEAR(panel.centre_B.z(), 1, 1e-12);
+      EXPECT_EQ(panel.fields_a * panel.fields_b, 1);  // none run across a plate
     } else if (panel.group == "web") {
       ++webs;
-      EXPECT_EQ(panel.free.along_a + panel.free.along_b, 1);
+      EXPECT_EQ(panel.free.along_a, 1);
+      EXPECT_EQ(panel.free.along_b, 0);
     } else if (panel.group == "bottom") {
-      ++bottoms;
+      ++bottoms;  // a square lies along x
+      EXPECT_NEAR(panel.e_1.x(), 1, 1e-12);
       EXPECT_EQ(panel.fields_b, 4);
       EXPECT_EQ(panel.fields_a, 1);
     }
@@ -104,30 +119,131 @@ TEST(BlockPanels, AreTheFieldsBetweenCrossingPlates) {
   EXPECT_EQ(bottoms, 2);
 }
 
-// A displacement with a known stress: u = (c x + d x y, -(nu) c y, 0) ... taken as a plane state whose
-// mean and gradients are what Hooke's law gives.
-TEST(BlockPanels, MeanAndGradientOfALinearStressAreExact) {
-  const ElasticModel model = make_elastic_model(box(), 2);
-  Eigen::MatrixXd u(model.unknowns(), 1);
-  const double c = 1e-4, d = 3e-5;
-  for (int n = 0; n < model.space().node_count(); ++n) {
-    const Vector3 x = model.space().nodes.col(n);
-    u.block<3, 1>(3 * n, 0) = Vector3(c * x.x() + d * x.x() * x.y(), -d * x.x() * x.x() / 2, 0);
+// A step in thickness holds nothing: pads belong to their plate's panel. Lugs are none, and hold the edge that
+// they stand on as far as they reach.
+TEST(BlockPanels, PadsDivideNoPanel) {
+  const ElasticModel model(generate_shell_mesh(testing::small_block()), {1, {}});
+  int sides = 0;
+  for (const Panel& panel : panels_at_rest(model).panels()) {
+    EXPECT_EQ(panel.group.find('L'), std::string::npos) << panel.plate;
+    if (panel.group != "sides") continue;
+    ++sides;
+    EXPECT_NEAR(panel.size.a, 2, 1e-9);
+    EXPECT_NEAR(panel.size.b, 2, 1e-9);
+    EXPECT_DOUBLE_EQ(panel.size.thickness, 0.015);
+    EXPECT_EQ(panel.free.along_a, 1);  // the lug stands on 0.8 m of 2 m
+    EXPECT_EQ(panel.free.along_b, 0);
   }
-  const BlockPanels panels(model, u, {});
+  EXPECT_EQ(sides, 4);
+}
+
+// Beams along edges of shells divide a plate and hold its free edge.
+TEST(BlockPanels, BeamsDivideAndHold) {
+  BlockDescription plate;
+  plate.materials = {steel};
+  plate.plates = {{"deck", Axis::z, {0}, {{{0, 4}, {0, 2}, {}}}, 0.01, "AH36"}};
+  plate.largest_element = 1;
+  Mesh mesh = generate_shell_mesh(plate);
+  BeamSection section;
+  section.area = section.torsion = section.second_moment_2 = section.second_moment_3 = 1e-4;
+  section.shear_area_2 = section.shear_area_3 = 1e-4;
+  mesh.beam_sections = {section};
+  const auto beam_along = [&](double y) {
+    for (const Shell& shell : mesh.shells)
+      for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 1}, {2, 3}}) {
+        const int from = shell.vertices[i], to = shell.vertices[j];
+        const Vector3& p = mesh.vertices[static_cast<std::size_t>(from)];
+        const bool is_there = std::any_of(mesh.beams.begin(), mesh.beams.end(), [&](const Beam& b) {
+          return b.vertices == std::array<int, 2>{from, to};
+        });
+        if (std::abs(p.y() - y) > 1e-9 || is_there) continue;
+        Beam beam;
+        beam.vertices = {from, to};
+        mesh.beams.push_back(beam);
+      }
+  };
+  beam_along(1);
+  beam_along(2);
+  ASSERT_EQ(mesh.beams.size(), 8U);
+  const ElasticModel model(mesh, {2, {}});
+  const BlockPanels panels = panels_at_rest(model);
+  ASSERT_EQ(panels.panels().size(), 2U);
+  for (const Panel& panel : panels.panels()) {
+    EXPECT_NEAR(panel.size.a, 4, 1e-9);
+    EXPECT_NEAR(panel.size.b, 1, 1e-9);
+    EXPECT_EQ(panel.free.along_a, panel.centre_B.y() < 1 ? 1 : 0);
+    EXPECT_EQ(panel.free.along_b, 2);
+  }
+}
+
+/// u = (c x + d x y, -d x^2 / 2, 0): e_11 = c + d y and no other strain in planes z = const.
+Motion6 bent_in_plane(const Vector3& x) {
+  const double c = 1e-4, d = 3e-5;
+  Motion6 motion;
+  motion << c * x.x() + d * x.x() * x.y(), -d * x.x() * x.x() / 2, 0, 0, 0, 0;
+  return motion;
+}
+
+// Hooke's law in the plane: s_11 = E / (1 - nu^2) (c + d y), s_22 = nu s_11.
+TEST(BlockPanels, MeanAndGradientOfALinearStressAreExact) {
+  const ElasticModel model(generate_shell_mesh(box()), {2, {}});
+  const BlockPanels panels(model, testing::motion_of(model.space(), bent_in_plane), {});
   const auto found = panels.stresses(Eigen::VectorXd::Ones(1));
-  const double modulus = steel.lame_lambda() + 2 * steel.shear_modulus();
+  const double c = 1e-4, d = 3e-5, modulus = steel.youngs_modulus / (1 - 0.09);
   int seen = 0;
   for (std::size_t p = 0; p < found.size(); ++p) {
     const Panel& panel = panels.panels()[p];
     if (panel.group != "deck") continue;
-    ++seen;  // in-plane axes x, y; du/dx = c + d y, no shear
-    EXPECT_NEAR(found[p].s11, modulus * (c + d * panel.centre_B.y()), 1);
+    ++seen;
+    const double s11 = modulus * (c + d * panel.centre_B.y());
+    EXPECT_NEAR(found[p].s11, s11, 1);
+    EXPECT_NEAR(found[p].s22, 0.3 * s11, 1);
     EXPECT_NEAR(std::abs(found[p].s11_gradient), modulus * d * panel.size.b / 2, 1);
     EXPECT_NEAR(found[p].s12, 0, 1);
     EXPECT_NEAR(found[p].s22_gradient, 0, 1);
   }
   EXPECT_EQ(seen, 4);
+}
+
+// However the block lies, and whichever way its shells look, its panels and their stresses are the same.
+TEST(BlockPanels, DoNotDependOnTheBlocksDirection) {
+  const Mesh mesh = generate_shell_mesh(box());
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.rotate(Eigen::AngleAxisd(0.4, Vector3(0.2, -1, 0.5).normalized()));
+  X.pretranslate(Vector3(5, 2, -3));
+  Mesh turned = testing::moved(mesh, X);
+  for (std::size_t s = 0; s < turned.shells.size(); s += 2) {
+    std::swap(turned.shells[s].vertices[0], turned.shells[s].vertices[1]);
+    std::swap(turned.shells[s].vertices[2], turned.shells[s].vertices[3]);
+  }
+  const ElasticModel straight(mesh, {2, {}}), tilted(turned, {2, {}});
+  const BlockPanels of_straight(straight, testing::motion_of(straight.space(), bent_in_plane), {});
+  const BlockPanels of_tilted(
+      tilted,
+      testing::motion_of(tilted.space(),
+                         [&](const Vector3& place) -> Motion6 {
+                           Motion6 motion = bent_in_plane(X.inverse() * place);
+                           motion.head<3>() = (X.linear() * motion.head<3>()).eval();
+                           return motion;
+                         }),
+      {});
+  ASSERT_EQ(of_straight.panels().size(), of_tilted.panels().size());
+  const auto stresses = of_straight.stresses(Eigen::VectorXd::Ones(1)),
+             stresses_tilted = of_tilted.stresses(Eigen::VectorXd::Ones(1));
+  for (std::size_t p = 0; p < stresses.size(); ++p) {
+    const Panel &a = of_straight.panels()[p], &b = of_tilted.panels()[p];
+    EXPECT_LT((X * a.centre_B - b.centre_B).norm(), 1e-9);
+    EXPECT_NEAR(of_straight.utilisation(static_cast<int>(p), stresses[p]).critical,
+                of_tilted.utilisation(static_cast<int>(p), stresses_tilted[p]).critical, 1e-7)
+        << a.plate;
+    // Squares may lie either way.
+    const bool is_same_way = std::abs(b.e_1.dot(X.linear() * a.e_1)) > 0.5;
+    const PanelStress &s = stresses[p], &t = stresses_tilted[p];
+    EXPECT_NEAR(s.s11, is_same_way ? t.s11 : t.s22, 10);
+    EXPECT_NEAR(std::abs(s.s12), std::abs(t.s12), 10);
+    EXPECT_NEAR(std::abs(s.s11_gradient), std::abs(is_same_way ? t.s11_gradient : t.s22_gradient),
+                10);
+  }
 }
 
 }  // namespace

@@ -1,20 +1,12 @@
-// Unit responses, stress recovery and output on a free block.
-#include <algorithm>
+// Unit responses and stress recovery on a free block.
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <limits>
 #include <string>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/box_mesh.h"
-#include "structure/elasticity/stiffness.h"
 #include "structure/error.h"
-#include "structure/output/surface.h"
-#include "structure/output/vtu.h"
 #include "structure/response/block_error.h"
 #include "structure/stress_tensor.h"
 #include "structure/response/flexibility.h"
@@ -83,33 +75,11 @@ TEST_F(SmallBlock, UnbalancedLoadsAreSuperposedToo) {
   EXPECT_GT(responses_->balance(load_case).reaction_over_weight, 1e-3);
 }
 
-// What the supports bear under balanced loads is the resultant of what the solver leaves of the equations. A
-// Cholesky factor in floating point is that of K + E with |E| of some unit roundoffs of |L||L'| (Higham 2002,
-// theorem 10.3), whose entries are about those of |K|, and products with K round as much: row i is left with
-// about eps (|K||u|)_i, however the kernels of BLAS group their sums. That all rows are off to one side is the
-// worst; signs that fall at random, as they do, leave the root of their number of it.
-double largest_reaction_of_rounding(const ElasticModel& model, const Eigen::VectorXd& u) {
-  const SparseLower K = assemble_stiffness(model.mesh(), model.space(), 1);
-  double sum = 0;
-  for (Eigen::Index column = 0; column < K.outerSize(); ++column)
-    for (SparseLower::InnerIterator entry(K, column); entry; ++entry)
-      sum += std::abs(entry.value()) * (entry.row() == column
-                                            ? std::abs(u[column])
-                                            : std::abs(u[column]) + std::abs(u[entry.row()]));
-  return std::numeric_limits<double>::epsilon() * sum;
-}
-
 TEST_F(SmallBlock, BalancedLoadsLeaveNoReaction) {
-  const LoadCase load_case = lift(0.7);
-  const LoadBalance balance = responses_->balance(load_case);
+  const LoadBalance balance = responses_->balance(lift(0.7));
   EXPECT_LT(balance.force_residual, 1e-12);
   EXPECT_LT(balance.moment_residual, 1e-12);
-  const double weight = model_->mass_properties().mass *
-                        std::max(load_case.field.acceleration_less_gravity.norm(), 9.80665);
-  const double bound =
-      largest_reaction_of_rounding(*model_, responses_->displacement(load_case)) / weight;
-  EXPECT_LT(bound, 1e-5);  // or it would say nothing
-  EXPECT_LT(balance.reaction_over_weight, bound);
+  EXPECT_LT(balance.reaction_over_weight, 1e-7);
 }
 
 // A block at rest on the ground under slack ropes: what is left of cancelling forces is rounding.
@@ -164,38 +134,6 @@ TEST_F(SmallBlock, WrongNumberOfLugForcesIsRefused) {
   LoadCase load_case = lift();
   load_case.lug_forces_B.pop_back();
   EXPECT_THROW(responses_->coefficients(load_case), ModelError);
-}
-
-TEST_F(SmallBlock, SurfaceIsClosedAndCarriesTheDisplacementOfItsNodes) {
-  const Surface surface(*model_);
-  const SurfaceField field = surface.evaluate(*responses_, lift());
-  ASSERT_EQ(field.von_mises.size(), surface.points().size());
-  ASSERT_EQ(surface.quad_groups().size(), surface.quads().size());
-  double enclosed = 0;
-  for (const auto& quad : surface.quads()) {
-    const auto x = [&](std::size_t i) {
-      return surface.points()[static_cast<std::size_t>(quad[i])];
-    };
-    enclosed += x(0).dot(x(1).cross(x(2))) / 6 + x(0).dot(x(2).cross(x(3))) / 6;
-  }
-  EXPECT_NEAR(enclosed, volume(model_->mesh()), 1e-9);
-  double largest = 0;
-  for (const Vector3& u : field.displacement) largest = std::max(largest, u.norm());
-  const double expected = StressRecovery(*responses_).evaluate(lift()).displacement.value;
-  EXPECT_NEAR(largest, expected, 0.05 * expected);
-  EXPECT_LE(static_cast<int>(Surface(*model_, 2500).points().size()), 2500);
-}
-
-TEST_F(SmallBlock, VtuFileHoldsAllPoints) {
-  const auto path = std::filesystem::temp_directory_path() / "blocklift_response_test.vtu";
-  write_vtu(path.string(), *responses_, lift());
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  std::filesystem::remove(path);
-  for (const char* needed :
-       {"Name=\"displacement\"", "Name=\"von_mises\"", "Name=\"group_names\"", "</VTKFile>"})
-    EXPECT_NE(text.find(needed), std::string::npos) << needed;
-  EXPECT_THROW(write_vtu("/nowhere/at/all.vtu", *responses_, lift()), ModelError);
 }
 
 // Free bar of length L pulled at one end: the stress falls linearly from F/A to 0 (d'Alembert: a
