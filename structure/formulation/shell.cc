@@ -1,7 +1,10 @@
 #include "structure/formulation/shell.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <deal.II/base/quadrature_lib.h>
@@ -25,20 +28,16 @@ dealii::Quadrature<2> quadrature_of(const Eigen::Matrix2Xd& points) {
 /// Geometry of a shell's surface at a point, by the unit coordinates.
 struct Surface {
   Vector3 g_1, g_2, n;
-  Vector3 dn_1, dn_2;  ///< derivatives of the normal
-  double area = 0;     ///< |g_1 x g_2|
+  Vector3 dn_1 = Vector3::Zero(), dn_2 = Vector3::Zero();  ///< derivatives of the normal
+  double area = 0;                                         ///< |g_1 x g_2|
 };
 
 Vector3 to_vector(const dealii::Tensor<1, 3>& t) { return {t[0], t[1], t[2]}; }
 
-Surface surface_at(const dealii::FEValues<2, 3>& values, unsigned q) {
+Surface tangents_at(const dealii::FEValues<2, 3>& values, unsigned q) {
   const auto& jacobian = values.jacobian(q);
-  const auto& second = values.jacobian_grad(q);
   const auto tangent = [&](unsigned a) {
     return Vector3(jacobian[0][a], jacobian[1][a], jacobian[2][a]);
-  };
-  const auto curve = [&](unsigned a, unsigned b) {
-    return Vector3(second[0][a][b], second[1][a][b], second[2][a][b]);
   };
   Surface surface;
   surface.g_1 = tangent(0);
@@ -48,6 +47,15 @@ Surface surface_at(const dealii::FEValues<2, 3>& values, unsigned q) {
   // Only the edge of a triangle that is a point has none; strains tied there carry no weight.
   if (!(surface.area > 0)) surface.area = 1e-300;
   surface.n = across / surface.area;
+  return surface;
+}
+
+Surface surface_at(const dealii::FEValues<2, 3>& values, unsigned q) {
+  Surface surface = tangents_at(values, q);
+  const auto& second = values.jacobian_grad(q);
+  const auto curve = [&](unsigned a, unsigned b) {
+    return Vector3(second[0][a][b], second[1][a][b], second[2][a][b]);
+  };
   const auto turn = [&](unsigned b) -> Vector3 {
     const Vector3 change =
         (curve(0, b).cross(surface.g_2) + surface.g_1.cross(curve(1, b))) / surface.area;
@@ -93,50 +101,75 @@ void add(Row&& row, const Eigen::RowVectorXd& factors, const Vector3& a, int off
 
 constexpr int u = 0, theta = 3;  // where a node's displacement and rotation begin
 
-/// Strains by the unit coordinates (covariant components), one row each of ShellStrain.
-void covariant_strains(const Surface& s, const Shapes& shape, Rows& rows) {
-  rows.setZero(shell_strains, 6 * shape.value.size());
-  add(rows.row(membrane_11), shape.d_1, s.g_1, u);
-  add(rows.row(membrane_22), shape.d_2, s.g_2, u);
-  add(rows.row(membrane_12), shape.d_2, s.g_1, u);
-  add(rows.row(membrane_12), shape.d_1, s.g_2, u);
+/// A strain by the unit coordinates (a covariant component).
+template <typename Row>
+void covariant_strain(const Surface& s, const Shapes& shape, ShellStrain strain, Row&& row) {
+  row.setZero();
   // g . (theta x n) = theta . (n x g)
-  const Vector3 a_1 = s.n.cross(s.g_1), a_2 = s.n.cross(s.g_2);
-  const auto curvature = [&](ShellStrain row, const Vector3& g, const Vector3& a,
-                             const Vector3& dn_of_g, const Vector3& dn_along,
+  const auto curvature = [&](const Vector3& g, const Vector3& dn_of_g, const Vector3& dn_along,
                              const Eigen::RowVectorXd& along) {
-    add(rows.row(row), along, a, theta);
-    add(rows.row(row), shape.value, dn_along.cross(g), theta);
-    add(rows.row(row), along, dn_of_g, u);
+    add(row, along, s.n.cross(g), theta);
+    add(row, shape.value, dn_along.cross(g), theta);
+    add(row, along, dn_of_g, u);
   };
-  curvature(curvature_11, s.g_1, a_1, s.dn_1, s.dn_1, shape.d_1);
-  curvature(curvature_22, s.g_2, a_2, s.dn_2, s.dn_2, shape.d_2);
-  curvature(curvature_12, s.g_1, a_1, s.dn_1, s.dn_2, shape.d_2);
-  curvature(curvature_12, s.g_2, a_2, s.dn_2, s.dn_1, shape.d_1);
-  add(rows.row(shear_1), shape.d_1, s.n, u);
-  add(rows.row(shear_1), shape.value, a_1, theta);
-  add(rows.row(shear_2), shape.d_2, s.n, u);
-  add(rows.row(shear_2), shape.value, a_2, theta);
-  add(rows.row(drilling), shape.value, s.n, theta);
-  add(rows.row(drilling), shape.d_1, -s.g_2 / (2 * s.area), u);
-  add(rows.row(drilling), shape.d_2, s.g_1 / (2 * s.area), u);
+  switch (strain) {
+    case membrane_11:
+      add(row, shape.d_1, s.g_1, u);
+      break;
+    case membrane_22:
+      add(row, shape.d_2, s.g_2, u);
+      break;
+    case membrane_12:
+      add(row, shape.d_2, s.g_1, u);
+      add(row, shape.d_1, s.g_2, u);
+      break;
+    case curvature_11:
+      curvature(s.g_1, s.dn_1, s.dn_1, shape.d_1);
+      break;
+    case curvature_22:
+      curvature(s.g_2, s.dn_2, s.dn_2, shape.d_2);
+      break;
+    case curvature_12:
+      curvature(s.g_1, s.dn_1, s.dn_2, shape.d_2);
+      curvature(s.g_2, s.dn_2, s.dn_1, shape.d_1);
+      break;
+    case shear_1:
+      add(row, shape.d_1, s.n, u);
+      add(row, shape.value, s.n.cross(s.g_1), theta);
+      break;
+    case shear_2:
+      add(row, shape.d_2, s.n, u);
+      add(row, shape.value, s.n.cross(s.g_2), theta);
+      break;
+    default:
+      add(row, shape.value, s.n, theta);
+      add(row, shape.d_1, -s.g_2 / (2 * s.area), u);
+      add(row, shape.d_2, s.g_1 / (2 * s.area), u);
+  }
 }
 
-/// Turns covariant strains into those along the point's unit tangents.
-void to_tangents(const Surface& s, ShellPoint& point) {
+/// Unit tangents at right angles, the first as near to a direction as it gets.
+std::pair<Vector3, Vector3> unit_tangents(const Surface& s, const Vector3& along) {
+  const Vector3 e_1 = (along - s.n * s.n.dot(along)).normalized();
+  return {e_1, s.n.cross(e_1)};
+}
+
+/// Takes covariant components to those along unit tangents.
+struct Turn {
+  Eigen::Matrix2d vectors;
+  Eigen::Matrix3d strains;  ///< (11, 22, 2 x 12)
+};
+
+Turn turn_to(const Surface& s, const Vector3& e_1, const Vector3& e_2) {
   // p(a, b) = e_a . g^b, g^b being the contravariant tangents.
   const Vector3 contra_1 = s.g_2.cross(s.n) / s.area, contra_2 = s.n.cross(s.g_1) / s.area;
-  Eigen::Matrix2d p;
-  p << point.e_1.dot(contra_1), point.e_1.dot(contra_2), point.e_2.dot(contra_1),
-      point.e_2.dot(contra_2);
-  Eigen::Matrix3d turn;                                             // of (11, 22, 2 x 12)
-  turn << p(0, 0) * p(0, 0), p(0, 1) * p(0, 1), p(0, 0) * p(0, 1),  //
-      p(1, 0) * p(1, 0), p(1, 1) * p(1, 1), p(1, 0) * p(1, 1),      //
+  Turn turn;
+  Eigen::Matrix2d& p = turn.vectors;
+  p << e_1.dot(contra_1), e_1.dot(contra_2), e_2.dot(contra_1), e_2.dot(contra_2);
+  turn.strains << p(0, 0) * p(0, 0), p(0, 1) * p(0, 1), p(0, 0) * p(0, 1),  //
+      p(1, 0) * p(1, 0), p(1, 1) * p(1, 1), p(1, 0) * p(1, 1),              //
       2 * p(0, 0) * p(1, 0), 2 * p(0, 1) * p(1, 1), p(0, 0) * p(1, 1) + p(0, 1) * p(1, 0);
-  point.strain.middleRows<3>(membrane_11) = (turn * point.strain.middleRows<3>(membrane_11)).eval();
-  point.strain.middleRows<3>(curvature_11) =
-      (turn * point.strain.middleRows<3>(curvature_11)).eval();
-  point.strain.middleRows<2>(shear_1) = (p * point.strain.middleRows<2>(shear_1)).eval();
+  return turn;
 }
 
 std::vector<double> gauss_places(int count) {
@@ -154,16 +187,18 @@ std::vector<double> lagrange_at(const std::vector<double>& places, double x) {
   return values;
 }
 
-const auto geometry_flags =
+const auto tangents_flags = dealii::update_jacobians;
+const auto surface_flags =
     dealii::update_jacobians | dealii::update_jacobian_grads | dealii::update_quadrature_points;
 
 }  // namespace
 
 /// Shape functions and geometry at points of a cell.
 struct ShellOperator::Tabulation {
-  Tabulation(const Space::Implementation& own, const Eigen::Matrix2Xd& points)
+  Tabulation(const Space::Implementation& own, const Eigen::Matrix2Xd& points,
+             dealii::UpdateFlags flags)
       : shapes(tabulate(own, points)),
-        values(*own.shell_mapping, own.shell_element, quadrature_of(points), geometry_flags) {}
+        values(*own.shell_mapping, own.shell_element, quadrature_of(points), flags) {}
   std::vector<Shapes> shapes;
   dealii::FEValues<2, 3> values;
 };
@@ -172,16 +207,11 @@ struct ShellOperator::Tabulation {
 struct ShellOperator::TiedStrains {
   TiedStrains(const Space::Implementation& own, const std::vector<double>& x,
               const std::vector<double>& y, std::vector<ShellStrain> of,
-              const Eigen::Matrix2Xd& wanted)
-      : table(std::make_unique<Tabulation>(own, grid(x, y))), strains(std::move(of)) {
-    interpolation.resize(wanted.cols(), static_cast<Eigen::Index>(x.size() * y.size()));
-    for (Eigen::Index q = 0; q < wanted.cols(); ++q) {
-      const auto along_x = lagrange_at(x, wanted(0, q)), along_y = lagrange_at(y, wanted(1, q));
-      for (std::size_t j = 0; j < y.size(); ++j)
-        for (std::size_t i = 0; i < x.size(); ++i)
-          interpolation(q, static_cast<Eigen::Index>(j * x.size() + i)) = along_x[i] * along_y[j];
-    }
-  }
+              const Eigen::Matrix2Xd& wanted, const Eigen::Matrix2Xd& rule)
+      : table(std::make_unique<Tabulation>(own, grid(x, y), tangents_flags)),
+        strains(std::move(of)),
+        interpolation(weights(x, y, wanted)),
+        to_rule(weights(x, y, rule)) {}
   static Eigen::Matrix2Xd grid(const std::vector<double>& x, const std::vector<double>& y) {
     Eigen::Matrix2Xd points(2, static_cast<Eigen::Index>(x.size() * y.size()));
     for (std::size_t j = 0; j < y.size(); ++j)
@@ -189,10 +219,58 @@ struct ShellOperator::TiedStrains {
         points.col(static_cast<Eigen::Index>(j * x.size() + i)) << x[i], y[j];
     return points;
   }
+  static Eigen::MatrixXd weights(const std::vector<double>& x, const std::vector<double>& y,
+                                 const Eigen::Matrix2Xd& wanted) {
+    Eigen::MatrixXd result(wanted.cols(), static_cast<Eigen::Index>(x.size() * y.size()));
+    for (Eigen::Index q = 0; q < wanted.cols(); ++q) {
+      const auto along_x = lagrange_at(x, wanted(0, q)), along_y = lagrange_at(y, wanted(1, q));
+      for (std::size_t j = 0; j < y.size(); ++j)
+        for (std::size_t i = 0; i < x.size(); ++i)
+          result(q, static_cast<Eigen::Index>(j * x.size() + i)) = along_x[i] * along_y[j];
+    }
+    return result;
+  }
 
   std::unique_ptr<Tabulation> table;
   std::vector<ShellStrain> strains;
   Eigen::MatrixXd interpolation;  ///< wanted points x points of the table
+  Eigen::MatrixXd to_rule;        ///< points of the cell's rule x points of the table
+};
+
+/// The cell's Gauss points, for means over it.
+struct ShellOperator::Mean {
+  explicit Mean(const Space& space)
+      : rule(square_rule(space.degree() + 1)),
+        table(space.implementation(), rule.topRows<2>(), tangents_flags) {}
+
+  void reinit(const Vector3& along) {
+    area = 0;
+    to_mean.clear();
+    surfaces.clear();
+    for (Eigen::Index q = 0; q < rule.cols(); ++q) {
+      surfaces.push_back(tangents_at(table.values, static_cast<unsigned>(q)));
+      const auto [e_1, e_2] = unit_tangents(surfaces.back(), along);
+      const double part = rule(2, q) * surfaces.back().area;
+      to_mean.push_back(part * turn_to(surfaces.back(), e_1, e_2).strains);
+      area += part;
+    }
+    for (Eigen::Matrix3d& matrix : to_mean) matrix /= area;
+  }
+  /// Is the cell a parallelogram?
+  bool is_even() const {
+    const Surface& first = surfaces.front();
+    const double close = 1e-10 * (first.g_1.norm() + first.g_2.norm());
+    return std::all_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
+      return (s.g_1 - first.g_1).norm() < close && (s.g_2 - first.g_2).norm() < close;
+    });
+  }
+
+  Eigen::Matrix3Xd rule;
+  Tabulation table;
+  std::vector<Surface> surfaces;
+  std::vector<Eigen::Matrix3d> to_mean;  ///< membrane strains' shares in their mean along e_1, e_2
+  double area = 0;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> strains;
 };
 
 ShellOperator::~ShellOperator() = default;
@@ -200,88 +278,111 @@ ShellOperator::~ShellOperator() = default;
 ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points)
     : space_(space),
       points_(at(points.cols())),
-      table_(std::make_unique<Tabulation>(space.implementation(), points)) {
-  const Space::Implementation& own = space.implementation();
+      table_(std::make_unique<Tabulation>(space.implementation(), points, surface_flags)),
+      mean_(std::make_unique<Mean>(space)) {
+  const auto tie = [&](const std::vector<double>& x, const std::vector<double>& y,
+                       const std::vector<ShellStrain>& strains) {
+    ties_.emplace_back(space.implementation(), x, y, strains, points, mean_->rule.topRows<2>());
+    for (const ShellStrain strain : strains) is_tied_[at(strain)] = true;
+  };
   if (space.degree() == 1) {
-    ties_.emplace_back(own, std::vector{0.5}, std::vector{0.0, 1.0}, std::vector{shear_1}, points);
-    ties_.emplace_back(own, std::vector{0.0, 1.0}, std::vector{0.5}, std::vector{shear_2}, points);
-    ties_.emplace_back(own, gauss_places(2), gauss_places(2), std::vector<ShellStrain>{}, points);
-  } else if (space.degree() == 2) {
-    const auto two = gauss_places(2), three = gauss_places(3);
-    ties_.emplace_back(own, two, three, std::vector{membrane_11, shear_1}, points);
-    ties_.emplace_back(own, three, two, std::vector{membrane_22, shear_2}, points);
-    ties_.emplace_back(own, two, two, std::vector{membrane_12}, points);
+    tie({0.5}, {0.0, 1.0}, {shear_1});
+    tie({0.0, 1.0}, {0.5}, {shear_2});
+  } else {
+    const auto few = gauss_places(space.degree()), many = gauss_places(space.degree() + 1);
+    tie(few, many, {membrane_11, shear_1});
+    tie(many, few, {membrane_22, shear_2});
+    tie(few, few, {membrane_12});
   }
 }
 
 void ShellOperator::reinit(int cell) {
-  const Space::Implementation& own = space_.implementation();
-  const auto& iterator = own.shell_cells[at(cell)];
+  const auto& iterator = space_.implementation().shell_cells[at(cell)];
   table_->values.reinit(iterator);
+  mean_->table.values.reinit(iterator);
   for (TiedStrains& tie : ties_) tie.table->values.reinit(iterator);
 
   const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
   const double offset = space_.mesh().section_of(shell).offset;
   // One direction for the whole cell, so that components can be compared and averaged in it.
   const Vector3 along = space_.place(cell, {1, 0.5}) - space_.place(cell, {0, 0.5});
+  mean_->reinit(along);
 
-  static thread_local std::vector<Surface> surfaces;
-  surfaces.clear();
+  static thread_local std::vector<Turn> turns;
+  turns.clear();
   for (std::size_t q = 0; q < points_.size(); ++q) {
-    surfaces.push_back(surface_at(table_->values, static_cast<unsigned>(q)));
-    const Surface& surface = surfaces.back();
-    covariant_strains(surface, table_->shapes[q], points_[q].strain);
+    const Surface surface = surface_at(table_->values, static_cast<unsigned>(q));
     ShellPoint& point = points_[q];
+    point.strain.resize(shell_strains, 6 * space_.nodes_per_shell());
+    for (int strain = 0; strain < shell_strains; ++strain)
+      if (!is_tied_[at(strain)])
+        covariant_strain(surface, table_->shapes[q], static_cast<ShellStrain>(strain),
+                         point.strain.row(strain));
     point.place = to_vector(table_->values.quadrature_point(static_cast<unsigned>(q)));
     point.normal = surface.n;
-    point.e_1 = (along - surface.n * surface.n.dot(along)).normalized();
-    point.e_2 = surface.n.cross(point.e_1);
+    std::tie(point.e_1, point.e_2) = unit_tangents(surface, along);
     point.area = surface.area;
+    turns.push_back(turn_to(surface, point.e_1, point.e_2));
   }
+  const bool is_balanced = space_.degree() > 1 && mean_->is_even();
+  mean_->strains.resize(3, 0);
+  if (!is_balanced) find_mean_strains();
   tie_strains();
-  for (std::size_t q = 0; q < points_.size(); ++q) to_tangents(surfaces[q], points_[q]);
-  if (space_.degree() == 1) average_membrane_shear();
-  if (offset != 0)
-    for (ShellPoint& point : points_)
-      point.strain.middleRows<3>(membrane_11) += offset * point.strain.middleRows<3>(curvature_11);
+  for (std::size_t q = 0; q < points_.size(); ++q) {
+    Rows& strain = points_[q].strain;
+    strain.middleRows<3>(membrane_11) =
+        (turns[q].strains * strain.middleRows<3>(membrane_11)).eval();
+    strain.middleRows<3>(curvature_11) =
+        (turns[q].strains * strain.middleRows<3>(curvature_11)).eval();
+    strain.middleRows<2>(shear_1) = (turns[q].vectors * strain.middleRows<2>(shear_1)).eval();
+    // A bilinear cell that bends in its plane has shear that no beam has, whose mean is nothing.
+    if (space_.degree() == 1)
+      strain.row(membrane_12) = mean_->strains.row(2);
+    else if (!is_balanced)
+      strain.middleRows<3>(membrane_11) += mean_->strains;
+    if (offset != 0)
+      strain.middleRows<3>(membrane_11) += offset * strain.middleRows<3>(curvature_11);
+  }
 }
 
-void ShellOperator::tie_strains() {
-  static thread_local Rows rows;
-  for (const TiedStrains& tie : ties_) {
-    if (tie.strains.empty()) continue;
-    for (ShellPoint& point : points_)
-      for (const ShellStrain strain : tie.strains) point.strain.row(strain).setZero();
-    for (std::size_t k = 0; k < tie.table->shapes.size(); ++k) {
-      covariant_strains(surface_at(tie.table->values, static_cast<unsigned>(k)),
-                        tie.table->shapes[k], rows);
-      for (std::size_t q = 0; q < points_.size(); ++q)
-        for (const ShellStrain strain : tie.strains)
-          points_[q].strain.row(strain) +=
-              tie.interpolation(static_cast<Eigen::Index>(q), static_cast<Eigen::Index>(k)) *
-              rows.row(strain);
+// The mean of the membrane strains as the displacements have them.
+void ShellOperator::find_mean_strains() {
+  static thread_local Eigen::RowVectorXd row;
+  row.resize(6 * space_.nodes_per_shell());
+  mean_->strains.setZero(3, row.size());
+  for (std::size_t q = 0; q < mean_->surfaces.size(); ++q)
+    for (const ShellStrain strain : {membrane_11, membrane_22, membrane_12}) {
+      covariant_strain(mean_->surfaces[q], mean_->table.shapes[q], strain, row);
+      for (int i = 0; i < 3; ++i) mean_->strains.row(i) += mean_->to_mean[q](i, strain) * row;
     }
-  }
 }
 
-// The mean over the cell of the membrane shear along its direction: a bilinear cell that bends in its plane
-// has shear that no beam has, whose mean is nothing.
-void ShellOperator::average_membrane_shear() {
-  const Tabulation& table = *ties_.back().table;
-  ShellPoint mean = points_.front();
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(mean.strain.cols());
-  double area = 0;
-  for (std::size_t k = 0; k < table.shapes.size(); ++k) {
-    const Surface surface = surface_at(table.values, static_cast<unsigned>(k));
-    ShellPoint point;
-    covariant_strains(surface, table.shapes[k], point.strain);
-    point.e_1 = (mean.e_1 - surface.n * surface.n.dot(mean.e_1)).normalized();
-    point.e_2 = surface.n.cross(point.e_1);
-    to_tangents(surface, point);
-    sum += surface.area * point.strain.row(membrane_12);
-    area += surface.area;
-  }
-  for (ShellPoint& point : points_) point.strain.row(membrane_12) = sum / area;
+// Interpolates the tied strains, and takes their mean away from that of the displacements.
+void ShellOperator::tie_strains() {
+  static thread_local Eigen::RowVectorXd row;
+  row.resize(6 * space_.nodes_per_shell());
+  for (ShellPoint& point : points_)
+    for (int strain = 0; strain < shell_strains; ++strain)
+      if (is_tied_[at(strain)]) point.strain.row(strain).setZero();
+  for (const TiedStrains& tie : ties_)
+    for (std::size_t k = 0; k < tie.table->shapes.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const Surface surface = tangents_at(tie.table->values, static_cast<unsigned>(k));
+      for (const ShellStrain strain : tie.strains) {
+        covariant_strain(surface, tie.table->shapes[k], strain, row);
+        // Where both are Gauss points of one line most shares are nothing.
+        for (std::size_t q = 0; q < points_.size(); ++q)
+          if (const double share = tie.interpolation(static_cast<Eigen::Index>(q), column);
+              share != 0)
+            points_[q].strain.row(strain) += share * row;
+        if (strain > membrane_12 || mean_->strains.cols() == 0) continue;
+        Vector3 shares = Vector3::Zero();
+        for (std::size_t q = 0; q < mean_->to_mean.size(); ++q)
+          shares +=
+              tie.to_rule(static_cast<Eigen::Index>(q), column) * mean_->to_mean[q].col(strain);
+        for (int i = 0; i < 3; ++i) mean_->strains.row(i) -= shares[i] * row;
+      }
+    }
 }
 
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -44,9 +45,11 @@ struct ShellPoint {
 /// is e + z k; a section's offset moves the mid-surface away from the nodes.
 ///
 /// So that thin shells do not lock, shear strains of degree 1 are those of the middles of the edges (Bathe
-/// and Dvorkin 1985), and its membrane shear is the mean of the cell; of degree 2 e_11 and g_13 are taken at
-/// 2 x 3 Gauss points, e_22 and g_23 at 3 x 2, e_12 at 2 x 2 (Bucalem and Bathe 1993). Degrees 3 and 4 are
-/// integrated as they are.
+/// and Dvorkin 1985), and its membrane shear is the mean of the cell; of a degree p above it e_11 and g_13
+/// are taken at p x (p + 1) Gauss points, e_22 and g_23 at (p + 1) x p, e_12 at p x p (Bucalem and Bathe 1993
+/// for p = 2). What that takes from the mean membrane strain of a cell which is no parallelogram is given back
+/// evenly, so that constant stress does the same work on tied strains as on those of the displacements: without
+/// it distorted cells fail the patch test (for the mean of assumed strains see Simo and Hughes 1986).
 /// Source of the drilling term: Hughes and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121.
 ///
 /// One object serves one thread.
@@ -63,13 +66,16 @@ class ShellOperator {
  private:
   struct Tabulation;
   struct TiedStrains;
+  struct Mean;
   void tie_strains();
-  void average_membrane_shear();
+  void find_mean_strains();
 
   const Space& space_;
   std::vector<ShellPoint> points_;
   std::unique_ptr<Tabulation> table_;
   std::vector<TiedStrains> ties_;
+  std::array<bool, shell_strains> is_tied_{};
+  std::unique_ptr<Mean> mean_;
 };
 
 /// Stress resultants of a section for generalised strains: membrane forces (N/m), moments (N m/m), shear

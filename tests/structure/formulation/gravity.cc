@@ -6,7 +6,7 @@
 #include "structure/system/assembly.h"
 #include "structure/system/linear_solver.h"
 #include "structure/system/matter.h"
-#include "tests/structure/formulation/shell_samples.h"
+#include "pipeline/verification/models/shells/shell_models.h"
 
 namespace blocklift::structure::samples {
 
@@ -20,7 +20,7 @@ std::array<double, 3> weigh(const Mesh& mesh, int degree, const std::array<Vecto
   std::array<int, 3> upright{};
   const std::array<std::vector<int>, 3> held{{{2, 1, 0}, {2, 1}, {2}}};
   for (std::size_t s = 0; s < 3; ++s) {
-    const int node = nearest_node(space, supports[s]);
+    const int node = testing::nearest_node(space, supports[s]);
     if ((space.nodes().col(node) - supports[s]).norm() > 1e-9)
       throw std::runtime_error("no node lies at a support");
     upright[s] = static_cast<int>(fixed.size());
