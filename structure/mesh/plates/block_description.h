@@ -7,11 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "structure/material.h"
+#include "structure/mesh/mesh.h"
 
 namespace blocklift::structure {
-
-using Vector3 = Eigen::Vector3d;
 
 /// Axes of the block frame B: x along, y across, z up. All lengths below are in B, m.
 enum class Axis { x = 0, y = 1, z = 2 };
@@ -47,6 +45,24 @@ struct Opening {
   std::array<Interval, 3> extent;
 };
 
+/// Equal stiffeners on plates, in a row: beams that stand on one side and run along an axis, from edge to
+/// edge of the plate. None stands on its edges; openings cut them, and they are left out where another
+/// plate stands in their place.
+struct Stiffeners {
+  std::string name;
+  std::string plate;              ///< name of the plates that carry them
+  std::vector<double> positions;  ///< which of the plates, by position (m); empty: all of them
+  Axis along = Axis::x;
+  double spacing = 0;           ///< between neighbours, m
+  std::optional<double> first;  ///< place of one of them across, m; absent: the plate's lower edge
+  int side = 1;                 ///< of the plate, along its normal: +1 or -1
+  /// Profile in its own axes: axis 2 points away from the plate, axis 3 is (along) x (axis 2). The
+  /// section's material is not read.
+  BeamSection section;
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the profile's foot on the plate, m
+  std::string material;                                ///< empty: that of the plate
+};
+
 /// Thickened region of a plate around a lug: layers on both sides of the plate fill up to
 /// `thickness` in total.
 struct Pad {
@@ -80,6 +96,7 @@ struct BlockDescription {
   std::vector<Opening> openings;
   std::vector<Pad> pads;
   std::vector<Lug> lugs;
+  std::vector<Stiffeners> stiffeners;
   /// Mass and centre of mass in the lift, outfitting included; absent: those of the plates alone.
   std::optional<double> total_mass;         ///< kg
   std::optional<Vector3> centre_of_mass_B;  ///< m

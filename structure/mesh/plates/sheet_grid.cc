@@ -34,6 +34,7 @@ SheetGrid::SheetGrid(std::vector<Sheet> sheets) : sheets_(std::move(sheets)) {
                     "{:.2g} are allowed; align them, or leave some plates out",
                     points, most_points));
   fill();
+  mark_stiffeners();
   for (int axis = 0; axis < 3; ++axis) {
     is_kept_[at(axis)].assign(faces_[0].size(), 1);
     for (int plane = 1; plane + 1 < count(axis); ++plane) find_cuts(axis, plane);
@@ -106,6 +107,8 @@ void SheetGrid::collect_planes(int axis) {
     for (const auto& hole : sheet.holes)
       for (const double edge : {hole[at(axis)].lower, hole[at(axis)].upper})
         add(snapped(axis, edge, nullptr));
+    for (const StiffenerLine& line : sheet.stiffeners)
+      if (line.along != axis) add(snapped(axis, line.position, nullptr));
   }
   std::sort(planes.begin(), planes.end());
 }
@@ -183,6 +186,86 @@ void SheetGrid::fill() {
   }
 }
 
+bool SheetGrid::has_sheet(int normal, const Place& place, int sheet) const {
+  if (*std::min_element(place.begin(), place.end()) < 0) return false;
+  const std::vector<int>& here = signatures_[at(face(normal, place))];
+  return std::find(here.begin(), here.end(), sheet) != here.end();
+}
+
+// Whether a stiffener stands on the line from a point of the grid upwards: there is plate beside it, and
+// no other plate on its side.
+bool SheetGrid::bears(int sheet, const StiffenerLine& line, const Place& place) const {
+  if (!(thickness_under(sheet, line, place) > 0)) return false;
+  const int normal = sheets_[at(sheet)].normal, across = 3 - line.along - normal;
+  Place other = place;
+  if (line.side < 0) --other[at(normal)];
+  return other[at(normal)] < 0 || face(across, other) == 0;
+}
+
+// Thickness beside a stiffener: the plate's own, or that of what covers it on both sides; 0 where there is
+// neither plate nor pad.
+double SheetGrid::thickness_under(int sheet, const StiffenerLine& line, const Place& place) const {
+  const int normal = sheets_[at(sheet)].normal, across = 3 - line.along - normal;
+  double thinnest = 0;
+  for (int step = 0; step < 2; ++step) {
+    Place beside = place;
+    beside[at(across)] -= step;
+    if (!has_sheet(normal, beside, sheet)) continue;
+    const Sheet& top = sheets_[at(owners_[at(face(normal, beside))])];
+    if (top.rank == SheetRank::lug) continue;
+    if (thinnest == 0 || top.thickness < thinnest) thinnest = top.thickness;
+  }
+  return thinnest;
+}
+
+SheetGrid::Place SheetGrid::start_of(const Panel& box, const StiffenerLine& line) const {
+  Place start = box.lower;
+  const int across = 3 - line.along - box.normal;
+  start[at(across)] = plane_at(across, snapped(across, line.position, nullptr));
+  return start;
+}
+
+void SheetGrid::mark_stiffeners() {
+  for (auto& asked : is_asked_) asked.assign(faces_[0].size(), 0);
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    const Panel box = box_of(sheets_[s]);
+    for (const StiffenerLine& line : sheets_[s].stiffeners) {
+      const int across = 3 - line.along - box.normal;
+      const std::size_t along = at(line.along);
+      bool bore = false;
+      for (Place place = start_of(box, line); place[along] <= box.upper[along]; ++place[along]) {
+        const bool is_borne =
+            place[along] < box.upper[along] && bears(static_cast<int>(s), line, place);
+        if (bore || is_borne) is_asked_[at(across)][index(place)] = 1;
+        if (bore != is_borne) is_asked_[along][index(place)] = 1;
+        bore = is_borne;
+      }
+    }
+  }
+}
+
+std::vector<StiffenerSpan> SheetGrid::stiffener_spans() const {
+  std::vector<StiffenerSpan> spans;
+  for (std::size_t s = 0; s < sheets_.size(); ++s) {
+    const auto sheet = static_cast<int>(s);
+    const Panel box = box_of(sheets_[s]);
+    for (const StiffenerLine& line : sheets_[s].stiffeners) {
+      const std::size_t along = at(line.along);
+      Place place = start_of(box, line);
+      while (place[along] < box.upper[along]) {
+        Place end = place;
+        do ++end[along];
+        while (end[along] < box.upper[along] && is_kept_[along][index(end)] == 0);
+        if (bears(sheet, line, place))
+          spans.push_back({line.row, sheet, line.along, place, end, line.side,
+                           thickness_under(sheet, line, place)});
+        place = end;
+      }
+    }
+  }
+  return spans;
+}
+
 // Whether a sheet across the axis touches the point.
 bool SheetGrid::is_cut_at(int axis, const Place& point) const {
   const int b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -219,7 +302,7 @@ void SheetGrid::find_cuts(int axis, int plane) {
       bool is_needed = false;
       for (std::size_t n = 0; n < piece.size(); ++n) {
         const Place point = piece[n];
-        is_needed = is_needed || is_cut_at(axis, point);
+        is_needed = is_needed || is_asked_[at(axis)][index(point)] != 0 || is_cut_at(axis, point);
         for (const int along : {b, c})
           for (int step = -1; step < 2; step += 2) {
             Place end = point, above = point;

@@ -17,9 +17,21 @@ struct Panel {
   int owner = 0;            ///< the one of them that it belongs to
 };
 
+/// Piece of a stiffener between cuts.
+struct StiffenerSpan {
+  int row = 0;    ///< place in BlockDescription::stiffeners
+  int sheet = 0;  ///< that carries it
+  int along = 0;
+  /// Places of its ends among the planes of each axis; alike across it.
+  std::array<int, 3> lower{}, upper{};
+  int side = 1;          ///< of the sheet, along its normal
+  double thickness = 0;  ///< of what it stands on, m
+};
+
 /// Mid-planes of all sheets, cut into rectangles that meet along whole edges.
 ///
-/// Along each axis lie planes through the mid-planes and the edges of sheets and openings. An edge that
+/// Along each axis lie planes through the mid-planes and the edges of sheets and openings, and through
+/// stiffeners. An edge that
 /// ends within the thickness of another sheet is led to that sheet's mid-plane. Of each plane's cuts
 /// stay those that something needs: a piece of steel that is connected along the plane is cut throughout
 /// or not at all.
@@ -36,6 +48,8 @@ class SheetGrid {
   }
   /// Conforming: two of them share a whole edge, a corner or nothing.
   std::vector<Panel> panels() const;
+  /// Each lies on an edge of panels and between two of its corners.
+  std::vector<StiffenerSpan> stiffener_spans() const;
 
  private:
   using Place = std::array<int, 3>;
@@ -59,14 +73,20 @@ class SheetGrid {
   Panel box_of_hole(const Sheet& sheet, const std::array<Interval, 3>& hole) const;
   void fill();
   bool is_cut_at(int axis, const Place& point) const;
+  bool has_sheet(int normal, const Place& place, int sheet) const;
+  bool bears(int sheet, const StiffenerLine& line, const Place& place) const;
+  double thickness_under(int sheet, const StiffenerLine& line, const Place& place) const;
+  Place start_of(const Panel& box, const StiffenerLine& line) const;
+  void mark_stiffeners();
   void find_cuts(int axis, int plane);
 
   std::vector<Sheet> sheets_;
   std::array<std::vector<double>, 3> planes_;
-  std::vector<std::vector<int>> signatures_;  ///< sets of sheets that occur
-  std::vector<int> owners_;                   ///< of each of them; -1: none
-  std::array<std::vector<int>, 3> faces_;     ///< by normal and point
-  std::array<std::vector<char>, 3> is_kept_;  ///< by axis and point: lines along the axis end here
+  std::vector<std::vector<int>> signatures_;   ///< sets of sheets that occur
+  std::vector<int> owners_;                    ///< of each of them; -1: none
+  std::array<std::vector<int>, 3> faces_;      ///< by normal and point
+  std::array<std::vector<char>, 3> is_kept_;   ///< by axis and point: lines along the axis end here
+  std::array<std::vector<char>, 3> is_asked_;  ///< by axis and point: a stiffener asks for that
 };
 
 }  // namespace blocklift::structure

@@ -29,6 +29,8 @@ bool overlap_in_plane(const Sheet& a, const Sheet& b) {
 
 namespace {
 
+constexpr double most_stiffeners = 1e4;  // of a row on one plate
+
 template <typename Items>
 std::string names_of(const Items& items) {
   std::string list;
@@ -49,14 +51,7 @@ void check_names(const BlockDescription& block) {
   check("plate", block.plates);
   check("pad", block.pads);
   check("lug", block.lugs);
-}
-
-int place_of_material(const BlockDescription& block, const std::string& what,
-                      const std::string& material) {
-  for (std::size_t i = 0; i < block.materials.size(); ++i)
-    if (block.materials[i].name == material) return static_cast<int>(i);
-  throw ModelError(what + " is made of \"" + material +
-                   "\", which is not among the materials: " + names_of(block.materials));
+  check("row of stiffeners", block.stiffeners);
 }
 
 void check_rectangle(const std::string& what, Axis normal, const std::array<Interval, 3>& extent) {
@@ -89,6 +84,7 @@ Sheet make_sheet(const std::string& name, int group, SheetRank rank, Axis normal
           extent,
           thickness,
           0,
+          {},
           {}};
 }
 
@@ -120,23 +116,79 @@ void add_plates(const BlockDescription& block, std::vector<Sheet>& sheets) {
             sheets[j].name, sheets[j].thickness * 1e3, sheets[i].name, sheets[i].thickness * 1e3));
 }
 
+bool is_selected(const std::vector<double>& positions, const Sheet& sheet) {
+  return positions.empty() || std::any_of(positions.begin(), positions.end(), [&](double p) {
+           return std::abs(p - sheet.position) < 1e-6;
+         });
+}
+
+/// Sheets of the plates that something is cut into or stands on, at the positions that it names.
+std::vector<Sheet*> sheets_of(const BlockDescription& block, const std::string& what,
+                              const std::string& plate, const std::vector<double>& positions,
+                              std::vector<Sheet>& sheets) {
+  if (std::none_of(block.plates.begin(), block.plates.end(),
+                   [&](const Plate& known) { return known.name == plate; }))
+    throw ModelError(what + " plate \"" + plate +
+                     "\", which the block does not have; its plates are " + names_of(block.plates));
+  std::vector<Sheet*> selected;
+  for (Sheet& sheet : sheets)
+    if (block.plates[static_cast<std::size_t>(sheet.group)].name == plate &&
+        is_selected(positions, sheet))
+      selected.push_back(&sheet);
+  return selected;
+}
+
 void cut_openings(const BlockDescription& block, std::vector<Sheet>& sheets) {
   for (const Opening& opening : block.openings) {
-    bool is_cut = false;
-    for (Sheet& sheet : sheets) {
-      const Plate& plate = block.plates[static_cast<std::size_t>(sheet.group)];
-      if (plate.name != opening.plate) continue;
-      is_cut = true;
-      check_rectangle("opening \"" + opening.name + "\"", plate.normal, opening.extent);
-      if (opening.positions.empty() ||
-          std::any_of(opening.positions.begin(), opening.positions.end(),
-                      [&](double p) { return std::abs(p - sheet.position) < 1e-6; }))
-        sheet.holes.push_back(opening.extent);
+    const std::string what = "opening \"" + opening.name + "\"";
+    for (Sheet* sheet :
+         sheets_of(block, what + " is cut into", opening.plate, opening.positions, sheets)) {
+      check_rectangle(what, static_cast<Axis>(sheet->normal), opening.extent);
+      sheet->holes.push_back(opening.extent);
     }
-    if (!is_cut)
-      throw ModelError("opening \"" + opening.name + "\" is cut into plate \"" + opening.plate +
-                       "\", which the block does not have; its plates are " +
-                       names_of(block.plates));
+  }
+}
+
+void check_row(const std::string& what, const Stiffeners& row) {
+  if (!(std::isfinite(row.spacing) && row.spacing > 0))
+    throw ModelError(
+        fmt::format("{} has a spacing of {:g} m; it must be positive", what, row.spacing));
+  if (!(std::isfinite(row.section.area) && row.section.area > 0))
+    throw ModelError(
+        fmt::format("{} has a section of {:g} m^2; it must be positive", what, row.section.area));
+  if (row.side != 1 && row.side != -1)
+    throw ModelError(
+        fmt::format("{} stands on side {} of its plate; +1 and -1 are the sides along its normal",
+                    what, row.side));
+}
+
+void add_stiffeners(const BlockDescription& block, std::vector<Sheet>& sheets) {
+  for (std::size_t r = 0; r < block.stiffeners.size(); ++r) {
+    const Stiffeners& row = block.stiffeners[r];
+    const std::string what = "row of stiffeners \"" + row.name + "\"";
+    check_row(what, row);
+    if (!row.material.empty()) place_of_material(block, what, row.material);
+    const int along = static_cast<int>(row.along);
+    for (Sheet* sheet : sheets_of(block, what + " stands on", row.plate, row.positions, sheets)) {
+      if (along == sheet->normal)
+        throw ModelError(
+            fmt::format("{} runs along the normal of {}; it runs along one of the two "
+                        "other axes",
+                        what, sheet->name));
+      const Interval& across = sheet->extent[static_cast<std::size_t>(3 - along - sheet->normal)];
+      const double first = row.first.value_or(across.lower);
+      // None on the plate's own edges.
+      const double start = std::floor((across.lower - first) / row.spacing + 1e-6) + 1;
+      const double end = std::ceil((across.upper - first) / row.spacing - 1e-6) - 1;
+      if (end - start > most_stiffeners)
+        throw ModelError(
+            fmt::format("{}: a spacing of {:g} m makes {:.2g} stiffeners on {}, and "
+                        "{:.2g} are allowed",
+                        what, row.spacing, end - start + 1, sheet->name, most_stiffeners));
+      for (double i = start; i <= end; ++i)
+        sheet->stiffeners.push_back(
+            {static_cast<int>(r), along, first + i * row.spacing, row.side});
+    }
   }
 }
 
@@ -203,6 +255,14 @@ void add_pads_and_lugs(const BlockDescription& block, std::vector<Sheet>& sheets
 
 }  // namespace
 
+int place_of_material(const BlockDescription& block, const std::string& what,
+                      const std::string& material) {
+  for (std::size_t i = 0; i < block.materials.size(); ++i)
+    if (block.materials[i].name == material) return static_cast<int>(i);
+  throw ModelError(what + " is made of \"" + material +
+                   "\", which is not among the materials: " + names_of(block.materials));
+}
+
 int owner(const std::vector<Sheet>& sheets, const std::vector<int>& candidates) {
   return *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) {
     const Sheet &sa = sheets[static_cast<std::size_t>(a)],
@@ -220,6 +280,7 @@ std::vector<Sheet> spread_into_sheets(const BlockDescription& block) {
   std::vector<Sheet> sheets;
   add_plates(block, sheets);
   cut_openings(block, sheets);
+  add_stiffeners(block, sheets);
   add_pads_and_lugs(block, sheets);
   return sheets;
 }

@@ -11,6 +11,14 @@ namespace blocklift::structure {
 /// What a sheet is; the higher rank owns the cells that several sheets share.
 enum class SheetRank { plate = 0, pad = 1, lug = 2 };
 
+/// One stiffener of a row on a sheet.
+struct StiffenerLine {
+  int row = 0;  ///< place in BlockDescription::stiffeners
+  int along = 0;
+  double position = 0;  ///< across it on the sheet, m
+  int side = 1;         ///< of the sheet, along its normal
+};
+
 /// One rectangle of plate, pad or lug at one position: the generator's unit of work.
 struct Sheet {
   std::string name;  ///< for messages: "web_frames at x = 4 m"
@@ -22,12 +30,20 @@ struct Sheet {
   double thickness = 0;
   int material = 0;                            ///< place in BlockDescription::materials
   std::vector<std::array<Interval, 3>> holes;  ///< openings cut into it
+  std::vector<StiffenerLine> stiffeners;
 };
+
+/// Place of a material among a block's.
+/// @param what is made of it, for the message.
+/// @throws ModelError naming the materials that there are.
+int place_of_material(const BlockDescription& block, const std::string& what,
+                      const std::string& material);
 
 /// Spreads a description into sheets, in the order plates, pads, lugs.
 /// @throws ModelError naming what is wrong: names used twice, unknown materials, plates or pads,
 ///   empty extents, thickness not positive, overlapping plates of different thickness in one plane,
-///   an opening in a plate that does not exist, a pad that lies on no plate or is thinner than it.
+///   openings or stiffeners of a plate that does not exist, stiffeners without spacing or section or along
+///   their plate's normal, a pad that lies on no plate or is thinner than it.
 std::vector<Sheet> spread_into_sheets(const BlockDescription& description);
 
 /// The sheet that a place belongs to of those that lie there: the highest rank, then the thickest, then

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/error.h"
@@ -91,24 +92,20 @@ void check_size(const std::vector<Panel>& panels, const Divisions& divisions,
                     largest_element, shells, most_shells));
 }
 
-/// Makes the shells of panels, on common vertices.
-class ShellMaker {
+/// Makes the shells of panels and the beams of stiffeners, on common vertices.
+class CellMaker {
  public:
-  ShellMaker(Divisions divisions, Mesh& mesh) : divisions_(std::move(divisions)), mesh_(mesh) {}
+  CellMaker(Divisions divisions, Mesh& mesh) : divisions_(std::move(divisions)), mesh_(mesh) {}
 
   void add(const Panel& panel, int section) {
     const int u = (panel.normal + 1) % 3, v = (panel.normal + 2) % 3;
-    const auto parts = [&](int axis) {
-      return static_cast<int>(divisions_.parts(axis, panel.lower[at(axis)], panel.upper[at(axis)]));
-    };
-    for (int j = 0; j < parts(v); ++j)
-      for (int i = 0; i < parts(u); ++i) {
+    for (int j = 0; j < parts(panel, v); ++j)
+      for (int i = 0; i < parts(panel, u); ++i) {
         Shell shell;
         for (int corner = 0; corner < 4; ++corner) {
           Place place = panel.lower;
           for (const auto& [axis, part] : {std::pair{u, i + corner % 2}, {v, j + corner / 2}})
-            place[at(axis)] =
-                divisions_.number(axis, panel.lower[at(axis)], panel.upper[at(axis)], part);
+            place[at(axis)] = number(panel, axis, part);
           shell.vertices[at(corner)] = vertex(place);
         }
         shell.section = section;
@@ -118,7 +115,29 @@ class ShellMaker {
       }
   }
 
+  /// @param pattern a beam with all but vertices and label.
+  void add(const StiffenerSpan& span, const Beam& pattern) {
+    for (int i = 0; i < parts(span, span.along); ++i) {
+      Beam beam = pattern;
+      for (int end = 0; end < 2; ++end) {
+        Place place = span.lower;
+        place[at(span.along)] = number(span, span.along, i + end);
+        beam.vertices[at(end)] = vertex(place);
+      }
+      beam.label = static_cast<long>(mesh_.shells.size() + mesh_.beams.size()) + 1;
+      mesh_.beams.push_back(beam);
+    }
+  }
+
  private:
+  template <typename Piece>
+  int parts(const Piece& piece, int axis) const {
+    return static_cast<int>(divisions_.parts(axis, piece.lower[at(axis)], piece.upper[at(axis)]));
+  }
+  template <typename Piece>
+  int number(const Piece& piece, int axis, int part) {
+    return divisions_.number(axis, piece.lower[at(axis)], piece.upper[at(axis)], part);
+  }
   int vertex(const Place& place) {
     const auto [entry, is_new] =
         vertices_.try_emplace(place, static_cast<int>(mesh_.vertices.size()));
@@ -142,6 +161,7 @@ void add_groups_and_regions(const BlockDescription& block, const std::vector<She
   for (const auto& plate : block.plates) mesh.groups.push_back({plate.name, 0});
   for (const auto& pad : block.pads) mesh.groups.push_back({pad.name, 0});
   for (const auto& lug : block.lugs) mesh.groups.push_back({lug.name, 0});
+  for (const auto& row : block.stiffeners) mesh.groups.push_back({row.name, 0});
   for (const Sheet& sheet : sheets) {
     mesh.groups[at(sheet.group)].material = sheet.material;
     mesh.regions.push_back({sheet.name, sheet.group, sheet.rank == SheetRank::lug});
@@ -158,6 +178,43 @@ int section_of(const Sheet& sheet, Mesh& mesh) {
   if (known == mesh.shell_sections.end())
     mesh.shell_sections.push_back({sheet.thickness, sheet.material, 0});
   return place;
+}
+
+/// Makes the beams of the stiffeners, with a region for each row on each sheet.
+void add_beams(const BlockDescription& block, const SheetGrid& grid, CellMaker& maker, Mesh& mesh) {
+  const int first_group = static_cast<int>(mesh.groups.size() - block.stiffeners.size());
+  std::map<std::pair<int, int>, int> regions;   // (row, sheet)
+  std::map<std::pair<int, int>, int> sections;  // (row, material)
+  for (const StiffenerSpan& span : grid.stiffener_spans()) {
+    const Stiffeners& row = block.stiffeners[at(span.row)];
+    const Sheet& sheet = grid.sheets()[at(span.sheet)];
+    const int material =
+        row.material.empty() ? sheet.material : place_of_material(block, row.name, row.material);
+    const auto [section, is_new_section] =
+        sections.try_emplace({span.row, material}, static_cast<int>(mesh.beam_sections.size()));
+    if (is_new_section) {
+      mesh.beam_sections.push_back(row.section);
+      mesh.beam_sections.back().material = material;
+    }
+    const auto [region, is_new_region] =
+        regions.try_emplace({span.row, span.sheet}, static_cast<int>(mesh.regions.size()));
+    if (is_new_region) {
+      const int group = first_group + span.row;
+      mesh.groups[at(group)].material = material;
+      mesh.regions.push_back(
+          {fmt::format("{} at {} = {:g} m", row.name, "xyz"[sheet.normal], sheet.position), group,
+           false});
+    }
+    Beam beam;
+    beam.section = section->second;
+    beam.region = region->second;
+    beam.axis_2 = span.side * Vector3::Unit(sheet.normal);
+    const Vector3 axis_3 = Vector3::Unit(span.along).cross(beam.axis_2);
+    const Vector3 offset =
+        (span.thickness / 2 + row.centroid[0]) * beam.axis_2 + row.centroid[1] * axis_3;
+    beam.offset = {offset, offset};
+    maker.add(span, beam);
+  }
 }
 
 /// Numbers of the parts that hang together along edges, a panel each.
@@ -281,9 +338,10 @@ Mesh generate_shell_mesh(const BlockDescription& block) {
   check_joined(grid, panels);
   Mesh mesh;
   add_groups_and_regions(block, grid.sheets(), mesh);
-  ShellMaker maker(std::move(divisions), mesh);
+  CellMaker maker(std::move(divisions), mesh);
   for (const Panel& panel : panels)
     maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
+  add_beams(block, grid, maker, mesh);
   add_lifting_points(block, grid, panels, mesh);
   return mesh;
 }

@@ -11,8 +11,11 @@ namespace blocklift::structure {
 /// is that of all mid-planes times their thickness. Cuts run only as far as conformity asks, and what
 /// lies between two is divided evenly into edges no longer than the largest element. Each sheet (one plate
 /// at one position, a pad, a lug) is a region, in that order; its shells' normals point along its axis.
-/// Groups are the plates (all positions of a name together), pads and lugs. What several sheets share
-/// belongs to the lug before the pad before the thickest plate. Labels count from 1.
+/// Groups are the plates (all positions of a name together), pads, lugs and rows of stiffeners. Stiffeners
+/// are beams on the shells' edges, their centroid off the mid-plane by half the plate's thickness and the
+/// profile's own offset; those of one row on one sheet are a region, after the sheets. What several sheets share
+/// belongs to the lug before the pad before the thickest plate. Labels count
+/// from 1, shells before beams.
 ///
 /// @throws ModelError naming the parts: what spread_into_sheets and SheetGrid refuse, elements so small
 ///   that no memory holds them, parts that are not joined to the rest along an edge, a lug that touches no
