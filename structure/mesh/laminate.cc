@@ -107,8 +107,7 @@ Laminate homogeneous(const Material& material, double thickness) {
 
 NearestPlate nearest_plate(const Laminate& laminate, double thickness) {
   const Eigen::Matrix3d& a = laminate.membrane;
-  const double direct =
-      (3 * a(0, 0) + 3 * a(1, 1) + 2 * a(0, 1) + 4 * a(2, 2)) / (8 * thickness);
+  const double direct = (3 * a(0, 0) + 3 * a(1, 1) + 2 * a(0, 1) + 4 * a(2, 2)) / (8 * thickness);
   const double crossed = (a(0, 0) + a(1, 1) + 6 * a(0, 1) - 4 * a(2, 2)) / (8 * thickness);
   NearestPlate plate;
   plate.poisson_ratio = crossed / direct;

@@ -94,7 +94,8 @@ void integrate(const Mesh& mesh, const Shell& shell, const Visit& visit) {
                     : on_bilinear(mesh, shell, points[i], points[j]);
       const Vector3 normal = place.along_xi.cross(place.along_eta);
       const double size = normal.norm();
-      visit(weights[i] * weights[j] * size, place.point, size > 0 ? Vector3(normal / size) : normal);
+      visit(weights[i] * weights[j] * size, place.point,
+            size > 0 ? Vector3(normal / size) : normal);
     }
 }
 

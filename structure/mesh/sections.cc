@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "structure/error.h"
@@ -17,7 +18,8 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-void require_positive(const char* shape, std::initializer_list<std::pair<const char*, double>> list) {
+void require_positive(const char* shape,
+                      std::initializer_list<std::pair<const char*, double>> list) {
   for (const auto& [what, value] : list)
     if (!(std::isfinite(value) && value > 0))
       throw ModelError(
@@ -296,7 +298,8 @@ Profile flat_bar(double height, double thickness) {
 }
 
 Profile angle_bar(double height, double web, double width, double flange) {
-  require_positive("angle", {{"height", height}, {"web", web}, {"width", width}, {"flange", flange}});
+  require_positive("angle",
+                   {{"height", height}, {"web", web}, {"width", width}, {"flange", flange}});
   require(height > flange && width > web, "angle", "its plates are thicker than it is long");
   const double level = height - flange / 2;
   return walled_profile("angle", {{0, 0}, {level, 0}, {level, width - web / 2}},
@@ -312,10 +315,9 @@ Profile tee_bar(double height, double web, double width, double flange) {
 }
 
 Profile bulb_flat(double height, double thickness, double bulb, double radius) {
-  require_positive("bulb flat", {{"height", height},
-                                 {"thickness", thickness},
-                                 {"bulb", bulb},
-                                 {"radius", radius}});
+  require_positive(
+      "bulb flat",
+      {{"height", height}, {"thickness", thickness}, {"bulb", bulb}, {"radius", radius}});
   const double slope = 1 / std::sqrt(3.0), face = radius * (1 + slope);
   require(radius < bulb && face + bulb * slope < height, "bulb flat",
           "the bulb is larger than the profile");
@@ -349,8 +351,7 @@ Profile bulb_flat(double height, double thickness, double bulb, double radius) {
   }
   Profile profile = profile_of("bulb flat", moments);
   constexpr double mm = 1e-3;
-  const double factor =
-      height > 0.12 ? 1.0 : 1.1 + std::pow(0.12 - height, 2) / (3000 * mm * mm);
+  const double factor = height > 0.12 ? 1.0 : 1.1 + std::pow(0.12 - height, 2) / (3000 * mm * mm);
   const double web_height = height - height / 9.2 + 2 * mm, flange = height / 9.2 - 2 * mm;
   const double width = factor * (thickness + height / 6.7 - 2 * mm);
   require(flange > 0 && width > thickness, "bulb flat", "it is lower than bulb flats are rolled");
@@ -359,7 +360,11 @@ Profile bulb_flat(double height, double thickness, double bulb, double radius) {
   profile.section.shear_area_2 = angle.section.shear_area_2;
   profile.section.shear_area_3 = angle.section.shear_area_3;
   profile.section.shear_centre = angle.section.shear_centre + angle.centroid - profile.centroid;
-  set_points(profile, {{0, -inner}, {0, inner}, {height, -inner}, {height, outer - radius}, {height - radius, outer}});
+  set_points(profile, {{0, -inner},
+                       {0, inner},
+                       {height, -inner},
+                       {height, outer - radius},
+                       {height - radius, outer}});
   return profile;
 }
 
@@ -388,8 +393,8 @@ Profile bulb_flat(double height, double thickness) {
       return bulb_flat(height, thickness, size.bulb / 1000, size.radius / 1000);
     heights += fmt::format("{}{:g}", heights.empty() ? "" : ", ", size.height);
   }
-  throw ModelError(fmt::format("no bulb flat is {:g} mm high; EN 10067 has {} mm", 1000 * height,
-                               heights));
+  throw ModelError(
+      fmt::format("no bulb flat is {:g} mm high; EN 10067 has {} mm", 1000 * height, heights));
 }
 
 Profile solid_circle(double radius) {
@@ -449,12 +454,18 @@ Profile i_beam(double height, double web, double width_bottom, double flange_bot
                               {"flange at the top", flange_top}});
   require(height > flange_bottom + flange_top, "I-beam", "its flanges leave no web");
   const double low = (flange_bottom - height) / 2, high = (height - flange_top) / 2;
-  return walled_profile(
-      "I-beam",
-      {{low, -width_bottom / 2}, {low, 0}, {low, width_bottom / 2}, {high, 0},
-       {high, -width_top / 2}, {high, width_top / 2}},
-      {{0, 1, flange_bottom}, {2, 1, flange_bottom}, {4, 3, flange_top}, {5, 3, flange_top},
-       {1, 3, web, -flange_bottom / 2, -flange_top / 2}});
+  return walled_profile("I-beam",
+                        {{low, -width_bottom / 2},
+                         {low, 0},
+                         {low, width_bottom / 2},
+                         {high, 0},
+                         {high, -width_top / 2},
+                         {high, width_top / 2}},
+                        {{0, 1, flange_bottom},
+                         {2, 1, flange_bottom},
+                         {4, 3, flange_top},
+                         {5, 3, flange_top},
+                         {1, 3, web, -flange_bottom / 2, -flange_top / 2}});
 }
 
 Profile channel(double height, double web, double width, double flange) {

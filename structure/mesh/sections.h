@@ -11,15 +11,15 @@ namespace blocklift::structure {
 
 /// Cross-section drawn in axes (x_2, x_3) of its own, whose origin each shape names.
 struct Profile {
-  BeamSection section;                                  ///< about the centroid; its material is unset
-  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();   ///< from the origin, m
+  BeamSection section;  ///< about the centroid; its material is unset
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the origin, m
 };
 
 /// Straight wall of an open or closed profile between two of its nodes. Where walls meet, one of them
 /// ends short of the node or goes beyond it, so that areas add up without overlap.
 struct Wall {
-  int from = 0, to = 0;  ///< nodes on the middle lines
-  double thickness = 0;  ///< m
+  int from = 0, to = 0;                         ///< nodes on the middle lines
+  double thickness = 0;                         ///< m
   double longer_at_from = 0, longer_at_to = 0;  ///< by which the solid goes beyond its nodes, m
 };
 
