@@ -225,8 +225,8 @@ class Doctor {
       const auto& v = mesh_.shells[at(shell)].vertices;
       return (vertex(v[3]) - vertex(v[0])).cross(vertex(v[2]) - vertex(v[1])).normalized();
     };
-    // Seen from one side, both run along the edge the same way: one of them is turned over. Where they
-    // meet at an angle, which side is whose is a matter of taste.
+    // Seen from one side, both run along the edge the same way: one of them is turned over. Where
+    // they meet at an angle, which side is whose is a matter of taste.
     if (normal(one.shell).dot(normal(other.shell)) < -std::sqrt(0.5))
       add("opposed normals", Severity::warning, mesh_.shells[at(one.shell)].label, place);
   }
@@ -368,7 +368,8 @@ class Doctor {
     return freedom;
   }
 
-  /// What resists each vertex' motion: shells and links all of it, beams and springs some directions.
+  /// What resists each vertex' motion: shells and links all of it, beams and springs some
+  /// directions.
   void check_mechanisms() {
     std::vector<char> is_held(mesh_.vertices.size(), 0), has_beam(mesh_.vertices.size(), 0);
     for (const Shell& shell : mesh_.shells)

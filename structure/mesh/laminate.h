@@ -35,15 +35,15 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& in_plane, double angle);
 
 /// Stiffness of bonded layers about the middle of their height.
 ///
-/// A, B, D integrate the layers' stiffness (Jones 1999, equations 4.24). Across the plate, the shear
-/// stress follows from equilibrium in cylindrical bending about each axis,
+/// A, B, D integrate the layers' stiffness (Jones 1999, equations 4.24). Across the plate, the
+/// shear stress follows from equilibrium in cylindrical bending about each axis,
 ///   tau(z) = -1/(E I) int_bottom^z Q_11 (z - z_n) dz,  1/S = int tau^2 / G dz,
 /// which gives 5/6 G t for one layer, and the core's G (d^2 / c) for a sandwich with thin faces.
 Laminate stack(const std::vector<Ply>& plies);
 
 /// Isotropic plate that comes nearest to a laminate of a thickness: its membrane stiffness has the
-/// laminate's invariants (Tsai and Pagano 1968), so that it is exact for layers of one material and for
-/// balanced lay-ups.
+/// laminate's invariants (Tsai and Pagano 1968), so that it is exact for layers of one material and
+/// for balanced lay-ups.
 struct NearestPlate {
   double youngs_modulus = 0;  ///< Pa
   double poisson_ratio = 0;

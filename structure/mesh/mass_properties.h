@@ -14,9 +14,9 @@ struct MassProperties {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, kg m^2
 };
 
-/// Mass of a mesh: plates over their mid-surfaces (Gauss' rule, exact for flat plates), beams along the
-/// lines of their centroids, point masses. What lies across a plate or a beam's line (t^2 / 12 and the
-/// like) is left out of the inertia. Shells without section weigh nothing.
+/// Mass of a mesh: plates over their mid-surfaces (Gauss' rule, exact for flat plates), beams along
+/// the lines of their centroids, point masses. What lies across a plate or a beam's line (t^2 / 12
+/// and the like) is left out of the inertia. Shells without section weigh nothing.
 MassProperties mass_properties(const Mesh& mesh);
 
 /// The same of each group; the last entry is the point masses.

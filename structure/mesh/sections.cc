@@ -76,8 +76,8 @@ std::vector<Vector2> corners(double bottom, double top, double left, double righ
   return {{top, right}, {bottom, right}, {bottom, left}, {top, left}};
 }
 
-/// Shear flow along thin walls for a force of one along either axis: along a wall it is a quadratic,
-/// held by its values at the start, the middle and the end.
+/// Shear flow along thin walls for a force of one along either axis: along a wall it is a
+/// quadratic, held by its values at the start, the middle and the end.
 class ShearFlow {
  public:
   ShearFlow(std::vector<Vector2> nodes, const std::vector<Wall>& walls)
@@ -166,8 +166,8 @@ class ShearFlow {
     return flows;
   }
 
-  // What flows into a wall at its start is what flows out of the others there; a free end has none. The
-  // walls are listed so that one end of each is met by walls listed before it alone.
+  // What flows into a wall at its start is what flows out of the others there; a free end has none.
+  // The walls are listed so that one end of each is met by walls listed before it alone.
   template <typename Along>
   void follow(std::size_t i, const Along& along, std::vector<std::array<double, 3>>& flows,
               std::vector<char>& done) const {

@@ -15,8 +15,8 @@ struct Profile {
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the origin, m
 };
 
-/// Straight wall of an open or closed profile between two of its nodes. Where walls meet, one of them
-/// ends short of the node or goes beyond it, so that areas add up without overlap.
+/// Straight wall of an open or closed profile between two of its nodes. Where walls meet, one of
+/// them ends short of the node or goes beyond it, so that areas add up without overlap.
 struct Wall {
   int from = 0, to = 0;                         ///< nodes on the middle lines
   double thickness = 0;                         ///< m
@@ -25,21 +25,23 @@ struct Wall {
 
 /// Profile of walls.
 ///
-/// Area and second moments are those of the solid rectangles. Torsion, shear areas and the shear centre
-/// are those of thin walls along the middle lines: J = sum l t^3 / 3 where the walls are a tree, and
-/// J = 4 A_m^2 / sum (l / t) where they are one ring, given in order (Bredt); shear areas
+/// Area and second moments are those of the solid rectangles. Torsion, shear areas and the shear
+/// centre are those of thin walls along the middle lines: J = sum l t^3 / 3 where the walls are a
+/// tree, and J = 4 A_m^2 / sum (l / t) where they are one ring, given in order (Bredt); shear areas
 /// 1 / A_s = int q^2 / t ds of the flow q for a force of one, so that both strain energies agree.
 /// Source: Timoshenko and Goodier (1970), sections 107, 115; Pilkey (2002), chapter 7.
 ///
-/// @throws ModelError if a wall has no thickness or length, or the walls are neither a tree nor a ring.
+/// @throws ModelError if a wall has no thickness or length, or the walls are neither a tree nor a
+///   ring.
 Profile walled_profile(const std::string& name, const std::vector<Eigen::Vector2d>& nodes,
                        const std::vector<Wall>& walls);
 
-/// A profile seen in other axes: first 2 and 3 exchanged if asked, then turned to point the other way.
+/// A profile seen in other axes: first 2 and 3 exchanged if asked, then turned to point the other
+/// way.
 Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool reversed_3);
 
-// Stiffeners: the origin is the middle of the edge that stands on the plate, axis 2 points away from it.
-// All measures are in m and positive, or a ModelError says which is not.
+// Stiffeners: the origin is the middle of the edge that stands on the plate, axis 2 points away
+// from it. All measures are in m and positive, or a ModelError says which is not.
 
 /// Rectangle; J by Roark's series, shear areas 5/6.
 Profile flat_bar(double height, double thickness);
@@ -51,7 +53,8 @@ Profile tee_bar(double height, double web, double width, double flange);
 /// `bulb` beyond one face, its lower side sloped by 30 degrees, corners rounded by `radius`.
 ///
 /// Area and moments are those of the outline. Torsion, shear area and shear centre are those of the
-/// equivalent angle of the IACS Common Structural Rules (2014), part 1 chapter 3 section 7, [1.4.1].
+/// equivalent angle of the IACS Common Structural Rules (2014), part 1 chapter 3 section 7,
+/// [1.4.1].
 Profile bulb_flat(double height, double thickness, double bulb, double radius);
 /// The same by its nominal height and thickness, bulb and radius from the list of EN 10067, whose
 /// heights are 120 to 430 mm.

@@ -258,7 +258,8 @@ class DoubleBottom {
       panel(floors_, bay * m_.spacing, bay % 2 == 1, place);
   }
 
-  // The quarter disc about the point where floor, girder's line and inner bottom meet: rays and rings.
+  // The quarter disc about the point where floor, girder's line and inner bottom meet: rays and
+  // rings.
   void make_bilge_floor(double x) {
     const int rings = 2 * n_, rays = bilge_cells();
     const auto node = [&](int ring, int ray) {

@@ -36,8 +36,8 @@ TEST(Laminate, LayersOfOneMaterialAreOnePlate) {
   EXPECT_LT(plate.coupling.norm(), 1e-9 * plate.membrane.norm() * 0.01);
 }
 
-// Sandwich: D = E_f ((h + c)^3 - c^3...) / 12 with h the whole height, and across the plate the core's
-// G (c + f)^2 / c as faces get thin (Allen 1969, equation 2.16).
+// Sandwich: D = E_f ((h + c)^3 - c^3...) / 12 with h the whole height, and across the plate the
+// core's G (c + f)^2 / c as faces get thin (Allen 1969, equation 2.16).
 TEST(Laminate, Sandwich) {
   const double face = 0.001, core = 0.05, whole = core + 2 * face;
   const Laminate plate = stack({{isotropic_ply(steel), face, 0},

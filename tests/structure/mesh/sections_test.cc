@@ -22,12 +22,14 @@ TEST(Sections, FlatBar) {
   EXPECT_DOUBLE_EQ(bar.centroid[0], 0.1);
   EXPECT_NEAR(bar.section.second_moment_3, 0.01 * std::pow(0.2, 3) / 12, 1e-15);
   EXPECT_NEAR(bar.section.second_moment_2, 0.2 * std::pow(0.01, 3) / 12, 1e-18);
-  // Timoshenko and Goodier (1970), table of section 109: beta = 0.333 - 0.21 b / a for slender bars.
+  // Timoshenko and Goodier (1970), table of section 109: beta = 0.333 - 0.21 b / a for slender
+  // bars.
   EXPECT_NEAR(bar.section.torsion, 0.2 * 1e-6 * (1.0 / 3 - 0.21 * 0.05), 1e-12);
   EXPECT_DOUBLE_EQ(bar.section.shear_area_2, 0.002 * 5 / 6);
 }
 
-// Timoshenko and Goodier (1970), section 109: J = 0.1406 a^4 of the square, 0.229 a b^3 for a = 2 b.
+// Timoshenko and Goodier (1970), section 109: J = 0.1406 a^4 of the square, 0.229 a b^3 for a = 2
+// b.
 TEST(Sections, TorsionOfRectangles) {
   EXPECT_NEAR(solid_rectangle(1, 1).section.torsion, 0.1406, 0.0004);
   EXPECT_NEAR(solid_rectangle(2, 1).section.torsion, 2 * 0.229, 0.001);
@@ -99,7 +101,8 @@ TEST(Sections, ShearAreaOfAnI) {
   const double h = 0.4, tw = 0.01, b = 0.2, tf = 0.015;
   const Profile beam = i_beam(h, tw, b, tf, b, tf);
   const double d = h - tf, i = tw * d * d * d / 12 + 2 * b * tf * d * d / 4;
-  // Flanges: q = tf d / 2 s / I, s to b / 2, four of them; web: q = (b tf d / 2 + tw (d^2/4 - z^2) / 2) / I.
+  // Flanges: q = tf d / 2 s / I, s to b / 2, four of them; web: q = (b tf d / 2 + tw (d^2/4 - z^2)
+  // / 2) / I.
   const double flanges = 4 * std::pow(tf * d / 2, 2) * std::pow(b / 2, 3) / 3 / tf;
   const double c = b * tf * d / 2 + tw * d * d / 8, k = tw / 2;
   const double web =
@@ -108,8 +111,8 @@ TEST(Sections, ShearAreaOfAnI) {
   EXPECT_NEAR(beam.section.shear_centre.norm(), 0, 1e-12);
 }
 
-// Bredt: J = 4 A^2 / sum (l / t); the shear area of a square thin tube is 5/12 of its area: the walls
-// along the force bear it as 5/6 of a rectangle would but for the flow in from the others.
+// Bredt: J = 4 A^2 / sum (l / t); the shear area of a square thin tube is 5/12 of its area: the
+// walls along the force bear it as 5/6 of a rectangle would but for the flow in from the others.
 TEST(Sections, Box) {
   const Profile tube = box(0.101, 0.101, 0.001);
   EXPECT_NEAR(tube.section.torsion, 4 * std::pow(0.01, 2) / (4 * 0.1 / 0.001), 1e-12);

@@ -76,7 +76,8 @@ struct AbaqusModel {
   void for_lines(const AbaqusBlock& block,
                  const std::function<void(const std::vector<std::string_view>&)>& step);
 
-  /// Vertices that a number, a set's name, or instance.either stands for. @throws CardError for none.
+  /// Vertices that a number, a set's name, or instance.either stands for. @throws CardError for
+  /// none.
   std::vector<int> nodes_of(const AbaqusScope& scope, std::string_view text) const;
   int node_of(const AbaqusScope& scope, std::string_view text) const;
   std::vector<int> elements_of(const AbaqusScope& scope, std::string_view text) const;

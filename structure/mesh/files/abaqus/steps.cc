@@ -195,7 +195,8 @@ class StepBlocks {
     return loads_.point_loads.back();
   }
 
-  // *DLOAD / element or set, P | GRAV | PX ..., magnitude, direction; *DSLOAD / surface, P, magnitude
+  // *DLOAD / element or set, P | GRAV | PX ..., magnitude, direction; *DSLOAD / surface, P,
+  // magnitude
   void add_spread_loads(const AbaqusBlock& block) {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"elements, kind and magnitude are due"};

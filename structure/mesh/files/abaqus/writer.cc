@@ -19,7 +19,8 @@ namespace blocklift::structure {
 
 namespace {
 
-/// The fewest digits that say a number exactly; never an integer, which some fields would be read as.
+/// The fewest digits that say a number exactly; never an integer, which some fields would be read
+/// as.
 std::string exact(double value) {
   std::array<char, 40> buffer{};
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

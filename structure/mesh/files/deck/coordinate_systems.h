@@ -24,8 +24,8 @@ struct LocalSystem {
 
   /// From coordinates of this system to those of the basic one.
   Vector3 place(const Vector3& given) const;
-  /// Directions of the three coordinates at a place; on the axis of a cylinder or sphere those of its
-  /// straight axes.
+  /// Directions of the three coordinates at a place; on the axis of a cylinder or sphere those of
+  /// its straight axes.
   Eigen::Matrix3d axes_at(const Vector3& place) const;
 };
 

@@ -13,8 +13,8 @@
 
 namespace blocklift::structure {
 
-/// Units of a deck, seconds being those of time: masses count in force s^2 / length, so that Newton's law
-/// needs no factor.
+/// Units of a deck, seconds being those of time: masses count in force s^2 / length, so that
+/// Newton's law needs no factor.
 struct UnitSystem {
   std::string name = "m-kg-N";
   double length = 1;  ///< m
@@ -103,9 +103,9 @@ struct NamedSet {
 
 /// What a Nastran or Abaqus deck holds, in SI units, the user's numbers beside it.
 ///
-/// Vertices and cells are in the order of the file. Materials lack a yield stress where the deck gives none
-/// (0); shells whose property is nowhere lack a section (-1) if the deck has no properties at all, and
-/// `groups_without_thickness` names them.
+/// Vertices and cells are in the order of the file. Materials lack a yield stress where the deck
+/// gives none (0); shells whose property is nowhere lack a section (-1) if the deck has no
+/// properties at all, and `groups_without_thickness` names them.
 struct Deck {
   std::filesystem::path path;
   UnitSystem units;

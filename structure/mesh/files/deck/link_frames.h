@@ -6,8 +6,8 @@
 
 namespace blocklift::structure {
 
-/// Whether binding these components is the same along any axes: all or none of the displacements, all or
-/// none of the rotations.
+/// Whether binding these components is the same along any axes: all or none of the displacements,
+/// all or none of the rotations.
 inline bool is_free_of_axes(const std::array<bool, 6>& bound) {
   return bound[0] == bound[1] && bound[1] == bound[2] && bound[3] == bound[4] &&
          bound[4] == bound[5];

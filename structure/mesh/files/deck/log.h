@@ -16,8 +16,8 @@ struct SourceLine {
   int line = 0;  ///< from 1
 };
 
-/// What a reader notes of a deck as it goes: its files, the ledger, remarks, and everything that is wrong,
-/// so that all of it can be said at once.
+/// What a reader notes of a deck as it goes: its files, the ledger, remarks, and everything that is
+/// wrong, so that all of it can be said at once.
 class DeckLog {
  public:
   int add_file(const std::string& path);

@@ -8,8 +8,8 @@
 
 namespace blocklift::structure {
 
-/// The user's own numbers as far as they are given and each is one; new ones beyond the greatest for the
-/// rest.
+/// The user's own numbers as far as they are given and each is one; new ones beyond the greatest
+/// for the rest.
 class Numbering {
  public:
   explicit Numbering(const std::vector<long>& wanted = {}) {
@@ -36,8 +36,8 @@ std::vector<long> element_labels(const Mesh& mesh);
 /// @throws ModelError naming a vertex where two differ: a deck has one system of axes at a node.
 std::vector<Eigen::Matrix3d> vertex_axes(const Deck& deck);
 
-/// Vertices that are the middles of a curved shell's edges, in the order around it; where the mesh has
-/// none there, they are added to it.
+/// Vertices that are the middles of a curved shell's edges, in the order around it; where the mesh
+/// has none there, they are added to it.
 class MiddleVertices {
  public:
   explicit MiddleVertices(Mesh& mesh);

@@ -7,12 +7,12 @@
 
 namespace blocklift::structure {
 
-/// Points of a quadratic shell on the unit square, 3 x 9, xi fastest, from its corners and the middles of
-/// its edges, both around it as Nastran and Abaqus number them: corners 1 .. 4 (3 for a triangle), the
-/// middle i between corners i and i + 1.
+/// Points of a quadratic shell on the unit square, 3 x 9, xi fastest, from its corners and the
+/// middles of its edges, both around it as Nastran and Abaqus number them: corners 1 .. 4 (3 for a
+/// triangle), the middle i between corners i and i + 1.
 ///
-/// The inner points follow from the eight-node serendipity or the six-node triangular interpolation; the
-/// triangle's last corner fills one side of the square.
+/// The inner points follow from the eight-node serendipity or the six-node triangular
+/// interpolation; the triangle's last corner fills one side of the square.
 Eigen::Matrix3Xd quadratic_points(const std::vector<Vector3>& corners,
                                   const std::vector<Vector3>& middles);
 

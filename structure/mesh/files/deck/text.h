@@ -18,8 +18,8 @@ bool is_same(std::string_view a, std::string_view b);
 
 /// A whole number, with or without a sign; nothing else.
 std::optional<long> to_integer(std::string_view text);
-/// A number as Fortran writes it: "1.", ".5", "1.5-3", "1.D5", "2E-3"; nothing for what is no number,
-/// not finite, or out of range.
+/// A number as Fortran writes it: "1.", ".5", "1.5-3", "1.D5", "2E-3"; nothing for what is no
+/// number, not finite, or out of range.
 std::optional<double> to_real(std::string_view text);
 
 /// The files of a deck, kept in memory so that views of their lines last.

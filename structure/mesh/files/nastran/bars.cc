@@ -56,8 +56,8 @@ Profile ell(const Dimensions& d) {
   return seen(angle_bar(d[1], d[3], d[0], d[2]), false, true, false);
 }
 
-/// Shapes of PBARL and PBEAML in the element's axes y, z. Source: MSC Nastran Quick Reference Guide,
-/// PBARL, figures of the cross-sections.
+/// Shapes of PBARL and PBEAML in the element's axes y, z. Source: MSC Nastran Quick Reference
+/// Guide, PBARL, figures of the cross-sections.
 const Shape* find_shape(std::string_view name) {
   static const std::array shapes{
       Shape{"ROD", 1, [](const Dimensions& d) { return solid_circle(d[0]); }},

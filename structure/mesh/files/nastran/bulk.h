@@ -11,8 +11,8 @@
 
 namespace blocklift::structure {
 
-/// A card with its continuations. Each line gives eight fields of data, the blank ones too: field k of
-/// line l (manuals count the first of data as 2) is data[8 l + k - 2].
+/// A card with its continuations. Each line gives eight fields of data, the blank ones too: field k
+/// of line l (manuals count the first of data as 2) is data[8 l + k - 2].
 struct NastranCard {
   std::string name;  ///< in capitals, without the asterisk of large fields
   SourceLine line;   ///< of its first
@@ -36,8 +36,8 @@ struct NastranBulk {
   std::deque<std::string> kept;  ///< lines with tabs, laid out
 };
 
-/// Splits a deck into cards: free, small and large fields, continuations that follow their card or name
-/// it, INCLUDE. The executive section is passed over; without BEGIN BULK all is bulk data.
+/// Splits a deck into cards: free, small and large fields, continuations that follow their card or
+/// name it, INCLUDE. The executive section is passed over; without BEGIN BULK all is bulk data.
 /// Complaints go into the log.
 NastranBulk read_nastran_cards(DeckFiles& files, const std::filesystem::path& path, DeckLog& log);
 

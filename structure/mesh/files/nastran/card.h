@@ -8,8 +8,8 @@
 
 namespace blocklift::structure {
 
-/// The fields of one card, by their place in its data: 0 is what manuals call field 2, 8 the first of
-/// the second line.
+/// The fields of one card, by their place in its data: 0 is what manuals call field 2, 8 the first
+/// of the second line.
 ///
 /// @throws CardError from all that read a value, naming field, text and what is due.
 class CardView {

@@ -53,7 +53,8 @@ struct NastranModel {
   std::unordered_map<long, NastranBar> bar_read;
   std::map<std::tuple<long, double, double>, int>
       shell_section_of;  ///< property, thickness, offset
-  /// Shells whose edges' middles are vertices that other things may use: vertex, shell, place on it.
+  /// Shells whose edges' middles are vertices that other things may use: vertex, shell, place on
+  /// it.
   std::vector<SurfacePoint> middles;
 
   using Handler = std::function<void(const CardView&)>;

@@ -33,8 +33,8 @@ struct Reason {
   bool has_loads = false;
 };
 
-/// Cards that change nothing in what a block of plates and beams weighs or how it bears a load given
-/// otherwise.
+/// Cards that change nothing in what a block of plates and beams weighs or how it bears a load
+/// given otherwise.
 const std::vector<Reason>& reasons() {
   static const std::vector<Reason> all{
       {"aeroelasticity has no meaning here",
