@@ -55,6 +55,8 @@ void for_each_joint(const Mesh& mesh, const Visit& visit) {
     all.push_back(link.reference);
     visit(all);
   }
+  for (const SurfacePoint& point : mesh.surface_points)
+    visit(std::vector<int>{mesh.shells[at(point.shell)].vertices[0], point.vertex});
   for (const Spring& spring : mesh.springs) {
     std::vector<int> all;
     for (const int vertex : spring.vertices)

@@ -12,11 +12,26 @@ namespace blocklift::structure {
 
 using Vector3 = Eigen::Vector3d;
 
+/// Stiffness of a layered plate about its mid-surface, in axes 1 and 2 of its own:
+///   (n, m) = [A B; B D] (epsilon, kappa),  q = S gamma,
+/// strains in the order 11, 22, 12 (engineering shear). Jones (1999), equations 4.22 and 4.23.
+struct Laminate {
+  Eigen::Matrix3d membrane = Eigen::Matrix3d::Zero();  ///< A, N/m
+  Eigen::Matrix3d coupling = Eigen::Matrix3d::Zero();  ///< B, N
+  Eigen::Matrix3d bending = Eigen::Matrix3d::Zero();   ///< D, N m
+  Eigen::Matrix2d shear = Eigen::Matrix2d::Zero();     ///< S, N/m
+};
+
 /// Plate thickness of shells, m, about the surface on which their vertices lie.
 struct ShellSection {
   double thickness = 0;
   int material = 0;   ///< place in Mesh::materials
   double offset = 0;  ///< of the mid-surface from the vertices' surface, along the normal, m
+  double mass_per_area = 0;  ///< beyond the plate's own: paint, outfit, kg/m^2
+  /// Place in Mesh::laminates where thickness and material are but the isotropic plate that comes
+  /// nearest; -1: they are all there is.
+  int laminate = -1;
+  long label = 0;  ///< the property's number in its file
 };
 
 /// Quadrangle or triangle of plating. Its normal is d/dxi x d/deta.
@@ -28,6 +43,8 @@ struct Shell {
   int region = 0;      ///< place in Mesh::regions
   int curvature = -1;  ///< place in Mesh::curved_shells; -1: bilinear between the vertices
   long label = 0;      ///< the element's number in its file, for messages
+  /// Whose part in the plate is axis 1 of its laminate; without length where there is none.
+  Vector3 laminate_axis = Vector3::Zero();
 
   bool is_triangle() const { return vertices[2] == vertices[3]; }
 };
@@ -45,6 +62,9 @@ struct BeamSection {
   double shear_area_3 = 0;    ///< m^2
   /// Points (x_2, x_3) where the largest stresses are, m.
   std::vector<Eigen::Vector2d> stress_points;
+  Eigen::Vector2d shear_centre = Eigen::Vector2d::Zero();  ///< (x_2, x_3), m
+  double mass_per_length = 0;  ///< beyond the beam's own, kg/m
+  long label = 0;              ///< the property's number in its file
 };
 
 /// Which of the six freedoms (displacements, rotations along the beam's own axes 1, 2, 3) one end of a
@@ -80,6 +100,7 @@ struct RigidLink {
   int master = 0;
   std::vector<int> slaves;
   std::array<bool, 6> bound{true, true, true, true, true, true};
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: along which `bound` counts
   long label = 0;
 };
 
@@ -90,14 +111,26 @@ struct DistributingLink {
   std::vector<int> vertices;
   std::vector<double> weights;
   std::array<bool, 6> bound{true, true, true, true, true, true};  ///< components of the reference
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: along which `bound` counts
   long label = 0;
 };
 
-/// Spring between two freedoms, or one and the ground.
+/// Vertex that lies on a shell without being a corner of it (the middle of a quadratic element's edge,
+/// where something else is fastened) and moves with it.
+struct SurfacePoint {
+  int vertex = 0;
+  int shell = 0;
+  Eigen::Vector2d xi = Eigen::Vector2d::Zero();  ///< on the unit square
+};
+
+/// Spring between two freedoms, or one and the ground: its force is k (u_1 - u_2), each u the motion of
+/// a point fixed to its vertex.
 struct Spring {
   std::array<int, 2> vertices{-1, -1};  ///< -1: the ground
-  std::array<int, 2> components{0, 0};  ///< 0 .. 2 displacement, 3 .. 5 rotation along the world's axes
-  double stiffness = 0;                 ///< N/m or N m/rad
+  std::array<int, 2> components{0, 0};  ///< 0 .. 2 displacement, 3 .. 5 rotation along `axes`
+  std::array<Eigen::Matrix3d, 2> axes{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity()};
+  std::array<Vector3, 2> arms{Vector3::Zero(), Vector3::Zero()};  ///< from vertex to point, m
+  double stiffness = 0;                                           ///< N/m or N m/rad
   long label = 0;
 };
 
@@ -133,6 +166,7 @@ struct Mesh {
   std::vector<long> vertex_labels;  ///< their numbers in the file; empty: none
   std::vector<Material> materials;
   std::vector<ShellSection> shell_sections;
+  std::vector<Laminate> laminates;
   std::vector<Shell> shells;
   /// Points of curved shells: (order + 1)^2 columns on the unit square, equally spaced, xi fastest, m.
   std::vector<Eigen::Matrix3Xd> curved_shells;
@@ -141,6 +175,7 @@ struct Mesh {
   std::vector<PointMass> masses;
   std::vector<RigidLink> rigid_links;
   std::vector<DistributingLink> distributing_links;
+  std::vector<SurfacePoint> surface_points;
   std::vector<Spring> springs;
   std::vector<Region> regions;
   std::vector<Group> groups;

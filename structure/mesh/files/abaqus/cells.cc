@@ -1,0 +1,431 @@
+// Parts, instances and assembly; nodes, elements, sets and surfaces.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/abaqus/model.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+struct ElementType {
+  AbaqusKind kind;
+  std::size_t nodes;
+  std::size_t most_nodes;  ///< a beam may name one more, which orients it
+};
+
+const std::map<std::string, ElementType>& element_types() {
+  using Kind = AbaqusKind;
+  static const std::map<std::string, ElementType> types{
+      {"S3", {Kind::shell, 3, 3}},         {"S3R", {Kind::shell, 3, 3}},
+      {"S3RS", {Kind::shell, 3, 3}},       {"STRI3", {Kind::shell, 3, 3}},
+      {"S4", {Kind::shell, 4, 4}},         {"S4R", {Kind::shell, 4, 4}},
+      {"S4RS", {Kind::shell, 4, 4}},       {"S4RSW", {Kind::shell, 4, 4}},
+      {"S4R5", {Kind::shell, 4, 4}},       {"S6", {Kind::shell, 6, 6}},
+      {"STRI65", {Kind::shell, 6, 6}},     {"S8", {Kind::shell, 8, 8}},
+      {"S8R", {Kind::shell, 8, 8}},        {"S8R5", {Kind::shell, 8, 8}},
+      {"B31", {Kind::beam, 2, 3}},         {"B31R", {Kind::beam, 2, 3}},
+      {"B31H", {Kind::beam, 2, 3}},        {"B33", {Kind::beam, 2, 3}},
+      {"B33H", {Kind::beam, 2, 3}},        {"PIPE31", {Kind::beam, 2, 3}},
+      {"B32", {Kind::beam, 3, 4}},         {"B32R", {Kind::beam, 3, 4}},
+      {"B32H", {Kind::beam, 3, 4}},        {"PIPE32", {Kind::beam, 3, 4}},
+      {"T3D2", {Kind::truss, 2, 2}},       {"T3D3", {Kind::truss, 3, 3}},
+      {"MASS", {Kind::mass, 1, 1}},        {"ROTARYI", {Kind::inertia, 1, 1}},
+      {"SPRING1", {Kind::spring, 1, 1}},   {"SPRING2", {Kind::spring, 2, 2}},
+      {"SPRINGA", {Kind::spring, 2, 2}},   {"R3D3", {Kind::rigid, 3, 3}},
+      {"R3D4", {Kind::rigid, 4, 4}},       {"RB3D2", {Kind::rigid, 2, 2}},
+      {"DASHPOT1", {Kind::nothing, 1, 1}}, {"DASHPOT2", {Kind::nothing, 2, 2}},
+      {"DASHPOTA", {Kind::nothing, 2, 2}}};
+  return types;
+}
+
+class Cells {
+ public:
+  explicit Cells(AbaqusModel& model) : model_(model) {}
+
+  void read(const std::vector<AbaqusBlock>& blocks) {
+    divide(blocks);
+    for (std::size_t s = 0; s < model_.scopes.size(); ++s) {
+      scope_ = static_cast<int>(s);
+      for (const AbaqusBlock* block : model_.scopes[s].blocks)
+        if (block->name == "NODE") model_.guarded(*block, [&] { add_nodes(*block); });
+    }
+    for (std::size_t s = 0; s < model_.scopes.size(); ++s) {
+      scope_ = static_cast<int>(s);
+      for (const AbaqusBlock* block : model_.scopes[s].blocks)
+        if (block->name == "ELEMENT") model_.guarded(*block, [&] { add_elements(*block); });
+    }
+    number_vertices();
+    for (std::size_t s = 0; s < model_.scopes.size(); ++s) {
+      scope_ = static_cast<int>(s);
+      read_sets();
+    }
+  }
+
+ private:
+  AbaqusScope& scope() { return model_.scopes[at(scope_)]; }
+
+  void divide(const std::vector<AbaqusBlock>& blocks) {
+    std::map<std::string, std::vector<const AbaqusBlock*>> parts;
+    std::vector<AbaqusScope> instances;
+    AbaqusScope whole, assembly;
+    std::vector<const AbaqusBlock*>* into = &whole.blocks;
+    bool in_step = false, in_assembly = false;
+    for (const AbaqusBlock& block : blocks) {
+      model_.log.read("*" + block.name, block.line);
+      const auto go_on = [&] { into = in_assembly ? &assembly.blocks : &whole.blocks; };
+      if (block.name == "STEP") {
+        model_.steps.emplace_back();
+        in_step = true;
+      } else if (block.name == "END STEP") {
+        in_step = false;
+      }
+      if (in_step) {
+        model_.steps.back().push_back(&block);
+      } else if (block.name == "PART") {
+        model_.guarded(block, [&] { into = &parts[block.required("NAME")]; });
+      } else if (block.name == "ASSEMBLY") {
+        model_.log.use("*ASSEMBLY");
+        in_assembly = true;
+        go_on();
+      } else if (block.name == "INSTANCE") {
+        model_.guarded(block, [&] { instances.push_back(instance(block, parts)); });
+        if (!instances.empty()) into = &instances.back().blocks;
+      } else if (block.name == "END PART" || block.name == "END INSTANCE" ||
+                 block.name == "END ASSEMBLY" || block.name == "END STEP") {
+        model_.log.use("*" + block.name);
+        if (block.name == "END ASSEMBLY") in_assembly = false;
+        go_on();
+      } else {
+        into->push_back(&block);
+      }
+    }
+    model_.scopes.push_back(std::move(whole));
+    for (AbaqusScope& one : instances) model_.scopes.push_back(std::move(one));
+    model_.scopes.push_back(std::move(assembly));
+  }
+
+  // *INSTANCE, NAME = , PART = / shift / two points of the axis, angle in degrees
+  AbaqusScope instance(const AbaqusBlock& block,
+                       const std::map<std::string, std::vector<const AbaqusBlock*>>& parts) {
+    AbaqusScope scope;
+    scope.name = block.required("NAME");
+    if (block.has("PART")) {
+      const auto part = parts.find(block.value("PART"));
+      if (part == parts.end())
+        throw CardError{fmt::format("part \"{}\" does not exist", block.value("PART"))};
+      scope.blocks = part->second;
+    }
+    const auto vector = [](const AbaqusLine& line, std::size_t first) {
+      const auto fields = line.fields();
+      return Vector3(abaqus_real(fields, first, "coordinate", 0.0),
+                     abaqus_real(fields, first + 1, "coordinate", 0.0),
+                     abaqus_real(fields, first + 2, "coordinate", 0.0));
+    };
+    if (!block.data.empty()) scope.shift = vector(block.data[0], 0);
+    if (block.data.size() > 1) {
+      const Vector3 from = vector(block.data[1], 0), to = vector(block.data[1], 3);
+      const double angle = abaqus_real(block.data[1].fields(), 6, "angle") * std::numbers::pi / 180;
+      if (!((to - from).norm() > 0)) throw CardError{"the axis of rotation has no length"};
+      scope.turn = Eigen::AngleAxisd(angle, (to - from).normalized()).toRotationMatrix();
+      // First shifted, then turned about the axis.
+      scope.shift = from + scope.turn * (scope.shift - from);
+    }
+    return scope;
+  }
+
+  void add_nodes(const AbaqusBlock& block) {
+    const std::string set = block.value("NSET"), system = block.value("SYSTEM");
+    LocalSystem local;
+    if (system == "C") local.kind = SystemKind::cylindrical;
+    if (system == "S") local.kind = SystemKind::spherical;
+    model_.for_lines(block, [&](const std::vector<std::string_view>& fields) {
+      const long label = abaqus_label(fields.front(), "node");
+      Vector3 given(abaqus_real(fields, 1, "coordinate", 0.0),
+                    abaqus_real(fields, 2, "coordinate", 0.0),
+                    abaqus_real(fields, 3, "coordinate", 0.0));
+      // Abaqus' spherical system counts its last angle from the plane of axes 1 and 2.
+      if (local.kind == SystemKind::spherical) given << given[0], 90 - given[2], given[1];
+      const Vector3 place =
+          model_.units.length * (scope().turn * local.place(given) + scope().shift);
+      if (!(place.cwiseAbs().maxCoeff() < 1e7))
+        throw CardError{fmt::format("node {} lies farther than 10,000 km away", label)};
+      const auto vertex = static_cast<int>(model_.deck.mesh.vertices.size());
+      if (!scope().nodes.try_emplace(label, vertex).second)
+        throw CardError{fmt::format("node {} is there twice", label)};
+      model_.deck.mesh.vertices.push_back(place);
+      labels_.push_back(label);
+      scope_of_.push_back(scope_);
+      if (!set.empty()) scope().node_sets[set].push_back(vertex);
+    });
+  }
+
+  /// Numbers are the user's own where one scope has nodes; else each instance's are raised.
+  void number_vertices() {
+    auto& labels = model_.deck.mesh.vertex_labels;
+    labels = labels_;
+    const bool is_one = std::all_of(scope_of_.begin(), scope_of_.end(),
+                                    [&](int s) { return s == scope_of_.front(); });
+    if (is_one) return;
+    long greatest = 1;
+    for (const long label : labels_) greatest = std::max(greatest, label);
+    for (const AbaqusElement& element : model_.elements)
+      greatest = std::max(greatest, element.label);
+    long step = 10;
+    while (step <= greatest) step *= 10;
+    for (std::size_t v = 0; v < labels.size(); ++v) labels[v] += step * scope_of_[v];
+    for (AbaqusElement& element : model_.elements) element.label += step * element.scope;
+    for (std::size_t s = 0; s < model_.scopes.size(); ++s)
+      if (!model_.scopes[s].nodes.empty() && s > 0)
+        model_.log.remark(
+            model_.scopes[s].blocks.front()->line,
+            fmt::format("numbers of instance {} are raised by {}, so that each is one",
+                        model_.scopes[s].name, step * static_cast<long>(s)));
+  }
+
+  void add_elements(const AbaqusBlock& block) {
+    const std::string type = block.required("TYPE"), set = block.value("ELSET");
+    ElementType known{AbaqusKind::nothing, 0, 0};
+    if (type.substr(0, 3) == "C3D" || type.substr(0, 3) == "SC6" || type.substr(0, 3) == "SC8") {
+      if (!model_.options.leave_solids_out)
+        throw CardError{
+            fmt::format("{}: solids are not lifted; leave them out, or make shells and "
+                        "beams of them",
+                        type)};
+      model_.log.leave_out("*ELEMENT", "solids, which were to be left out");
+      known = {AbaqusKind::solid, 1, 99};
+    } else if (const auto found = element_types().find(type); found != element_types().end()) {
+      known = found->second;
+    } else {
+      throw CardError{fmt::format("elements of type {} are not known here", type)};
+    }
+    if (known.kind == AbaqusKind::nothing) model_.log.leave_out("*ELEMENT", "dampers");
+    // A line that ends in a comma goes on in the next.
+    std::vector<std::string_view> all;
+    for (const AbaqusLine& line : block.data) {
+      const auto fields = line.fields();
+      all.insert(all.end(), fields.begin(), fields.end());
+      if (line.text.back() == ',' && all.size() < 1 + known.nodes) continue;
+      try {
+        add_element(all, known, type, set, line.line);
+      } catch (const CardError& error) {
+        model_.log.complain(line.line, "*ELEMENT: " + error.text);
+      }
+      all.clear();
+    }
+  }
+
+  void add_element(const std::vector<std::string_view>& fields, const ElementType& known,
+                   const std::string& type, const std::string& set, SourceLine line) {
+    AbaqusElement element;
+    element.label = abaqus_label(fields.front(), "element");
+    element.kind = known.kind;
+    element.type = type;
+    element.scope = scope_;
+    element.line = line;
+    if (fields.size() < 1 + known.nodes || fields.size() > 1 + known.most_nodes)
+      throw CardError{fmt::format("element {} of type {} has {} nodes; {} are due", element.label,
+                                  type, fields.size() - 1, known.nodes)};
+    for (std::size_t i = 1; known.kind != AbaqusKind::solid && i < fields.size(); ++i) {
+      const long label = scope_ + 1 == static_cast<int>(model_.scopes.size())
+                             ? 0
+                             : abaqus_label(fields[i], "node");
+      if (label == 0) {  // the assembly's elements may join nodes of instances
+        element.nodes.push_back(model_.node_of(scope(), fields[i]));
+        continue;
+      }
+      const auto found = scope().nodes.find(label);
+      if (found == scope().nodes.end())
+        throw CardError{
+            fmt::format("element {} names node {}, which does not exist", element.label, label)};
+      element.nodes.push_back(found->second);
+    }
+    const auto place = static_cast<int>(model_.elements.size());
+    if (!scope().elements.try_emplace(element.label, place).second)
+      throw CardError{fmt::format("element {} is there twice", element.label)};
+    model_.elements.push_back(std::move(element));
+    if (!set.empty()) scope().element_sets[set].push_back(place);
+  }
+
+  void read_sets() {
+    for (const AbaqusBlock* block : scope().blocks) {
+      if (block->name == "NSET") model_.guarded(*block, [&] { add_node_set(*block); });
+      if (block->name == "ELSET") model_.guarded(*block, [&] { add_element_set(*block); });
+      if (block->name == "SURFACE") model_.guarded(*block, [&] { add_surface(*block); });
+    }
+  }
+
+  /// The scope that INSTANCE = names, or this one.
+  const AbaqusScope& meant(const AbaqusBlock& block) {
+    const std::string name = block.value("INSTANCE");
+    if (name.empty()) return scope();
+    for (const AbaqusScope& other : model_.scopes)
+      if (other.name == name) return other;
+    throw CardError{fmt::format("instance \"{}\" does not exist", name)};
+  }
+
+  template <typename Lookup>
+  void fill(const AbaqusBlock& block, std::vector<int>& into,
+            const std::unordered_map<long, int>& known, const Lookup& lookup) {
+    const bool generate = block.has("GENERATE");
+    model_.for_lines(block, [&](const std::vector<std::string_view>& fields) {
+      if (generate) {
+        const long from = abaqus_label(fields.front(), "first"),
+                   to = fields.size() > 1 ? abaqus_label(fields[1], "last") : from,
+                   step = fields.size() > 2 ? abaqus_label(fields[2], "step") : 1;
+        for (long label = from; label <= to; label += step)
+          if (const auto found = known.find(label); found != known.end())
+            into.push_back(found->second);
+        return;
+      }
+      for (const std::string_view field : fields) {
+        if (field.empty()) continue;
+        const std::vector<int> found = lookup(field);
+        into.insert(into.end(), found.begin(), found.end());
+      }
+    });
+  }
+
+  void add_node_set(const AbaqusBlock& block) {
+    const AbaqusScope& from = meant(block);
+    std::vector<int> set;
+    if (block.has("ELSET"))
+      for (const int element : model_.elements_of(from, block.value("ELSET")))
+        for (const int node : model_.elements[at(element)].nodes) set.push_back(node);
+    fill(block, set, from.nodes,
+         [&](std::string_view text) { return model_.nodes_of(from, text); });
+    keep(scope().node_sets[block.required("NSET")], set);
+    note_set(block.required("NSET"), set);
+  }
+
+  void add_element_set(const AbaqusBlock& block) {
+    const AbaqusScope& from = meant(block);
+    std::vector<int> set;
+    fill(block, set, from.elements,
+         [&](std::string_view text) { return model_.elements_of(from, text); });
+    keep(scope().element_sets[block.required("ELSET")], set);
+  }
+
+  static void keep(std::vector<int>& into, const std::vector<int>& more) {
+    into.insert(into.end(), more.begin(), more.end());
+    std::sort(into.begin(), into.end());
+    into.erase(std::unique(into.begin(), into.end()), into.end());
+  }
+
+  void note_set(const std::string& name, const std::vector<int>& nodes) {
+    NamedSet set;
+    set.name = scope().name.empty() ? name : scope().name + "." + name;
+    keep(set.vertices, nodes);
+    model_.deck.sets.push_back(std::move(set));
+  }
+
+  void add_surface(const AbaqusBlock& block) {
+    AbaqusSurface& surface = model_.surfaces[block.required("NAME")];
+    surface.is_of_nodes = block.value("TYPE") == "NODE";
+    model_.for_lines(block, [&](const std::vector<std::string_view>& fields) {
+      if (surface.is_of_nodes) {
+        for (const int node : model_.nodes_of(scope(), fields.front()))
+          surface.nodes[node] = abaqus_real(fields, 1, "area", 1.0);
+        return;
+      }
+      const std::string face = fields.size() > 1 ? upper(fields[1]) : "SPOS";
+      for (const int element : model_.elements_of(scope(), fields.front()))
+        surface.faces.emplace_back(element, face);
+    });
+  }
+
+  AbaqusModel& model_;
+  int scope_ = 0;
+  std::vector<long> labels_;
+  std::vector<int> scope_of_;
+};
+
+/// "instance.rest" and the scope of that instance; else the text itself in the scope given.
+std::pair<const AbaqusScope*, std::string> divided(const AbaqusModel& model,
+                                                   const AbaqusScope& scope,
+                                                   std::string_view text) {
+  const std::string name = upper(text);
+  const auto dot = name.find('.');
+  if (dot != std::string::npos)
+    for (const AbaqusScope& other : model.scopes)
+      if (other.name == name.substr(0, dot)) return {&other, name.substr(dot + 1)};
+  return {&scope, name};
+}
+
+std::vector<int> look_up(const AbaqusModel& model, const AbaqusScope& scope, std::string_view text,
+                         std::unordered_map<long, int> AbaqusScope::*numbers,
+                         std::map<std::string, std::vector<int>> AbaqusScope::*sets,
+                         const char* what) {
+  const auto [from, name] = divided(model, scope, text);
+  // What the assembly or the model does not have by this name, one instance may.
+  std::vector<const AbaqusScope*> places{from};
+  if (from->name.empty()) {
+    places.push_back(&model.scopes.back());
+    places.push_back(&model.scopes.front());
+    if (model.scopes.size() == 3) places.push_back(&model.scopes[1]);
+  }
+  if (const auto label = to_integer(name)) {
+    for (const AbaqusScope* place : places)
+      if (const auto found = (place->*numbers).find(*label); found != (place->*numbers).end())
+        return {found->second};
+    throw CardError{fmt::format("{} {} does not exist", what, text)};
+  }
+  for (const AbaqusScope* place : places)
+    if (const auto found = (place->*sets).find(name); found != (place->*sets).end())
+      return found->second;
+  throw CardError{fmt::format("the set \"{}\" of {}s does not exist", text, what)};
+}
+
+}  // namespace
+
+void AbaqusModel::guarded(const AbaqusBlock& block, const std::function<void()>& step) {
+  try {
+    step();
+    log.use("*" + block.name);
+  } catch (const CardError& error) {
+    log.complain(block.line, fmt::format("*{}: {}", block.name, error.text));
+  }
+}
+
+void AbaqusModel::for_lines(const AbaqusBlock& block,
+                            const std::function<void(const std::vector<std::string_view>&)>& step) {
+  for (const AbaqusLine& line : block.data) {
+    try {
+      step(line.fields());
+    } catch (const CardError& error) {
+      log.complain(line.line, fmt::format("*{}: {}", block.name, error.text));
+    }
+  }
+}
+
+std::vector<int> AbaqusModel::nodes_of(const AbaqusScope& scope, std::string_view text) const {
+  return look_up(*this, scope, text, &AbaqusScope::nodes, &AbaqusScope::node_sets, "node");
+}
+
+int AbaqusModel::node_of(const AbaqusScope& scope, std::string_view text) const {
+  const std::vector<int> nodes = nodes_of(scope, text);
+  if (nodes.size() != 1)
+    throw CardError{fmt::format("\"{}\" stands for {} nodes; one is due", text, nodes.size())};
+  return nodes.front();
+}
+
+std::vector<int> AbaqusModel::elements_of(const AbaqusScope& scope, std::string_view text) const {
+  return look_up(*this, scope, text, &AbaqusScope::elements, &AbaqusScope::element_sets, "element");
+}
+
+Eigen::Matrix3d AbaqusModel::axes(int vertex) const {
+  const auto found = axes_of.find(vertex);
+  return found == axes_of.end() ? Eigen::Matrix3d::Identity() : found->second;
+}
+
+void read_abaqus_cells(AbaqusModel& model, const std::vector<AbaqusBlock>& blocks) {
+  Cells(model).read(blocks);
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "structure/mesh/files/deck/text.h"
+
+namespace blocklift::structure {
+
+/// One line of data.
+struct AbaqusLine {
+  SourceLine line;
+  std::string_view text;
+
+  /// Its fields, without blanks about them; a comma at the end adds none.
+  std::vector<std::string_view> fields() const;
+};
+
+/// A keyword with its parameters and the lines of data below it.
+struct AbaqusBlock {
+  std::string name;  ///< in capitals, with one blank between words: "SHELL SECTION"
+  SourceLine line;
+  struct Parameter {
+    std::string name;   ///< in capitals
+    std::string value;  ///< in capitals unless quoted
+    std::string as_given;
+  };
+  std::vector<Parameter> parameters;
+  std::vector<AbaqusLine> data;
+
+  bool has(std::string_view parameter) const { return find(parameter) != nullptr; }
+  const Parameter* find(std::string_view parameter) const;
+  /// Its value; empty if it is not given.
+  std::string value(std::string_view parameter) const;
+  /// @throws CardError if it is missing.
+  std::string required(std::string_view parameter) const;
+};
+
+/// Splits a deck into keywords, with the files that it includes. Complaints go into the log.
+std::vector<AbaqusBlock> read_abaqus_keywords(DeckFiles& files, const std::filesystem::path& path,
+                                              DeckLog& log);
+
+/// The number in a field. @throws CardError if there is none.
+long abaqus_label(std::string_view text, const char* what);
+double abaqus_real(const std::vector<std::string_view>& fields, std::size_t i, const char* what);
+/// 0 or another value where the field is empty.
+double abaqus_real(const std::vector<std::string_view>& fields, std::size_t i, const char* what,
+                   double otherwise);
+
+}  // namespace blocklift::structure

@@ -1,0 +1,371 @@
+// Masses, springs, couplings, rigid bodies, equations.
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/mass_properties.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+using Fields = std::vector<std::string_view>;
+using Components = std::array<bool, 6>;
+
+constexpr Components all_six{true, true, true, true, true, true};
+constexpr Components displacements{true, true, true, false, false, false};
+
+class LinkBlocks {
+ public:
+  explicit LinkBlocks(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
+
+  void read() {
+    for (const AbaqusScope& scope : model_.scopes) {
+      scope_ = &scope;
+      for (std::size_t i = 0; i < scope.blocks.size(); ++i) {
+        const AbaqusBlock& block = *scope.blocks[i];
+        const AbaqusBlock* next = i + 1 < scope.blocks.size() ? scope.blocks[i + 1] : nullptr;
+        const auto on = [&](const char* name, auto step) {
+          if (block.name == name) model_.guarded(block, step);
+        };
+        on("MASS", [&] { add_masses(block); });
+        on("ROTARY INERTIA", [&] { add_inertias(block); });
+        on("NONSTRUCTURAL MASS", [&] { add_spread_mass(block); });
+        on("SPRING", [&] { add_springs(block); });
+        on("COUPLING", [&] { add_coupling(block, next); });
+        on("RIGID BODY", [&] { add_rigid_body(block); });
+        on("MPC", [&] { add_mpc(block); });
+        on("EQUATION", [&] { add_equations(block); });
+      }
+    }
+  }
+
+ private:
+  std::vector<int> elements(const AbaqusBlock& block, AbaqusKind kind) const {
+    const std::vector<int> all = model_.elements_of(*scope_, block.required("ELSET"));
+    for (const int e : all)
+      if (model_.elements[at(e)].kind != kind)
+        throw CardError{fmt::format("element {} is a {}", model_.elements[at(e)].label,
+                                    model_.elements[at(e)].type)};
+    return all;
+  }
+
+  Fields first_line(const AbaqusBlock& block) const {
+    if (block.data.empty()) throw CardError{"a line of data is missing"};
+    return block.data.front().fields();
+  }
+
+  void add_masses(const AbaqusBlock& block) {
+    const double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
+    if (value < 0) throw CardError{"the mass is negative"};
+    for (const int e : elements(block, AbaqusKind::mass)) {
+      PointMass mass;
+      mass.vertex = model_.elements[at(e)].nodes.front();
+      mass.label = model_.elements[at(e)].label;
+      mass.mass = value;
+      mesh_.masses.push_back(mass);
+    }
+  }
+
+  // I11, I22, I33, I12, I13, I23: entries of the tensor, products with their sign
+  void add_inertias(const AbaqusBlock& block) {
+    const Fields fields = first_line(block);
+    std::array<double, 6> i{};
+    for (std::size_t k = 0; k < 6; ++k) i[k] = abaqus_real(fields, k, "moment of inertia", 0.0);
+    if (block.has("ORIENTATION")) throw CardError{"ORIENTATION is not known"};
+    Eigen::Matrix3d inertia;
+    inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+    if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues()[0] <
+        -1e-6 * inertia.norm())
+      throw CardError{"a moment of inertia is negative"};
+    const double length = model_.units.length;
+    for (const int e : elements(block, AbaqusKind::inertia)) {
+      PointMass mass;
+      mass.vertex = model_.elements[at(e)].nodes.front();
+      mass.label = model_.elements[at(e)].label;
+      mass.inertia = scope_->turn * (inertia * model_.units.mass() * length * length) *
+                     scope_->turn.transpose();
+      mesh_.masses.push_back(mass);
+    }
+  }
+
+  // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER AREA | MASS PER LENGTH | TOTAL MASS
+  void add_spread_mass(const AbaqusBlock& block) {
+    const std::string units = block.required("UNITS");
+    double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
+    const double length = model_.units.length;
+    std::vector<int> shells, beams;
+    for (const int e : model_.elements_of(*scope_, block.required("ELSET"))) {
+      const AbaqusElement& element = model_.elements[at(e)];
+      if (element.shell >= 0) shells.push_back(element.shell);
+      beams.insert(beams.end(), element.beams.begin(), element.beams.end());
+    }
+    if (units == "MASS PER AREA" && beams.empty()) {
+      value /= length * length;
+    } else if (units == "MASS PER LENGTH" && shells.empty()) {
+      value /= length;
+    } else if (units == "TOTAL MASS" && (shells.empty() || beams.empty())) {
+      double size = 0;
+      for (const int s : shells) size += area(mesh_, mesh_.shells[at(s)]);
+      for (const int b : beams)
+        size += (model_.place(mesh_.beams[at(b)].vertices[1]) -
+                 model_.place(mesh_.beams[at(b)].vertices[0]))
+                    .norm();
+      if (!(size > 0)) throw CardError{"there is nothing to spread it over"};
+      value /= size;
+    } else {
+      throw CardError{
+          fmt::format("UNITS = {} of these elements is not known; MASS PER AREA of "
+                      "shells, MASS PER LENGTH of beams, TOTAL MASS of either are",
+                      units)};
+    }
+    spread(shells, value, mesh_.shells, mesh_.shell_sections, &ShellSection::mass_per_area);
+    spread(beams, value, mesh_.beams, mesh_.beam_sections, &BeamSection::mass_per_length);
+  }
+
+  /// Cells that get a mass get sections of their own, one for each that they had.
+  template <typename Cell, typename Section>
+  static void spread(const std::vector<int>& places, double value, std::vector<Cell>& cells,
+                     std::vector<Section>& sections, double Section::*mass) {
+    std::map<int, int> heavier;
+    for (const int place : places) {
+      int& section = cells[at(place)].section;
+      const auto [found, is_new] = heavier.try_emplace(section, static_cast<int>(sections.size()));
+      if (is_new) {
+        Section copy = sections[at(section)];
+        copy.*mass += value;
+        sections.push_back(copy);
+      }
+      section = found->second;
+    }
+  }
+
+  // *SPRING, ELSET = / freedoms (none for SPRINGA) / stiffness
+  void add_springs(const AbaqusBlock& block) {
+    if (block.has("NONLINEAR") || block.has("ORIENTATION"))
+      throw CardError{"NONLINEAR and ORIENTATION are not known"};
+    // The first line may be blank, in which case it is not among the lines of data.
+    const bool has_freedoms = block.data.size() > 1;
+    const Fields freedoms = has_freedoms ? block.data[0].fields() : Fields{};
+    if (block.data.empty()) throw CardError{"the stiffness is missing"};
+    const double stiffness = abaqus_real(block.data[has_freedoms ? 1 : 0].fields(), 0, "stiffness");
+    if (stiffness < 0) throw CardError{"the stiffness is negative"};
+    for (const int e : elements(block, AbaqusKind::spring)) {
+      const AbaqusElement& element = model_.elements[at(e)];
+      Spring spring;
+      spring.label = element.label;
+      spring.vertices[0] = element.nodes[0];
+      if (element.nodes.size() > 1) spring.vertices[1] = element.nodes[1];
+      double unit = model_.units.force / model_.units.length;
+      if (element.type == "SPRINGA") {
+        const Vector3 line = model_.place(element.nodes[1]) - model_.place(element.nodes[0]);
+        if (!(line.norm() > 1e-9))
+          throw CardError{fmt::format("element {} has no length", element.label)};
+        Eigen::Matrix3d axes;
+        axes.col(0) = line.normalized();
+        axes.col(1) = line.unitOrthogonal();
+        axes.col(2) = axes.col(0).cross(axes.col(1));
+        spring.axes = {axes, axes};
+      } else {
+        for (std::size_t end = 0; end < element.nodes.size(); ++end) {
+          const long freedom = end < freedoms.size() ? abaqus_label(freedoms[end], "freedom") : 0;
+          if (freedom < 1 || freedom > 6) throw CardError{"a freedom of 1 to 6 is missing"};
+          spring.components[end] = static_cast<int>(freedom) - 1;
+          spring.axes[end] = model_.axes(element.nodes[end]);
+        }
+        if (element.nodes.size() < 2) {
+          spring.components[1] = spring.components[0];
+          spring.axes[1] = spring.axes[0];
+        }
+        if ((spring.components[0] < 3) != (spring.components[1] < 3))
+          throw CardError{"a displacement is joined with a rotation"};
+        if (spring.components[0] >= 3) unit = model_.units.moment();
+      }
+      spring.stiffness = stiffness * unit;
+      if (stiffness > 0) mesh_.springs.push_back(spring);
+    }
+  }
+
+  /// Vertices of a surface with the area, or the length of edges, that each stands for.
+  std::map<int, double> vertices_of(const AbaqusSurface& surface) const {
+    std::map<int, double> weights = surface.nodes;
+    for (const auto& [e, face] : surface.faces) {
+      const AbaqusElement& element = model_.elements[at(e)];
+      if (element.shell < 0)
+        throw CardError{fmt::format("element {} of the surface is no shell", element.label)};
+      const Shell& shell = mesh_.shells[at(element.shell)];
+      const std::size_t corners = shell.is_triangle() ? 3 : 4;
+      if (face == "SPOS" || face == "SNEG" || face == "SPOS,SNEG") {
+        const double share = area(mesh_, shell) / static_cast<double>(corners);
+        for (std::size_t i = 0; i < corners; ++i) weights[element.nodes[i]] += share;
+      } else if (face.size() == 2 && face[0] == 'E' && face[1] >= '1' &&
+                 face[1] < static_cast<char>('1' + corners)) {
+        const auto side = static_cast<std::size_t>(face[1] - '1');
+        const int a = element.nodes[side], b = element.nodes[(side + 1) % corners];
+        const double share = (model_.place(a) - model_.place(b)).norm() / 2;
+        weights[a] += share;
+        weights[b] += share;
+      } else {
+        throw CardError{
+            fmt::format("the face {} of a shell is not known; SPOS, SNEG, E1 to E4 are", face)};
+      }
+    }
+    return weights;
+  }
+
+  /// Components that lines of "first, last" name; all if there are none.
+  static Components components_of(const AbaqusBlock& block) {
+    if (block.data.empty()) return all_six;
+    Components bound{};
+    for (const AbaqusLine& line : block.data) {
+      const Fields fields = line.fields();
+      if (fields.empty() || fields[0].empty()) return all_six;
+      const long first = abaqus_label(fields[0], "freedom");
+      const long last =
+          fields.size() > 1 && !fields[1].empty() ? abaqus_label(fields[1], "freedom") : first;
+      if (last > 6 || first > last) throw CardError{"freedoms go from 1 to 6"};
+      for (long i = first; i <= last; ++i) bound[at(i - 1)] = true;
+    }
+    return bound;
+  }
+
+  // *COUPLING, REF NODE = , SURFACE = / *KINEMATIC or *DISTRIBUTING / first, last
+  void add_coupling(const AbaqusBlock& block, const AbaqusBlock* next) {
+    if (block.has("ORIENTATION") || block.has("INFLUENCE RADIUS"))
+      throw CardError{"ORIENTATION and INFLUENCE RADIUS are not known"};
+    const int reference = model_.node_of(*scope_, block.required("REF NODE"));
+    const auto surface = model_.surfaces.find(block.required("SURFACE"));
+    if (surface == model_.surfaces.end())
+      throw CardError{fmt::format("surface {} does not exist", block.value("SURFACE"))};
+    std::map<int, double> weights = vertices_of(surface->second);
+    weights.erase(reference);
+    if (weights.empty()) throw CardError{"the surface has no nodes"};
+    if (next != nullptr && next->name == "KINEMATIC") {
+      model_.guarded(*next, [&] {
+        RigidLink link;
+        link.master = reference;
+        link.bound = components_of(*next);
+        for (const auto& [vertex, weight] : weights) link.slaves.push_back(vertex);
+        mesh_.rigid_links.push_back(link);
+      });
+    } else if (next != nullptr && next->name == "DISTRIBUTING") {
+      model_.guarded(*next, [&] {
+        if (next->value("COUPLING") == "STRUCTURAL" ||
+            (next->has("WEIGHTING METHOD") && next->value("WEIGHTING METHOD") != "UNIFORM"))
+          throw CardError{"COUPLING = CONTINUUM and WEIGHTING METHOD = UNIFORM alone are known"};
+        DistributingLink link;
+        link.reference = reference;
+        link.bound = components_of(*next);
+        for (const auto& [vertex, weight] : weights) {
+          link.vertices.push_back(vertex);
+          link.weights.push_back(weight);
+        }
+        mesh_.distributing_links.push_back(link);
+      });
+    } else {
+      throw CardError{"*KINEMATIC or *DISTRIBUTING is to follow"};
+    }
+  }
+
+  // *RIGID BODY, REF NODE = , ELSET = , PIN NSET = , TIE NSET =
+  void add_rigid_body(const AbaqusBlock& block) {
+    const int reference = model_.node_of(*scope_, block.required("REF NODE"));
+    std::set<int> tied, pinned;
+    if (block.has("ELSET"))
+      for (const int e : model_.elements_of(*scope_, block.value("ELSET")))
+        tied.insert(model_.elements[at(e)].nodes.begin(), model_.elements[at(e)].nodes.end());
+    for (const char* kind : {"TIE NSET", "NSET"})
+      if (block.has(kind))
+        for (const int node : model_.nodes_of(*scope_, block.value(kind))) tied.insert(node);
+    if (block.has("PIN NSET"))
+      for (const int node : model_.nodes_of(*scope_, block.value("PIN NSET"))) pinned.insert(node);
+    if (block.has("ANALYTICAL SURFACE")) throw CardError{"analytical surfaces are not known"};
+    for (const auto& [nodes, bound] :
+         {std::pair(tied, all_six), std::pair(pinned, displacements)}) {
+      RigidLink link;
+      link.master = reference;
+      link.bound = bound;
+      for (const int node : nodes)
+        if (node != reference) link.slaves.push_back(node);
+      if (!link.slaves.empty()) mesh_.rigid_links.push_back(link);
+    }
+  }
+
+  // *MPC / BEAM | TIE | PIN, node or set, node
+  void add_mpc(const AbaqusBlock& block) {
+    model_.for_lines(block, [&](const Fields& fields) {
+      if (fields.size() < 3) throw CardError{"type, node and node are due"};
+      const std::string type = upper(fields[0]);
+      const int master = model_.node_of(*scope_, fields[2]);
+      RigidLink link;
+      link.master = master;
+      link.slaves = model_.nodes_of(*scope_, fields[1]);
+      if (type == "PIN") link.bound = displacements;
+      const bool is_at_place = std::all_of(link.slaves.begin(), link.slaves.end(), [&](int slave) {
+        return (model_.place(slave) - model_.place(master)).norm() < 1e-6;
+      });
+      if (type != "BEAM" && !((type == "TIE" || type == "PIN") && is_at_place))
+        throw CardError{
+            fmt::format("{} is not known of nodes {}; BEAM, and TIE and PIN of nodes at "
+                        "one place, are",
+                        type, is_at_place ? "at one place" : "apart")};
+      mesh_.rigid_links.push_back(link);
+    });
+  }
+
+  // *EQUATION / number of terms / node, freedom, factor, ...
+  void add_equations(const AbaqusBlock& block) {
+    for (std::size_t i = 0; i < block.data.size();) {
+      const long count = abaqus_label(block.data[i].fields().front(), "number of terms");
+      Fields terms;
+      for (++i; i < block.data.size() && static_cast<long>(terms.size()) < 3 * count; ++i) {
+        const Fields more = block.data[i].fields();
+        terms.insert(terms.end(), more.begin(), more.end());
+      }
+      if (static_cast<long>(terms.size()) < 3 * count) throw CardError{"terms are missing"};
+      const auto freedom = [&](std::size_t t) {
+        return abaqus_label(terms[3 * t + 1], "freedom") - 1;
+      };
+      const double a = abaqus_real(terms, 2, "factor");
+      const double b = count == 2 ? abaqus_real(terms, 5, "factor") : 0;
+      const std::vector<int> slaves = model_.nodes_of(*scope_, terms[0]);
+      const std::vector<int> masters =
+          count == 2 ? model_.nodes_of(*scope_, terms[3]) : std::vector<int>{};
+      const bool fits = count == 2 && freedom(0) == freedom(1) && freedom(0) < 6 &&
+                        std::abs(a + b) < 1e-9 * std::abs(a) &&
+                        (masters.size() == slaves.size() || masters.size() == 1);
+      for (std::size_t s = 0; fits && s < slaves.size(); ++s) {
+        const int master = masters.size() == 1 ? masters[0] : masters[s];
+        if (freedom(0) < 3 && (model_.place(slaves[s]) - model_.place(master)).norm() > 1e-6)
+          throw CardError{"an equation binds nodes that are apart; only nodes at one place are"};
+        RigidLink link;
+        link.master = master;
+        link.slaves = {slaves[s]};
+        link.bound = {};
+        link.bound[at(freedom(0))] = true;
+        link.axes = model_.axes(slaves[s]);
+        mesh_.rigid_links.push_back(link);
+      }
+      if (!fits)
+        throw CardError{
+            "an equation is none that says that two freedoms at one place are equal; "
+            "only such are read"};
+    }
+  }
+
+  AbaqusModel& model_;
+  Mesh& mesh_;
+  const AbaqusScope* scope_ = nullptr;
+};
+
+}  // namespace
+
+void read_abaqus_links(AbaqusModel& model) { LinkBlocks(model).read(); }
+
+}  // namespace blocklift::structure

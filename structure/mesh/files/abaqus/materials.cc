@@ -1,0 +1,134 @@
+// Materials: elasticity, density, and the yield stress of a plastic curve.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/deck/plausibility.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// One material, whose keywords follow it.
+class MaterialBlocks {
+ public:
+  MaterialBlocks(AbaqusModel& model, const AbaqusBlock& block) : model_(model) {
+    material_.isotropic.name = block.required("NAME");
+    material_.line = block.line;
+  }
+
+  /// Whether a keyword says something of a material.
+  static bool knows(const std::string& name) {
+    return name == "ELASTIC" || name == "DENSITY" || name == "PLASTIC" || is_left_out(name);
+  }
+
+  void read(const AbaqusBlock& block) {
+    if (is_left_out(block.name)) {
+      model_.log.leave_out("*" + block.name, "matters to no lift");
+      return;
+    }
+    if (block.data.empty()) throw CardError{"a line of data is missing"};
+    if (block.data.size() > (block.value("TYPE").empty() ? 1U : 2U) && block.name != "PLASTIC")
+      model_.log.leave_out("*" + block.name, "values at other temperatures: the first are used");
+    const auto fields = block.data.front().fields();
+    if (block.name == "DENSITY")
+      material_.isotropic.density = abaqus_real(fields, 0, "density") * model_.units.density();
+    else if (block.name == "PLASTIC")
+      read_yield(fields);
+    else
+      read_elastic(block, fields);
+  }
+
+  void finish() {
+    if (!has_elasticity_) return;
+    Material& solid = material_.isotropic;
+    if (material_.is_isotropic) {
+      check_plausible(solid, "material " + solid.name, model_.units, model_.log, material_.line);
+      material_.ply = isotropic_ply(solid);
+    }
+    material_.ply.density = solid.density;
+    if (!model_.materials.try_emplace(solid.name, material_).second)
+      throw CardError{fmt::format("material {} is there twice", solid.name)};
+  }
+
+  SourceLine line() const { return material_.line; }
+
+ private:
+  static bool is_left_out(const std::string& name) {
+    static const std::set<std::string> names{"EXPANSION",     "CONDUCTIVITY", "SPECIFIC HEAT",
+                                             "DAMPING",       "DEPVAR",       "CREEP",
+                                             "RATE DEPENDENT"};
+    return names.count(name) > 0;
+  }
+
+  void read_yield(const std::vector<std::string_view>& fields) {
+    material_.isotropic.yield_stress = abaqus_real(fields, 0, "stress") * model_.units.stress();
+    model_.log.leave_out("*PLASTIC", "plasticity: its first stress is the yield stress");
+  }
+
+  void read_elastic(const AbaqusBlock& block, const std::vector<std::string_view>& fields) {
+    has_elasticity_ = true;
+    const double stress = model_.units.stress();
+    const std::string type = block.value("TYPE");
+    if (type.empty() || type == "ISOTROPIC" || type == "ISO") {
+      material_.isotropic.youngs_modulus = abaqus_real(fields, 0, "Young's modulus") * stress;
+      material_.isotropic.poisson_ratio = abaqus_real(fields, 1, "Poisson's ratio", 0.0);
+      return;
+    }
+    if (type != "LAMINA")
+      throw CardError{
+          fmt::format("elasticity of type {} is not known; ISOTROPIC and LAMINA are", type)};
+    // E1, E2, nu12, G12, G13, G23
+    std::array<double, 6> value{};
+    for (std::size_t i = 0; i < 6; ++i)
+      value[i] = abaqus_real(fields, i, "elastic constant") * (i == 2 ? 1.0 : stress);
+    if (!(*std::min_element(value.begin(), value.end()) >= 0 && value[0] > 0 && value[1] > 0 &&
+          value[3] > 0 && value[4] > 0 && value[5] > 0))
+      throw CardError{"moduli must be positive"};
+    material_.is_isotropic = false;
+    material_.isotropic.youngs_modulus = value[0];
+    material_.isotropic.poisson_ratio = value[2];
+    material_.ply = orthotropic_ply(value[0], value[1], value[2], value[3], value[4], value[5], 0);
+  }
+
+  AbaqusModel& model_;
+  AbaqusMaterial material_;
+  bool has_elasticity_ = false;
+};
+
+}  // namespace
+
+void read_abaqus_materials(AbaqusModel& model) {
+  for (const AbaqusScope& scope : model.scopes) {
+    for (std::size_t i = 0; i < scope.blocks.size(); ++i) {
+      if (scope.blocks[i]->name != "MATERIAL") continue;
+      model.guarded(*scope.blocks[i], [&] {
+        MaterialBlocks material(model, *scope.blocks[i]);
+        for (std::size_t j = i + 1;
+             j < scope.blocks.size() && MaterialBlocks::knows(scope.blocks[j]->name); ++j)
+          model.guarded(*scope.blocks[j], [&] { material.read(*scope.blocks[j]); });
+        material.finish();
+      });
+    }
+  }
+}
+
+int abaqus_material(AbaqusModel& model, const std::string& name) {
+  const auto found = model.materials.find(name);
+  if (found == model.materials.end())
+    throw CardError{fmt::format("material {} does not exist, or has no elasticity", name)};
+  AbaqusMaterial& material = found->second;
+  if (!material.is_isotropic)
+    throw CardError{
+        fmt::format("material {} depends on the direction; an isotropic one is due", name)};
+  if (material.place < 0) {
+    material.place = static_cast<int>(model.deck.mesh.materials.size());
+    model.deck.mesh.materials.push_back(material.isotropic);
+  }
+  return material.place;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "structure/mesh/files/abaqus/keywords.h"
+#include "structure/mesh/files/deck/coordinate_systems.h"
+#include "structure/mesh/laminate.h"
+
+namespace blocklift::structure {
+
+/// What an element type is here.
+enum class AbaqusKind { shell, beam, truss, mass, inertia, spring, rigid, solid, nothing };
+
+struct AbaqusElement {
+  long label = 0;
+  AbaqusKind kind = AbaqusKind::shell;
+  std::string type;
+  std::vector<int> nodes;  ///< vertices
+  int scope = 0;
+  SourceLine line;
+  int shell = -1;          ///< place in the mesh
+  std::vector<int> beams;  ///< places in the mesh
+};
+
+/// Names and numbers that hold in one part's instance, the assembly, or a deck without parts.
+struct AbaqusScope {
+  std::string name;  ///< of the instance
+  std::vector<const AbaqusBlock*> blocks;
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  Vector3 shift = Vector3::Zero();  ///< in the deck's units
+  std::unordered_map<long, int> nodes, elements;
+  std::map<std::string, std::vector<int>> node_sets, element_sets;
+};
+
+struct AbaqusSurface {
+  bool is_of_nodes = false;
+  std::vector<std::pair<int, std::string>> faces;  ///< element, face
+  std::map<int, double> nodes;                     ///< with the area that each stands for
+};
+
+struct AbaqusMaterial {
+  Material isotropic;
+  PlyMaterial ply;
+  bool is_isotropic = true;
+  SourceLine line;
+  int place = -1;  ///< in Mesh::materials
+};
+
+/// What the stages of reading share.
+struct AbaqusModel {
+  AbaqusModel(DeckLog& the_log, Deck& the_deck, const DeckOptions& the_options)
+      : log(the_log), deck(the_deck), options(the_options), units(the_deck.units) {}
+
+  DeckLog& log;
+  Deck& deck;
+  const DeckOptions& options;
+  const UnitSystem units;
+  std::vector<AbaqusScope> scopes;  ///< the first is the model's own, the last the assembly's
+  std::vector<AbaqusElement> elements;
+  std::vector<const AbaqusBlock*> model_blocks;
+  std::vector<std::vector<const AbaqusBlock*>> steps;
+  std::map<std::string, AbaqusSurface> surfaces;
+  std::map<std::string, AbaqusMaterial> materials;
+  std::unordered_map<int, Eigen::Matrix3d> axes_of;  ///< vertices with a system of their own
+  std::vector<SurfacePoint> middles;
+
+  /// Does something with a block; notes what is wrong and that it was used.
+  void guarded(const AbaqusBlock& block, const std::function<void()>& step);
+  /// Does something with each line of a block.
+  void for_lines(const AbaqusBlock& block,
+                 const std::function<void(const std::vector<std::string_view>&)>& step);
+
+  /// Vertices that a number, a set's name, or instance.either stands for. @throws CardError for
+  /// none.
+  std::vector<int> nodes_of(const AbaqusScope& scope, std::string_view text) const;
+  int node_of(const AbaqusScope& scope, std::string_view text) const;
+  std::vector<int> elements_of(const AbaqusScope& scope, std::string_view text) const;
+  Eigen::Matrix3d axes(int vertex) const;
+  const Vector3& place(int vertex) const {
+    return deck.mesh.vertices[static_cast<std::size_t>(vertex)];
+  }
+};
+
+/// Sorts blocks into parts, instances, assembly, model and steps; nodes, elements, sets, surfaces.
+void read_abaqus_cells(AbaqusModel& model, const std::vector<AbaqusBlock>& blocks);
+/// Materials, sections, and the shells and beams that have them.
+void read_abaqus_sections(AbaqusModel& model);
+/// Masses, springs, couplings, rigid bodies, equations.
+void read_abaqus_links(AbaqusModel& model);
+/// Supports, loads and steps.
+void read_abaqus_steps(AbaqusModel& model);
+
+void read_abaqus_materials(AbaqusModel& model);
+/// Place of a material in the mesh. @throws CardError if it does not exist or depends on direction.
+int abaqus_material(AbaqusModel& model, const std::string& name);
+
+}  // namespace blocklift::structure

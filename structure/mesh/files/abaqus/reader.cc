@@ -1,0 +1,155 @@
+#include "structure/mesh/files/abaqus/reader.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/deck/surface_points.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Keywords that some stage reads.
+const std::set<std::string, std::less<>>& keywords_read() {
+  static const std::set<std::string, std::less<>> names{"HEADING",
+                                                        "PART",
+                                                        "END PART",
+                                                        "INSTANCE",
+                                                        "END INSTANCE",
+                                                        "ASSEMBLY",
+                                                        "END ASSEMBLY",
+                                                        "NODE",
+                                                        "ELEMENT",
+                                                        "NSET",
+                                                        "ELSET",
+                                                        "SURFACE",
+                                                        "TRANSFORM",
+                                                        "ORIENTATION",
+                                                        "MATERIAL",
+                                                        "ELASTIC",
+                                                        "DENSITY",
+                                                        "PLASTIC",
+                                                        "EXPANSION",
+                                                        "CONDUCTIVITY",
+                                                        "SPECIFIC HEAT",
+                                                        "DAMPING",
+                                                        "DEPVAR",
+                                                        "CREEP",
+                                                        "RATE DEPENDENT",
+                                                        "SHELL SECTION",
+                                                        "SHELL GENERAL SECTION",
+                                                        "BEAM SECTION",
+                                                        "BEAM GENERAL SECTION",
+                                                        "CENTROID",
+                                                        "SHEAR CENTER",
+                                                        "SECTION POINTS",
+                                                        "TRANSVERSE SHEAR STIFFNESS",
+                                                        "BEAM SECTION OFFSET",
+                                                        "SOLID SECTION",
+                                                        "MASS",
+                                                        "ROTARY INERTIA",
+                                                        "NONSTRUCTURAL MASS",
+                                                        "RELEASE",
+                                                        "SPRING",
+                                                        "COUPLING",
+                                                        "KINEMATIC",
+                                                        "DISTRIBUTING",
+                                                        "RIGID BODY",
+                                                        "MPC",
+                                                        "EQUATION",
+                                                        "BOUNDARY",
+                                                        "STEP",
+                                                        "END STEP",
+                                                        "CLOAD",
+                                                        "DLOAD",
+                                                        "DSLOAD"};
+  return names;
+}
+
+/// Keywords that change nothing in what a block weighs or how it bears a load given otherwise.
+const std::set<std::string, std::less<>>& keywords_left_out() {
+  static const std::set<std::string, std::less<>> names{"PREPRINT",
+                                                        "OUTPUT",
+                                                        "NODE OUTPUT",
+                                                        "ELEMENT OUTPUT",
+                                                        "CONTACT OUTPUT",
+                                                        "ENERGY OUTPUT",
+                                                        "INTEGRATED OUTPUT",
+                                                        "NODE PRINT",
+                                                        "EL PRINT",
+                                                        "NODE FILE",
+                                                        "EL FILE",
+                                                        "CONTACT FILE",
+                                                        "SECTION PRINT",
+                                                        "SECTION FILE",
+                                                        "FILE FORMAT",
+                                                        "FILE OUTPUT",
+                                                        "RESTART",
+                                                        "MONITOR",
+                                                        "STATIC",
+                                                        "FREQUENCY",
+                                                        "DYNAMIC",
+                                                        "BUCKLE",
+                                                        "MODAL DYNAMIC",
+                                                        "STEADY STATE DYNAMICS",
+                                                        "CONTROLS",
+                                                        "SOLVER CONTROLS",
+                                                        "SECTION CONTROLS",
+                                                        "HOURGLASS STIFFNESS",
+                                                        "PHYSICAL CONSTANTS",
+                                                        "AMPLITUDE",
+                                                        "TIME POINTS",
+                                                        "DASHPOT",
+                                                        "INITIAL CONDITIONS",
+                                                        "TEMPERATURE",
+                                                        "DIAGNOSTICS",
+                                                        "SURFACE INTERACTION",
+                                                        "FRICTION",
+                                                        "SURFACE BEHAVIOR",
+                                                        "INTEGRATED OUTPUT SECTION",
+                                                        "BASE STATE"};
+  return names;
+}
+
+void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& blocks) {
+  for (const AbaqusBlock& block : blocks) {
+    if (block.name == "HEADING") {
+      if (!block.data.empty()) model.deck.title = std::string(block.data.front().text);
+      model.log.use("*HEADING");
+    }
+    if (keywords_read().count(block.name) > 0) continue;
+    if (keywords_left_out().count(block.name) > 0)
+      model.log.leave_out("*" + block.name, "what is solved, printed or met by no plate or beam");
+    else
+      model.log.complain(block.line, fmt::format("the keyword *{} is not known here: what it says "
+                                                 "would be missing from the model",
+                                                 block.name));
+  }
+}
+
+}  // namespace
+
+Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
+                 const DeckOptions& options) {
+  DeckLog log;
+  DeckFiles files(log);
+  const std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log);
+  Deck deck;
+  deck.path = path;
+  deck.units = units;
+  AbaqusModel model(log, deck, options);
+  take_stock_of_keywords(model, blocks);
+  read_abaqus_cells(model, blocks);
+  if (deck.mesh.vertices.empty()) log.complain({}, "the deck has no nodes");
+  read_abaqus_sections(model);
+  read_abaqus_links(model);
+  read_abaqus_steps(model);
+  log.check();
+  fasten_used_middles(deck, model.middles);
+  log.hand_over(deck);
+  return deck;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,524 @@
+// Sections of shells, beams and trusses, and the cells that have them.
+
+#include "structure/mesh/sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/deck/plausibility.h"
+#include "structure/mesh/files/deck/shell_geometry.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+using Fields = std::vector<std::string_view>;
+
+/// A keyword's blocks of one scope, with those that follow it and belong to it.
+struct SectionBlocks {
+  const AbaqusScope* scope = nullptr;
+  const AbaqusBlock* block = nullptr;
+  std::vector<const AbaqusBlock*> details;  ///< CENTROID, SHEAR CENTER, ...
+};
+
+/// What a beam's section says beside Mesh::beam_sections.
+struct BeamShape {
+  Profile profile;  ///< in the axes n1 (2) and n2 (3), its origin the beam's node
+  int material = 0;
+  Vector3 axis_2 = -Vector3::UnitZ();
+};
+
+bool is_detail(const std::string& name) {
+  return name == "CENTROID" || name == "SHEAR CENTER" || name == "SECTION POINTS" ||
+         name == "TRANSVERSE SHEAR STIFFNESS" || name == "BEAM SECTION OFFSET";
+}
+
+class Sections {
+ public:
+  explicit Sections(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
+
+  void read() {
+    for (const AbaqusScope& scope : model_.scopes) {
+      for (std::size_t i = 0; i < scope.blocks.size(); ++i) {
+        SectionBlocks blocks{&scope, scope.blocks[i], {}};
+        for (std::size_t j = i + 1; j < scope.blocks.size() && is_detail(scope.blocks[j]->name);
+             ++j)
+          blocks.details.push_back(scope.blocks[j]);
+        const std::string& name = scope.blocks[i]->name;
+        const AbaqusBlock& block = *scope.blocks[i];
+        if (name == "SHELL SECTION") model_.guarded(block, [&] { add_shells(blocks); });
+        if (name == "SHELL GENERAL SECTION") model_.guarded(block, [&] { add_shells(blocks); });
+        if (name == "BEAM SECTION")
+          model_.guarded(block, [&] { add_beams(blocks, read_shape(blocks)); });
+        if (name == "BEAM GENERAL SECTION")
+          model_.guarded(block, [&] { add_beams(blocks, read_general(blocks)); });
+        if (name == "SOLID SECTION") model_.guarded(block, [&] { add_trusses(blocks); });
+        if (name == "ORIENTATION") model_.guarded(block, [] {});
+      }
+    }
+    for (const AbaqusScope& scope : model_.scopes)
+      for (const AbaqusBlock* block : scope.blocks)
+        if (block->name == "RELEASE") model_.guarded(*block, [&] { release(scope, *block); });
+    check_all_have_sections();
+  }
+
+ private:
+  std::vector<int> elements(const SectionBlocks& blocks) const {
+    return model_.elements_of(*blocks.scope, blocks.block->required("ELSET"));
+  }
+
+  /// One region and group for each section.
+  int region(const SectionBlocks& blocks, int material) {
+    const std::string name = (blocks.scope->name.empty() ? "" : blocks.scope->name + ".") +
+                             blocks.block->find("ELSET")->as_given;
+    mesh_.groups.push_back({name, material});
+    mesh_.regions.push_back({.name = name, .group = static_cast<int>(mesh_.groups.size()) - 1});
+    return static_cast<int>(mesh_.regions.size()) - 1;
+  }
+
+  // *SHELL SECTION, ELSET = , MATERIAL = , OFFSET = / thickness
+  // *SHELL SECTION, ELSET = , COMPOSITE / thickness, points, material, angle ...
+  void add_shells(const SectionBlocks& blocks) {
+    const AbaqusBlock& block = *blocks.block;
+    for (const char* unknown : {"NODAL THICKNESS", "SHELL THICKNESS", "DENSITY"})
+      if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
+    if (block.data.empty()) throw CardError{"the thickness is missing"};
+    if (block.name == "SHELL GENERAL SECTION" && !block.has("MATERIAL") && !block.has("COMPOSITE"))
+      throw CardError{"a section by its stiffness is not known; MATERIAL or COMPOSITE is due"};
+    ShellSection section;
+    if (block.has("COMPOSITE")) {
+      read_layers(block, section);
+    } else {
+      section.thickness =
+          abaqus_real(block.data.front().fields(), 0, "thickness") * model_.units.length;
+      section.material = abaqus_material(model_, block.required("MATERIAL"));
+    }
+    if (!(section.thickness > 0)) throw CardError{"the thickness must be positive"};
+    section.offset = -offset_share(block) * section.thickness;
+    section.label = static_cast<long>(mesh_.shell_sections.size()) + 1;
+    const auto place = static_cast<int>(mesh_.shell_sections.size());
+    mesh_.shell_sections.push_back(section);
+    const int of_region = region(blocks, section.material);
+    const Vector3 axis_1 = section.laminate < 0 ? Vector3(Vector3::Zero()) : laminate_axis(blocks);
+    for (const int e : elements(blocks)) {
+      AbaqusElement& element = model_.elements[at(e)];
+      if (element.kind == AbaqusKind::solid || element.kind == AbaqusKind::nothing) continue;
+      if (element.kind != AbaqusKind::shell)
+        throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
+      if (element.shell >= 0)
+        throw CardError{fmt::format("element {} has two sections", element.label)};
+      add_shell(element, place, of_region, axis_1);
+    }
+  }
+
+  /// Of the mid-surface to the surface of the nodes, in thicknesses, along the normal.
+  static double offset_share(const AbaqusBlock& block) {
+    const std::string offset = block.value("OFFSET");
+    if (offset.empty()) return 0;
+    if (offset == "SPOS") return 0.5;
+    if (offset == "SNEG") return -0.5;
+    const auto share = to_real(offset);
+    if (!share) throw CardError{fmt::format("OFFSET = {} is no number, SPOS or SNEG", offset)};
+    return *share;
+  }
+
+  void read_layers(const AbaqusBlock& block, ShellSection& section) {
+    std::vector<Ply> plies;
+    std::vector<std::string> names;
+    double mass = 0;
+    for (const AbaqusLine& line : block.data) {
+      const Fields fields = line.fields();
+      if (fields.size() < 3) throw CardError{"a layer is thickness, points, material, angle"};
+      names.push_back(upper(fields[2]));
+      const auto found = model_.materials.find(names.back());
+      if (found == model_.materials.end())
+        throw CardError{fmt::format("material {} does not exist", fields[2])};
+      Ply ply;
+      ply.material = found->second.ply;
+      ply.thickness = abaqus_real(fields, 0, "thickness") * model_.units.length;
+      ply.angle = abaqus_real(fields, 3, "angle", 0.0) * std::numbers::pi / 180;
+      if (!(ply.thickness > 0)) throw CardError{"the thickness of a layer must be positive"};
+      section.thickness += ply.thickness;
+      mass += ply.material.density * ply.thickness;
+      plies.push_back(ply);
+    }
+    const bool is_one = std::all_of(names.begin(), names.end(),
+                                    [&](const std::string& name) { return name == names.front(); });
+    if (is_one && model_.materials.at(names.front()).is_isotropic) {
+      section.material = abaqus_material(model_, names.front());
+      return;
+    }
+    const Laminate laminate = stack(plies);
+    const NearestPlate nearest = nearest_plate(laminate, section.thickness);
+    const std::string name = "layers of " + block.required("ELSET");
+    section.material = static_cast<int>(mesh_.materials.size());
+    mesh_.materials.push_back({.name = name,
+                               .youngs_modulus = nearest.youngs_modulus,
+                               .poisson_ratio = nearest.poisson_ratio,
+                               .density = mass / section.thickness});
+    check_plausible(mesh_.materials.back(), name, model_.units, model_.log, block.line);
+    if (nearest.is_exact()) return;
+    section.laminate = static_cast<int>(mesh_.laminates.size());
+    mesh_.laminates.push_back(laminate);
+  }
+
+  /// Axis 1 of the section's orientation, or the world's first.
+  Vector3 laminate_axis(const SectionBlocks& blocks) const {
+    const std::string name = blocks.block->value("ORIENTATION");
+    if (name.empty()) return blocks.scope->turn * Vector3::UnitX();
+    for (const AbaqusBlock* block : blocks.scope->blocks) {
+      if (block->name != "ORIENTATION" || block->value("NAME") != name) continue;
+      const std::string system = block->value("SYSTEM");
+      const bool is_plain =
+          (system.empty() || system == "RECTANGULAR") && !block->data.empty() &&
+          (block->data.size() < 2 || abaqus_real(block->data[1].fields(), 1, "angle", 0.0) == 0);
+      if (!is_plain)
+        throw CardError{
+            fmt::format("orientation {} is none of straight axes without further turn", name)};
+      const Fields fields = block->data[0].fields();
+      return blocks.scope->turn * Vector3(abaqus_real(fields, 0, "axis"),
+                                          abaqus_real(fields, 1, "axis"),
+                                          abaqus_real(fields, 2, "axis"));
+    }
+    throw CardError{fmt::format("orientation {} does not exist", name)};
+  }
+
+  void add_shell(AbaqusElement& element, int section, int of_region, const Vector3& axis_1) {
+    Shell shell;
+    shell.section = section;
+    shell.region = of_region;
+    shell.label = element.label;
+    shell.laminate_axis = axis_1;
+    const std::size_t count = element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
+    std::vector<int> corners(element.nodes.begin(),
+                             element.nodes.begin() + static_cast<long>(count));
+    element.shell = static_cast<int>(mesh_.shells.size());
+    if (element.nodes.size() > count) {
+      std::vector<Vector3> at_corners, at_middles;
+      for (const int corner : corners) at_corners.push_back(model_.place(corner));
+      for (std::size_t i = 0; i < count; ++i) {
+        const int middle = element.nodes[count + i];
+        at_middles.push_back(model_.place(middle));
+        model_.middles.push_back({middle, element.shell, place_of_middle(count, i)});
+      }
+      shell.curvature = static_cast<int>(mesh_.curved_shells.size());
+      mesh_.curved_shells.push_back(quadratic_points(at_corners, at_middles));
+    } else if (count == 4 && corners[2] == corners[3]) {
+      corners.pop_back();
+    }
+    shell.vertices = lexicographic(corners);
+    mesh_.shells.push_back(shell);
+  }
+
+  /// Profile in axes n1 (2) and n2 (3) about the beam's node. Source: Abaqus Elements Guide, beam
+  /// cross-section library; the node of an L is where the middle lines of its legs meet.
+  Profile shape(const std::string& name, const std::vector<double>& d) const {
+    const auto need = [&](std::size_t count) {
+      if (d.size() < count)
+        throw CardError{fmt::format("a section {} has {} dimensions", name, count)};
+    };
+    if (name == "RECT") return need(2), solid_rectangle(d[0], d[1]);
+    if (name == "CIRC") return need(1), solid_circle(d[0]);
+    if (name == "PIPE" || name == "THICK PIPE") return need(2), pipe(d[0], d[0] - d[1]);
+    if (name == "BOX") return need(6), box(d[0], d[1], d[2], d[4], d[5], d[3]);
+    if (name == "I") {
+      need(7);
+      Profile profile = seen(i_beam(d[1], d[6], d[2], d[4], d[3], d[5]), true, false, false);
+      profile.centroid[1] += d[1] / 2 - d[0];
+      return profile;
+    }
+    if (name == "L") {
+      need(4);
+      Profile profile = seen(angle_bar(d[0], d[2], d[1], d[3]), false, true, false);
+      profile.centroid[0] += d[0] - d[3] / 2;
+      return profile;
+    }
+    throw CardError{fmt::format(
+        "SECTION = {} is not known; BOX, CIRC, I, L, PIPE, RECT and GENERAL are", name)};
+  }
+
+  std::vector<double> dimensions(const AbaqusBlock& block) const {
+    if (block.data.empty()) throw CardError{"the dimensions are missing"};
+    std::vector<double> values;
+    const Fields fields = block.data.front().fields();
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      values.push_back(abaqus_real(fields, i, "dimension") * model_.units.length);
+    return values;
+  }
+
+  Vector3 direction(const SectionBlocks& blocks) const {
+    const AbaqusBlock& block = *blocks.block;
+    Vector3 given = -Vector3::UnitZ();
+    if (block.data.size() > 1 && !block.data[1].fields().empty()) {
+      const Fields fields = block.data[1].fields();
+      given << abaqus_real(fields, 0, "n1", 0.0), abaqus_real(fields, 1, "n1", 0.0),
+          abaqus_real(fields, 2, "n1", 0.0);
+    }
+    return blocks.scope->turn * given;
+  }
+
+  BeamShape read_shape(const SectionBlocks& blocks) {
+    const AbaqusBlock& block = *blocks.block;
+    BeamShape beam;
+    try {
+      beam.profile = shape(block.required("SECTION"), dimensions(block));
+    } catch (const ModelError& error) {
+      throw CardError{error.what()};
+    }
+    beam.material = abaqus_material(model_, block.required("MATERIAL"));
+    beam.axis_2 = direction(blocks);
+    for (const char* unknown : {"OFFSET1", "OFFSET2"})
+      if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
+    read_details(blocks, beam);
+    return beam;
+  }
+
+  // *BEAM GENERAL SECTION, SECTION = GENERAL, ELSET = , DENSITY =
+  // A, I11, I12, I22, J / n1 / E, G
+  BeamShape read_general(const SectionBlocks& blocks) {
+    const AbaqusBlock& block = *blocks.block;
+    const std::string kind = block.value("SECTION");
+    BeamShape beam;
+    const double length = model_.units.length, square = length * length;
+    if (kind.empty() || kind == "GENERAL") {
+      if (block.data.empty()) throw CardError{"area and moments are missing"};
+      const Fields fields = block.data.front().fields();
+      BeamSection& section = beam.profile.section;
+      section.area = abaqus_real(fields, 0, "area") * square;
+      section.second_moment_2 = abaqus_real(fields, 1, "I11", 0.0) * square * square;
+      section.product_23 = abaqus_real(fields, 2, "I12", 0.0) * square * square;
+      section.second_moment_3 = abaqus_real(fields, 3, "I22", 0.0) * square * square;
+      section.torsion = abaqus_real(fields, 4, "J", 0.0) * square * square;
+      section.shear_area_2 = section.shear_area_3 = section.area;
+      if (!(section.area > 0) || section.second_moment_2 < 0 || section.second_moment_3 < 0)
+        throw CardError{"area must be positive, second moments not negative"};
+    } else {
+      try {
+        beam.profile = shape(kind, dimensions(block));
+      } catch (const ModelError& error) {
+        throw CardError{error.what()};
+      }
+    }
+    if (block.data.size() < 3) throw CardError{"the line of E and G is missing"};
+    const Fields elastic = block.data[2].fields();
+    Material material;
+    material.name = "of " + block.required("ELSET");
+    material.youngs_modulus = abaqus_real(elastic, 0, "E") * model_.units.stress();
+    const double shear = abaqus_real(elastic, 1, "G") * model_.units.stress();
+    material.poisson_ratio = material.youngs_modulus / (2 * shear) - 1;
+    if (const std::string density = block.value("DENSITY"); !density.empty())
+      material.density = to_real(density).value_or(-1) * model_.units.density();
+    check_plausible(material, "the material " + material.name, model_.units, model_.log,
+                    block.line);
+    beam.material = material_place(material);
+    beam.axis_2 = direction(blocks);
+    read_details(blocks, beam, shear);
+    return beam;
+  }
+
+  /// Sections whose materials agree share one.
+  int material_place(const Material& material) {
+    for (std::size_t i = 0; i < mesh_.materials.size(); ++i) {
+      const Material& known = mesh_.materials[i];
+      if (known.youngs_modulus == material.youngs_modulus && known.density == material.density &&
+          std::abs(known.poisson_ratio - material.poisson_ratio) < 1e-9)
+        return static_cast<int>(i);
+    }
+    mesh_.materials.push_back(material);
+    return static_cast<int>(mesh_.materials.size()) - 1;
+  }
+
+  void read_details(const SectionBlocks& blocks, BeamShape& beam, double shear = 0) {
+    BeamSection& section = beam.profile.section;
+    if (shear == 0) shear = mesh_.materials[at(beam.material)].shear_modulus();
+    for (const AbaqusBlock* detail : blocks.details) {
+      model_.guarded(*detail, [&] {
+        if (detail->data.empty()) throw CardError{"a line of data is missing"};
+        const Fields fields = detail->data.front().fields();
+        const Eigen::Vector2d pair(abaqus_real(fields, 0, "value", 0.0),
+                                   abaqus_real(fields, 1, "value", 0.0));
+        if (detail->name == "CENTROID") {
+          beam.profile.centroid = pair * model_.units.length;
+        } else if (detail->name == "SHEAR CENTER") {
+          section.shear_centre = pair * model_.units.length - beam.profile.centroid;
+        } else if (detail->name == "BEAM SECTION OFFSET") {
+          beam.profile.centroid += pair * model_.units.length;
+        } else if (detail->name == "TRANSVERSE SHEAR STIFFNESS") {
+          // K23 resists shear along n2, K13 along n1.
+          const double unit = model_.units.force / shear;
+          if (pair[0] > 0) section.shear_area_3 = pair[0] * unit;
+          if (pair[1] > 0) section.shear_area_2 = pair[1] * unit;
+        } else {
+          section.stress_points.clear();
+          for (const AbaqusLine& line : detail->data) {
+            const Fields values = line.fields();
+            for (std::size_t i = 0; i + 1 < values.size(); i += 2)
+              section.stress_points.push_back(
+                  Eigen::Vector2d(abaqus_real(values, i, "x1"), abaqus_real(values, i + 1, "x2")) *
+                      model_.units.length -
+                  beam.profile.centroid);
+          }
+        }
+      });
+    }
+  }
+
+  void add_beams(const SectionBlocks& blocks, const BeamShape& shape) {
+    BeamSection section = shape.profile.section;
+    section.material = shape.material;
+    section.name = blocks.block->find("ELSET")->as_given;
+    section.label = static_cast<long>(mesh_.beam_sections.size()) + 1;
+    mesh_.beam_sections.push_back(section);
+    const int of_region = region(blocks, shape.material);
+    for (const int e : elements(blocks)) {
+      AbaqusElement& element = model_.elements[at(e)];
+      if (element.kind != AbaqusKind::beam)
+        throw CardError{fmt::format("element {} is a {}, no beam", element.label, element.type)};
+      if (!element.beams.empty())
+        throw CardError{fmt::format("element {} has two sections", element.label)};
+      const bool is_quadratic = element.type.substr(0, 3) == "B32" || element.type == "PIPE32";
+      const std::size_t count = is_quadratic ? 3 : 2;
+      Vector3 axis_2 = shape.axis_2;
+      if (element.nodes.size() > count)
+        axis_2 = model_.place(element.nodes[count]) - model_.place(element.nodes[0]);
+      for (std::size_t i = 0; i + 1 < count; ++i)
+        add_beam(element, element.nodes[i], element.nodes[i + 1], axis_2, of_region,
+                 shape.profile.centroid);
+    }
+  }
+
+  void add_beam(AbaqusElement& element, int from, int to, const Vector3& axis_2, int of_region,
+                const Eigen::Vector2d& centroid) {
+    Beam beam;
+    beam.vertices = {from, to};
+    beam.section = static_cast<int>(mesh_.beam_sections.size()) - 1;
+    beam.region = of_region;
+    beam.label = element.label;
+    beam.axis_2 = axis_2;
+    const Vector3 line = model_.place(to) - model_.place(from);
+    const Vector3 axis_3 = line.cross(axis_2);
+    if (!(line.norm() > 1e-9))
+      throw CardError{fmt::format("element {} has no length", element.label)};
+    if (!(axis_3.norm() > 1e-6 * line.norm() * axis_2.norm()))
+      throw CardError{
+          fmt::format("element {} runs along n1, which is to orient it", element.label)};
+    const Vector3 own_2 = axis_3.cross(line).normalized();
+    beam.offset[0] = beam.offset[1] = centroid[0] * own_2 + centroid[1] * axis_3.normalized();
+    element.beams.push_back(static_cast<int>(mesh_.beams.size()));
+    mesh_.beams.push_back(beam);
+  }
+
+  // *RELEASE / element or set, S1 | S2, M1 | M2 | T | M1-M2 | M1-T | M2-T | ALLM
+  void release(const AbaqusScope& scope, const AbaqusBlock& block) {
+    static const std::map<std::string, std::vector<std::size_t>> codes{
+        {"M1", {4}},      {"M2", {5}},      {"T", {3}},         {"M1-M2", {4, 5}},
+        {"M1-T", {4, 3}}, {"M2-T", {5, 3}}, {"ALLM", {3, 4, 5}}};
+    model_.for_lines(block, [&](const Fields& fields) {
+      const auto code = codes.find(fields.size() > 2 ? upper(fields[2]) : "");
+      const bool at_start = fields.size() > 1 && is_same(fields[1], "S1");
+      if (code == codes.end() || (!at_start && !is_same(fields[1], "S2")))
+        throw CardError{"elements, S1 or S2, and M1, M2, T, M1-M2, M1-T, M2-T or ALLM are due"};
+      for (const int e : model_.elements_of(scope, fields[0])) {
+        const AbaqusElement& element = model_.elements[at(e)];
+        if (element.beams.empty())
+          throw CardError{fmt::format("element {} is no beam", element.label)};
+        Beam& beam = mesh_.beams[at(at_start ? element.beams.front() : element.beams.back())];
+        for (const std::size_t i : code->second) beam.release[at_start ? 0 : 1][i] = true;
+      }
+    });
+  }
+
+  // *SOLID SECTION, ELSET = , MATERIAL = / area: of trusses
+  void add_trusses(const SectionBlocks& blocks) {
+    const AbaqusBlock& block = *blocks.block;
+    std::vector<int> trusses;
+    for (const int e : elements(blocks))
+      if (model_.elements[at(e)].kind == AbaqusKind::truss) trusses.push_back(e);
+    if (trusses.empty()) {
+      model_.log.leave_out("*SOLID SECTION", "of solids");
+      return;
+    }
+    BeamSection section;
+    section.area = 1;
+    if (!block.data.empty())
+      section.area = abaqus_real(block.data.front().fields(), 0, "area", 1.0);
+    section.area *= model_.units.length * model_.units.length;
+    if (!(section.area > 0)) throw CardError{"the area must be positive"};
+    section.material = abaqus_material(model_, block.required("MATERIAL"));
+    section.name = block.find("ELSET")->as_given;
+    section.label = static_cast<long>(mesh_.beam_sections.size()) + 1;
+    mesh_.beam_sections.push_back(section);
+    const int of_region = region(blocks, section.material);
+    for (const int e : trusses) {
+      AbaqusElement& element = model_.elements[at(e)];
+      // A third node between the ends bends nothing.
+      Beam rod;
+      rod.vertices = {element.nodes.front(), element.nodes.back()};
+      rod.section = static_cast<int>(mesh_.beam_sections.size()) - 1;
+      rod.region = of_region;
+      rod.label = element.label;
+      rod.is_rod = true;
+      const Vector3 line = model_.place(rod.vertices[1]) - model_.place(rod.vertices[0]);
+      if (!(line.norm() > 1e-9))
+        throw CardError{fmt::format("element {} has no length", element.label)};
+      rod.axis_2 = line.unitOrthogonal();
+      element.beams.push_back(static_cast<int>(mesh_.beams.size()));
+      mesh_.beams.push_back(rod);
+    }
+  }
+
+  /// Shells without section are asked for by their type, if the deck has no sections at all.
+  void check_all_have_sections() {
+    int without = -1;
+    const bool has_any = !mesh_.shell_sections.empty();
+    for (AbaqusElement& element : model_.elements) {
+      if (element.kind == AbaqusKind::shell && element.shell < 0) {
+        if (has_any) {
+          model_.log.complain(element.line, "*ELEMENT: shells have no *SHELL SECTION");
+          continue;
+        }
+        if (without < 0) {
+          mesh_.groups.push_back({"shells", 0});
+          mesh_.regions.push_back(
+              {.name = "shells", .group = static_cast<int>(mesh_.groups.size()) - 1});
+          without = static_cast<int>(mesh_.regions.size()) - 1;
+          model_.deck.groups_without_thickness.push_back("shells");
+        }
+        add_shell(element, -1, without, Vector3::Zero());
+      }
+      if ((element.kind == AbaqusKind::beam || element.kind == AbaqusKind::truss) &&
+          element.beams.empty())
+        model_.log.complain(element.line, "*ELEMENT: beams or trusses have no section");
+    }
+  }
+
+  AbaqusModel& model_;
+  Mesh& mesh_;
+};
+
+}  // namespace
+
+void read_abaqus_sections(AbaqusModel& model) {
+  read_abaqus_materials(model);
+  Sections(model).read();
+  for (const AbaqusScope& scope : model.scopes)
+    for (const auto& [name, elements] : scope.element_sets) {
+      NamedSet set;
+      set.name = scope.name.empty() ? name : scope.name + "." + name;
+      for (const int e : elements) {
+        const AbaqusElement& element = model.elements[at(e)];
+        if (element.shell >= 0) set.shells.push_back(element.shell);
+        set.beams.insert(set.beams.end(), element.beams.begin(), element.beams.end());
+      }
+      if (!set.shells.empty() || !set.beams.empty()) model.deck.sets.push_back(std::move(set));
+    }
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,444 @@
+#include "structure/mesh/files/abaqus/writer.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <tuple>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/deck/link_frames.h"
+#include "structure/mesh/files/deck/numbering.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// The fewest digits that say a number exactly; never an integer, which some fields would be read
+/// as.
+std::string exact(double value) {
+  std::array<char, 40> buffer{};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  std::string text(buffer.data(), end);
+  if (text.find_first_of(".e") == std::string::npos) text += '.';
+  return text;
+}
+
+std::string exact(const Vector3& vector) {
+  return exact(vector[0]) + ", " + exact(vector[1]) + ", " + exact(vector[2]);
+}
+
+/// Beams that share a section, an orientation and an offset.
+struct BeamKind {
+  int section = 0;
+  bool is_rod = false;
+  Vector3 axis_2 = Vector3::Zero();
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+  std::vector<int> beams;
+};
+
+class AbaqusText {
+ public:
+  explicit AbaqusText(const Deck& deck)
+      : deck_(deck),
+        mesh_(deck_.mesh),
+        units_(deck.units),
+        axes_(vertex_axes(deck)),
+        elements_(element_labels(deck.mesh)),
+        nodes_(mesh_.vertex_labels) {}
+
+  std::string write() {
+    MiddleVertices middles(mesh_);
+    for (const Shell& shell : mesh_.shells)
+      middles_.push_back(shell.curvature >= 0 ? middles.of(shell) : std::vector<int>{});
+    axes_.resize(mesh_.vertices.size(), Eigen::Matrix3d::Identity());
+    line("*HEADING");
+    line(deck_.title.empty() ? "block" : deck_.title);
+    line("** lengths, forces and masses in " + units_.name);
+    write_nodes();
+    write_materials();
+    write_shells();
+    write_beams();
+    write_masses();
+    write_springs();
+    write_links();
+    write_transforms();
+    line("*ELSET, ELSET=EVERYTHING");
+    for (const std::string& set : element_sets_) line(set);
+    for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) write_step(deck_.load_cases[i]);
+    return std::move(text_);
+  }
+
+ private:
+  void line(const std::string& text) { text_ += text + '\n'; }
+
+  long label(int vertex) const { return node_number_[at(vertex)]; }
+
+  void write_nodes() {
+    line("*NODE, NSET=NODES");
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+      node_number_.push_back(nodes_.take(mesh_.vertex_labels.empty() ? static_cast<long>(v) + 1
+                                                                     : mesh_.vertex_labels[v]));
+      line(fmt::format("{}, {}", node_number_.back(), exact(mesh_.vertices[v] / units_.length)));
+    }
+  }
+
+  void write_materials() {
+    for (std::size_t m = 0; m < mesh_.materials.size(); ++m) {
+      const Material& material = mesh_.materials[m];
+      line(fmt::format("*MATERIAL, NAME=M{}", m + 1));
+      line("*ELASTIC");
+      line(exact(material.youngs_modulus / units_.stress()) + ", " + exact(material.poisson_ratio));
+      if (material.density > 0) {
+        line("*DENSITY");
+        line(exact(material.density / units_.density()) + ",");
+      }
+      if (material.yield_stress > 0) {
+        line("*PLASTIC");
+        line(exact(material.yield_stress / units_.stress()) + ", 0.");
+      }
+    }
+  }
+
+  void write_shells() {
+    std::map<std::pair<int, std::string>, std::vector<int>> kinds;
+    for (std::size_t s = 0; s < mesh_.shells.size(); ++s) {
+      const Shell& shell = mesh_.shells[s];
+      if (shell.section < 0)
+        throw ModelError(fmt::format("shell {} has no thickness; a deck needs one", shell.label));
+      if (mesh_.section_of(shell).laminate >= 0)
+        throw ModelError(
+            fmt::format("shell {} is layered, which is not written here", shell.label));
+      const bool is_quadratic = !middles_[s].empty();
+      const char* type =
+          shell.is_triangle() ? (is_quadratic ? "STRI65" : "S3") : (is_quadratic ? "S8R" : "S4");
+      kinds[{shell.section, type}].push_back(static_cast<int>(s));
+    }
+    shell_number_.resize(mesh_.shells.size());
+    for (const auto& [kind, shells] : kinds) {
+      const auto& [place, type] = kind;
+      const std::string set = new_set();
+      line(fmt::format("*ELEMENT, TYPE={}, ELSET={}", type, set));
+      for (const int s : shells) write_shell(s);
+      const ShellSection& section = mesh_.shell_sections[at(place)];
+      line(fmt::format("*SHELL SECTION, ELSET={}, MATERIAL=M{}, OFFSET={}", set,
+                       section.material + 1, exact(-section.offset / section.thickness)));
+      line(exact(section.thickness / units_.length));
+      if (section.mass_per_area > 0) {
+        line(fmt::format("*NONSTRUCTURAL MASS, ELSET={}, UNITS=MASS PER AREA", set));
+        line(exact(section.mass_per_area / units_.mass() * units_.length * units_.length));
+      }
+    }
+  }
+
+  void write_shell(int s) {
+    const Shell& shell = mesh_.shells[at(s)];
+    shell_number_[at(s)] = elements_.take(shell.label);
+    std::vector<int> around{shell.vertices[0], shell.vertices[1], shell.vertices[3]};
+    if (!shell.is_triangle()) around.push_back(shell.vertices[2]);
+    around.insert(around.end(), middles_[at(s)].begin(), middles_[at(s)].end());
+    std::string text = std::to_string(shell_number_[at(s)]);
+    for (const int vertex : around) text += fmt::format(", {}", label(vertex));
+    line(text);
+  }
+
+  std::string new_set() {
+    element_sets_.push_back(fmt::format("E{}", element_sets_.size() + 1));
+    return element_sets_.back();
+  }
+
+  BeamKind kind_of(const Beam& beam) const {
+    BeamKind kind;
+    kind.section = beam.section;
+    kind.is_rod = beam.is_rod;
+    if (beam.is_rod) return kind;
+    const Vector3 line =
+        mesh_.vertices[at(beam.vertices[1])] - mesh_.vertices[at(beam.vertices[0])];
+    const Vector3 axis_3 = line.cross(beam.axis_2).normalized();
+    kind.axis_2 = axis_3.cross(line).normalized();
+    kind.centroid << beam.offset[0].dot(kind.axis_2), beam.offset[0].dot(axis_3);
+    const Vector3 across = kind.centroid[0] * kind.axis_2 + kind.centroid[1] * axis_3;
+    if ((beam.offset[0] - across).norm() + (beam.offset[1] - across).norm() > 1e-9 * line.norm())
+      throw ModelError(
+          fmt::format("beam {} has offsets that differ between its ends or go along it; "
+                      "Abaqus' sections have one offset across",
+                      beam.label));
+    return kind;
+  }
+
+  void write_beams() {
+    std::vector<BeamKind> kinds;
+    std::map<std::tuple<int, bool, long, long, long, long, long>, std::size_t> known;
+    const auto rounded = [](double value) { return std::lround(value * 1e9); };
+    for (std::size_t b = 0; b < mesh_.beams.size(); ++b) {
+      const BeamKind kind = kind_of(mesh_.beams[b]);
+      const auto key =
+          std::tuple(kind.section, kind.is_rod, rounded(kind.axis_2[0]), rounded(kind.axis_2[1]),
+                     rounded(kind.axis_2[2]), rounded(kind.centroid[0]), rounded(kind.centroid[1]));
+      const auto [found, is_new] = known.try_emplace(key, kinds.size());
+      if (is_new) kinds.push_back(kind);
+      kinds[found->second].beams.push_back(static_cast<int>(b));
+    }
+    beam_number_.resize(mesh_.beams.size());
+    for (const BeamKind& kind : kinds) write_beams_of(kind);
+    write_releases();
+  }
+
+  void write_beams_of(const BeamKind& kind) {
+    const std::string set = new_set();
+    line(fmt::format("*ELEMENT, TYPE={}, ELSET={}", kind.is_rod ? "T3D2" : "B31", set));
+    for (const int b : kind.beams) {
+      const Beam& beam = mesh_.beams[at(b)];
+      beam_number_[at(b)] = elements_.take(beam.label);
+      line(fmt::format("{}, {}, {}", beam_number_[at(b)], label(beam.vertices[0]),
+                       label(beam.vertices[1])));
+    }
+    const BeamSection& section = mesh_.beam_sections[at(kind.section)];
+    const Material& material = mesh_.materials[at(section.material)];
+    const double square = units_.length * units_.length;
+    if (kind.is_rod) {
+      line(fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M{}", set, section.material + 1));
+      line(exact(section.area / square));
+    } else {
+      line(fmt::format("*BEAM GENERAL SECTION, ELSET={}, SECTION=GENERAL, DENSITY={}", set,
+                       exact(material.density / units_.density())));
+      const double fourth = square * square;
+      line(fmt::format("{}, {}, {}, {}, {}", exact(section.area / square),
+                       exact(section.second_moment_2 / fourth), exact(section.product_23 / fourth),
+                       exact(section.second_moment_3 / fourth), exact(section.torsion / fourth)));
+      line(exact(kind.axis_2));
+      line(exact(material.youngs_modulus / units_.stress()) + ", " +
+           exact(material.shear_modulus() / units_.stress()));
+      write_details(kind, section, material.shear_modulus());
+    }
+    if (section.mass_per_length > 0) {
+      line(fmt::format("*NONSTRUCTURAL MASS, ELSET={}, UNITS=MASS PER LENGTH", set));
+      line(exact(section.mass_per_length / units_.mass() * units_.length));
+    }
+  }
+
+  void write_details(const BeamKind& kind, const BeamSection& section, double shear) {
+    const auto pair = [&](const Eigen::Vector2d& value) {
+      return exact(value[0] / units_.length) + ", " + exact(value[1] / units_.length);
+    };
+    line("*CENTROID");
+    line(pair(kind.centroid));
+    line("*SHEAR CENTER");
+    line(pair(kind.centroid + section.shear_centre));
+    if (std::isfinite(section.shear_area_2) && std::isfinite(section.shear_area_3)) {
+      line("*TRANSVERSE SHEAR STIFFNESS");
+      line(exact(section.shear_area_3 * shear / units_.force) + ", " +
+           exact(section.shear_area_2 * shear / units_.force));
+    }
+    if (section.stress_points.empty()) return;
+    line("*SECTION POINTS");
+    for (const Eigen::Vector2d& point : section.stress_points) line(pair(kind.centroid + point));
+  }
+
+  void write_releases() {
+    bool is_first = true;
+    for (std::size_t b = 0; b < mesh_.beams.size(); ++b)
+      for (std::size_t end = 0; end < 2; ++end) {
+        const BeamRelease& release = mesh_.beams[b].release[end];
+        if (std::find(release.begin(), release.end(), true) == release.end()) continue;
+        if (release[0] || release[1] || release[2])
+          throw ModelError(
+              fmt::format("beam {} is released against a displacement; Abaqus releases "
+                          "rotations alone",
+                          mesh_.beams[b].label));
+        if (is_first) line("*RELEASE");
+        is_first = false;
+        const bool m1 = release[4], m2 = release[5], t = release[3];
+        const std::string code = m1 && m2 && t ? "ALLM"
+                                 : m1 && m2    ? "M1-M2"
+                                 : m1 && t     ? "M1-T"
+                                 : m2 && t     ? "M2-T"
+                                 : m1          ? "M1"
+                                 : m2          ? "M2"
+                                               : "T";
+        line(fmt::format("{}, S{}, {}", beam_number_[b], end + 1, code));
+      }
+  }
+
+  /// A node of its own, rigidly held by a vertex.
+  long held_node(int vertex, const Vector3& offset) {
+    const long node = nodes_.take(0);
+    line("*NODE");
+    line(fmt::format("{}, {}", node, exact((mesh_.vertices[at(vertex)] + offset) / units_.length)));
+    line("*MPC");
+    line(fmt::format("BEAM, {}, {}", node, label(vertex)));
+    return node;
+  }
+
+  void write_masses() {
+    for (const PointMass& mass : mesh_.masses) {
+      const long node =
+          mass.offset.isZero() ? label(mass.vertex) : held_node(mass.vertex, mass.offset);
+      if (mass.mass > 0) {
+        const std::string set = new_set();
+        line(fmt::format("*ELEMENT, TYPE=MASS, ELSET={}", set));
+        line(fmt::format("{}, {}", elements_.take(mass.label), node));
+        line("*MASS, ELSET=" + set);
+        line(exact(mass.mass / units_.mass()));
+      }
+      if (mass.inertia.isZero()) continue;
+      const std::string set = new_set();
+      line(fmt::format("*ELEMENT, TYPE=ROTARYI, ELSET={}", set));
+      line(fmt::format("{}, {}", elements_.take(mass.mass > 0 ? 0 : mass.label), node));
+      const Eigen::Matrix3d i = mass.inertia / (units_.mass() * units_.length * units_.length);
+      line("*ROTARY INERTIA, ELSET=" + set);
+      line(fmt::format("{}, {}, {}, {}, {}, {}", exact(i(0, 0)), exact(i(1, 1)), exact(i(2, 2)),
+                       exact(i(0, 1)), exact(i(0, 2)), exact(i(1, 2))));
+    }
+  }
+
+  void write_springs() {
+    for (const Spring& spring : mesh_.springs) {
+      if (!spring.arms[0].isZero() || !spring.arms[1].isZero())
+        throw ModelError(fmt::format("spring {} acts away from its vertices, which Abaqus' do not",
+                                     spring.label));
+      const bool has_end = spring.vertices[1] >= 0;
+      const std::string set = new_set();
+      line(fmt::format("*ELEMENT, TYPE=SPRING{}, ELSET={}", has_end ? 2 : 1, set));
+      std::string text =
+          fmt::format("{}, {}", elements_.take(spring.label), label(spring.vertices[0]));
+      if (has_end) text += fmt::format(", {}", label(spring.vertices[1]));
+      line(text);
+      line("*SPRING, ELSET=" + set);
+      line(has_end ? fmt::format("{}, {}", spring.components[0] + 1, spring.components[1] + 1)
+                   : fmt::format("{},", spring.components[0] + 1));
+      const double unit = spring.components[0] < 3 ? units_.force / units_.length : units_.moment();
+      line(exact(spring.stiffness / unit));
+    }
+  }
+
+  void write_freedoms(const std::array<bool, 6>& bound) {
+    if (std::all_of(bound.begin(), bound.end(), [](bool b) { return b; })) return;
+    for (std::size_t i = 0; i < 6; ++i)
+      if (bound[i]) line(fmt::format("{}, {}", i + 1, i + 1));
+  }
+
+  void write_links() {
+    int number = 0;
+    const auto couple = [&](int reference, const std::vector<int>& vertices,
+                            const std::vector<double>& weights) {
+      line(fmt::format("*SURFACE, NAME=C{}, TYPE=NODE", ++number));
+      for (std::size_t i = 0; i < vertices.size(); ++i)
+        line(fmt::format("{}, {}", label(vertices[i]), exact(weights.empty() ? 1.0 : weights[i])));
+      line(fmt::format("*COUPLING, CONSTRAINT NAME=C{}, REF NODE={}, SURFACE=C{}", number,
+                       label(reference), number));
+    };
+    for (const RigidLink& link : mesh_.rigid_links) {
+      if (!is_free_of_axes(link.bound) && !is_identity(link.axes))
+        throw ModelError(
+            "a link binds a part of the freedoms along axes of its own, which is not "
+            "written here");
+      couple(link.master, link.slaves, {});
+      line("*KINEMATIC");
+      write_freedoms(link.bound);
+    }
+    for (const DistributingLink& link : mesh_.distributing_links) {
+      if (!link.bound[0] || !link.bound[1] || !link.bound[2] ||
+          (!is_free_of_axes(link.bound) && !is_identity(link.axes)))
+        throw ModelError("a link distributes a part of the displacements, which Abaqus' do not");
+      couple(link.reference, link.vertices, link.weights);
+      line("*DISTRIBUTING");
+      write_freedoms(link.bound);
+    }
+  }
+
+  void write_transforms() {
+    for (std::size_t v = 0; v < axes_.size(); ++v) {
+      if (is_identity(axes_[v])) continue;
+      line(fmt::format("*NSET, NSET=T{}", v + 1));
+      line(std::to_string(label(static_cast<int>(v))));
+      line(fmt::format("*TRANSFORM, NSET=T{}, TYPE=R", v + 1));
+      line(exact(Vector3(axes_[v].col(0))) + ", " + exact(Vector3(axes_[v].col(1))));
+    }
+  }
+
+  void write_step(const LoadCase& one) {
+    line(one.title.empty() ? "*STEP" : fmt::format("*STEP, NAME=\"{}\"", one.title));
+    line("*STATIC");
+    line("*BOUNDARY, OP=NEW");
+    for (const int set : one.supports)
+      for (const Support& support : deck_.support_sets[at(set)].supports)
+        for (std::size_t i = 0; i < 6; ++i)
+          if (support.held[i])
+            line(fmt::format("{}, {}, {}, {}", label(support.vertex), i + 1, i + 1,
+                             exact(i < 3 ? support.value[i] / units_.length : support.value[i])));
+    line("*CLOAD, OP=NEW");
+    std::map<int, std::pair<Vector3, Vector3>> at_vertices;
+    for (const auto& [set, factor] : one.loads)
+      for (const PointLoad& load : deck_.load_sets[at(set)].point_loads) {
+        const auto [sum, is_new] =
+            at_vertices.try_emplace(load.vertex, Vector3::Zero(), Vector3::Zero());
+        sum->second.first += factor * load.force;
+        sum->second.second += factor * load.moment;
+      }
+    for (const auto& [vertex, load] : at_vertices)
+      write_point_load(vertex, load.first, load.second);
+    line("*DLOAD, OP=NEW");
+    for (const auto& [set, factor] : one.loads)
+      write_spread_loads(deck_.load_sets[at(set)], factor);
+    line("*END STEP");
+  }
+
+  void write_point_load(int vertex, const Vector3& force, const Vector3& moment) {
+    const Vector3 along = axes_[at(vertex)].transpose() * force / units_.force;
+    const Vector3 about = axes_[at(vertex)].transpose() * moment / units_.moment();
+    for (int i = 0; i < 3; ++i)
+      if (along[i] != 0) line(fmt::format("{}, {}, {}", label(vertex), i + 1, exact(along[i])));
+    for (int i = 0; i < 3; ++i)
+      if (about[i] != 0) line(fmt::format("{}, {}, {}", label(vertex), i + 4, exact(about[i])));
+  }
+
+  void write_spread_loads(const LoadSet& set, double factor) {
+    for (const PlateLoad& load : set.plate_loads) {
+      const auto [least, most] = std::minmax_element(load.pressure.begin(), load.pressure.end());
+      if (!load.direction.isZero() || *most - *least > 1e-9 * std::abs(*most))
+        throw ModelError(
+            "a pressure is not even and normal to its shell, which is not written here");
+      line(fmt::format("{}, P, {}", shell_number_[at(load.shell)],
+                       exact(factor * load.pressure[0] / units_.stress())));
+    }
+    for (const BeamLoad& load : set.beam_loads)
+      for (int i = 0; i < 3; ++i)
+        if (load.force_per_length[i] != 0)
+          line(
+              fmt::format("{}, P{}, {}", beam_number_[at(load.beam)], static_cast<char>('X' + i),
+                          exact(factor * load.force_per_length[i] * units_.length / units_.force)));
+    const double gravity = factor * set.gravity.norm() / units_.length;
+    if (gravity != 0)
+      line(fmt::format("EVERYTHING, GRAV, {}, {}", exact(gravity),
+                       exact(Vector3(set.gravity.normalized()))));
+  }
+
+  Deck deck_;  // middles of curved shells may be added
+  Mesh& mesh_;
+  const UnitSystem units_;
+  std::vector<Eigen::Matrix3d> axes_;
+  Numbering elements_, nodes_;
+  std::vector<long> node_number_, shell_number_, beam_number_;
+  std::vector<std::vector<int>> middles_;
+  std::vector<std::string> element_sets_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string to_abaqus(const Deck& deck) { return AbaqusText(deck).write(); }
+
+void write_abaqus(const Deck& deck, const std::filesystem::path& path) {
+  const std::string text = to_abaqus(deck);
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw ModelError("cannot write \"" + path.string() + "\"");
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/error.h"
+#include "structure/mesh/mesh.h"
+
+namespace blocklift::structure {
+
+/// Units of a deck, seconds being those of time: masses count in force s^2 / length, so that
+/// Newton's law needs no factor.
+struct UnitSystem {
+  std::string name = "m-kg-N";
+  double length = 1;  ///< m
+  double force = 1;   ///< N
+
+  double mass() const { return force / length; }                          ///< kg
+  double stress() const { return force / (length * length); }             ///< Pa
+  double density() const { return mass() / (length * length * length); }  ///< kg/m^3
+  double moment() const { return force * length; }                        ///< N m
+};
+
+/// m-kg-N, mm-t-N (MPa), in-slinch-lbf (psi; also in-lbf), ft-slug-lbf.
+/// @throws ModelError naming them all if there is none of this name.
+UnitSystem unit_system(const std::string& name);
+
+/// A card or keyword that a deck has, and what became of it.
+struct LedgerEntry {
+  std::string name;      ///< in capitals, such as CQUAD4 or *SHELL SECTION
+  int read = 0;          ///< how many the deck has
+  int used = 0;          ///< how many of them are in the model
+  std::string left_out;  ///< why the rest, or a part of each, is not; empty: all is used
+  std::string place;     ///< file:line of the first
+};
+
+/// What a user of the deck should know; not an error.
+struct DeckRemark {
+  std::string place;  ///< file:line
+  std::string text;
+  int count = 1;  ///< how often it holds; the place is the first one
+};
+
+/// Freedoms held at a vertex, along axes of its own.
+struct Support {
+  int vertex = 0;
+  std::array<bool, 6> held{};
+  std::array<double, 6> value{};                       ///< m or rad
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns
+};
+
+struct SupportSet {
+  long label = 0;
+  std::string name;
+  std::vector<Support> supports;
+};
+
+struct PointLoad {
+  int vertex = 0;
+  Vector3 force = Vector3::Zero();   ///< N
+  Vector3 moment = Vector3::Zero();  ///< N m
+};
+
+/// Pressure on a shell, linear between its corners.
+struct PlateLoad {
+  int shell = 0;
+  std::array<double, 4> pressure{};     ///< at the corners, in the shell's order of vertices, Pa
+  Vector3 direction = Vector3::Zero();  ///< unit vector; without length: along the normal
+};
+
+struct BeamLoad {
+  int beam = 0;
+  Vector3 force_per_length = Vector3::Zero();  ///< N/m, along the world's axes
+};
+
+struct LoadSet {
+  long label = 0;
+  std::string name;
+  std::vector<PointLoad> point_loads;
+  std::vector<PlateLoad> plate_loads;
+  std::vector<BeamLoad> beam_loads;
+  Vector3 gravity = Vector3::Zero();  ///< acceleration that all masses feel, m/s^2
+};
+
+/// Subcase or step.
+struct LoadCase {
+  long label = 0;
+  std::string title;
+  std::vector<std::pair<int, double>> loads;  ///< places in Deck::load_sets, with factors
+  std::vector<int> supports;                  ///< places in Deck::support_sets
+};
+
+/// Named set of vertices or cells.
+struct NamedSet {
+  std::string name;
+  std::vector<int> vertices, shells, beams;
+};
+
+/// What a Nastran or Abaqus deck holds, in SI units, the user's numbers beside it.
+///
+/// Vertices and cells are in the order of the file. Materials lack a yield stress where the deck
+/// gives none (0); shells whose property is nowhere lack a section (-1) if the deck has no
+/// properties at all, and `groups_without_thickness` names them.
+struct Deck {
+  std::filesystem::path path;
+  UnitSystem units;
+  std::string title;
+  Mesh mesh;
+  std::vector<SupportSet> support_sets;
+  std::vector<LoadSet> load_sets;
+  std::vector<LoadCase> load_cases;
+  std::vector<NamedSet> sets;
+  std::vector<LedgerEntry> ledger;  ///< by name
+  std::vector<DeckRemark> remarks;
+  std::vector<std::string> groups_without_thickness;
+};
+
+struct DeckOptions {
+  bool leave_solids_out = false;  ///< list solid elements as left out rather than refuse them
+};
+
+/// All that is wrong with a deck; the message has a line for each.
+class DeckError : public ModelError {
+ public:
+  explicit DeckError(std::vector<std::string> complaints);
+  const std::vector<std::string>& complaints() const { return complaints_; }
+
+ private:
+  std::vector<std::string> complaints_;
+};
+
+/// The ledger as lines of text: card, how many were read and used, what was left out and why.
+std::string describe_ledger(const Deck& deck);
+
+}  // namespace blocklift::structure

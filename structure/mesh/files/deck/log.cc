@@ -1,0 +1,75 @@
+#include "structure/mesh/files/deck/log.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "structure/index.h"
+
+namespace blocklift::structure {
+
+int DeckLog::add_file(const std::string& path) {
+  files_.push_back(path);
+  return static_cast<int>(files_.size()) - 1;
+}
+
+std::string DeckLog::place(SourceLine line) const {
+  return fmt::format("{}:{}", files_[at(line.file)], line.line);
+}
+
+void DeckLog::complain(SourceLine line, const std::string& text) {
+  const auto [found, is_new] = complaint_of_.try_emplace(text, complaints_.size());
+  if (is_new)
+    complaints_.push_back({line, text});
+  else
+    ++complaints_[found->second].count;
+}
+
+void DeckLog::remark(SourceLine line, const std::string& text) {
+  const auto [found, is_new] = remark_of_.try_emplace(text, remarks_.size());
+  if (is_new)
+    remarks_.push_back({line, text});
+  else
+    ++remarks_[found->second].count;
+}
+
+LedgerEntry& DeckLog::entry(std::string_view name) {
+  const auto found = ledger_.find(name);
+  if (found != ledger_.end()) return found->second;
+  LedgerEntry& entry = ledger_[std::string(name)];
+  entry.name = name;
+  return entry;
+}
+
+void DeckLog::read(std::string_view name, SourceLine line) {
+  LedgerEntry& card = entry(name);
+  if (card.read++ == 0) card.place = place(line);
+}
+
+void DeckLog::leave_out(std::string_view name, const std::string& reason) {
+  LedgerEntry& card = entry(name);
+  if (card.left_out.empty()) card.left_out = reason;
+}
+
+void DeckLog::check() const {
+  if (complaints_.empty()) return;
+  std::vector<Complaint> sorted = complaints_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Complaint& a, const Complaint& b) {
+    return std::pair(a.line.file, a.line.line) < std::pair(b.line.file, b.line.line);
+  });
+  std::vector<std::string> texts;
+  for (const Complaint& complaint : sorted) {
+    texts.push_back(fmt::format("{}: error: {}", place(complaint.line), complaint.text));
+    if (complaint.count > 1) texts.back() += fmt::format(" ({} times)", complaint.count);
+  }
+  throw DeckError(std::move(texts));
+}
+
+void DeckLog::hand_over(Deck& deck) {
+  for (auto& [name, card] : ledger_) deck.ledger.push_back(std::move(card));
+  for (const Complaint& remark : remarks_)
+    deck.remarks.push_back({place(remark.line), remark.text, remark.count});
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "structure/mesh/files/deck/deck.h"
+
+namespace blocklift::structure {
+
+/// Line of one of a deck's files.
+struct SourceLine {
+  int file = 0;  ///< place in the list of files
+  int line = 0;  ///< from 1
+};
+
+/// What a reader notes of a deck as it goes: its files, the ledger, remarks, and everything that is
+/// wrong, so that all of it can be said at once.
+class DeckLog {
+ public:
+  int add_file(const std::string& path);
+  std::string place(SourceLine line) const;
+
+  /// What keeps the deck from being read. Said once where the text is the same, with their count.
+  void complain(SourceLine line, const std::string& text);
+  /// What the user should know, likewise.
+  void remark(SourceLine line, const std::string& text);
+
+  /// Counts a card that was read.
+  void read(std::string_view name, SourceLine line);
+  void use(std::string_view name, int count = 1) { entry(name).used += count; }
+  /// Why a card, or a part of it, is not in the model; the first reason stays.
+  void leave_out(std::string_view name, const std::string& reason);
+
+  bool has_complaints() const { return !complaints_.empty(); }
+  /// @throws DeckError if there were complaints.
+  void check() const;
+  /// Moves ledger and remarks into the deck.
+  void hand_over(Deck& deck);
+
+ private:
+  struct Complaint {
+    SourceLine line;
+    std::string text;
+    int count = 1;
+  };
+  LedgerEntry& entry(std::string_view name);
+
+  std::vector<std::string> files_;
+  std::vector<Complaint> complaints_, remarks_;
+  std::unordered_map<std::string, std::size_t> complaint_of_, remark_of_;
+  std::map<std::string, LedgerEntry, std::less<>> ledger_;
+};
+
+/// One card or keyword is wrong; the reader adds file and line.
+struct CardError {
+  std::string text;
+};
+
+}  // namespace blocklift::structure

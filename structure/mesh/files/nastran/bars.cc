@@ -1,0 +1,332 @@
+// Properties of bars, beams and rods.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/nastran/model.h"
+#include "structure/mesh/sections.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+using Dimensions = std::vector<double>;
+
+struct Shape {
+  const char* name;
+  std::size_t dimensions;
+  Profile (*build)(const Dimensions&);
+};
+
+/// Z: the flange at the top points towards negative axis 3.
+Profile zee(const Dimensions& d) {
+  const double flange = (d[3] - d[2]) / 2, level = (d[3] - flange) / 2, reach = d[0] + d[1] / 2;
+  return walled_profile("Z", {{level, -reach}, {level, 0}, {-level, 0}, {-level, reach}},
+                        {{0, 1, flange, 0, d[1] / 2},
+                         {1, 2, d[1], -flange / 2, -flange / 2},
+                         {2, 3, flange, d[1] / 2, 0}});
+}
+
+Profile cross(const Dimensions& d) {
+  const double reach = (d[0] + d[1]) / 2;
+  return walled_profile(
+      "cross", {{0, -reach}, {0, 0}, {0, reach}, {-d[2] / 2, 0}, {d[2] / 2, 0}},
+      {{0, 1, d[3], 0, -d[1] / 2}, {2, 1, d[3], 0, -d[1] / 2}, {3, 1, d[1]}, {1, 4, d[1]}});
+}
+
+Profile hat(const Dimensions& d) {
+  const double t = d[1], top = d[0] - t / 2, low = t / 2, side = (d[2] - t) / 2,
+               lip = side + t / 2 + d[3];
+  return walled_profile(
+      "hat", {{low, -lip}, {low, -side}, {top, -side}, {top, side}, {low, side}, {low, lip}},
+      {{0, 1, t, 0, t / 2},
+       {1, 2, t, -t / 2, -t / 2},
+       {2, 3, t, t / 2, t / 2},
+       {3, 4, t, -t / 2, -t / 2},
+       {4, 5, t, t / 2, 0}});
+}
+
+/// The L of PBEAML: height along axis 2, the lower leg towards positive axis 3.
+Profile ell(const Dimensions& d) {
+  return seen(angle_bar(d[1], d[3], d[0], d[2]), false, true, false);
+}
+
+/// Shapes of PBARL and PBEAML in the element's axes y, z. Source: MSC Nastran Quick Reference
+/// Guide, PBARL, figures of the cross-sections.
+const Shape* find_shape(std::string_view name) {
+  static const std::array shapes{
+      Shape{"ROD", 1, [](const Dimensions& d) { return solid_circle(d[0]); }},
+      Shape{"TUBE", 2, [](const Dimensions& d) { return pipe(d[0], d[1]); }},
+      Shape{"TUBE2", 2, [](const Dimensions& d) { return pipe(d[0], d[0] - d[1]); }},
+      Shape{"BAR", 2, [](const Dimensions& d) { return solid_rectangle(d[1], d[0]); }},
+      Shape{"BOX", 4, [](const Dimensions& d) { return box(d[1], d[0], d[2], d[2], d[3], d[3]); }},
+      Shape{"BOX1", 6, [](const Dimensions& d) { return box(d[1], d[0], d[2], d[3], d[4], d[5]); }},
+      Shape{"I", 6, [](const Dimensions& d) { return i_beam(d[0], d[3], d[1], d[4], d[2], d[5]); }},
+      Shape{"I1", 4,
+            [](const Dimensions& d) {
+              const double flange = (d[3] - d[2]) / 2, width = d[0] + d[1];
+              return i_beam(d[3], d[1], width, flange, width, flange);
+            }},
+      Shape{"H", 4,
+            [](const Dimensions& d) {
+              return seen(i_beam(d[0] + d[1], d[3], d[2], d[1] / 2, d[2], d[1] / 2), true, false,
+                          false);
+            }},
+      Shape{"T", 4, [](const Dimensions& d) { return tee_bar(d[1], d[3], d[0], d[2]); }},
+      Shape{"T2", 4,
+            [](const Dimensions& d) {
+              return seen(tee_bar(d[1], d[3], d[0], d[2]), false, true, false);
+            }},
+      Shape{"T1", 4,
+            [](const Dimensions& d) {
+              return seen(tee_bar(d[1] + d[2], d[3], d[0], d[2]), true, false, false);
+            }},
+      Shape{"CHAN", 4, [](const Dimensions& d) { return channel(d[1], d[2], d[0], d[3]); }},
+      Shape{
+          "CHAN1", 4,
+          [](const Dimensions& d) { return channel(d[3], d[1], d[0] + d[1], (d[3] - d[2]) / 2); }},
+      Shape{"CHAN2", 4,
+            [](const Dimensions& d) {
+              return seen(channel(d[3], d[1], d[2], d[0]), true, false, false);
+            }},
+      Shape{"Z", 4, zee},
+      Shape{"CROSS", 4, cross},
+      Shape{"HAT", 4, hat},
+      Shape{"L", 4, ell}};
+  for (const Shape& shape : shapes)
+    if (is_same(shape.name, name)) return &shape;
+  return nullptr;
+}
+
+struct BarCard {
+  BeamSection section;
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+  long material = 0;
+};
+
+double line_mass(const NastranModel& model, double given) {
+  return given * model.units.mass() / model.units.length * model.mass_factor;
+}
+
+/// Area moments and points as the card gives them, to metres.
+void scale(BeamSection& section, double length) {
+  const double square = length * length;
+  section.area *= square;
+  section.second_moment_2 *= square * square;
+  section.second_moment_3 *= square * square;
+  section.product_23 *= square * square;
+  section.torsion *= square * square;
+  for (Eigen::Vector2d& point : section.stress_points) point *= length;
+}
+
+/// A factor of zero stands for no deformation by shear.
+double shear_area(double factor, double area) {
+  return factor > 0 ? factor * area : std::numeric_limits<double>::infinity();
+}
+
+void read_points(const CardView& card, std::size_t first, BeamSection& section) {
+  for (std::size_t i = first; i < first + 8; i += 2)
+    if (card.has(i) || card.has(i + 1))
+      section.stress_points.emplace_back(card.real(i, "stress point", 0.0),
+                                         card.real(i + 1, "stress point", 0.0));
+}
+
+/// PBAR PID MID A I1 I2 J NSM / C1 C2 D1 D2 E1 E2 F1 F2 / K1 K2 I12
+BarCard read_bar(NastranModel& model, const CardView& card) {
+  BarCard bar;
+  bar.material = card.label(1, "material");
+  BeamSection& section = bar.section;
+  section.area = card.real(2, "area", 0.0);
+  section.second_moment_3 = card.real(3, "I1", 0.0);
+  section.second_moment_2 = card.real(4, "I2", 0.0);
+  section.torsion = card.real(5, "J", 0.0);
+  section.product_23 = card.real(18, "I12", 0.0);
+  read_points(card, 8, section);
+  scale(section, model.units.length);
+  section.shear_area_2 = shear_area(card.real(16, "K1", 0.0), section.area);
+  section.shear_area_3 = shear_area(card.real(17, "K2", 0.0), section.area);
+  section.mass_per_length = line_mass(model, card.real(6, "mass beyond the bar's", 0.0));
+  return bar;
+}
+
+/// PBARL PID MID GROUP TYPE / DIM1 DIM2 ... NSM
+/// PBEAML likewise, then stations: SO X/XB DIM1 ... NSM
+BarCard read_shaped(NastranModel& model, const CardView& card) {
+  const Shape* shape = find_shape(card.text(3));
+  if (shape == nullptr)
+    throw CardError{
+        fmt::format("{} {}: the shape \"{}\" is not known; BAR, BOX, BOX1, CHAN, CHAN1, "
+                    "CHAN2, CROSS, H, HAT, I, I1, L, ROD, T, T1, T2, TUBE, TUBE2, Z are",
+                    card.name(), card.text(0), card.text(3))};
+  Dimensions dimensions;
+  for (std::size_t i = 0; i < shape->dimensions; ++i)
+    dimensions.push_back(card.real(8 + i, "dimension") * model.units.length);
+  BarCard bar;
+  bar.material = card.label(1, "material");
+  const std::size_t after = 8 + shape->dimensions;
+  const bool is_beam = card.name() == "PBEAML";
+  const double mass = card.real(after, "mass beyond the bar's", 0.0);
+  for (std::size_t i = after + 1; is_beam && i + 1 < card.size(); i += shape->dimensions + 3) {
+    if (!card.has(i) && !card.has(i + 1)) continue;
+    for (std::size_t j = 0; j < shape->dimensions; ++j) {
+      const double other = card.real(i + 2 + j, "dimension", dimensions[j] / model.units.length);
+      if (std::abs(other * model.units.length - dimensions[j]) > 0.01 * dimensions[j])
+        throw CardError{
+            fmt::format("PBEAML {} tapers by more than 1 %; beams are of one section "
+                        "from end to end: divide it",
+                        card.text(0))};
+    }
+  }
+  Profile profile;
+  try {
+    profile = shape->build(dimensions);
+  } catch (const ModelError& error) {
+    throw CardError{fmt::format("{} {}: {}", card.name(), card.text(0), error.what())};
+  }
+  bar.section = profile.section;
+  bar.section.mass_per_length = line_mass(model, mass);
+  // A beam's axis is its shear centre's, a bar's its centroid's.
+  if (is_beam) bar.centroid = -bar.section.shear_centre;
+  return bar;
+}
+
+/// PBEAM PID MID A I1 I2 I12 J NSM / C1 C2 ... F2 / stations: SO X/XB A I1 I2 I12 J NSM / C1 ... /
+/// K1 K2 S1 S2 NSIA NSIB CWA CWB / M1A M2A M1B M2B N1A N2A N1B N2B
+BarCard read_beam(NastranModel& model, const CardView& card) {
+  BarCard bar;
+  bar.material = card.label(1, "material");
+  constexpr std::array names{"A", "I1", "I2", "I12", "J", "NSM"};
+  std::array<double, 6> values{};
+  for (std::size_t i = 0; i < 6; ++i) values[i] = card.real(2 + i, names[i], 0.0);
+  BeamSection& section = bar.section;
+  section.area = values[0];
+  section.second_moment_3 = values[1];
+  section.second_moment_2 = values[2];
+  section.product_23 = values[3];
+  section.torsion = values[4];
+  read_points(card, 8, section);
+  std::size_t i = 16;
+  while (card.is(i, "YES") || card.is(i, "YESA") || card.is(i, "NO")) {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double other = card.real(i + 2 + j, names[j], values[j]);
+      if (std::abs(other - values[j]) > 0.01 * std::abs(values[j]) + 1e-300)
+        throw CardError{
+            fmt::format("PBEAM {} tapers by more than 1 % in {}; beams are of one "
+                        "section from end to end: divide it",
+                        card.text(0), names[j])};
+    }
+    i += card.is(i, "YES") ? 16 : 8;
+  }
+  const double length = model.units.length;
+  scale(section, length);
+  section.shear_area_2 = shear_area(card.real(i, "K1", 1.0), section.area);
+  section.shear_area_3 = shear_area(card.real(i + 1, "K2", 1.0), section.area);
+  section.mass_per_length = line_mass(model, values[5]);
+  for (const std::size_t field : {i + 6, i + 7})
+    if (card.real(field, "warping coefficient", 0.0) != 0)
+      model.log.leave_out("PBEAM", "warping stiffness (CW)");
+  if (card.real(i + 8, "M1", 0.0) != 0 || card.real(i + 9, "M2", 0.0) != 0)
+    model.log.leave_out("PBEAM", "the offset of the extra mass (M1, M2): it is on the axis");
+  bar.centroid = {card.real(i + 12, "N1", 0.0) * length, card.real(i + 13, "N2", 0.0) * length};
+  section.shear_centre = -bar.centroid;
+  return bar;
+}
+
+/// PROD PID MID A J C NSM; PTUBE PID MID OD T NSM
+BarCard read_rod(NastranModel& model, const CardView& card) {
+  BarCard bar;
+  bar.material = card.label(1, "material");
+  if (card.name() == "PROD") {
+    bar.section.area = card.real(2, "area", 0.0);
+    bar.section.torsion = card.real(3, "J", 0.0);
+    scale(bar.section, model.units.length);
+    bar.section.mass_per_length = line_mass(model, card.real(5, "mass beyond the rod's", 0.0));
+    return bar;
+  }
+  const double radius = card.real(2, "outer diameter") / 2 * model.units.length;
+  const double wall = card.real(3, "wall", 0.0) * model.units.length;
+  if (card.has(5) && std::abs(card.real(5, "outer diameter at the end") * model.units.length -
+                              2 * radius) > 0.02 * radius)
+    throw CardError{fmt::format("PTUBE {} tapers by more than 1 %", card.text(0))};
+  try {
+    const Profile profile =
+        wall > 0 && wall < radius ? pipe(radius, radius - wall) : solid_circle(radius);
+    bar.section.area = profile.section.area;
+    bar.section.torsion = profile.section.torsion;
+  } catch (const ModelError& error) {
+    throw CardError{fmt::format("PTUBE {}: {}", card.text(0), error.what())};
+  }
+  bar.section.mass_per_length = line_mass(model, card.real(4, "mass beyond the tube's", 0.0));
+  return bar;
+}
+
+int add_section(NastranModel& model, const std::string& name, BarCard& bar, long label) {
+  BeamSection& section = bar.section;
+  const double i2 = section.second_moment_2, i3 = section.second_moment_3;
+  if (!(section.area > 0 || section.torsion > 0 || i2 > 0 || i3 > 0))
+    throw CardError{fmt::format("{} {} has neither area nor stiffness", name, label)};
+  if (section.area < 0 || i2 < 0 || i3 < 0 || section.torsion < 0 ||
+      section.product_23 * section.product_23 > i2 * i3 * (1 + 1e-9))
+    throw CardError{
+        fmt::format("{} {}: area and second moments must not be negative, nor I12^2 "
+                    "more than I1 I2",
+                    name, label)};
+  section.material = nastran_material_place(model, bar.material);
+  section.name = fmt::format("{} {}", name, label);
+  section.label = label;
+  model.deck.mesh.beam_sections.push_back(section);
+  return static_cast<int>(model.deck.mesh.beam_sections.size()) - 1;
+}
+
+}  // namespace
+
+const NastranBar& nastran_bar(NastranModel& model, long property) {
+  if (const auto known = model.bar_read.find(property); known != model.bar_read.end())
+    return known->second;
+  const auto found = model.properties.find(property);
+  if (found == model.properties.end())
+    throw CardError{fmt::format("property {} does not exist", property)};
+  const CardView& card = found->second;
+  const std::string& name = card.name();
+  try {
+    BarCard bar;
+    if (name == "PBAR")
+      bar = read_bar(model, card);
+    else if (name == "PBARL" || name == "PBEAML")
+      bar = read_shaped(model, card);
+    else if (name == "PBEAM")
+      bar = read_beam(model, card);
+    else if (name == "PROD" || name == "PTUBE")
+      bar = read_rod(model, card);
+    else
+      throw CardError{
+          fmt::format("a bar, beam or rod has property {}, which is a {}", property, name)};
+    NastranBar read;
+    read.section = add_section(model, name, bar, property);
+    read.centroid = bar.centroid;
+    read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
+    model.log.use(name);
+    return model.bar_read[property] = read;
+  } catch (const CardError& error) {
+    model.log.complain(card.line(), error.text);
+    throw CardError{fmt::format("{} {} cannot be used", name, property)};
+  }
+}
+
+int nastran_rod_section(NastranModel& model, const std::string& name, long label, long material,
+                        double area, double torsion, double mass_per_length) {
+  BarCard bar;
+  bar.material = material;
+  bar.section.area = area;
+  bar.section.torsion = torsion;
+  scale(bar.section, model.units.length);
+  bar.section.mass_per_length = line_mass(model, mass_per_length);
+  return add_section(model, name, bar, label);
+}
+
+}  // namespace blocklift::structure

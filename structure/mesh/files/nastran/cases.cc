@@ -1,0 +1,375 @@
+// Supports, equations, combinations of loads, and the subcases that name them.
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/nastran/model.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Sets that are sums of others: SPCADD, MPCADD.
+using Sums = std::map<long, std::vector<long>>;
+
+void read_sum(const CardView& card, Sums& sums) {
+  std::vector<long>& parts = sums[card.label(0, "set")];
+  for (std::size_t i = 1; i < card.size(); ++i)
+    if (card.has(i)) parts.push_back(card.label(i, "set"));
+}
+
+std::vector<long> parts_of(const Sums& sums, long set) {
+  const auto found = sums.find(set);
+  return found == sums.end() ? std::vector<long>{set} : found->second;
+}
+
+class Supports {
+ public:
+  explicit Supports(NastranModel& model) : model_(model) {}
+
+  void read() {
+    model_.for_each({{"SPC1", [&](const CardView& card) { add_list(card); }},
+                     {"SPC", [&](const CardView& card) { add_pairs(card); }},
+                     {"SPCADD", [&](const CardView& card) { read_sum(card, sums_); }}});
+  }
+
+  /// Places of the support sets that a number of case control stands for.
+  std::vector<int> sets_of(long number) const {
+    std::vector<int> places;
+    for (const long part : parts_of(sums_, number)) {
+      const auto found = set_of_.find(part);
+      if (found == set_of_.end())
+        throw CardError{fmt::format("constraint set {} does not exist", part)};
+      places.push_back(found->second);
+    }
+    return places;
+  }
+
+ private:
+  SupportSet& set(const CardView& card) {
+    const long label = card.label(0, "constraint set");
+    auto& sets = model_.deck.support_sets;
+    const auto [found, is_new] = set_of_.try_emplace(label, static_cast<int>(sets.size()));
+    if (is_new) sets.push_back({label, fmt::format("constraint set {}", label), {}});
+    return sets[at(found->second)];
+  }
+
+  Support support(int vertex, const std::array<bool, 6>& held) {
+    Support support;
+    support.vertex = vertex;
+    support.held = held;
+    support.axes = model_.output_axes(vertex);
+    return support;
+  }
+
+  // SPC1 SID C G1 G2 ... or G1 THRU G2
+  void add_list(const CardView& card) {
+    SupportSet& list = set(card);
+    const std::array<bool, 6> held = card.components(1, "components");
+    for (std::size_t i = 2; i < card.size(); ++i) {
+      if (!card.has(i)) continue;
+      if (card.is(i, "THRU")) {
+        const long from = card.label(i - 1, "grid"), to = card.label(++i, "last grid");
+        for (long label = from + 1; label <= to; ++label)
+          if (const auto found = model_.vertex_of.find(label); found != model_.vertex_of.end())
+            list.supports.push_back(support(found->second, held));
+      } else {
+        list.supports.push_back(support(model_.vertex(card, i, "grid"), held));
+      }
+    }
+  }
+
+  // SPC SID G1 C1 D1 G2 C2 D2
+  void add_pairs(const CardView& card) {
+    SupportSet& list = set(card);
+    for (const std::size_t first : {1U, 4U}) {
+      if (!card.has(first)) continue;
+      Support one =
+          support(model_.vertex(card, first, "grid"), card.components(first + 1, "components"));
+      const double value = card.real(first + 2, "displacement", 0.0);
+      for (std::size_t i = 0; i < 6; ++i)
+        if (one.held[i]) one.value[i] = i < 3 ? value * model_.units.length : value;
+      list.supports.push_back(one);
+    }
+  }
+
+  NastranModel& model_;
+  Sums sums_;
+  std::map<long, int> set_of_;
+};
+
+/// Equations between freedoms: those that say that two are one, or that one is held.
+class Equations {
+ public:
+  explicit Equations(NastranModel& model) : model_(model) {
+    for (const NastranCard& card : model.bulk.cards) {
+      if (card.name != "MPC" && card.name != "MPCADD") continue;
+      const CardView view(model.bulk, card);
+      try {
+        if (card.name == "MPC")
+          cards_[view.label(0, "set")].push_back(view);
+        else
+          read_sum(view, sums_);
+      } catch (const CardError& error) {
+        model.log.complain(card.line, card.name + ": " + error.text);
+      }
+    }
+  }
+
+  bool empty() const { return cards_.empty(); }
+  long only_set() const { return cards_.size() == 1 ? cards_.begin()->first : 0; }
+  SourceLine line() const { return cards_.begin()->second.front().line(); }
+
+  void use(long number) {
+    for (const long part : parts_of(sums_, number)) {
+      const auto found = cards_.find(part);
+      if (found == cards_.end())
+        throw CardError{fmt::format("set {} of equations (MPC) does not exist", part)};
+      used_ = true;
+      for (const CardView& card : found->second) {
+        try {
+          add(card);
+          model_.log.use("MPC");
+        } catch (const CardError& error) {
+          model_.log.complain(card.line(), "MPC: " + error.text);
+        }
+      }
+    }
+  }
+
+  void finish() {
+    if (!used_ && !cards_.empty()) model_.log.leave_out("MPC", "sets that no subcase asks for");
+    if (!held_.supports.empty()) model_.deck.support_sets.push_back(held_);
+  }
+
+ private:
+  struct Term {
+    int vertex = 0, component = 0;
+    double factor = 0;
+  };
+
+  // MPC SID G1 C1 A1 G2 C2 A2 blank / blank G3 C3 A3 ...
+  void add(const CardView& card) {
+    std::vector<Term> terms;
+    for (std::size_t line = 0; line < card.size(); line += 8) {
+      for (const std::size_t first : {line + 1, line + 4}) {
+        if (!card.has(first)) continue;
+        Term term;
+        term.vertex = model_.vertex(card, first, "grid");
+        term.component = static_cast<int>(card.integer(first + 1, "component")) - 1;
+        term.factor = card.real(first + 2, "factor");
+        if (term.component < 0 || term.component > 5)
+          throw CardError{fmt::format("component {} is none of 1 to 6", card.text(first + 1))};
+        if (term.factor != 0) terms.push_back(term);
+      }
+    }
+    if (terms.size() == 1) {
+      Support support;
+      support.vertex = terms[0].vertex;
+      support.held[at(terms[0].component)] = true;
+      support.axes = model_.output_axes(terms[0].vertex);
+      held_.supports.push_back(support);
+      return;
+    }
+    if (terms.size() != 2 || !is_equality(terms[0], terms[1]))
+      throw CardError{fmt::format(
+          "an equation of set {} is none that says that two freedoms at one place are equal, or "
+          "that one is held; only such are read",
+          card.text(0))};
+    RigidLink link;
+    link.master = terms[1].vertex;
+    link.slaves = {terms[0].vertex};
+    link.bound.fill(false);
+    link.bound[at(terms[0].component)] = true;
+    link.axes = model_.output_axes(terms[0].vertex);
+    model_.deck.mesh.rigid_links.push_back(link);
+  }
+
+  bool is_equality(const Term& a, const Term& b) {
+    const bool opposite = std::abs(a.factor + b.factor) < 1e-9 * std::abs(a.factor);
+    const double distance = (model_.place(a.vertex) - model_.place(b.vertex)).norm();
+    const Eigen::Matrix3d turn = model_.output_axes(a.vertex) - model_.output_axes(b.vertex);
+    return opposite && a.component == b.component && turn.norm() < 1e-9 &&
+           (a.component >= 3 || distance < 1e-6);
+  }
+
+  NastranModel& model_;
+  std::map<long, std::vector<CardView>> cards_;
+  Sums sums_;
+  bool used_ = false;
+  SupportSet held_{0, "equations that hold a freedom", {}};
+};
+
+/// A subcase's choice of sets; 0: none.
+struct Choice {
+  long label = 1, load = 0, constraints = 0, equations = 0;
+  std::string title;
+  SourceLine line;
+};
+
+class CaseControl {
+ public:
+  CaseControl(NastranModel& model, std::map<long, int> load_sets, Supports& supports)
+      : model_(model), load_sets_(std::move(load_sets)), supports_(supports), equations_(model) {
+    model_.for_each({{"LOAD", [&](const CardView& card) { read_combination(card); }}});
+  }
+
+  void read() {
+    for (const CaseControlLine& line : model_.bulk.case_control) {
+      try {
+        read_line(line);
+      } catch (const CardError& error) {
+        model_.log.complain(line.line, "case control: " + error.text);
+      }
+    }
+    if (!has_subcases_ && model_.bulk.has_case_control &&
+        (common_.load != 0 || common_.constraints != 0))
+      choices_.push_back(common_);
+    use_equations();
+    equations_.finish();
+    for (const Choice& choice : choices_) {
+      try {
+        add(choice);
+      } catch (const CardError& error) {
+        model_.log.complain(choice.line, fmt::format("subcase {}: {}", choice.label, error.text));
+      }
+    }
+  }
+
+ private:
+  // LOAD SID S S1 L1 S2 L2 ...
+  void read_combination(const CardView& card) {
+    const double factor = card.real(1, "factor");
+    auto& parts = combinations_[card.label(0, "load set")];
+    for (std::size_t i = 2; i + 1 < card.size(); i += 2)
+      if (card.has(i) || card.has(i + 1))
+        parts.emplace_back(card.label(i + 1, "load set"), factor * card.real(i, "factor"));
+  }
+
+  void read_line(const CaseControlLine& line) {
+    const auto equals = line.text.find('=');
+    std::string_view key = trimmed(line.text.substr(0, equals));
+    std::string_view value;
+    if (equals != std::string_view::npos) {
+      value = trimmed(line.text.substr(equals + 1));
+    } else if (const auto space = key.find_first_of(" \t"); space != std::string_view::npos) {
+      value = trimmed(key.substr(space));
+      key = key.substr(0, space);
+    }
+    key = trimmed(key.substr(0, key.find('(')));
+    Choice& choice = has_subcases_ ? choices_.back() : common_;
+    const auto number = [&] {
+      const auto found = to_integer(value);
+      if (!found) throw CardError{fmt::format("{} = \"{}\" is no number", key, value)};
+      return *found;
+    };
+    if (is_same(key, "SUBCASE")) {
+      Choice next = common_;
+      next.label = number();
+      next.line = line.line;
+      choices_.push_back(next);
+      has_subcases_ = true;
+    } else if (is_same(key, "LOAD")) {
+      choice.load = number();
+      choice.line = line.line;
+    } else if (is_same(key, "SPC")) {
+      choice.constraints = number();
+    } else if (is_same(key, "MPC")) {
+      choice.equations = number();
+    } else if (is_same(key, "TITLE")) {
+      model_.deck.title = std::string(value);
+    } else if (is_same(key, "SUBTITLE") || is_same(key, "LABEL")) {
+      choice.title = std::string(value);
+    } else if (is_same(key, "SUBCOM") || is_same(key, "SUBSEQ") || is_same(key, "REPCASE")) {
+      throw CardError{fmt::format("{} is not known; SUBCASE is", key)};
+    } else {
+      const std::string name = "case control " + upper(key.substr(0, key.find_first_of(" \t,")));
+      model_.log.read(name, line.line);
+      model_.log.leave_out(name, "what the solver is to do or print");
+    }
+  }
+
+  void use_equations() {
+    if (equations_.empty()) return;
+    std::vector<long> asked;
+    for (const Choice& choice : choices_.empty() ? std::vector<Choice>{common_} : choices_)
+      if (std::find(asked.begin(), asked.end(), choice.equations) == asked.end())
+        asked.push_back(choice.equations);
+    if (asked.size() > 1) {
+      model_.log.complain(equations_.line(),
+                          "MPC: subcases ask for different sets of equations; a block has one");
+      return;
+    }
+    long wanted = asked.front();
+    if (wanted == 0 && !model_.bulk.has_case_control) {
+      wanted = equations_.only_set();
+      if (wanted != 0)
+        model_.log.remark(equations_.line(),
+                          "without case control, the deck's one set of equations (MPC) is used");
+    }
+    if (wanted == 0) return;
+    try {
+      equations_.use(wanted);
+    } catch (const CardError& error) {
+      model_.log.complain(equations_.line(), error.text);
+    }
+  }
+
+  void add(const Choice& choice) {
+    LoadCase load_case;
+    load_case.label = choice.label;
+    load_case.title = choice.title;
+    const auto& sets = model_.deck.support_sets;
+    for (std::size_t i = 0; i < sets.size(); ++i)
+      if (sets[i].label == 0) load_case.supports.push_back(static_cast<int>(i));
+    if (choice.constraints != 0)
+      for (const int set : supports_.sets_of(choice.constraints)) load_case.supports.push_back(set);
+    if (choice.load != 0) {
+      const auto combined = combinations_.find(choice.load);
+      if (combined == combinations_.end())
+        add_load(load_case, choice.load, 1.0);
+      else
+        for (const auto& [set, factor] : combined->second) add_load(load_case, set, factor);
+    }
+    model_.deck.load_cases.push_back(load_case);
+  }
+
+  void add_load(LoadCase& load_case, long set, double factor) const {
+    const auto found = load_sets_.find(set);
+    if (found == load_sets_.end()) {
+      if (is_left_out(set)) return;
+      throw CardError{fmt::format("load set {} does not exist", set)};
+    }
+    load_case.loads.emplace_back(found->second, factor);
+  }
+
+  /// Whether a set has loads that are noted as left out.
+  bool is_left_out(long set) const {
+    const auto& cards = model_.bulk.cards;
+    return std::any_of(cards.begin(), cards.end(), [&](const NastranCard& card) {
+      return is_load_left_out(card.name) && to_integer(CardView(model_.bulk, card).text(0)) == set;
+    });
+  }
+
+  NastranModel& model_;
+  std::map<long, int> load_sets_;
+  Supports& supports_;
+  Equations equations_;
+  std::map<long, std::vector<std::pair<long, double>>> combinations_;
+  Choice common_;
+  std::vector<Choice> choices_;
+  bool has_subcases_ = false;
+};
+
+}  // namespace
+
+void read_nastran_cases(NastranModel& model) {
+  Supports supports(model);
+  supports.read();
+  CaseControl(model, read_nastran_loads(model), supports).read();
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,338 @@
+// Shells, bars, beams and rods.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/deck/shell_geometry.h"
+#include "structure/mesh/files/nastran/model.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Where a shell's card has what.
+struct ShellLayout {
+  std::size_t corners = 4;
+  std::size_t middles = 0;  ///< how many grids between corners follow them
+  std::size_t angle = 6, offset = 7, flag = 9, thicknesses = 10;
+};
+
+const std::unordered_map<std::string, ShellLayout>& shell_layouts() {
+  static const std::unordered_map<std::string, ShellLayout> layouts{
+      {"CQUAD4", {4, 0, 6, 7, 9, 10}},    {"CQUADR", {4, 0, 6, 7, 9, 10}},
+      {"CTRIA3", {3, 0, 5, 6, 9, 10}},    {"CTRIAR", {3, 0, 5, 6, 9, 10}},
+      {"CQUAD8", {4, 4, 14, 15, 16, 10}}, {"CTRIA6", {3, 3, 8, 9, 13, 10}}};
+  return layouts;
+}
+
+class Shells {
+ public:
+  explicit Shells(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
+
+  void read() {
+    NastranModel::Handlers handlers;
+    for (const auto& [name, layout] : shell_layouts())
+      handlers[name] = [this, &layout = layout](const CardView& card) { add(card, layout); };
+    model_.for_each(handlers);
+  }
+
+ private:
+  void add(const CardView& card, const ShellLayout& layout) {
+    Shell shell;
+    shell.label = model_.new_element(card);
+    const long property = card.label(1, "property", shell.label);
+    std::vector<int> corners;
+    for (std::size_t i = 0; i < layout.corners; ++i)
+      corners.push_back(model_.vertex(card, 2 + i, "corner"));
+    const std::vector<int> middles = read_middles(card, layout);
+    if (!drop_repeated(card, corners, middles.empty()))
+      throw CardError{fmt::format("{} {} has two corners in one grid", card.name(), card.text(0))};
+    shell.vertices = lexicographic(corners);
+    const double thickness = own_thickness(card, layout, property);
+    const double offset = card.real(layout.offset, "offset", 0.0) * model_.units.length;
+    shell.section = nastran_shell_section(model_, property, thickness, offset);
+    shell.region = nastran_region(model_, property, material_of(shell));
+    const auto place = static_cast<int>(mesh_.shells.size());
+    if (!middles.empty()) curve(shell, place, corners, middles);
+    if (shell.section >= 0 && mesh_.section_of(shell).laminate >= 0)
+      shell.laminate_axis = axis_1(card, layout, corners);
+    if (shell.section < 0) without_section_.insert(shell.region);
+    mesh_.shells.push_back(shell);
+    model_.shell_of[shell.label] = place;
+    note_groups();
+  }
+
+  int material_of(const Shell& shell) const {
+    return shell.section < 0 ? 0 : mesh_.section_of(shell).material;
+  }
+
+  void note_groups() {
+    auto& groups = model_.deck.groups_without_thickness;
+    if (groups.size() == without_section_.size()) return;
+    groups.clear();
+    for (const int region : without_section_) groups.push_back(mesh_.regions[at(region)].name);
+  }
+
+  /// A quadrangle with a corner twice is a triangle; its remaining corners keep their turn.
+  bool drop_repeated(const CardView& card, std::vector<int>& corners, bool is_linear) {
+    const std::set<int> distinct(corners.begin(), corners.end());
+    if (distinct.size() == corners.size()) return true;
+    if (distinct.size() != 3 || !is_linear) return false;
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    if (corners.size() == 4 && corners.front() == corners.back()) corners.pop_back();
+    if (corners.size() != 3) return false;
+    model_.log.remark(card.line(), card.name() + " with a corner twice is read as a triangle");
+    return true;
+  }
+
+  std::vector<int> read_middles(const CardView& card, const ShellLayout& layout) {
+    std::vector<int> middles;
+    bool any = false;
+    for (std::size_t i = 0; i < layout.middles; ++i) {
+      const std::size_t field = 2 + layout.corners + i;
+      const bool given = card.has(field) && !card.is(field, "0");
+      any = any || given;
+      middles.push_back(given ? model_.vertex(card, field, "middle of an edge") : -1);
+    }
+    if (!any) middles.clear();
+    return middles;
+  }
+
+  void curve(Shell& shell, int place, const std::vector<int>& corners,
+             const std::vector<int>& middles) {
+    std::vector<Vector3> at_corners, at_middles;
+    for (const int corner : corners) at_corners.push_back(model_.place(corner));
+    for (std::size_t i = 0; i < middles.size(); ++i) {
+      at_middles.push_back(
+          middles[i] >= 0 ? model_.place(middles[i])
+                          : Vector3((at_corners[i] + at_corners[(i + 1) % corners.size()]) / 2));
+      if (middles[i] >= 0)
+        model_.middles.push_back({middles[i], place, place_of_middle(corners.size(), i)});
+    }
+    shell.curvature = static_cast<int>(mesh_.curved_shells.size());
+    mesh_.curved_shells.push_back(quadratic_points(at_corners, at_middles));
+  }
+
+  /// Thickness of a shell that has one of its own; 0: its property's.
+  double own_thickness(const CardView& card, const ShellLayout& layout, long property) {
+    double least = 0, most = 0, sum = 0;
+    const bool is_relative = card.is(layout.flag, "1");
+    const bool has_any = [&] {
+      for (std::size_t i = 0; i < layout.corners; ++i)
+        if (card.has(layout.thicknesses + i)) return true;
+      return false;
+    }();
+    if (!has_any) return 0;
+    const double of_property = nastran_shell_thickness(model_, property);
+    for (std::size_t i = 0; i < layout.corners; ++i) {
+      const std::size_t field = layout.thicknesses + i;
+      double thickness = card.has(field) ? card.real(field, "thickness at a corner") *
+                                               (is_relative ? of_property : model_.units.length)
+                                         : of_property;
+      if (!(thickness > 0))
+        throw CardError{
+            fmt::format("{} {} has no positive thickness at a corner", card.name(), card.text(0))};
+      least = i == 0 ? thickness : std::min(least, thickness);
+      most = std::max(most, thickness);
+      sum += thickness;
+    }
+    if (most > 1.01 * least)
+      throw CardError{fmt::format(
+          "{} {} is {:g} to {:g} m thick; plates of one thickness are read (within 1 %, of which "
+          "the mean is taken): divide it",
+          card.name(), card.text(0), least, most)};
+    const double mean = sum / static_cast<double>(layout.corners);
+    return std::abs(mean - of_property) < 1e-9 * mean ? 0 : mean;
+  }
+
+  Vector3 axis_1(const CardView& card, const ShellLayout& layout, const std::vector<int>& corners) {
+    const Vector3 side = (model_.place(corners[1]) - model_.place(corners[0])).normalized();
+    if (!card.has(layout.angle)) return side;
+    if (card.is_integer(layout.angle)) {
+      const long system = card.integer(layout.angle, "material system");
+      return model_.axes_at(system, corners[0]).col(0);
+    }
+    const double angle = card.real(layout.angle, "angle of the material") * std::numbers::pi / 180;
+    const Vector3 normal = side.cross(model_.place(corners.back()) - model_.place(corners[0]));
+    return Eigen::AngleAxisd(angle, normal.normalized()) * side;
+  }
+
+  NastranModel& model_;
+  Mesh& mesh_;
+  std::set<int> without_section_;
+};
+
+class Bars {
+ public:
+  explicit Bars(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
+
+  void read() {
+    model_.for_each({{"CBAR", [&](const CardView& card) { add_bar(card); }},
+                     {"CBEAM", [&](const CardView& card) { add_bar(card); }},
+                     {"CROD", [&](const CardView& card) { add_rod(card); }},
+                     {"CTUBE", [&](const CardView& card) { add_rod(card); }},
+                     {"CONROD", [&](const CardView& card) { add_rod_without_property(card); }}});
+  }
+
+ private:
+  // CBAR EID PID GA GB X1/G0 X2 X3 OFFT / PA PB W1A W2A W3A W1B W2B W3B
+  void add_bar(const CardView& card) {
+    Beam beam = begin(card, 2);
+    const long property = card.label(1, "property", beam.label);
+    const NastranBar bar = nastran_bar(model_, property);
+    beam.section = bar.section;
+    beam.is_rod = bar.is_rod;
+    const std::string options = option_of(card);
+    const Eigen::Matrix3d axes_a = model_.output_axes(beam.vertices[0]);
+    const Vector3 line = model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);
+    beam.axis_2 = direction(card, beam, options[0] == 'B' ? Eigen::Matrix3d::Identity() : axes_a);
+    if (!bar.is_rod && !(line.cross(beam.axis_2).norm() > 1e-6 * line.norm() * beam.axis_2.norm()))
+      throw CardError{fmt::format("{} {} runs along the vector that is to orient it", card.name(),
+                                  card.text(0))};
+    if (bar.is_rod) {
+      beam.axis_2 = line.unitOrthogonal();
+      model_.log.remark(card.line(), card.name() + " without bending stiffness is taken as a rod");
+    }
+    const Eigen::Matrix3d own = triad(line, beam.axis_2);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Vector3 given(card.real(10 + 3 * end, "offset", 0.0),
+                          card.real(11 + 3 * end, "offset", 0.0),
+                          card.real(12 + 3 * end, "offset", 0.0));
+      const Eigen::Matrix3d axes =
+          options[1 + end] == 'O' ? own : model_.output_axes(beam.vertices[end]);
+      beam.offset[end] = model_.units.length * (axes * given);
+      if (card.has(8 + end) && !card.is(8 + end, "0"))
+        beam.release[end] = card.components(8 + end, "pin flags");
+    }
+    if (card.name() == "CBEAM" && (card.has(16) || card.has(17)))
+      model_.log.leave_out("CBEAM", "warping (SA, SB)");
+    const Eigen::Matrix3d shifted = triad(line + beam.offset[1] - beam.offset[0], beam.axis_2);
+    for (Vector3& offset : beam.offset)
+      offset += shifted.col(1) * bar.centroid[0] + shifted.col(2) * bar.centroid[1];
+    add(beam, property);
+  }
+
+  Beam begin(const CardView& card, std::size_t first) {
+    Beam beam;
+    beam.label = model_.new_element(card);
+    for (std::size_t end = 0; end < 2; ++end)
+      beam.vertices[end] = model_.vertex(card, first + end, "end");
+    const double length = (model_.place(beam.vertices[1]) - model_.place(beam.vertices[0])).norm();
+    if (!(length > 1e-9))
+      throw CardError{fmt::format("{} {} has no length", card.name(), card.text(0))};
+    return beam;
+  }
+
+  void add(Beam& beam, long property) {
+    beam.region = nastran_region(model_, property, mesh_.section_of(beam).material);
+    model_.beam_of[beam.label] = static_cast<int>(mesh_.beams.size());
+    mesh_.beams.push_back(beam);
+  }
+
+  static std::string option_of(const CardView& card) {
+    const std::string option = card.has(7) ? upper(card.text(7)) : "GGG";
+    // A CBEAM may have a number there, the BIT of p-elements.
+    const bool fits = option.size() == 3 && (option[0] == 'G' || option[0] == 'B') &&
+                      option.find_first_not_of("GO", 1) == std::string::npos;
+    if (!fits)
+      throw CardError{
+          fmt::format("OFFT \"{}\" is not known; G or B, then G or O twice, is due", card.text(7))};
+    return option;
+  }
+
+  static Eigen::Matrix3d triad(const Vector3& line, const Vector3& axis_2) {
+    Eigen::Matrix3d axes;
+    axes.col(0) = line.normalized();
+    axes.col(2) = axes.col(0).cross(axis_2).normalized();
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    return axes;
+  }
+
+  /// The vector that orients the plane of axes 1 and 2.
+  Vector3 direction(const CardView& card, const Beam& beam, const Eigen::Matrix3d& axes) {
+    const bool is_grid = card.is_integer(4) && !card.has(5) && !card.has(6);
+    if (is_grid) {
+      const int grid = model_.vertex(card, 4, "grid that orients it");
+      return model_.place(grid) - model_.place(beam.vertices[0]);
+    }
+    const Vector3 given(card.real(4, "vector that orients it", 0.0),
+                        card.real(5, "vector that orients it", 0.0),
+                        card.real(6, "vector that orients it", 0.0));
+    if (!(given.norm() > 0))
+      return model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);  // refused above
+    return axes * given.normalized();
+  }
+
+  // CROD EID PID G1 G2
+  void add_rod(const CardView& card) {
+    Beam rod = begin(card, 2);
+    const long property = card.label(1, "property", rod.label);
+    rod.section = nastran_bar(model_, property).section;
+    make_rod(rod);
+    add(rod, property);
+  }
+
+  // CONROD EID G1 G2 MID A J C NSM
+  void add_rod_without_property(const CardView& card) {
+    Beam rod = begin(card, 1);
+    rod.section = nastran_rod_section(model_, "CONROD", rod.label, card.label(3, "material"),
+                                      card.real(4, "area", 0.0), card.real(5, "J", 0.0),
+                                      card.real(7, "mass beyond the rod's", 0.0));
+    make_rod(rod);
+    // Elements without property share one region: no property has this number.
+    add(rod, 0);
+  }
+
+  void make_rod(Beam& rod) const {
+    rod.is_rod = true;
+    rod.axis_2 = (model_.place(rod.vertices[1]) - model_.place(rod.vertices[0])).unitOrthogonal();
+  }
+
+  NastranModel& model_;
+  Mesh& mesh_;
+};
+
+}  // namespace
+
+void read_nastran_cells(NastranModel& model) {
+  const auto keep = [](std::unordered_map<long, CardView>& all, const char* what) {
+    return [&all, what](const CardView& card) {
+      if (!all.try_emplace(card.label(0, what), card).second)
+        throw CardError{fmt::format("{} {} is there twice", what, card.text(0))};
+    };
+  };
+  // What they say is read, and counted, where an element needs it.
+  const auto materials = keep(model.materials, "material");
+  const auto properties = keep(model.properties, "property");
+  for (const NastranCard& card : model.bulk.cards) {
+    const CardView view(model.bulk, card);
+    try {
+      if (card.name == "MAT1" || card.name == "MAT2" || card.name == "MAT8") materials(view);
+      if (card.name == "PSHELL" || card.name == "PCOMP" || card.name == "PBAR" ||
+          card.name == "PBARL" || card.name == "PBEAM" || card.name == "PBEAML" ||
+          card.name == "PROD" || card.name == "PTUBE")
+        properties(view);
+    } catch (const CardError& error) {
+      model.log.complain(card.line, card.name + ": " + error.text);
+    }
+  }
+  Shells(model).read();
+  Bars(model).read();
+  for (const auto& [number, card] : model.materials)
+    if (model.material_read.count(number) == 0)
+      model.log.leave_out(card.name(), "some are of no element");
+  for (const auto& [number, card] : model.properties)
+    if (model.bar_read.count(number) == 0 &&
+        std::none_of(
+            model.shell_section_of.begin(), model.shell_section_of.end(),
+            [&, number = number](const auto& entry) { return std::get<0>(entry.first) == number; }))
+      model.log.leave_out(card.name(), "some are of no element");
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,223 @@
+// Loads by their sets.
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/nastran/model.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+class Loads {
+ public:
+  explicit Loads(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
+
+  std::map<long, int> read() {
+    const auto point = [&](bool is_moment) {
+      return [this, is_moment](const CardView& card) { add_vector(card, is_moment); };
+    };
+    const auto along = [&](bool is_moment) {
+      return [this, is_moment](const CardView& card) { add_along_grids(card, is_moment); };
+    };
+    model_.for_each({{"FORCE", point(false)},
+                     {"MOMENT", point(true)},
+                     {"FORCE1", along(false)},
+                     {"MOMENT1", along(true)},
+                     {"FORCE2", along(false)},
+                     {"MOMENT2", along(true)},
+                     {"GRAV", [&](const CardView& card) { add_gravity(card); }},
+                     {"PLOAD", [&](const CardView& card) { add_pressure_on_grids(card); }},
+                     {"PLOAD2", [&](const CardView& card) { add_pressure(card); }},
+                     {"PLOAD4", [&](const CardView& card) { add_corner_pressure(card); }},
+                     {"PLOAD1", [&](const CardView& card) { add_line_load(card); }}});
+    return set_of_;
+  }
+
+ private:
+  LoadSet& set(const CardView& card) {
+    const long label = card.label(0, "load set");
+    auto& sets = model_.deck.load_sets;
+    const auto [found, is_new] = set_of_.try_emplace(label, static_cast<int>(sets.size()));
+    if (is_new) {
+      sets.emplace_back();
+      sets.back().label = label;
+      sets.back().name = fmt::format("load set {}", label);
+    }
+    return sets[at(found->second)];
+  }
+
+  double unit(bool is_moment) const {
+    return is_moment ? model_.units.moment() : model_.units.force;
+  }
+
+  void add_point(const CardView& card, int vertex, const Vector3& value, bool is_moment) {
+    PointLoad load;
+    load.vertex = vertex;
+    (is_moment ? load.moment : load.force) = value * unit(is_moment);
+    set(card).point_loads.push_back(load);
+  }
+
+  // FORCE SID G CID F N1 N2 N3
+  void add_vector(const CardView& card, bool is_moment) {
+    const int vertex = model_.vertex(card, 1, "grid");
+    const Vector3 direction(card.real(4, "component", 0.0), card.real(5, "component", 0.0),
+                            card.real(6, "component", 0.0));
+    const Eigen::Matrix3d axes = model_.axes_at(card.integer(2, "coordinate system", 0), vertex);
+    add_point(card, vertex, card.real(3, "factor") * (axes * direction), is_moment);
+  }
+
+  // FORCE1 SID G F G1 G2: from G1 to G2; FORCE2 ... G3 G4: across G1 G2 and G3 G4
+  void add_along_grids(const CardView& card, bool is_moment) {
+    const int vertex = model_.vertex(card, 1, "grid");
+    const auto between = [&](std::size_t i) -> Vector3 {
+      return model_.place(model_.vertex(card, i + 1, "grid")) -
+             model_.place(model_.vertex(card, i, "grid"));
+    };
+    Vector3 direction = between(3);
+    if (card.name().back() == '2') direction = direction.cross(between(5));
+    if (!(direction.norm() > 0))
+      throw CardError{fmt::format("the grids of a load of set {} give no direction", card.text(0))};
+    add_point(card, vertex, card.real(2, "magnitude") * direction.normalized(), is_moment);
+  }
+
+  // GRAV SID CID A N1 N2 N3
+  void add_gravity(const CardView& card) {
+    const Vector3 direction(card.real(3, "component", 0.0), card.real(4, "component", 0.0),
+                            card.real(5, "component", 0.0));
+    const long system = card.integer(1, "coordinate system", 0);
+    const Eigen::Matrix3d axes = model_.systems.get(system).axes;
+    set(card).gravity += card.real(2, "acceleration") * model_.units.length * (axes * direction);
+  }
+
+  // PLOAD SID P G1 G2 G3 G4
+  void add_pressure_on_grids(const CardView& card) {
+    std::vector<int> corners;
+    for (std::size_t i = 2; i < 6; ++i)
+      if (card.has(i) && !card.is(i, "0")) corners.push_back(model_.vertex(card, i, "grid"));
+    if (corners.size() < 3) throw CardError{"three or four grids are due"};
+    const auto place = [&](std::size_t i) { return model_.place(corners[i % corners.size()]); };
+    const Vector3 area = corners.size() == 4
+                             ? Vector3(0.5 * (place(2) - place(0)).cross(place(3) - place(1)))
+                             : Vector3(0.5 * (place(1) - place(0)).cross(place(2) - place(0)));
+    const Vector3 force = card.real(1, "pressure") * model_.units.stress() * area;
+    for (const int corner : corners) {
+      PointLoad load;
+      load.vertex = corner;
+      load.force = force / static_cast<double>(corners.size());
+      set(card).point_loads.push_back(load);
+    }
+  }
+
+  /// -1: a solid that is left out.
+  int shell(const CardView& card, long label) const {
+    const auto found = model_.shell_of.find(label);
+    if (found != model_.shell_of.end()) return found->second;
+    if (model_.options.leave_solids_out && model_.solids.count(label) > 0) {
+      model_.log.leave_out(card.name(), "pressure on solids");
+      return -1;
+    }
+    throw CardError{fmt::format("a pressure of set {} is on element {}, which is no shell",
+                                card.text(0), label)};
+  }
+
+  void add_plate_load(const CardView& card, long label, std::array<double, 4> pressure,
+                      const Vector3& direction) {
+    PlateLoad load;
+    load.shell = shell(card, label);
+    if (load.shell < 0) return;
+    for (double& value : pressure) value *= model_.units.stress();
+    load.pressure = pressure;
+    load.direction = direction;
+    set(card).plate_loads.push_back(load);
+  }
+
+  void for_range(const CardView& card, long from, long to, const std::array<double, 4>& pressure,
+                 const Vector3& direction) {
+    bool found = false;
+    for (long label = from; label <= to; ++label) {
+      if (model_.shell_of.count(label) == 0) continue;
+      found = true;
+      add_plate_load(card, label, pressure, direction);
+    }
+    if (!found) shell(card, from);
+  }
+
+  // PLOAD2 SID P EID1 EID2 ... or EID1 THRU EID2
+  void add_pressure(const CardView& card) {
+    const double p = card.real(1, "pressure");
+    const std::array<double, 4> pressure{p, p, p, p};
+    if (card.is(3, "THRU")) {
+      for_range(card, card.label(2, "element"), card.label(4, "element"), pressure,
+                Vector3::Zero());
+      return;
+    }
+    for (std::size_t i = 2; i < card.size(); ++i)
+      if (card.has(i)) add_plate_load(card, card.label(i, "element"), pressure, Vector3::Zero());
+  }
+
+  // PLOAD4 SID EID P1 P2 P3 P4 THRU EID2 / CID N1 N2 N3 SORL LDIR
+  void add_corner_pressure(const CardView& card) {
+    const double first = card.real(2, "pressure");
+    const std::array<double, 4> around{first, card.real(3, "pressure", first),
+                                       card.real(4, "pressure", first),
+                                       card.real(5, "pressure", first)};
+    if ((card.has(12) && !card.is(12, "SURF")) || (card.has(13) && !card.is(13, "NORM")))
+      throw CardError{"SORL and LDIR other than SURF and NORM are not known"};
+    Vector3 direction = Vector3::Zero();
+    if (card.has(9) || card.has(10) || card.has(11)) {
+      const Vector3 given(card.real(9, "component", 0.0), card.real(10, "component", 0.0),
+                          card.real(11, "component", 0.0));
+      const long system = card.integer(8, "coordinate system", 0);
+      if (!(given.norm() > 0)) throw CardError{"the direction of the pressure has no length"};
+      direction = model_.systems.get(system).axes * given.normalized();
+    }
+    const long label = card.label(1, "element");
+    const bool is_triangle = model_.shell_of.count(label) > 0 &&
+                             mesh_.shells[at(model_.shell_of.at(label))].is_triangle();
+    const std::array<double, 4> pressure{around[0], around[1], is_triangle ? around[2] : around[3],
+                                         around[2]};
+    if (card.is(6, "THRU"))
+      for_range(card, label, card.label(7, "element"), pressure, direction);
+    else
+      add_plate_load(card, label, pressure, direction);
+  }
+
+  // PLOAD1 SID EID TYPE SCALE X1 P1 X2 P2
+  void add_line_load(const CardView& card) {
+    const auto found = model_.beam_of.find(card.label(1, "element"));
+    if (found == model_.beam_of.end())
+      throw CardError{fmt::format("a load of set {} is on element {}, which is no bar",
+                                  card.text(0), card.text(1))};
+    const Beam& beam = mesh_.beams[at(found->second)];
+    const Vector3 line = model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);
+    const Vector3 axis_1 = line.normalized();
+    const Vector3 axis_3 = axis_1.cross(beam.axis_2).normalized();
+    const std::map<std::string, Vector3> directions{
+        {"FX", Vector3::UnitX()}, {"FY", Vector3::UnitY()},      {"FZ", Vector3::UnitZ()},
+        {"FXE", axis_1},          {"FYE", axis_3.cross(axis_1)}, {"FZE", axis_3}};
+    const auto direction = directions.find(upper(card.text(2)));
+    const double p = card.real(5, "load"), from = card.real(4, "place");
+    const bool relative = card.is(3, "FR");
+    const double end = relative ? 1.0 : line.norm() / model_.units.length;
+    const bool is_whole = (relative || card.is(3, "LE")) && std::abs(from) < 1e-6 * end &&
+                          card.has(6) && std::abs(card.real(6, "place") - end) < 1e-4 * end &&
+                          std::abs(card.real(7, "load", p) - p) <= 1e-6 * std::abs(p);
+    if (direction == directions.end() || !is_whole)
+      throw CardError{
+          "only even forces (FX ... FZE) over the whole length (SCALE LE or FR) are read"};
+    set(card).beam_loads.push_back(
+        {found->second, p * model_.units.force / model_.units.length * direction->second});
+  }
+
+  NastranModel& model_;
+  Mesh& mesh_;
+  std::map<long, int> set_of_;
+};
+
+}  // namespace
+
+std::map<long, int> read_nastran_loads(NastranModel& model) { return Loads(model).read(); }
+
+}  // namespace blocklift::structure

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "structure/mesh/files/deck/coordinate_systems.h"
+#include "structure/mesh/files/nastran/card.h"
+#include "structure/mesh/laminate.h"
+
+namespace blocklift::structure {
+
+/// Material card, in SI units.
+struct NastranMaterial {
+  PlyMaterial ply;
+  Material isotropic;  ///< where is_isotropic
+  bool is_isotropic = true;
+  bool is_matrix = false;  ///< MAT2: its shear across the plate is known as MID3 alone
+};
+
+/// Property of a bar, beam or rod.
+struct NastranBar {
+  int section = 0;      ///< place in Mesh::beam_sections
+  bool is_rod = false;  ///< no stiffness against bending
+  /// Centroid from the line that the element's offsets lead to, along axes 2 and 3, m.
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+};
+
+/// What the stages of reading share; all maps go from the user's numbers to places in the mesh.
+struct NastranModel {
+  NastranModel(const NastranBulk& cards, DeckLog& the_log, Deck& the_deck,
+               const DeckOptions& the_options)
+      : bulk(cards), log(the_log), deck(the_deck), options(the_options), units(the_deck.units) {}
+
+  const NastranBulk& bulk;
+  DeckLog& log;
+  Deck& deck;
+  const DeckOptions& options;
+  const UnitSystem units;
+  CoordinateSystems systems;  ///< in the deck's units
+  double mass_factor = 1;     ///< PARAM WTMASS
+  std::unordered_map<long, int> vertex_of, shell_of, beam_of, region_of;
+  std::vector<long> output_system;    ///< of each vertex
+  std::unordered_set<long> elements;  ///< numbers that are taken
+  std::unordered_set<long> solids;
+  std::unordered_map<long, CardView> materials, properties;
+  std::unordered_map<long, NastranMaterial> material_read;
+  std::unordered_map<long, int> material_place;
+  std::unordered_map<long, NastranBar> bar_read;
+  std::map<std::tuple<long, double, double>, int>
+      shell_section_of;  ///< property, thickness, offset
+  /// Shells whose edges' middles are vertices that other things may use: vertex, shell, place on
+  /// it.
+  std::vector<SurfacePoint> middles;
+
+  using Handler = std::function<void(const CardView&)>;
+  using Handlers = std::unordered_map<std::string, Handler>;
+  /// Hands every card to its handler; counts those that go through as used, notes what is wrong.
+  void for_each(const Handlers& handlers);
+
+  /// @throws CardError where there is no such grid.
+  int vertex(const CardView& card, std::size_t i, const char* what) const;
+  const Vector3& place(int vertex) const {
+    return deck.mesh.vertices[static_cast<std::size_t>(vertex)];
+  }
+  /// Directions of a grid's displacements, columns.
+  Eigen::Matrix3d output_axes(int vertex);
+  /// A vector given in a coordinate system, as seen from a vertex.
+  Eigen::Matrix3d axes_at(long system, int vertex);
+  /// Takes an element's number. @throws CardError if it is taken.
+  long new_element(const CardView& card);
+};
+
+/// Coordinate systems, grids, PARAM WTMASS, and where materials and properties stand.
+void read_nastran_grids(NastranModel& model);
+/// CQUAD4 and so on, CBAR and so on, with their properties.
+void read_nastran_cells(NastranModel& model);
+/// Masses, rigid and distributing links, springs, equations.
+void read_nastran_links(NastranModel& model);
+/// Supports and loads by their sets, and case control that combines them.
+void read_nastran_cases(NastranModel& model);
+/// Fills the deck's load sets; FORCE, MOMENT, PLOAD2, PLOAD4, GRAV and the like.
+/// @returns places of the sets by their numbers
+std::map<long, int> read_nastran_loads(NastranModel& model);
+/// Counts all cards; complains of those that no stage reads, notes those that have no use here.
+void take_stock_of_nastran_cards(NastranModel& model);
+/// Whether a card is a load that is noted as left out.
+bool is_load_left_out(std::string_view name);
+
+/// @throws CardError if there is no such material, or what it says cannot be.
+const NastranMaterial& nastran_material(NastranModel& model, long number);
+/// Place of an isotropic material in the mesh. @throws CardError also if it is not isotropic.
+int nastran_material_place(NastranModel& model, long number);
+/// Section of a shell with a property, a thickness of its own (0: the property's) and an offset, m.
+/// -1 if the deck has no properties at all.
+int nastran_shell_section(NastranModel& model, long property, double thickness, double offset);
+/// Thickness that a property gives, m; 0: none.
+double nastran_shell_thickness(NastranModel& model, long property);
+const NastranBar& nastran_bar(NastranModel& model, long property);
+/// Section of a CONROD, which needs no property.
+int nastran_rod_section(NastranModel& model, const std::string& name, long label, long material,
+                        double area, double torsion, double mass_per_length);
+/// Region of a property's cells: one group and region each.
+int nastran_region(NastranModel& model, long property, int material);
+
+}  // namespace blocklift::structure

@@ -1,0 +1,336 @@
+// Materials and the properties of shells.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/deck/plausibility.h"
+#include "structure/mesh/files/nastran/model.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// MAT1 MID E G NU RHO A TREF GE / ST SC SS
+NastranMaterial read_isotropic(NastranModel& model, const CardView& card) {
+  NastranMaterial material;
+  Material& solid = material.isotropic;
+  const double stress = model.units.stress();
+  solid.name = fmt::format("MAT1 {}", card.text(0));
+  solid.density = card.real(4, "density", 0.0) * model.units.density() * model.mass_factor;
+  solid.yield_stress = card.real(8, "limit of tension", 0.0) * stress;
+  const bool has_modulus = card.has(1), has_shear = card.has(2), has_ratio = card.has(3);
+  if (!has_modulus && !(has_shear && has_ratio))
+    throw CardError{fmt::format("{} has no Young's modulus", solid.name)};
+  const double shear = card.real(2, "shear modulus", 0.0) * stress;
+  solid.poisson_ratio = card.real(3, "Poisson's ratio", 0.0);
+  solid.youngs_modulus = has_modulus ? card.real(1, "Young's modulus") * stress
+                                     : 2 * (1 + solid.poisson_ratio) * shear;
+  if (has_modulus && has_shear && !has_ratio)
+    solid.poisson_ratio = solid.youngs_modulus / (2 * shear) - 1;
+  check_plausible(solid, solid.name, model.units, model.log, card.line());
+  if (has_modulus && has_shear && has_ratio && std::abs(shear / solid.shear_modulus() - 1) > 1e-3)
+    model.log.remark(card.line(),
+                     fmt::format("{}: G is {:.3g} times what E and nu give; E and nu are used",
+                                 solid.name, shear / solid.shear_modulus()));
+  material.ply = isotropic_ply(solid);
+  return material;
+}
+
+/// MAT8 MID E1 E2 NU12 G12 G1Z G2Z RHO
+NastranMaterial read_orthotropic(NastranModel& model, const CardView& card) {
+  const double stress = model.units.stress();
+  const double modulus_1 = card.real(1, "E1") * stress, modulus_2 = card.real(2, "E2") * stress;
+  const double ratio = card.real(3, "NU12"), shear = card.real(4, "G12", 0.0) * stress;
+  const auto across = [&](std::size_t i, const char* what) {
+    const double value = card.real(i, what, 0.0) * stress;
+    return value > 0 ? value : infinity;
+  };
+  const double density = card.real(7, "density", 0.0) * model.units.density() * model.mass_factor;
+  const std::string name = fmt::format("MAT8 {}", card.text(0));
+  if (!(modulus_1 > 0 && modulus_2 > 0 && shear > 0 && ratio * ratio * modulus_2 < modulus_1))
+    throw CardError{
+        fmt::format("{}: E1, E2 and G12 must be positive and NU12^2 E2 less than E1", name)};
+  NastranMaterial material;
+  material.ply = orthotropic_ply(modulus_1, modulus_2, ratio, shear, across(5, "G1Z"),
+                                 across(6, "G2Z"), density);
+  material.isotropic = {
+      .name = name, .youngs_modulus = modulus_1, .poisson_ratio = ratio, .density = density};
+  check_plausible({.name = name,
+                   .youngs_modulus = std::max(modulus_1, modulus_2),
+                   .poisson_ratio = 0,
+                   .density = density},
+                  name, model.units, model.log, card.line());
+  const double own_shear = modulus_1 / (2 * (1 + ratio));
+  material.is_isotropic =
+      std::abs(modulus_2 / modulus_1 - 1) < 1e-3 && std::abs(shear / own_shear - 1) < 1e-3;
+  return material;
+}
+
+/// MAT2 MID G11 G12 G13 G22 G23 G33 RHO
+NastranMaterial read_anisotropic(NastranModel& model, const CardView& card) {
+  const double stress = model.units.stress();
+  const auto entry = [&](std::size_t i) { return card.real(i, "stiffness", 0.0) * stress; };
+  NastranMaterial material;
+  Eigen::Matrix3d& g = material.ply.in_plane;
+  g << entry(1), entry(2), entry(3), entry(2), entry(4), entry(5), entry(3), entry(5), entry(6);
+  // Across the plate MAT2 is read in the first two rows.
+  material.ply.shear << g(0, 0), g(1, 1);
+  material.ply.density = card.real(7, "density", 0.0) * model.units.density() * model.mass_factor;
+  material.is_isotropic = false;
+  material.is_matrix = true;
+  return material;
+}
+
+/// A plate's layers, whose stiffness is that of a plate of one material or is kept beside it.
+struct Plate {
+  double thickness = 0, offset = 0, mass_per_area = 0;
+  double mass_of_layers = 0;  ///< kg/m^2
+  int material = -1;          ///< of one isotropic material; -1: the laminate says it
+  Laminate laminate;
+  std::string name;
+};
+
+/// PSHELL PID MID1 T MID2 12I/T3 MID3 TS/T NSM / Z1 Z2 MID4
+Plate read_shell(NastranModel& model, const CardView& card, double own_thickness) {
+  Plate plate;
+  plate.name = fmt::format("PSHELL {}", card.text(0));
+  const double length = model.units.length;
+  plate.thickness = own_thickness > 0 ? own_thickness : card.real(2, "thickness", 0.0) * length;
+  if (!(plate.thickness > 0))
+    throw CardError{fmt::format("{} has no positive thickness, nor have its elements", plate.name)};
+  if (!card.has(1))
+    throw CardError{fmt::format("{} has no material for membrane forces", plate.name)};
+  const long membrane_number = card.label(1, "MID1");
+  const NastranMaterial membrane = nastran_material(model, membrane_number);
+  const double t = plate.thickness;
+  plate.mass_per_area = card.real(7, "mass beyond the plate's", 0.0) * model.units.mass() /
+                        (length * length) * model.mass_factor;
+  plate.mass_of_layers = membrane.ply.density * t;
+  if (card.is(3, "-1"))
+    throw CardError{fmt::format("{} is in plane strain, which a block is not", plate.name)};
+  if (!card.has(3)) model.log.leave_out("PSHELL", "a blank MID2 (no bending): plates bend here");
+  const long bending_number = card.label(3, "MID2", membrane_number);
+  const double bending_ratio = card.real(4, "12I/T3", 1.0);
+  const long shear_number = card.label(5, "MID3", bending_number);
+  const double shear_ratio = card.real(6, "TS/T", 5.0 / 6);
+  if (!(bending_ratio > 0 && shear_ratio > 0))
+    throw CardError{fmt::format("{}: 12I/T3 and TS/T must be positive", plate.name)};
+  if (card.has(8) || card.has(9))
+    model.log.leave_out("PSHELL", "Z1, Z2: stresses are those of the surfaces");
+  const bool is_plain = membrane.is_isotropic && bending_number == membrane_number &&
+                        shear_number == membrane_number && std::abs(bending_ratio - 1) < 1e-6 &&
+                        std::abs(shear_ratio - 5.0 / 6) < 2e-3 && !card.has(10);
+  if (is_plain) {
+    plate.material = nastran_material_place(model, membrane_number);
+    return plate;
+  }
+  const NastranMaterial bending = nastran_material(model, bending_number);
+  const NastranMaterial shear = nastran_material(model, shear_number);
+  plate.laminate.membrane = membrane.ply.in_plane * t;
+  plate.laminate.bending = bending.ply.in_plane * bending_ratio * t * t * t / 12;
+  // What bends by a matrix of its own says nothing of shear across the plate.
+  const bool is_rigid = !card.has(5) && bending.is_matrix;
+  const Eigen::Vector2d across = is_rigid ? Eigen::Vector2d::Constant(infinity) : shear.ply.shear;
+  plate.laminate.shear = (across * shear_ratio * t).asDiagonal();
+  if (card.has(10))
+    plate.laminate.coupling = nastran_material(model, card.label(10, "MID4")).ply.in_plane * t * t;
+  return plate;
+}
+
+/// PCOMP PID Z0 NSM SB FT TREF GE LAM / MID1 T1 THETA1 SOUT1 MID2 ...
+Plate read_layers(NastranModel& model, const CardView& card) {
+  Plate plate;
+  plate.name = fmt::format("PCOMP {}", card.text(0));
+  const double length = model.units.length;
+  const bool mirrored = card.is(7, "SYM"), smeared = card.is(7, "SMEAR");
+  if (card.has(7) && !mirrored && !smeared)
+    throw CardError{
+        fmt::format("{}: LAM = {} is not known; SYM and SMEAR are", plate.name, card.text(7))};
+  std::vector<Ply> plies;
+  std::vector<long> numbers;
+  for (std::size_t i = 8; i < card.size(); i += 4) {
+    if (!card.has(i) && !card.has(i + 1) && !card.has(i + 2)) continue;
+    const bool first = plies.empty();
+    numbers.push_back(first ? card.label(i, "material of a layer")
+                            : card.label(i, "material of a layer", numbers.back()));
+    Ply ply;
+    ply.material = nastran_material(model, numbers.back()).ply;
+    ply.thickness = first || card.has(i + 1) ? card.real(i + 1, "thickness of a layer") * length
+                                             : plies.back().thickness;
+    ply.angle = card.real(i + 2, "angle of a layer", 0.0) * std::numbers::pi / 180;
+    if (!(ply.thickness > 0))
+      throw CardError{fmt::format("{}: a layer has no positive thickness", plate.name)};
+    plies.push_back(ply);
+  }
+  if (plies.empty()) throw CardError{fmt::format("{} has no layers", plate.name)};
+  if (mirrored)
+    for (std::size_t i = plies.size(); i-- > 0;) plies.push_back(plies[i]);
+  for (const Ply& ply : plies) {
+    plate.thickness += ply.thickness;
+    plate.mass_of_layers += ply.material.density * ply.thickness;
+  }
+  plate.laminate = stack(plies);
+  if (smeared) {
+    plate.laminate.coupling.setZero();
+    plate.laminate.bending = plate.laminate.membrane * plate.thickness * plate.thickness / 12;
+  }
+  if (card.has(1)) plate.offset = card.real(1, "Z0") * length + plate.thickness / 2;
+  plate.mass_per_area = card.real(2, "mass beyond the plate's", 0.0) * model.units.mass() /
+                        (length * length) * model.mass_factor;
+  const bool one_material = std::all_of(numbers.begin(), numbers.end(),
+                                        [&](long number) { return number == numbers.front(); });
+  if (one_material && nastran_material(model, numbers.front()).is_isotropic)
+    plate.material = nastran_material_place(model, numbers.front());
+  return plate;
+}
+
+/// Where the laminate is rigid across, the plate is taken as its own material would be.
+void bound_shear(NastranModel& model, const CardView& card, Plate& plate) {
+  if (plate.laminate.shear.allFinite()) return;
+  const double shear = 5.0 / 6 * plate.laminate.membrane(2, 2);
+  plate.laminate.shear = Eigen::Vector2d(shear, shear).asDiagonal();
+  model.log.remark(card.line(), fmt::format("{} is rigid in shear across it; 5/6 of its membrane "
+                                            "stiffness in shear is used",
+                                            plate.name));
+}
+
+int add_section(NastranModel& model, const CardView& card, Plate plate, double offset) {
+  Mesh& mesh = model.deck.mesh;
+  ShellSection section;
+  section.thickness = plate.thickness;
+  section.offset = plate.offset + offset;
+  section.mass_per_area = plate.mass_per_area;
+  section.label = card.label(0, "property");
+  section.material = plate.material;
+  if (plate.material < 0) {
+    bound_shear(model, card, plate);
+    const NearestPlate nearest = nearest_plate(plate.laminate, plate.thickness);
+    Material material{.name = plate.name,
+                      .youngs_modulus = nearest.youngs_modulus,
+                      .poisson_ratio = nearest.poisson_ratio,
+                      .density = plate.mass_of_layers / plate.thickness};
+    check_plausible(material, plate.name, model.units, model.log, card.line());
+    section.material = static_cast<int>(mesh.materials.size());
+    mesh.materials.push_back(material);
+    if (!nearest.is_exact()) {
+      section.laminate = static_cast<int>(mesh.laminates.size());
+      mesh.laminates.push_back(plate.laminate);
+      model.log.remark(
+          card.line(),
+          fmt::format(
+              "{} is layered: its stiffness is kept as it is; the isotropic plate nearest "
+              "to it is off by {:.1f} % in membrane, {:.1f} % in bending, {:.1f} % in shear",
+              plate.name, 100 * nearest.membrane_error, 100 * nearest.bending_error,
+              100 * nearest.shear_error));
+    }
+  }
+  mesh.shell_sections.push_back(section);
+  return static_cast<int>(mesh.shell_sections.size()) - 1;
+}
+
+const CardView* shell_property(NastranModel& model, long property) {
+  const auto found = model.properties.find(property);
+  if (found != model.properties.end()) {
+    const CardView& card = found->second;
+    if (card.name() != "PSHELL" && card.name() != "PCOMP")
+      throw CardError{fmt::format("a shell has property {}, which is a {}", property, card.name())};
+    return &card;
+  }
+  const bool has_any =
+      std::any_of(model.properties.begin(), model.properties.end(), [](const auto& entry) {
+        return entry.second.name() == "PSHELL" || entry.second.name() == "PCOMP";
+      });
+  if (has_any) throw CardError{fmt::format("property {} does not exist", property)};
+  return nullptr;
+}
+
+/// What is wrong with a property is said at its own line, once.
+template <typename Read>
+auto at_its_line(NastranModel& model, const CardView& card, const Read& read) {
+  try {
+    return read();
+  } catch (const CardError& error) {
+    model.log.complain(card.line(), card.name() + ": " + error.text);
+    throw CardError{fmt::format("{} {} cannot be used", card.name(), card.text(0))};
+  }
+}
+
+}  // namespace
+
+const NastranMaterial& nastran_material(NastranModel& model, long number) {
+  if (const auto known = model.material_read.find(number); known != model.material_read.end())
+    return known->second;
+  const auto found = model.materials.find(number);
+  if (found == model.materials.end())
+    throw CardError{fmt::format("material {} does not exist", number)};
+  const CardView& card = found->second;
+  const NastranMaterial material = at_its_line(model, card, [&] {
+    if (card.name() == "MAT1") return read_isotropic(model, card);
+    if (card.name() == "MAT8") return read_orthotropic(model, card);
+    if (card.name() == "MAT2") return read_anisotropic(model, card);
+    throw CardError{fmt::format("{} {} is not known for plates and beams; MAT1, MAT2, MAT8 are",
+                                card.name(), number)};
+  });
+  model.log.use(card.name());
+  return model.material_read[number] = material;
+}
+
+int nastran_material_place(NastranModel& model, long number) {
+  if (const auto known = model.material_place.find(number); known != model.material_place.end())
+    return known->second;
+  const NastranMaterial& material = nastran_material(model, number);
+  if (!material.is_isotropic)
+    throw CardError{
+        fmt::format("material {} depends on the direction; an isotropic one is due", number)};
+  const auto place = static_cast<int>(model.deck.mesh.materials.size());
+  model.deck.mesh.materials.push_back(material.isotropic);
+  return model.material_place[number] = place;
+}
+
+double nastran_shell_thickness(NastranModel& model, long property) {
+  const CardView* card = shell_property(model, property);
+  return card != nullptr && card->name() == "PSHELL"
+             ? card->real(2, "thickness", 0.0) * model.units.length
+             : 0.0;
+}
+
+int nastran_shell_section(NastranModel& model, long property, double thickness, double offset) {
+  const auto key = std::tuple(property, thickness, offset);
+  if (const auto known = model.shell_section_of.find(key); known != model.shell_section_of.end())
+    return known->second;
+  const CardView* card = shell_property(model, property);
+  if (card == nullptr) return -1;
+  const auto first = model.shell_section_of.lower_bound({property, -infinity, -infinity});
+  const bool is_new =
+      first == model.shell_section_of.end() || std::get<0>(first->first) != property;
+  const int section = at_its_line(model, *card, [&] {
+    const Plate plate =
+        card->name() == "PSHELL" ? read_shell(model, *card, thickness) : read_layers(model, *card);
+    return add_section(model, *card, plate, offset);
+  });
+  if (is_new) model.log.use(card->name());
+  return model.shell_section_of[key] = section;
+}
+
+int nastran_region(NastranModel& model, long property, int material) {
+  if (const auto known = model.region_of.find(property); known != model.region_of.end())
+    return known->second;
+  Mesh& mesh = model.deck.mesh;
+  const auto named = model.bulk.names.find({"PROP", property});
+  const std::string name = property == 0                     ? "rods without property"
+                           : named != model.bulk.names.end() ? named->second
+                                                             : fmt::format("property {}", property);
+  const auto group = static_cast<int>(mesh.groups.size());
+  mesh.groups.push_back({name, material});
+  mesh.regions.push_back({.name = name, .group = group});
+  return model.region_of[property] = static_cast<int>(mesh.regions.size()) - 1;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,138 @@
+// Nastran bulk data: the order of reading, and what is left out.
+
+#include "structure/mesh/files/nastran/reader.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "structure/mesh/files/deck/surface_points.h"
+#include "structure/mesh/files/nastran/model.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Cards that some stage reads.
+const std::set<std::string, std::less<>>& cards_read() {
+  static const std::set<std::string, std::less<>> names{
+      "GRID",   "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C",  "CORD2S",  "PARAM",
+      "CQUAD4", "CQUAD8", "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",    "CBEAM",   "CROD",
+      "CTUBE",  "CONROD", "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",   "RBE1",    "RBE2",
+      "RBE3",   "RBAR",   "PSHELL", "PCOMP",  "PBAR",   "PBARL",  "PBEAM",   "PBEAML",  "PROD",
+      "PTUBE",  "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "SPC",     "SPC1",    "SPCADD",
+      "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "LOAD",
+      "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE"};
+  return names;
+}
+
+struct Reason {
+  const char* text;
+  std::vector<std::string_view> names;
+  bool has_loads = false;
+};
+
+/// Cards that change nothing in what a block of plates and beams weighs or how it bears a load
+/// given otherwise.
+const std::vector<Reason>& reasons() {
+  static const std::vector<Reason> all{
+      {"aeroelasticity has no meaning here",
+       {"AEROS",   "AERO",    "AESTAT",  "AESURF",  "AESURFS", "AELIST",  "AELINK",  "AECOMP",
+        "AECOMPL", "AEPARM",  "AEFACT",  "AEFORCE", "AEPRESS", "CAERO1",  "CAERO2",  "CAERO3",
+        "CAERO4",  "CAERO5",  "PAERO1",  "PAERO2",  "PAERO3",  "PAERO4",  "PAERO5",  "SPLINE1",
+        "SPLINE2", "SPLINE3", "SPLINE4", "SPLINE5", "SPLINE6", "SPLINE7", "SET1",    "SET2",
+        "SET3",    "TRIM",    "TRIM2",   "FLUTTER", "FLFACT",  "MKAERO1", "MKAERO2", "GUST",
+        "MONPNT1", "MONPNT2", "MONPNT3", "MONDSP1", "DIVERG",  "CSSCHD",  "UXVEC"}},
+      {"optimisation has no meaning here",
+       {"DESVAR", "DVPREL1", "DVPREL2", "DVMREL1", "DVMREL2", "DVCREL1", "DVCREL2", "DRESP1",
+        "DRESP2", "DRESP3",  "DCONSTR", "DCONADD", "DOPTPRM", "DLINK",   "DEQATN",  "DSCREEN",
+        "TOPVAR", "DVGRID",  "DVSHAP",  "DVBSHAP", "DTABLE",  "DDVAL",   "BEADVAR", "DSELOPT"}},
+      {"drawing alone",
+       {"PLOTEL", "PLOTEL3", "PLOTEL4", "PLOTEL6", "PLOTEL8", "PLOTHEX", "PLOTPEN", "PLOTTET",
+        "PLOTPYR"}},
+      {"dynamics of the deck's own: the lift gives the motion",
+       {"EIGRL",  "EIGR",   "EIGB",    "EIGC",    "EIGP",    "TSTEP",   "TSTEPNL", "FREQ",
+        "FREQ1",  "FREQ2",  "FREQ3",   "FREQ4",   "FREQ5",   "TLOAD1",  "TLOAD2",  "RLOAD1",
+        "RLOAD2", "DAREA",  "DLOAD",   "TABLED1", "TABLED2", "TABLED3", "TABLED4", "TABDMP1",
+        "DPHASE", "DELAY",  "RANDPS",  "RANDT1",  "TABRND1", "TIC",     "TABLEM1", "TABLEM2",
+        "DYNRED", "RSPECI", "PVISC",   "CVISC",   "CDAMP1",  "CDAMP2",  "PDAMP",   "NLPARM",
+        "NLPCI",  "NLSTEP", "TABLES1", "MATS1",   "SUPORT",  "SUPORT1"}},
+      {"temperatures are not loads of a lift",
+       {"TEMP",  "TEMPD", "TEMPP1", "TEMPP2",  "TEMPP3", "TEMPRB", "TEMPF",
+        "MATT1", "MAT4",  "MAT5",   "TABLEST", "CHBDYE", "CHBDYG", "CHBDYP",
+        "PCONV", "CONV",  "QBDY1",  "QBDY2",   "QBDY3",  "QVOL"},
+       true},
+      {"a load that is not read",
+       {"RFORCE", "ACCEL", "ACCEL1", "DEFORM", "SPCD", "SLOAD", "PLOADX1", "LSEQ", "PRESAX"},
+       true},
+      {"which freedoms the solver keeps changes no result",
+       {"ASET", "ASET1", "BSET", "BSET1", "CSET", "CSET1", "OMIT", "OMIT1", "QSET", "QSET1", "USET",
+        "USET1", "SEQGP"}},
+      {"of solids", {"PSOLID", "PLSOLID", "PCOMPS", "MAT3", "MAT9", "MAT11"}},
+      {"warping of beams", {"SPOINT"}},
+      {"what is printed", {"STRESS", "BOLTSEQ", "ECHOON", "ECHOOFF", "HYPERMESH"}},
+  };
+  return all;
+}
+
+}  // namespace
+
+bool is_load_left_out(std::string_view name) {
+  return std::any_of(reasons().begin(), reasons().end(), [&](const Reason& reason) {
+    return reason.has_loads &&
+           std::find(reason.names.begin(), reason.names.end(), name) != reason.names.end();
+  });
+}
+
+void take_stock_of_nastran_cards(NastranModel& model) {
+  std::unordered_map<std::string_view, const char*> left_out;
+  for (const Reason& reason : reasons())
+    for (const std::string_view name : reason.names) left_out[name] = reason.text;
+  for (const NastranCard& card : model.bulk.cards) {
+    if (card.name.empty()) continue;  // complained of already
+    model.log.read(card.name, card.line);
+    if (cards_read().count(card.name) > 0) continue;
+    if (card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CTETRA" ||
+        card.name == "CPYRAM") {
+      if (const auto label = to_integer(CardView(model.bulk, card).text(0)))
+        model.solids.insert(*label);
+      if (model.options.leave_solids_out)
+        model.log.leave_out(card.name, "solids are not lifted; they were to be left out");
+      else
+        model.log.complain(card.line, card.name +
+                                          ": solids are not lifted; leave them out, or make "
+                                          "shells and beams of them");
+      continue;
+    }
+    if (const auto found = left_out.find(card.name); found != left_out.end())
+      model.log.leave_out(card.name, found->second);
+    else
+      model.log.complain(card.line, fmt::format("the card {} is not known here: what it says would "
+                                                "be missing from the model",
+                                                card.name));
+  }
+}
+
+Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
+                  const DeckOptions& options) {
+  DeckLog log;
+  DeckFiles files(log);
+  const NastranBulk bulk = read_nastran_cards(files, path, log);
+  Deck deck;
+  deck.path = path;
+  deck.units = units;
+  NastranModel model(bulk, log, deck, options);
+  take_stock_of_nastran_cards(model);
+  read_nastran_grids(model);
+  if (deck.mesh.vertices.empty()) log.complain({}, "the deck has no grids");
+  read_nastran_cells(model);
+  read_nastran_links(model);
+  read_nastran_cases(model);
+  log.check();
+  fasten_used_middles(deck, model.middles);
+  log.hand_over(deck);
+  return deck;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+
+#include "structure/mesh/files/deck/deck.h"
+
+namespace blocklift::structure {
+
+/// Reads a Nastran deck: bulk data in free, small and large fields with its continuations, INCLUDE
+/// of files below the deck's folder, and case control.
+///
+/// - GRID with input and output systems (CP, CD), CORD1 and CORD2 R, C, S
+/// - CQUAD4, CQUAD8, CQUADR, CTRIA3, CTRIA6, CTRIAR with ZOFFS and thicknesses at corners (their
+///   mean where they differ by up to 1 %), PSHELL, PCOMP; MAT1, MAT2, MAT8. What is not one
+///   isotropic material becomes a laminate, its nearest isotropic plate beside it
+/// - CBAR, CBEAM with offsets and pin flags, CROD, CTUBE, CONROD; PBAR, PBARL, PBEAM, PBEAML (of
+///   one section from end to end), PROD, PTUBE
+/// - CONM1, CONM2, PARAM WTMASS; RBE1 (one independent grid), RBE2, RBAR, RBE3 of displacements;
+///   MPC that says that two freedoms are equal or one is held; CELAS1, CELAS2, CBUSH, PELAS, PBUSH
+/// - SPC, SPC1, SPCADD, permanent constraints; FORCE and MOMENT with 1 and 2, PLOAD, PLOAD1 (even,
+///   whole length), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
+///
+/// Solids are refused, or left out if so asked. Cards of aeroelasticity, optimisation, dynamics and
+/// the like are in the ledger as left out; any other card is an error.
+///
+/// @throws DeckError with file and line of everything that is wrong or cannot be honoured.
+Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
+                  const DeckOptions& options = {});
+
+}  // namespace blocklift::structure

@@ -1,0 +1,159 @@
+#include "structure/mesh/mass_properties.h"
+
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "structure/index.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Mass, first and second moments about the origin.
+struct MassSum {
+  double mass = 0;
+  Vector3 first = Vector3::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  ///< sum m x x^T
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();     ///< inertia of point masses about themselves
+
+  void add(double m, const Vector3& place) {
+    mass += m;
+    first += m * place;
+    second += m * place * place.transpose();
+  }
+  MassProperties properties() const {
+    MassProperties result;
+    result.mass = mass;
+    if (!(mass > 0)) return result;
+    result.centre = first / mass;
+    const Eigen::Matrix3d about = second - mass * result.centre * result.centre.transpose();
+    result.inertia = about.trace() * Eigen::Matrix3d::Identity() - about + own;
+    return result;
+  }
+};
+
+/// A place on a shell and its two tangents.
+struct SurfacePlace {
+  Vector3 point, along_xi, along_eta;
+};
+
+SurfacePlace on_bilinear(const Mesh& mesh, const Shell& shell, double xi, double eta) {
+  const auto vertex = [&](std::size_t i) -> const Vector3& {
+    return mesh.vertices[at(shell.vertices[i])];
+  };
+  const Vector3 low = vertex(1) - vertex(0), high = vertex(3) - vertex(2);
+  const Vector3 start = vertex(2) - vertex(0);
+  return {vertex(0) + xi * low + eta * (start + xi * (high - low)), low + eta * (high - low),
+          start + xi * (high - low)};
+}
+
+SurfacePlace on_curved(const Eigen::Matrix3Xd& points, double xi, double eta) {
+  const int count = static_cast<int>(std::lround(std::sqrt(static_cast<double>(points.cols()))));
+  const auto lagrange = [&](double x) {
+    Eigen::MatrixXd values(count, 2);  // and derivatives
+    for (int i = 0; i < count; ++i) {
+      double value = 1, slope = 0;
+      for (int j = 0; j < count; ++j) {
+        if (j == i) continue;
+        const double factor = (x * (count - 1) - j) / (i - j);
+        slope = slope * factor + value * (count - 1.0) / (i - j);
+        value *= factor;
+      }
+      values.row(i) << value, slope;
+    }
+    return values;
+  };
+  const Eigen::MatrixXd u = lagrange(xi), v = lagrange(eta);
+  SurfacePlace place{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  for (int j = 0; j < count; ++j)
+    for (int i = 0; i < count; ++i) {
+      const Vector3 point = points.col(j * count + i);
+      place.point += u(i, 0) * v(j, 0) * point;
+      place.along_xi += u(i, 1) * v(j, 0) * point;
+      place.along_eta += u(i, 0) * v(j, 1) * point;
+    }
+  return place;
+}
+
+/// Visits the points of Gauss' rule with the area that each stands for and the normal there.
+template <typename Visit>
+void integrate(const Mesh& mesh, const Shell& shell, const Visit& visit) {
+  static const double half = 0.5 / std::sqrt(3.0), wide = 0.5 * std::sqrt(0.6);
+  const bool is_curved = shell.curvature >= 0;
+  const std::array<double, 3> points =
+      is_curved ? std::array{0.5 - wide, 0.5, 0.5 + wide} : std::array{0.5 - half, 0.5 + half, 0.0};
+  const std::array<double, 3> weights =
+      is_curved ? std::array{5.0 / 18, 8.0 / 18, 5.0 / 18} : std::array{0.5, 0.5, 0.0};
+  const std::size_t count = is_curved ? 3 : 2;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j) {
+      const SurfacePlace place =
+          is_curved ? on_curved(mesh.curved_shells[at(shell.curvature)], points[i], points[j])
+                    : on_bilinear(mesh, shell, points[i], points[j]);
+      const Vector3 normal = place.along_xi.cross(place.along_eta);
+      const double size = normal.norm();
+      visit(weights[i] * weights[j] * size, place.point,
+            size > 0 ? Vector3(normal / size) : normal);
+    }
+}
+
+std::vector<MassSum> sums_by_group(const Mesh& mesh) {
+  std::vector<MassSum> sums(mesh.groups.size() + 1);
+  const auto of_region = [&](int region) -> MassSum& {
+    return sums[at(mesh.regions[at(region)].group)];
+  };
+  for (const Shell& shell : mesh.shells) {
+    if (shell.section < 0) continue;
+    const ShellSection& section = mesh.section_of(shell);
+    const double per_area =
+        mesh.material_of(shell).density * section.thickness + section.mass_per_area;
+    MassSum& sum = of_region(shell.region);
+    integrate(mesh, shell, [&](double part, const Vector3& point, const Vector3& normal) {
+      sum.add(per_area * part, point + section.offset * normal);
+    });
+  }
+  for (const Beam& beam : mesh.beams) {
+    const BeamSection& section = mesh.section_of(beam);
+    const double per_length =
+        mesh.materials[at(section.material)].density * section.area + section.mass_per_length;
+    const Vector3 from = mesh.vertices[at(beam.vertices[0])] + beam.offset[0];
+    const Vector3 line = mesh.vertices[at(beam.vertices[1])] + beam.offset[1] - from;
+    const double half = 0.5 / std::sqrt(3.0);
+    for (const double place : {0.5 - half, 0.5 + half})
+      of_region(beam.region).add(per_length * line.norm() / 2, from + place * line);
+  }
+  for (const PointMass& mass : mesh.masses) {
+    sums.back().add(mass.mass, mesh.vertices[at(mass.vertex)] + mass.offset);
+    sums.back().own += mass.inertia;
+  }
+  return sums;
+}
+
+}  // namespace
+
+MassProperties mass_properties(const Mesh& mesh) {
+  MassSum all;
+  for (const MassSum& sum : sums_by_group(mesh)) {
+    all.mass += sum.mass;
+    all.first += sum.first;
+    all.second += sum.second;
+    all.own += sum.own;
+  }
+  return all.properties();
+}
+
+std::vector<MassProperties> mass_by_group(const Mesh& mesh) {
+  std::vector<MassProperties> groups;
+  for (const MassSum& sum : sums_by_group(mesh)) groups.push_back(sum.properties());
+  return groups;
+}
+
+double area(const Mesh& mesh, const Shell& shell) {
+  double sum = 0;
+  integrate(mesh, shell, [&](double part, const Vector3&, const Vector3&) { sum += part; });
+  return sum;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,482 @@
+#include "structure/mesh/sections.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+#include "structure/index.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+using Vector2 = Eigen::Vector2d;
+
+void require_positive(const char* shape,
+                      std::initializer_list<std::pair<const char*, double>> list) {
+  for (const auto& [what, value] : list)
+    if (!(std::isfinite(value) && value > 0))
+      throw ModelError(
+          fmt::format("{}: the {} is {:g} m; it must be positive", shape, what, value));
+}
+
+void require(bool holds, const char* shape, const char* what) {
+  if (!holds) throw ModelError(fmt::format("{}: {}", shape, what));
+}
+
+/// Area, first and second moments about the origin: of 1, x_2, x_3, x_2^2, x_3^2, x_2 x_3.
+struct Moments {
+  double area = 0;
+  Vector2 first = Vector2::Zero();
+  double second_22 = 0, second_33 = 0, second_23 = 0;
+
+  void add(double part, const Vector2& centre, double own_22, double own_33, double own_23) {
+    area += part;
+    first += part * centre;
+    second_22 += own_22 + part * centre[0] * centre[0];
+    second_33 += own_33 + part * centre[1] * centre[1];
+    second_23 += own_23 + part * centre[0] * centre[1];
+  }
+  /// Rectangle of a length along a direction and a thickness.
+  void add_rectangle(const Vector2& centre, const Vector2& along, double length, double thickness) {
+    const double part = length * thickness;
+    const double lengthwise = part * length * length / 12;
+    const double across = part * thickness * thickness / 12;
+    const double c = along[0], s = along[1];
+    add(part, centre, lengthwise * c * c + across * s * s, lengthwise * s * s + across * c * c,
+        (lengthwise - across) * c * s);
+  }
+};
+
+Profile profile_of(std::string name, const Moments& moments) {
+  Profile profile;
+  profile.centroid = moments.first / moments.area;
+  const Vector2& c = profile.centroid;
+  profile.section.name = std::move(name);
+  profile.section.area = moments.area;
+  profile.section.second_moment_3 = moments.second_22 - moments.area * c[0] * c[0];
+  profile.section.second_moment_2 = moments.second_33 - moments.area * c[1] * c[1];
+  profile.section.product_23 = moments.second_23 - moments.area * c[0] * c[1];
+  return profile;
+}
+
+void set_points(Profile& profile, const std::vector<Vector2>& outline) {
+  profile.section.stress_points.clear();
+  for (const Vector2& point : outline)
+    profile.section.stress_points.push_back(point - profile.centroid);
+}
+
+std::vector<Vector2> corners(double bottom, double top, double left, double right) {
+  return {{top, right}, {bottom, right}, {bottom, left}, {top, left}};
+}
+
+/// Shear flow along thin walls for a force of one along either axis: along a wall it is a
+/// quadratic, held by its values at the start, the middle and the end.
+class ShearFlow {
+ public:
+  ShearFlow(std::vector<Vector2> nodes, const std::vector<Wall>& walls)
+      : nodes_(std::move(nodes)), walls_(walls), is_ring_(walls.size() == nodes_.size()) {
+    Moments moments;
+    for (const Wall& wall : walls_) {
+      const Vector2 along = end(wall) - start(wall);
+      // Walls as lines: their own second moment across is left out.
+      const double part = along.norm() * wall.thickness;
+      moments.add(part, (start(wall) + end(wall)) / 2, part * along[0] * along[0] / 12,
+                  part * along[1] * along[1] / 12, part * along[0] * along[1] / 12);
+    }
+    const Vector2 centroid = moments.first / moments.area;
+    for (Vector2& node : nodes_) node -= centroid;
+    centroid_ = centroid;
+    tensor_ << moments.second_22 - moments.area * centroid[0] * centroid[0],
+        moments.second_23 - moments.area * centroid[0] * centroid[1], 0,
+        moments.second_33 - moments.area * centroid[1] * centroid[1];
+    tensor_(1, 0) = tensor_(0, 1);
+  }
+
+  /// 1 / int q^2 / t ds for a force along an axis; 0 if no wall carries it.
+  double shear_area(int axis) const {
+    if (!carries(axis)) return 0;
+    double sum = 0;
+    const auto flows = calc_flows(axis);
+    for (std::size_t i = 0; i < walls_.size(); ++i) {
+      const auto& [a, m, b] = flows[i];
+      // The square of a quadratic by its three values.
+      const double mean = (2 * a * a + 8 * m * m + 2 * b * b + 2 * a * m + 2 * m * b - a * b) / 15;
+      sum += mean * length(walls_[i]) / walls_[i].thickness;
+    }
+    return 1 / sum;
+  }
+
+  /// From the origin in which the nodes were given.
+  Vector2 shear_centre() const {
+    Vector2 centre = Vector2::Zero();
+    if (carries(0)) centre[1] = -moment(0);
+    if (carries(1)) centre[0] = moment(1);
+    return centre + centroid_;
+  }
+
+ private:
+  Vector2 start(const Wall& wall) const { return nodes_[at(wall.from)]; }
+  Vector2 end(const Wall& wall) const { return nodes_[at(wall.to)]; }
+  double length(const Wall& wall) const { return (end(wall) - start(wall)).norm(); }
+  bool carries(int axis) const {
+    return tensor_.determinant() > 1e-12 * tensor_.trace() * tensor_.trace() ||
+           tensor_(axis, axis) > 1e-6 * tensor_.trace();
+  }
+
+  /// First moment that the force of one needs to grow by along the beam, at a point.
+  double growth(int axis, const Vector2& point) const {
+    const double determinant = tensor_.determinant();
+    if (!(determinant > 1e-12 * tensor_.trace() * tensor_.trace()))
+      return point[axis] / tensor_(axis, axis);
+    const int other = 1 - axis;
+    return (tensor_(other, other) * point[axis] - tensor_(0, 1) * point[other]) / determinant;
+  }
+
+  std::vector<std::array<double, 3>> calc_flows(int axis) const {
+    std::vector<std::array<double, 3>> flows(walls_.size());
+    const auto along = [&](std::size_t i, double first) {
+      const Wall& wall = walls_[i];
+      const double grows = length(wall) * wall.thickness;
+      const double at_start = growth(axis, start(wall)), at_end = growth(axis, end(wall));
+      const double half = (3 * at_start + at_end) / 8, whole = (at_start + at_end) / 2;
+      flows[i] = {first, first - grows * half, first - grows * whole};
+    };
+    if (is_ring_) {
+      double flow = 0, around = 0, compliance = 0;
+      for (std::size_t i = 0; i < walls_.size(); ++i) {
+        along(i, flow);
+        const auto& [a, m, b] = flows[i];
+        around += (a + 4 * m + b) / 6 * length(walls_[i]) / walls_[i].thickness;
+        compliance += length(walls_[i]) / walls_[i].thickness;
+        flow = b;
+      }
+      for (auto& values : flows)
+        for (double& value : values) value -= around / compliance;
+      return flows;
+    }
+    std::vector<char> done(walls_.size(), 0);
+    for (std::size_t i = 0; i < walls_.size(); ++i) follow(i, along, flows, done);
+    return flows;
+  }
+
+  // What flows into a wall at its start is what flows out of the others there; a free end has none.
+  // The walls are listed so that one end of each is met by walls listed before it alone.
+  template <typename Along>
+  void follow(std::size_t i, const Along& along, std::vector<std::array<double, 3>>& flows,
+              std::vector<char>& done) const {
+    double first = 0;
+    for (std::size_t j = 0; j < walls_.size(); ++j) {
+      if (j == i || done[j] == 0) continue;
+      if (walls_[j].to == walls_[i].from) first += flows[j][2];
+      if (walls_[j].from == walls_[i].from) first -= flows[j][0];
+    }
+    along(i, first);
+    done[i] = 1;
+  }
+
+  /// Moment of the flow about the centroid, about axis 1.
+  double moment(int axis) const {
+    const auto flows = calc_flows(axis);
+    double sum = 0;
+    for (std::size_t i = 0; i < walls_.size(); ++i) {
+      const auto& [a, m, b] = flows[i];
+      const Vector2 from = start(walls_[i]), to = end(walls_[i]);
+      sum += (a + 4 * m + b) / 6 * (from[0] * to[1] - from[1] * to[0]);
+    }
+    return sum;
+  }
+
+  std::vector<Vector2> nodes_;
+  const std::vector<Wall>& walls_;
+  bool is_ring_;
+  Vector2 centroid_ = Vector2::Zero();
+  Eigen::Matrix2d tensor_ = Eigen::Matrix2d::Zero();
+};
+
+double torsion_of(const std::vector<Vector2>& nodes, const std::vector<Wall>& walls) {
+  double open = 0, around = 0, enclosed = 0;
+  for (const Wall& wall : walls) {
+    const Vector2 &from = nodes[at(wall.from)], &to = nodes[at(wall.to)];
+    const double length = (to - from).norm();
+    open += length * std::pow(wall.thickness, 3) / 3;
+    around += length / wall.thickness;
+    enclosed += (from[0] * to[1] - from[1] * to[0]) / 2;
+  }
+  return walls.size() == nodes.size() ? 4 * enclosed * enclosed / around : open;
+}
+
+/// Roark (1989), table 20, case 4: rectangle with sides a >= b.
+double torsion_of_rectangle(double height, double width) {
+  const double a = std::max(height, width), b = std::min(height, width), ratio = b / a;
+  return a * b * b * b * (1.0 / 3 - 0.21 * ratio * (1 - std::pow(ratio, 4) / 12));
+}
+
+/// Part of the area of a pipe that bears shear, Cowper (1966), with Poisson's ratio 0.3.
+double shear_share_of_pipe(double ratio) {
+  constexpr double nu = 0.3;
+  const double m = ratio * ratio, square = (1 + m) * (1 + m);
+  return 6 * (1 + nu) * square / ((7 + 6 * nu) * square + (20 + 12 * nu) * m);
+}
+
+}  // namespace
+
+Profile walled_profile(const std::string& name, const std::vector<Vector2>& nodes,
+                       const std::vector<Wall>& walls) {
+  const bool is_ring = walls.size() == nodes.size();
+  if (!is_ring && walls.size() + 1 != nodes.size())
+    throw ModelError(name + ": the walls are neither a tree nor a ring");
+  Moments moments;
+  std::vector<Vector2> outline;
+  for (const Wall& wall : walls) {
+    const Vector2 &from = nodes[at(wall.from)], &to = nodes[at(wall.to)];
+    const double length = (to - from).norm();
+    if (!(length > 0) || !(wall.thickness > 0))
+      throw ModelError(name + ": a wall has no length or no thickness");
+    const Vector2 along = (to - from) / length, across(-along[1], along[0]);
+    const Vector2 first = from - wall.longer_at_from * along, last = to + wall.longer_at_to * along;
+    const double solid = length + wall.longer_at_from + wall.longer_at_to;
+    if (!(solid > 0)) throw ModelError(name + ": a wall is shorter than its neighbours are thick");
+    moments.add_rectangle((first + last) / 2, along, solid, wall.thickness);
+    for (const double side : {-0.5, 0.5}) {
+      outline.emplace_back(first + side * wall.thickness * across);
+      outline.emplace_back(last + side * wall.thickness * across);
+    }
+  }
+  Profile profile = profile_of(name, moments);
+  const ShearFlow flow(nodes, walls);
+  profile.section.torsion = torsion_of(nodes, walls);
+  profile.section.shear_area_2 = flow.shear_area(0);
+  profile.section.shear_area_3 = flow.shear_area(1);
+  profile.section.shear_centre = flow.shear_centre() - profile.centroid;
+  set_points(profile, outline);
+  return profile;
+}
+
+Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool reversed_3) {
+  Profile other = profile;
+  BeamSection& section = other.section;
+  const double sign_2 = reversed_2 ? -1 : 1, sign_3 = reversed_3 ? -1 : 1;
+  const auto as_seen = [&](const Vector2& point) {
+    const Vector2 kept = exchanged ? Vector2(point[1], point[0]) : point;
+    return Vector2(sign_2 * kept[0], sign_3 * kept[1]);
+  };
+  if (exchanged) {
+    std::swap(section.second_moment_2, section.second_moment_3);
+    std::swap(section.shear_area_2, section.shear_area_3);
+  }
+  section.product_23 *= sign_2 * sign_3;
+  section.shear_centre = as_seen(section.shear_centre);
+  for (Vector2& point : section.stress_points) point = as_seen(point);
+  other.centroid = as_seen(other.centroid);
+  return other;
+}
+
+Profile solid_rectangle(double height, double width) {
+  require_positive("rectangle", {{"height", height}, {"width", width}});
+  Moments moments;
+  moments.add_rectangle(Vector2::Zero(), Vector2::UnitX(), height, width);
+  Profile profile = profile_of("rectangle", moments);
+  profile.section.torsion = torsion_of_rectangle(height, width);
+  profile.section.shear_area_2 = profile.section.shear_area_3 = 5.0 / 6 * moments.area;
+  set_points(profile, corners(-height / 2, height / 2, -width / 2, width / 2));
+  return profile;
+}
+
+Profile flat_bar(double height, double thickness) {
+  require_positive("flat bar", {{"height", height}, {"thickness", thickness}});
+  Profile profile = solid_rectangle(height, thickness);
+  profile.section.name = "flat bar";
+  profile.centroid[0] += height / 2;
+  return profile;
+}
+
+Profile angle_bar(double height, double web, double width, double flange) {
+  require_positive("angle",
+                   {{"height", height}, {"web", web}, {"width", width}, {"flange", flange}});
+  require(height > flange && width > web, "angle", "its plates are thicker than it is long");
+  const double level = height - flange / 2;
+  return walled_profile("angle", {{0, 0}, {level, 0}, {level, width - web / 2}},
+                        {{0, 1, web, 0, -flange / 2}, {1, 2, flange, web / 2, 0}});
+}
+
+Profile tee_bar(double height, double web, double width, double flange) {
+  require_positive("tee", {{"height", height}, {"web", web}, {"width", width}, {"flange", flange}});
+  require(height > flange && width > web, "tee", "its plates are thicker than it is long");
+  const double level = height - flange / 2;
+  return walled_profile("tee", {{level, -width / 2}, {level, 0}, {level, width / 2}, {0, 0}},
+                        {{0, 1, flange}, {2, 1, flange}, {3, 1, web, 0, -flange / 2}});
+}
+
+Profile bulb_flat(double height, double thickness, double bulb, double radius) {
+  require_positive(
+      "bulb flat",
+      {{"height", height}, {"thickness", thickness}, {"bulb", bulb}, {"radius", radius}});
+  const double slope = 1 / std::sqrt(3.0), face = radius * (1 + slope);
+  require(radius < bulb && face + bulb * slope < height, "bulb flat",
+          "the bulb is larger than the profile");
+  Moments moments;
+  moments.add_rectangle({height / 2, 0}, Vector2::UnitX(), height, thickness);
+  // The bulb: a rectangle and a triangle beside the web, less what its two corners are rounded by.
+  std::vector<Vector2> outline;
+  const double inner = thickness / 2, outer = inner + bulb;
+  outline.emplace_back(height, inner);
+  const auto arc = [&](const Vector2& centre, double from, double to) {
+    constexpr int steps = 1000;  // chords: seven digits of what the arc bounds
+    for (int i = 0; i <= steps; ++i) {
+      const double angle = from + (to - from) * i / steps;
+      outline.emplace_back(centre + radius * Vector2(std::sin(angle), std::cos(angle)));
+    }
+  };
+  const Vector2 upper(height - radius, outer - radius);
+  arc(upper, std::numbers::pi / 2, 0);
+  // The lower round ends where the slope of 30 degrees begins.
+  arc(upper, 0, -std::numbers::pi / 3);
+  outline.emplace_back(height - face - bulb * slope, inner);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vector2 a = outline[i] - outline[0], b = outline[(i + 1) % outline.size()] - outline[0];
+    const double part = (a[0] * b[1] - a[1] * b[0]) / 2;
+    const Vector2 centre = outline[0] + (a + b) / 3;
+    const auto own = [&](int j, int k) {  // of a triangle about its centre
+      const Vector2 c = -(a + b) / 3, d = a + c, e = b + c;
+      return part * (c[j] * c[k] + d[j] * d[k] + e[j] * e[k]) / 12;
+    };
+    moments.add(part, centre, own(0, 0), own(1, 1), own(0, 1));
+  }
+  Profile profile = profile_of("bulb flat", moments);
+  constexpr double mm = 1e-3;
+  const double factor = height > 0.12 ? 1.0 : 1.1 + std::pow(0.12 - height, 2) / (3000 * mm * mm);
+  const double web_height = height - height / 9.2 + 2 * mm, flange = height / 9.2 - 2 * mm;
+  const double width = factor * (thickness + height / 6.7 - 2 * mm);
+  require(flange > 0 && width > thickness, "bulb flat", "it is lower than bulb flats are rolled");
+  const Profile angle = angle_bar(web_height + flange, thickness, width, flange);
+  profile.section.torsion = angle.section.torsion;
+  profile.section.shear_area_2 = angle.section.shear_area_2;
+  profile.section.shear_area_3 = angle.section.shear_area_3;
+  profile.section.shear_centre = angle.section.shear_centre + angle.centroid - profile.centroid;
+  set_points(profile, {{0, -inner},
+                       {0, inner},
+                       {height, -inner},
+                       {height, outer - radius},
+                       {height - radius, outer}});
+  return profile;
+}
+
+Profile bulb_flat(double height, double thickness) {
+  struct Size {
+    double height, bulb, radius;  // mm
+  };
+  constexpr std::array<Size, 15> sizes{{{120, 17, 5},
+                                        {140, 19, 5.5},
+                                        {160, 22, 6},
+                                        {180, 25, 7},
+                                        {200, 28, 8},
+                                        {220, 31, 9},
+                                        {240, 34, 10},
+                                        {260, 37, 11},
+                                        {280, 40, 12},
+                                        {300, 43, 13},
+                                        {320, 46, 14},
+                                        {340, 49, 15},
+                                        {370, 53.5, 16.5},
+                                        {400, 58, 18},
+                                        {430, 62.5, 19.5}}};
+  std::string heights;
+  for (const Size& size : sizes) {
+    if (std::abs(size.height - 1000 * height) < 0.5)
+      return bulb_flat(height, thickness, size.bulb / 1000, size.radius / 1000);
+    heights += fmt::format("{}{:g}", heights.empty() ? "" : ", ", size.height);
+  }
+  throw ModelError(
+      fmt::format("no bulb flat is {:g} mm high; EN 10067 has {} mm", 1000 * height, heights));
+}
+
+Profile solid_circle(double radius) {
+  require_positive("circle", {{"radius", radius}});
+  Profile profile = pipe(radius, 0);
+  profile.section.name = "circle";
+  return profile;
+}
+
+Profile pipe(double outer_radius, double inner_radius) {
+  require_positive("pipe", {{"outer radius", outer_radius}});
+  require(inner_radius >= 0 && inner_radius < outer_radius, "pipe",
+          "the inner radius must be less than the outer one");
+  constexpr double pi = std::numbers::pi;
+  const double own = pi / 4 * (std::pow(outer_radius, 4) - std::pow(inner_radius, 4));
+  Moments moments;
+  moments.add(pi * (std::pow(outer_radius, 2) - std::pow(inner_radius, 2)), Vector2::Zero(), own,
+              own, 0);
+  Profile profile = profile_of("pipe", moments);
+  profile.section.torsion = 2 * own;
+  profile.section.shear_area_2 = profile.section.shear_area_3 =
+      shear_share_of_pipe(inner_radius / outer_radius) * moments.area;
+  const double r = outer_radius;
+  set_points(profile, {{r, 0}, {0, r}, {-r, 0}, {0, -r}});
+  return profile;
+}
+
+Profile box(double height, double width, double top, double bottom, double left, double right) {
+  require_positive("box", {{"height", height},
+                           {"width", width},
+                           {"top", top},
+                           {"bottom", bottom},
+                           {"left wall", left},
+                           {"right wall", right}});
+  require(height > top + bottom && width > left + right, "box", "its walls leave nothing inside");
+  const double low = -height / 2 + bottom / 2, high = height / 2 - top / 2;
+  const double near = -width / 2 + left / 2, far = width / 2 - right / 2;
+  // Top and bottom go over the full width.
+  return walled_profile("box", {{low, near}, {low, far}, {high, far}, {high, near}},
+                        {{0, 1, bottom, left / 2, right / 2},
+                         {1, 2, right, -bottom / 2, -top / 2},
+                         {2, 3, top, right / 2, left / 2},
+                         {3, 0, left, -top / 2, -bottom / 2}});
+}
+
+Profile box(double height, double width, double thickness) {
+  return box(height, width, thickness, thickness, thickness, thickness);
+}
+
+Profile i_beam(double height, double web, double width_bottom, double flange_bottom,
+               double width_top, double flange_top) {
+  require_positive("I-beam", {{"height", height},
+                              {"web", web},
+                              {"width at the bottom", width_bottom},
+                              {"flange at the bottom", flange_bottom},
+                              {"width at the top", width_top},
+                              {"flange at the top", flange_top}});
+  require(height > flange_bottom + flange_top, "I-beam", "its flanges leave no web");
+  const double low = (flange_bottom - height) / 2, high = (height - flange_top) / 2;
+  return walled_profile("I-beam",
+                        {{low, -width_bottom / 2},
+                         {low, 0},
+                         {low, width_bottom / 2},
+                         {high, 0},
+                         {high, -width_top / 2},
+                         {high, width_top / 2}},
+                        {{0, 1, flange_bottom},
+                         {2, 1, flange_bottom},
+                         {4, 3, flange_top},
+                         {5, 3, flange_top},
+                         {1, 3, web, -flange_bottom / 2, -flange_top / 2}});
+}
+
+Profile channel(double height, double web, double width, double flange) {
+  require_positive("channel",
+                   {{"height", height}, {"web", web}, {"width", width}, {"flange", flange}});
+  require(height > 2 * flange && width > web, "channel", "its plates leave nothing between them");
+  const double level = (height - flange) / 2, near = (web - width) / 2, tip = width / 2;
+  return walled_profile("channel", {{-level, tip}, {-level, near}, {level, near}, {level, tip}},
+                        {{0, 1, flange, 0, web / 2},
+                         {1, 2, web, -flange / 2, -flange / 2},
+                         {2, 3, flange, web / 2, 0}});
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/mesh/mesh.h"
+
+namespace blocklift::structure {
+
+/// Cross-section drawn in axes (x_2, x_3) of its own, whose origin each shape names.
+struct Profile {
+  BeamSection section;  ///< about the centroid; its material is unset
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the origin, m
+};
+
+/// Straight wall of an open or closed profile between two of its nodes. Where walls meet, one of
+/// them ends short of the node or goes beyond it, so that areas add up without overlap.
+struct Wall {
+  int from = 0, to = 0;                         ///< nodes on the middle lines
+  double thickness = 0;                         ///< m
+  double longer_at_from = 0, longer_at_to = 0;  ///< by which the solid goes beyond its nodes, m
+};
+
+/// Profile of walls.
+///
+/// Area and second moments are those of the solid rectangles. Torsion, shear areas and the shear
+/// centre are those of thin walls along the middle lines: J = sum l t^3 / 3 where the walls are a
+/// tree, and J = 4 A_m^2 / sum (l / t) where they are one ring, given in order (Bredt); shear areas
+/// 1 / A_s = int q^2 / t ds of the flow q for a force of one, so that both strain energies agree.
+/// Source: Timoshenko and Goodier (1970), sections 107, 115; Pilkey (2002), chapter 7.
+///
+/// @throws ModelError if a wall has no thickness or length, or the walls are neither a tree nor a
+///   ring.
+Profile walled_profile(const std::string& name, const std::vector<Eigen::Vector2d>& nodes,
+                       const std::vector<Wall>& walls);
+
+/// A profile seen in other axes: first 2 and 3 exchanged if asked, then turned to point the other
+/// way.
+Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool reversed_3);
+
+// Stiffeners: the origin is the middle of the edge that stands on the plate, axis 2 points away
+// from it. All measures are in m and positive, or a ModelError says which is not.
+
+/// Rectangle; J by Roark's series, shear areas 5/6.
+Profile flat_bar(double height, double thickness);
+/// Unequal angle; `height` over the flange, which points along axis 3.
+Profile angle_bar(double height, double web, double width, double flange);
+Profile tee_bar(double height, double web, double width, double flange);
+
+/// Bulb flat (Holland profile) of EN 10067: a plate of `height` and `thickness` whose bulb reaches
+/// `bulb` beyond one face, its lower side sloped by 30 degrees, corners rounded by `radius`.
+///
+/// Area and moments are those of the outline. Torsion, shear area and shear centre are those of the
+/// equivalent angle of the IACS Common Structural Rules (2014), part 1 chapter 3 section 7,
+/// [1.4.1].
+Profile bulb_flat(double height, double thickness, double bulb, double radius);
+/// The same by its nominal height and thickness, bulb and radius from the list of EN 10067, whose
+/// heights are 120 to 430 mm.
+Profile bulb_flat(double height, double thickness);
+
+// Other shapes: the origin is the middle of the rectangle about them.
+
+/// Rectangle of `height` along axis 2 and `width` along axis 3.
+Profile solid_rectangle(double height, double width);
+/// Shear areas by Cowper (1966) with Poisson's ratio 0.3.
+Profile solid_circle(double radius);
+Profile pipe(double outer_radius, double inner_radius);
+/// Box; `top` and `bottom` are across axis 2.
+Profile box(double height, double width, double top, double bottom, double left, double right);
+Profile box(double height, double width, double thickness);
+/// I; the first flange is at the bottom.
+Profile i_beam(double height, double web, double width_bottom, double flange_bottom,
+               double width_top, double flange_top);
+/// Channel with its web along axis 2 and flanges towards positive axis 3.
+Profile channel(double height, double web, double width, double flange);
+
+}  // namespace blocklift::structure

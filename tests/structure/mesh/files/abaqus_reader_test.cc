@@ -1,0 +1,370 @@
+// Each keyword by a small deck of its own.
+
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "structure/mesh/files/abaqus/reader.h"
+#include "structure/mesh/laminate.h"
+#include "structure/mesh/mass_properties.h"
+#include "structure/mesh/sections.h"
+#include "tests/structure/mesh/files/deck_text.h"
+
+namespace blocklift::structure::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance) {
+  EXPECT_LE((value - expected).norm(), tolerance) << value << "\nis due to be\n" << expected;
+}
+
+const std::string steel = "*MATERIAL, NAME=Steel\n*ELASTIC\n206.e9, .3\n*DENSITY\n7850.,\n";
+const std::string nodes = "*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n3, 2., 2., 0.\n4, 0., 2., 0.\n";
+const std::string square = nodes + "*ELEMENT, TYPE=S4R, ELSET=Plate\n10, 1, 2, 3, 4\n" + steel +
+                           "*SHELL SECTION, ELSET=Plate, MATERIAL=Steel\n.01, 5\n";
+
+TEST(AbaqusReader, PlateWithSetsAndHeading) {
+  const Deck deck = abaqus("*HEADING\nA plate\n** comment\n" + square +
+                           "*Nset, nset=Low, generate\n1, 2\n*NSET, NSET=all\nlow, 3,\n4\n");
+  EXPECT_EQ(deck.title, "A plate");
+  EXPECT_THAT(deck.mesh.shells.at(0).vertices, ElementsAre(0, 1, 3, 2));
+  EXPECT_EQ(deck.mesh.shells[0].label, 10);
+  EXPECT_EQ(deck.mesh.groups.at(0).name, "Plate");
+  EXPECT_DOUBLE_EQ(deck.mesh.section_of(deck.mesh.shells[0]).thickness, 0.01);
+  for (const NamedSet& set : deck.sets)
+    if (set.name == "ALL") EXPECT_THAT(set.vertices, ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(entry(deck, "*ELEMENT").used, 1);
+}
+
+TEST(AbaqusReader, OffsetsOfShells) {
+  const auto offset = [&](const std::string& how) {
+    std::string text = square;
+    text.replace(text.find("MATERIAL=Steel\n.01"), 14, "MATERIAL=Steel, OFFSET=" + how);
+    return abaqus(text).mesh.shell_sections.at(0).offset;
+  };
+  // The nodes lie on the upper surface: the middle is below them.
+  EXPECT_DOUBLE_EQ(offset("SPOS"), -0.005);
+  EXPECT_DOUBLE_EQ(offset("SNEG"), 0.005);
+  EXPECT_DOUBLE_EQ(offset("0.25"), -0.0025);
+}
+
+TEST(AbaqusReader, LayersOfTwoMaterials) {
+  const Deck deck = abaqus(
+      nodes + "*ELEMENT, TYPE=S4, ELSET=P\n10, 1, 2, 3, 4\n" + steel +
+      "*MATERIAL, NAME=FOAM\n*ELASTIC\n1.e8, .3\n*DENSITY\n60.\n"
+      "*SHELL SECTION, ELSET=P, COMPOSITE\n.001, 3, STEEL, 0.\n.05, 3, foam, 0.\n.001, 3, steel\n");
+  ASSERT_EQ(deck.mesh.laminates.size(), 1U);
+  const Material face = {"", 206e9, 0.3, 7850, 0}, foam = {"", 1e8, 0.3, 60, 0};
+  const Laminate expected = stack({{isotropic_ply(face), 0.001, 0},
+                                   {isotropic_ply(foam), 0.05, 0},
+                                   {isotropic_ply(face), 0.001, 0}});
+  expect_near(deck.mesh.laminates[0].bending, expected.bending, 1e-9 * expected.bending.norm());
+  EXPECT_NEAR(mass_properties(deck.mesh).mass, 4 * (2 * 7.85 + 3), 1e-9);
+}
+
+TEST(AbaqusReader, QuadraticShellsAndBeams) {
+  const Deck deck = abaqus(
+      "*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n3, 2., 2., 0.\n4, 0., 2., 0.\n"
+      "5, 1., 0., .2\n6, 2., 1., 0.\n7, 1., 2., .2\n8, 0., 1., 0.\n9, 1., 1., 0.\n"
+      "*ELEMENT, TYPE=S8R, ELSET=P\n10, 1, 2, 3, 4,\n5, 6, 7, 8\n"
+      "*ELEMENT, TYPE=STRI65, ELSET=P\n11, 1, 2, 4, 5, 9, 8\n"
+      "*ELEMENT, TYPE=B32, ELSET=B\n12, 2, 6, 3\n" +
+      steel +
+      "*SHELL SECTION, ELSET=P, MATERIAL=STEEL\n.01\n"
+      "*BEAM SECTION, ELSET=B, SECTION=RECT, MATERIAL=STEEL\n.1, .02\n0., 0., 1.\n");
+  expect_near(position(deck.mesh, deck.mesh.shells[0], {0.5, 0}), Vector3(1, 0, 0.2), 1e-12);
+  EXPECT_TRUE(deck.mesh.shells[1].is_triangle());
+  ASSERT_EQ(deck.mesh.beams.size(), 2U);
+  EXPECT_THAT(deck.mesh.beams[0].vertices, ElementsAre(1, 5));
+  // The beam's middle node is the middle of the shell's edge: it rides there.
+  ASSERT_EQ(deck.mesh.surface_points.size(), 1U);
+  EXPECT_EQ(deck.mesh.surface_points[0].vertex, 5);
+}
+
+// Axis n1 is the beam's 2, n2 its 3: a rectangle of 0.1 along n1 and 0.02 along n2.
+TEST(AbaqusReader, BeamSections) {
+  const auto beam = [&](const std::string& section, const std::string& data) {
+    const Deck deck =
+        abaqus("*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n*ELEMENT, TYPE=B31, ELSET=B\n1, 1, 2\n" +
+               steel + "*BEAM SECTION, ELSET=B, SECTION=" + section + ", MATERIAL=STEEL\n" + data +
+               "\n0., 1., 0.\n");
+    return std::pair(deck.mesh.beams.at(0), deck.mesh.section_of(deck.mesh.beams[0]));
+  };
+  const auto [rectangle, of_rectangle] = beam("RECT", ".1, .02");
+  expect_near(rectangle.axis_2, Vector3::UnitY(), 1e-15);
+  EXPECT_NEAR(of_rectangle.second_moment_3, 0.02 * 1e-3 / 12, 1e-15);
+  EXPECT_NEAR(beam("PIPE", ".1, .01").second.area, pi * (0.01 - 0.0081), 1e-15);
+  EXPECT_NEAR(beam("CIRC", ".1").second.area, pi * 0.01, 1e-15);
+  EXPECT_NEAR(beam("BOX", ".1, .2, .01, .01, .01, .01").second.second_moment_2,
+              (0.1 * 0.008 - 0.08 * std::pow(0.18, 3)) / 12, 1e-12);
+  // An I whose node is at its foot: the centroid is half the height along n2, the world's z.
+  const auto [i, of_i] = beam("I", "0., .4, .2, .2, .02, .02, .01");
+  expect_near(i.offset[0], Vector3(0, 0, 0.2), 1e-12);
+  EXPECT_NEAR(of_i.second_moment_2, i_beam(0.4, 0.01, 0.2, 0.02, 0.2, 0.02).section.second_moment_3,
+              1e-15);
+  // An L: its legs' middle lines meet at the node, so the shear centre does.
+  const auto [l, of_l] = beam("L", ".1, .2, .01, .012");
+  expect_near(Eigen::Vector2d(l.offset[0].y(), l.offset[0].z()) + of_l.shear_centre,
+              Eigen::Vector2d::Zero(), 1e-12);
+  EXPECT_NEAR(of_l.area, 0.1 * 0.01 + 0.19 * 0.012, 1e-12);
+  EXPECT_GT(l.offset[0].y(), 0);
+  EXPECT_GT(l.offset[0].z(), 0);
+}
+
+TEST(AbaqusReader, GeneralSectionsAndReleases) {
+  const Deck deck = abaqus(R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+*ELEMENT, TYPE=B31, ELSET=B
+1, 1, 2
+*BEAM GENERAL SECTION, ELSET=B, SECTION=GENERAL, DENSITY=7850.
+.01, 1.e-6, 1.e-7, 4.e-6, 2.e-6
+0., 1., 0.
+206.e9, 80.e9
+*CENTROID
+.1, .2
+*SHEAR CENTER
+.1, .25
+*SECTION POINTS
+.2, .3
+*TRANSVERSE SHEAR STIFFNESS
+4.e8, 8.e8
+*RELEASE
+B, S1, M1-M2
+1, S2, T
+)");
+  const Beam& beam = deck.mesh.beams.at(0);
+  const BeamSection& section = deck.mesh.section_of(beam);
+  EXPECT_DOUBLE_EQ(section.second_moment_2, 1e-6);
+  EXPECT_DOUBLE_EQ(section.second_moment_3, 4e-6);
+  EXPECT_DOUBLE_EQ(section.shear_area_3, 4e8 / 80e9);
+  EXPECT_DOUBLE_EQ(section.shear_area_2, 8e8 / 80e9);
+  expect_near(beam.offset[0], Vector3(0, 0.1, 0.2), 1e-12);
+  expect_near(section.shear_centre, Eigen::Vector2d(0, 0.05), 1e-12);
+  expect_near(section.stress_points.at(0), Eigen::Vector2d(0.1, 0.1), 1e-12);
+  EXPECT_THAT(beam.release[0], ElementsAre(false, false, false, false, true, true));
+  EXPECT_THAT(beam.release[1], ElementsAre(false, false, false, true, false, false));
+  EXPECT_NEAR(deck.mesh.materials.at(0).shear_modulus(), 80e9, 1);
+}
+
+TEST(AbaqusReader, MassesAndSprings) {
+  const Deck deck = abaqus(nodes + R"(*ELEMENT, TYPE=MASS, ELSET=M
+1, 1
+*MASS, ELSET=M
+12.
+*ELEMENT, TYPE=ROTARYI, ELSET=R
+2, 2
+*ROTARY INERTIA, ELSET=R
+1., 2., 3., -.1, .2, .3
+*ELEMENT, TYPE=SPRING1, ELSET=S1
+3, 1
+*SPRING, ELSET=S1
+3
+100.
+*ELEMENT, TYPE=SPRING2, ELSET=S2
+4, 1, 3
+*SPRING, ELSET=S2
+4, 4
+200.
+*ELEMENT, TYPE=SPRINGA, ELSET=SA
+5, 1, 3
+*SPRING, ELSET=SA
+
+300.
+*ELEMENT, TYPE=T3D2, ELSET=T
+6, 1, 2
+*SOLID SECTION, ELSET=T, MATERIAL=STEEL
+.002
+*NONSTRUCTURAL MASS, ELSET=T, UNITS=TOTAL MASS
+10.
+)" + steel);
+  const Mesh& mesh = deck.mesh;
+  EXPECT_DOUBLE_EQ(mesh.masses.at(0).mass, 12);
+  EXPECT_DOUBLE_EQ(mesh.masses.at(1).inertia(0, 1), -0.1);
+  EXPECT_DOUBLE_EQ(mesh.masses.at(1).inertia(1, 2), 0.3);
+  ASSERT_EQ(mesh.springs.size(), 3U);
+  EXPECT_THAT(mesh.springs[0].vertices, ElementsAre(0, -1));
+  EXPECT_EQ(mesh.springs[0].components[0], 2);
+  EXPECT_THAT(mesh.springs[1].components, ElementsAre(3, 3));
+  expect_near(mesh.springs[2].axes[0].col(0), Vector3(1, 1, 0).normalized(), 1e-12);
+  EXPECT_TRUE(mesh.beams.at(0).is_rod);
+  EXPECT_NEAR(mesh.section_of(mesh.beams[0]).mass_per_length, 5, 1e-12);
+}
+
+TEST(AbaqusReader, Couplings) {
+  const Deck deck = abaqus(square + R"(*NODE
+5, 1., 1., 1.
+6, 0., 0., 0.
+*SURFACE, NAME=TOP, TYPE=ELEMENT
+Plate, SPOS
+*SURFACE, NAME=EDGE
+10, E1
+*SURFACE, NAME=POINTS, TYPE=NODE
+3, 2.
+4,
+*COUPLING, CONSTRAINT NAME=A, REF NODE=5, SURFACE=TOP
+*DISTRIBUTING
+*COUPLING, CONSTRAINT NAME=B, REF NODE=5, SURFACE=EDGE
+*KINEMATIC
+1, 3
+*COUPLING, CONSTRAINT NAME=C, REF NODE=5, SURFACE=POINTS
+*DISTRIBUTING, COUPLING=CONTINUUM
+1, 3
+4, 4
+*MPC
+BEAM, 3, 5
+TIE, 6, 1
+*RIGID BODY, REF NODE=5, PIN NSET=PINS, TIE NSET=TIES
+*NSET, NSET=PINS
+1, 2
+*NSET, NSET=TIES
+3
+*EQUATION
+2
+6, 3, 1., 1, 3, -1.
+)");
+  const Mesh& mesh = deck.mesh;
+  ASSERT_EQ(mesh.distributing_links.size(), 2U);
+  // Each corner stands for a quarter of 4 m^2.
+  EXPECT_THAT(mesh.distributing_links[0].weights, ElementsAre(1, 1, 1, 1));
+  EXPECT_THAT(mesh.distributing_links[1].weights, ElementsAre(2, 1));
+  EXPECT_THAT(mesh.distributing_links[1].bound, ElementsAre(true, true, true, true, false, false));
+  ASSERT_EQ(mesh.rigid_links.size(), 6U);
+  EXPECT_THAT(mesh.rigid_links[0].slaves, ElementsAre(0, 1));
+  EXPECT_THAT(mesh.rigid_links[0].bound, ElementsAre(true, true, true, false, false, false));
+  EXPECT_EQ(mesh.rigid_links[1].master, 4);
+  EXPECT_THAT(mesh.rigid_links[3].slaves, ElementsAre(2));
+  EXPECT_THAT(mesh.rigid_links[5].bound, ElementsAre(false, false, true, false, false, false));
+  EXPECT_THAT(complaints_of_abaqus(square + "*MPC\nTIE, 1, 2\n"),
+              HasSubstr("TIE is not known of nodes apart"));
+}
+
+// Two instances of one part, the second turned by 90 degrees about z after its shift.
+TEST(AbaqusReader, PartsAndInstances) {
+  const Deck deck = abaqus(
+      "*PART, NAME=Panel\n" + nodes +
+      "*ELEMENT, TYPE=S4, ELSET=P\n10, 1, 2, 3, 4\n*NSET, NSET=FOOT\n1, 2\n"
+      "*SHELL SECTION, ELSET=P, MATERIAL=STEEL\n.01\n*END PART\n"
+      "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=One, PART=Panel\n*END INSTANCE\n"
+      "*INSTANCE, NAME=Two, PART=Panel\n5., 0., 1.\n5., 0., 1., 5., 0., 2., 90.\n*END INSTANCE\n"
+      "*NODE\n1, 9., 9., 9.\n"
+      "*NSET, NSET=BOTH, INSTANCE=Two\n1\n*NSET, NSET=BOTH, INSTANCE=One\nFOOT\n"
+      "*END ASSEMBLY\n" +
+      steel +
+      "*BOUNDARY\nOne.FOOT, 1, 3\nBOTH, 6\n*STEP\n*STATIC\n*CLOAD\nTwo.3, 3, -7.\n*END STEP\n");
+  ASSERT_EQ(deck.mesh.vertices.size(), 9U);
+  expect_near(deck.mesh.vertices[4], Vector3(5, 0, 1), 1e-12);
+  expect_near(deck.mesh.vertices[5], Vector3(5, 2, 1), 1e-12);
+  EXPECT_EQ(deck.mesh.shells.size(), 2U);
+  EXPECT_NE(deck.mesh.vertex_labels[0], deck.mesh.vertex_labels[4]);
+  ASSERT_EQ(deck.load_cases.size(), 1U);
+  EXPECT_EQ(deck.support_sets.at(0).supports.size(), 5U);
+  EXPECT_EQ(deck.load_sets.at(0).point_loads.at(0).vertex, 6);
+  EXPECT_FALSE(deck.remarks.empty());
+}
+
+TEST(AbaqusReader, StepsGoOnFromOneAnother) {
+  const Deck deck = abaqus(square + R"(*NSET, NSET=TURNED
+4
+*TRANSFORM, NSET=TURNED, TYPE=R
+0., 1., 0., -1., 0., 0.
+*BOUNDARY
+1, ENCASTRE
+*STEP, NAME=First
+*STATIC
+*CLOAD
+2, 3, 100.
+4, 1, 50.
+*DLOAD
+Plate, P, 1000.
+*OUTPUT, FIELD
+*END STEP
+*STEP, NAME=Second
+*STATIC
+*CLOAD
+2, 3, 30.
+*BOUNDARY
+2, 1, 2, .1
+*DLOAD
+, GRAV, 9.81, 0., 0., -2.
+*END STEP
+*STEP, NAME=Third, PERTURBATION
+*STATIC
+*CLOAD
+3, 1, 5.
+*END STEP
+)");
+  ASSERT_EQ(deck.load_cases.size(), 3U);
+  EXPECT_EQ(deck.load_cases[1].title, "Second");
+  const LoadSet &first = deck.load_sets[0], &second = deck.load_sets[1], &third = deck.load_sets[2];
+  expect_near(first.point_loads.at(0).force, Vector3(0, 0, 100), 1e-12);
+  expect_near(first.point_loads.at(1).force, Vector3(0, 50, 0), 1e-12);
+  expect_near(second.point_loads.at(0).force, Vector3(0, 0, 30), 1e-12);
+  EXPECT_EQ(second.point_loads.size(), 2U);
+  EXPECT_DOUBLE_EQ(second.plate_loads.at(0).pressure[0], 1000);
+  expect_near(second.gravity, Vector3(0, 0, -9.81), 1e-12);
+  EXPECT_EQ(third.point_loads.size(), 1U);
+  EXPECT_TRUE(third.plate_loads.empty());
+  EXPECT_EQ(deck.support_sets[0].supports.size(), 1U);
+  EXPECT_EQ(deck.support_sets[1].supports.size(), 2U);
+  EXPECT_DOUBLE_EQ(deck.support_sets[1].supports[1].value[1], 0.1);
+  EXPECT_THAT(entry(deck, "*OUTPUT").left_out, HasSubstr("printed"));
+}
+
+TEST(AbaqusReader, IncludesFilesBelowItsFolder) {
+  const DeckFolder folder;
+  folder.write("deck/nodes.inc", nodes);
+  const auto path =
+      folder.write("deck/main.inp", "*INCLUDE, INPUT=nodes.inc\n" + square.substr(nodes.size()));
+  EXPECT_EQ(read_abaqus(path, UnitSystem()).mesh.shells.size(), 1U);
+  folder.write("out.inc", nodes);
+  try {
+    read_abaqus(folder.write("deck/other.inp", "*INCLUDE, INPUT=../out.inc\n"), UnitSystem());
+    FAIL();
+  } catch (const DeckError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("lies outside the deck's folder"));
+  }
+}
+
+TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
+  const std::string text = complaints_of_abaqus(R"(*NODE
+1, 0., 0., 0.
+2, nan, 0., 0.
+3, 0., 1.
+1, 5., 5., 5.
+*ELEMENT, TYPE=S3, ELSET=P
+10, 1, 3, 99
+*ELEMENT, TYPE=C3D8
+11, 1, 1, 1, 1, 1, 1, 1, 1
+*ELEMENT, TYPE=S3, ELSET=Q
+12, 1, 3
+*CONTACT PAIR
+*SHELL SECTION, ELSET=P, MATERIAL=GONE
+.01
+*BOUNDARY
+77, 1
+)");
+  for (const char* line : {":3: error: *NODE: \"nan\" as coordinate is no finite number",
+                           ":5: error: *NODE: node 1 is there twice",
+                           ":7: error: *ELEMENT: element 10 names node 99, which does not exist",
+                           ":8: error: *ELEMENT: C3D8: solids are not lifted",
+                           ":11: error: *ELEMENT: element 12 of type S3 has 2 nodes; 3 are due",
+                           ":12: error: the keyword *CONTACT PAIR is not known here",
+                           ":13: error: *SHELL SECTION: material GONE does not exist",
+                           ":16: error: *BOUNDARY: node 77 does not exist"})
+    EXPECT_THAT(text, HasSubstr(line));
+  EXPECT_THAT(complaints_of_abaqus(square, "mm-t-N"), HasSubstr("Is the deck in other units?"));
+  EXPECT_THAT(complaints_of_abaqus(square + "*ELEMENT, TYPE=S3, ELSET=R\n20, 1, 2, 3\n"),
+              HasSubstr("shells have no *SHELL SECTION"));
+  EXPECT_THAT(complaints_of_abaqus("hello\n"), HasSubstr("data before the first keyword"));
+}
+
+}  // namespace
+}  // namespace blocklift::structure::test

@@ -1,0 +1,243 @@
+#include "tests/structure/mesh/files/deck_text.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/abaqus/reader.h"
+#include "structure/mesh/files/nastran/reader.h"
+
+namespace blocklift::structure::test {
+
+namespace {
+
+template <typename Read>
+std::string complaints(const Read& read) {
+  try {
+    read();
+    return {};
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+}
+
+void expect_near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance,
+                 const std::string& what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  if (a.size() == 0) return;
+  EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance * (1e-12 + a.cwiseAbs().maxCoeff()))
+      << what << "\n"
+      << a << "\nand\n"
+      << b;
+}
+
+void expect_near(double a, double b, double tolerance, const std::string& what) {
+  if (a == b) return;  // infinite ones, too
+  EXPECT_NEAR(a, b, tolerance * (std::abs(a) + 1e-12)) << what;
+}
+
+void expect_same_sections(const Mesh& a, const Mesh& b, double tolerance) {
+  ASSERT_EQ(a.shells.size(), b.shells.size());
+  for (std::size_t i = 0; i < a.shells.size(); ++i) {
+    const std::string what = "shell " + std::to_string(a.shells[i].label);
+    const Shell &x = a.shells[i], &y = b.shells[i];
+    EXPECT_EQ(x.vertices, y.vertices) << what;
+    EXPECT_EQ(x.label, y.label);
+    const ShellSection &p = a.section_of(x), &q = b.section_of(y);
+    expect_near(p.thickness, q.thickness, tolerance, what + " thickness");
+    expect_near(p.offset, q.offset, tolerance, what + " offset");
+    expect_near(p.mass_per_area, q.mass_per_area, tolerance, what + " mass");
+    const Material &m = a.material_of(x), &n = b.material_of(y);
+    expect_near(m.youngs_modulus, n.youngs_modulus, tolerance, what + " modulus");
+    expect_near(m.poisson_ratio, n.poisson_ratio, tolerance, what + " ratio");
+    expect_near(m.density, n.density, tolerance, what + " density");
+    ASSERT_EQ(p.laminate < 0, q.laminate < 0) << what;
+    if (p.laminate >= 0) {
+      const Laminate &l = a.laminates[at(p.laminate)], &k = b.laminates[at(q.laminate)];
+      expect_near(l.membrane, k.membrane, tolerance, what + " A");
+      expect_near(l.coupling, k.coupling, tolerance, what + " B");
+      expect_near(l.bending, k.bending, tolerance, what + " D");
+      expect_near(l.shear, k.shear, tolerance, what + " S");
+    }
+    ASSERT_EQ(x.curvature < 0, y.curvature < 0) << what;
+    if (x.curvature >= 0)
+      expect_near(a.curved_shells[at(x.curvature)], b.curved_shells[at(y.curvature)], tolerance,
+                  what + " curvature");
+  }
+}
+
+void expect_same_beams(const Mesh& a, const Mesh& b, double tolerance) {
+  ASSERT_EQ(a.beams.size(), b.beams.size());
+  for (std::size_t i = 0; i < a.beams.size(); ++i) {
+    const Beam &x = a.beams[i], &y = b.beams[i];
+    const std::string what = "beam " + std::to_string(x.label);
+    EXPECT_EQ(x.vertices, y.vertices) << what;
+    EXPECT_EQ(x.label, y.label);
+    EXPECT_EQ(x.release, y.release) << what;
+    EXPECT_EQ(x.is_rod, y.is_rod) << what;
+    for (std::size_t end = 0; end < 2; ++end)
+      EXPECT_LE((x.offset[end] - y.offset[end]).norm(), tolerance) << what << " offset";
+    const BeamSection &p = a.section_of(x), &q = b.section_of(y);
+    expect_near(p.area, q.area, tolerance, what + " A");
+    expect_near(p.mass_per_length, q.mass_per_length, tolerance, what + " mass");
+    if (x.is_rod) continue;
+    const Vector3 line = a.vertices[at(x.vertices[1])] - a.vertices[at(x.vertices[0])];
+    expect_near(line.cross(x.axis_2).normalized(), line.cross(y.axis_2).normalized(), tolerance,
+                what + " axis 3");
+    const double size = p.second_moment_2 + p.second_moment_3;
+    EXPECT_NEAR(p.second_moment_2, q.second_moment_2, tolerance * size) << what;
+    EXPECT_NEAR(p.second_moment_3, q.second_moment_3, tolerance * size) << what;
+    EXPECT_NEAR(p.product_23, q.product_23, tolerance * size) << what;
+    EXPECT_NEAR(p.torsion, q.torsion, tolerance * size) << what;
+    expect_near(p.shear_area_2, q.shear_area_2, tolerance, what + " A_s2");
+    expect_near(p.shear_area_3, q.shear_area_3, tolerance, what + " A_s3");
+    EXPECT_LE((p.shear_centre - q.shear_centre).norm(), tolerance) << what;
+  }
+}
+
+void expect_same_rest(const Mesh& a, const Mesh& b, double tolerance) {
+  ASSERT_EQ(a.masses.size(), b.masses.size());
+  for (std::size_t i = 0; i < a.masses.size(); ++i) {
+    EXPECT_EQ(a.masses[i].vertex, b.masses[i].vertex);
+    expect_near(a.masses[i].mass, b.masses[i].mass, tolerance, "mass");
+    expect_near(a.masses[i].offset, b.masses[i].offset, tolerance, "offset");
+    expect_near(a.masses[i].inertia, b.masses[i].inertia, tolerance, "inertia");
+  }
+  ASSERT_EQ(a.rigid_links.size(), b.rigid_links.size());
+  for (std::size_t i = 0; i < a.rigid_links.size(); ++i) {
+    EXPECT_EQ(a.rigid_links[i].master, b.rigid_links[i].master);
+    EXPECT_EQ(a.rigid_links[i].slaves, b.rigid_links[i].slaves);
+    EXPECT_EQ(a.rigid_links[i].bound, b.rigid_links[i].bound);
+    expect_near(a.rigid_links[i].axes, b.rigid_links[i].axes, tolerance, "axes of a link");
+  }
+  ASSERT_EQ(a.distributing_links.size(), b.distributing_links.size());
+  for (std::size_t i = 0; i < a.distributing_links.size(); ++i) {
+    EXPECT_EQ(a.distributing_links[i].reference, b.distributing_links[i].reference);
+    EXPECT_EQ(a.distributing_links[i].vertices, b.distributing_links[i].vertices);
+    EXPECT_EQ(a.distributing_links[i].weights, b.distributing_links[i].weights);
+    EXPECT_EQ(a.distributing_links[i].bound, b.distributing_links[i].bound);
+  }
+  ASSERT_EQ(a.springs.size(), b.springs.size());
+  for (std::size_t i = 0; i < a.springs.size(); ++i) {
+    EXPECT_EQ(a.springs[i].vertices, b.springs[i].vertices);
+    EXPECT_EQ(a.springs[i].components, b.springs[i].components);
+    expect_near(a.springs[i].stiffness, b.springs[i].stiffness, tolerance, "spring");
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (a.springs[i].vertices[end] < 0) continue;
+      expect_near(a.springs[i].axes[end], b.springs[i].axes[end], tolerance, "axes of a spring");
+      expect_near(a.springs[i].arms[end], b.springs[i].arms[end], tolerance, "arms of a spring");
+    }
+  }
+}
+
+/// What a load case pulls with, in sum.
+void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
+  ASSERT_EQ(a.load_cases.size(), b.load_cases.size());
+  const auto forces = [](const Deck& deck, const LoadCase& one) {
+    Eigen::MatrixXd sums =
+        Eigen::MatrixXd::Zero(3, 2 * static_cast<long>(deck.mesh.vertices.size()) + 1);
+    for (const auto& [set, factor] : one.loads) {
+      const LoadSet& loads = deck.load_sets[at(set)];
+      sums.rightCols<1>() += factor * loads.gravity;
+      for (const PointLoad& load : loads.point_loads) {
+        sums.col(2 * load.vertex) += factor * load.force;
+        sums.col(2 * load.vertex + 1) += factor * load.moment;
+      }
+    }
+    return sums;
+  };
+  const auto pressures = [](const Deck& deck, const LoadCase& one) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(
+        7, static_cast<long>(deck.mesh.shells.size() + deck.mesh.beams.size()));
+    for (const auto& [set, factor] : one.loads) {
+      for (const PlateLoad& load : deck.load_sets[at(set)].plate_loads) {
+        for (int i = 0; i < 4; ++i) sums(i, load.shell) += factor * load.pressure[at(i)];
+        sums.col(load.shell).tail<3>() = load.direction;
+      }
+      for (const BeamLoad& load : deck.load_sets[at(set)].beam_loads)
+        sums.col(static_cast<long>(deck.mesh.shells.size()) + load.beam).head<3>() +=
+            factor * load.force_per_length;
+    }
+    return sums;
+  };
+  const auto held = [](const Deck& deck, const LoadCase& one) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(12, static_cast<long>(deck.mesh.vertices.size()));
+    for (const int set : one.supports)
+      for (const Support& support : deck.support_sets[at(set)].supports)
+        for (int i = 0; i < 6; ++i) {
+          if (!support.held[at(i)]) continue;
+          sums(i, support.vertex) = 1 + support.axes(0, i % 3) + 2 * support.axes(1, i % 3);
+          sums(6 + i, support.vertex) = support.value[at(i)];
+        }
+    return sums;
+  };
+  for (std::size_t i = 0; i < a.load_cases.size(); ++i) {
+    expect_near(forces(a, a.load_cases[i]), forces(b, b.load_cases[i]), tolerance, "forces");
+    expect_near(pressures(a, a.load_cases[i]), pressures(b, b.load_cases[i]), tolerance,
+                "pressures");
+    expect_near(held(a, a.load_cases[i]), held(b, b.load_cases[i]), tolerance, "supports");
+  }
+}
+
+}  // namespace
+
+DeckFolder::DeckFolder() {
+  static std::atomic<int> number = 0;
+  path_ = std::filesystem::temp_directory_path() /
+          ("blocklift-deck-" + std::to_string(::getpid()) + "-" + std::to_string(number++));
+  std::filesystem::create_directories(path_);
+}
+
+DeckFolder::~DeckFolder() {
+  std::error_code error;
+  std::filesystem::remove_all(path_, error);
+}
+
+std::filesystem::path DeckFolder::write(const std::string& name, const std::string& text) const {
+  std::filesystem::create_directories((path_ / name).parent_path());
+  std::ofstream(path_ / name) << text;
+  return path_ / name;
+}
+
+Deck nastran(const std::string& text, const std::string& units, const DeckOptions& options) {
+  const DeckFolder folder;
+  return read_nastran(folder.write("deck.bdf", text), unit_system(units), options);
+}
+
+Deck abaqus(const std::string& text, const std::string& units, const DeckOptions& options) {
+  const DeckFolder folder;
+  return read_abaqus(folder.write("deck.inp", text), unit_system(units), options);
+}
+
+std::string complaints_of_nastran(const std::string& text, const std::string& units) {
+  return complaints([&] { nastran(text, units); });
+}
+
+std::string complaints_of_abaqus(const std::string& text, const std::string& units) {
+  return complaints([&] { abaqus(text, units); });
+}
+
+const LedgerEntry& entry(const Deck& deck, const std::string& name) {
+  for (const LedgerEntry& one : deck.ledger)
+    if (one.name == name) return one;
+  throw ModelError("the ledger has no " + name);
+}
+
+void expect_same(const Deck& a, const Deck& b, double tolerance) {
+  ASSERT_EQ(a.mesh.vertices.size(), b.mesh.vertices.size());
+  double size = 0;
+  for (const Vector3& vertex : a.mesh.vertices) size = std::max(size, vertex.norm());
+  for (std::size_t v = 0; v < a.mesh.vertices.size(); ++v)
+    EXPECT_LE((a.mesh.vertices[v] - b.mesh.vertices[v]).norm(), tolerance * size);
+  EXPECT_EQ(a.mesh.vertex_labels, b.mesh.vertex_labels);
+  expect_same_sections(a.mesh, b.mesh, tolerance);
+  expect_same_beams(a.mesh, b.mesh, tolerance);
+  expect_same_rest(a.mesh, b.mesh, tolerance);
+  expect_same_cases(a, b, tolerance);
+}
+
+}  // namespace blocklift::structure::test

@@ -1,0 +1,657 @@
+// Each card by a small deck of its own.
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "structure/mesh/files/nastran/reader.h"
+#include "structure/mesh/laminate.h"
+#include "structure/mesh/mass_properties.h"
+#include "structure/mesh/sections.h"
+#include "tests/structure/mesh/files/deck_text.h"
+
+namespace blocklift::structure::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double pi = std::numbers::pi;
+
+void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance) {
+  EXPECT_LE((value - expected).norm(), tolerance) << value << "\nis due to be\n" << expected;
+}
+
+/// A square of 2 m with one property.
+const std::string square = R"(GRID,1,,0.,0.,0.
+GRID,2,,2.,0.,0.
+GRID,3,,2.,2.,0.
+GRID,4,,0.,2.,0.
+CQUAD4,10,5,1,2,3,4
+PSHELL,5,7,.01,7,,7
+MAT1,7,206.+9,,.3,7850.
+)";
+
+TEST(NastranReader, FreeSmallAndLargeFieldsSayTheSame) {
+  const std::string small = R"(GRID           1             0.0     0.0    -1.5
+GRID           2             2.0     0.0    -1.5
+GRID           3             2.0     2.0  -1.5+0
+CTRIA3        10       5       1       2       3
+PSHELL         5       7     .01       7               7
+MAT1           7  2.06+11            0.3   7.85E3
+)";
+  const std::string large =
+      R"(GRID*                  1                            0.D0             0.0
+*              -1.500000
+GRID*                  2                             2.0             0.0
+*                  -1.5
+GRID*                  3                             2.0            2.E0
+*                -.15+1
+CTRIA3*               10               5               1               2
+*                      3
+PSHELL*                5               7             .01               7
+*                                      7
+MAT1*                  7        2.06D+11                              .3
+*                 7850.0
+)";
+  const std::string free = R"(grid, 1, , 0.0, 0.0, -1.5
+grid, 2, , 2.0, 0.0, -1.5
+grid*, 3, , 2.0, 2.0,
+*, -1.5
+ctria3, 10, 5, 1, 2, 3
+pshell, 5, 7, .01, 7, , 7
+mat1, 7, 2.06+11, , .3, 7850.
+)";
+  const Deck one = nastran(small);
+  EXPECT_DOUBLE_EQ(one.mesh.vertices[2].z(), -1.5);
+  EXPECT_DOUBLE_EQ(one.mesh.materials[0].youngs_modulus, 206e9);
+  expect_same(one, nastran(large), 1e-15);
+  expect_same(one, nastran(free), 1e-15);
+}
+
+TEST(NastranReader, ContinuationsFollowTheirCardOrNameIt) {
+  const std::string grids =
+      "GRID,1,,0.,0.,0.\nGRID,2,,0.,1.,0.\nGRID,3,,0.,2.,0.\n"
+      "GRID,4,,0.,3.,0.\nGRID,5,,0.,4.,0.\nGRID,6,,0.,5.,0.\nGRID,7,,0.,6.,0.\n";
+  const auto slaves = [&](const std::string& card) {
+    return nastran(grids + card).mesh.rigid_links.at(0).slaves;
+  };
+  // By their order: blank, +, and free.
+  EXPECT_THAT(slaves("RBE2           9       1     123       2       3       4       5       6\n"
+                     "               7\n"),
+              ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(slaves("RBE2,9,1,123,2,3,4,5,6,+\n+,7\n"), ElementsAre(1, 2, 3, 4, 5, 6));
+  // By name, and elsewhere in the deck.
+  EXPECT_THAT(
+      slaves("RBE2           9       1     123       2       3       4       5       6+AB1\n"
+             "$ a comment between\n+AB1           7\n"),
+      ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(
+      slaves("RBE2,9,1,123,2,3,4,5,6,+AB1\nCONM2,11,1,,5.,,,,+CD\n+CD,1.,,1.,,,1.\n+AB1,7\n"),
+      ElementsAre(1, 2, 3, 4, 5, 6));
+  // Half of a large card is left out before a small line goes on.
+  const Deck half =
+      nastran(grids +
+              "CONM2*                11               1                             5.0\n"
+              "+             1.              2.                      3.\n");
+  expect_near(half.mesh.masses.at(0).inertia, Eigen::Vector3d(1, 2, 3).asDiagonal().toDenseMatrix(),
+              1e-12);
+  EXPECT_THAT(complaints_of_nastran(grids + "+ZZ,1,2\n"),
+              HasSubstr("deck.bdf:8: error: a line continues \"ZZ\""));
+}
+
+TEST(NastranReader, SectionsBeforeBulkDataAndTitles) {
+  const Deck deck = nastran(
+      "$ comment\nSOL 101\nTIME 10\nCEND\nTITLE = \xc9tude du bloc\nECHO = NONE\n"
+      "SUBCASE 3\n SUBTITLE = first\n SPC = 8\nBEGIN BULK\n" +
+      square + "SPC1,8,123,1,2\nENDDATA\nthis is nothing\n");
+  EXPECT_EQ(deck.title, "\xc9tude du bloc");
+  ASSERT_EQ(deck.load_cases.size(), 1U);
+  EXPECT_EQ(deck.load_cases[0].label, 3);
+  EXPECT_EQ(deck.load_cases[0].title, "first");
+  EXPECT_EQ(entry(deck, "case control ECHO").used, 0);
+}
+
+TEST(NastranReader, IncludesFilesBelowItsFolder) {
+  const DeckFolder folder;
+  folder.write("deck/parts/mesh.bdf", square);
+  const auto path =
+      folder.write("deck/main.bdf", "CEND\nBEGIN BULK\nINCLUDE 'parts/\n   mesh.bdf'\nENDDATA\n");
+  EXPECT_EQ(read_nastran(path, unit_system("m-kg-N")).mesh.shells.size(), 1U);
+  folder.write("outside.bdf", square);
+  const auto refused = [&](const std::string& name) {
+    try {
+      read_nastran(folder.write("deck/other.bdf", "INCLUDE '" + name + "'\n"),
+                   unit_system("m-kg-N"));
+    } catch (const DeckError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refused("../outside.bdf"),
+              HasSubstr("other.bdf:1: error: INCLUDE: \"../outside.bdf\" lies outside"));
+  EXPECT_THAT(refused("/etc/passwd"), HasSubstr("lies outside"));
+  EXPECT_THAT(refused("nowhere.bdf"), HasSubstr("cannot be read"));
+  EXPECT_THAT(refused("other.bdf"), HasSubstr("includes itself"));
+}
+
+// A point of a cylinder within a turned system within another: by turning it by hand.
+TEST(NastranReader, CoordinateSystemsStandInOneAnother) {
+  const Deck deck = nastran(R"(CORD2R,1,0,10.,0.,0.,10.,0.,1.
+,10.,1.,0.
+CORD2C,2,1,1.,2.,3.,1.,2.,4.
+,2.,2.,3.
+CORD2S,3,0,0.,0.,0.,0.,0.,1.
+,1.,0.,0.
+CORD1R,4,1,2,3
+GRID,1,,0.,0.,0.
+GRID,2,,0.,0.,5.
+GRID,3,,5.,0.,0.
+GRID,11,2,2.,30.,0.5
+GRID,12,3,2.,60.,90.
+GRID,13,4,1.,2.,3.
+)");
+  // System 1: its x is the world's y, its y the world's -x, from (10, 0, 0).
+  const double x = 1 + 2 * std::cos(pi / 6), y = 2 + 2 * std::sin(pi / 6), z = 3.5;
+  expect_near(deck.mesh.vertices[3], Vector3(10 - y, x, z), 1e-12);
+  expect_near(deck.mesh.vertices[4], Vector3(0, 2 * std::sin(pi / 3), 2 * std::cos(pi / 3)), 1e-12);
+  expect_near(deck.mesh.vertices[5], Vector3(1, 2, 3), 1e-12);
+}
+
+TEST(NastranReader, CoordinateSystemsThatRestOnThemselvesAreRefused) {
+  const std::string text = complaints_of_nastran(
+      "CORD2R,1,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2R,2,1,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+      "CORD2R,3,0,0.,0.,0.,0.,0.,1.\n,0.,0.,2.\nGRID,1,9,0.,0.,0.\n");
+  EXPECT_THAT(text, HasSubstr("deck.bdf:1: error: coordinate system 1 rests on itself"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("deck.bdf:5: error: the three points of the coordinate system lie on a line"));
+  EXPECT_THAT(text, HasSubstr("deck.bdf:7: error: coordinate system 9 does not exist"));
+}
+
+// Displacements about a cylinder: component 1 at 90 degrees is the world's y.
+TEST(NastranReader, SupportsAndLoadsOfACylinder) {
+  const Deck deck = nastran(R"(CEND
+SPC = 1
+LOAD = 2
+BEGIN BULK
+CORD2C,1,,0.,0.,0.,0.,0.,1.
+,1.,0.,0.
+GRID,1,1,2.,90.,0.,1
+GRID,2,1,2.,0.,0.
+SPC,1,1,1,0.25
+FORCE,2,2,1,10.,1.,2.,3.
+FORCE,2,1,1,10.,1.,2.,3.
+)");
+  const Support& support = deck.support_sets.at(0).supports.at(0);
+  expect_near(support.axes.col(0), Vector3::UnitY(), 1e-12);
+  expect_near(support.axes.col(1), -Vector3::UnitX(), 1e-12);
+  EXPECT_DOUBLE_EQ(support.value[0], 0.25);
+  expect_near(deck.load_sets.at(0).point_loads.at(0).force, Vector3(10, 20, 30), 1e-12);
+  expect_near(deck.load_sets.at(0).point_loads.at(1).force, Vector3(-20, 10, 30), 1e-12);
+  ASSERT_EQ(deck.load_cases.size(), 1U);
+}
+
+TEST(NastranReader, ShellsWithOffsetsAndThicknessesAtCorners) {
+  const std::string more =
+      "CQUAD4,11,5,1,2,3,4,,.02\n,,,.012,.012,.012,.012\n"
+      "CTRIA3,12,5,1,2,3,,-.03\n,,1,1.2,1.2,1.2\n"
+      "CQUAD4,13,5,1,2,3,4\n,,,.01,.01005,.01,.01005\n";
+  const Deck deck = nastran(square + more);
+  const auto section = [&](std::size_t i) { return deck.mesh.section_of(deck.mesh.shells[i]); };
+  EXPECT_DOUBLE_EQ(section(0).thickness, 0.01);
+  EXPECT_DOUBLE_EQ(section(1).thickness, 0.012);
+  EXPECT_DOUBLE_EQ(section(1).offset, 0.02);
+  EXPECT_DOUBLE_EQ(section(2).thickness, 0.012);
+  EXPECT_DOUBLE_EQ(section(2).offset, -0.03);
+  EXPECT_NEAR(section(3).thickness, 0.010025, 1e-15);
+  EXPECT_TRUE(deck.mesh.shells[2].is_triangle());
+  EXPECT_THAT(deck.mesh.shells[0].vertices, ElementsAre(0, 1, 3, 2));
+  EXPECT_THAT(complaints_of_nastran(square + "CQUAD4,11,5,1,2,3,4\n,,,.01,.02,.01,.02\n"),
+              HasSubstr("deck.bdf:8: error: CQUAD4: CQUAD4 11 is 0.01 to 0.02 m thick"));
+}
+
+// A quarter of a cylinder by one CQUAD8: its middles lie on the arc.
+TEST(NastranReader, QuadraticShellsAreCurved) {
+  const double s = std::sqrt(0.5);
+  const Deck deck = nastran(
+      "GRID,1,,1.,0.,0.\nGRID,2,,0.,1.,0.\nGRID,3,,0.,1.,2.\nGRID,4,,1.,0.,2.\n"
+      "GRID,5,," +
+      std::to_string(s) + "," + std::to_string(s) +
+      ",0.\n"
+      "GRID,6,,0.,1.,1.\nGRID,7,," +
+      std::to_string(s) + "," + std::to_string(s) +
+      ",2.\nGRID,8,,1.,0.,1.\n"
+      "CQUAD8,1,5,1,2,3,4,5,6\n,7,8\n"
+      "CTRIA6,2,5,1,2,4,5,\n"
+      "PSHELL,5,7,.01,7,,7\nMAT1,7,206.+9,,.3,7850.\nCONM2,3,6,,100.\n");
+  const Mesh& mesh = deck.mesh;
+  expect_near(position(mesh, mesh.shells[0], {0.5, 0}), Vector3(s, s, 0), 1e-6);
+  expect_near(position(mesh, mesh.shells[0], {1, 0.5}), Vector3(0, 1, 1), 1e-12);
+  // Serendipity in the middle: half the sum of the middles less a quarter of the corners'.
+  expect_near(position(mesh, mesh.shells[0], {0.5, 0.5}), Vector3(s, s, 1), 1e-6);
+  // The side of the triangle from corner 2 to 4 is straight, that from 1 to 2 curved.
+  expect_near(position(mesh, mesh.shells[1], {0.5, 0}), Vector3(s, s, 0), 1e-6);
+  expect_near(position(mesh, mesh.shells[1], {1, 0.5}), Vector3(0.5, 0.5, 1), 1e-12);
+  expect_near(position(mesh, mesh.shells[1], {0.3, 1}), Vector3(1, 0, 2), 1e-12);
+  // The mass hangs on the middle of an edge.
+  ASSERT_EQ(mesh.surface_points.size(), 1U);
+  EXPECT_EQ(mesh.vertex_labels[static_cast<std::size_t>(mesh.surface_points[0].vertex)], 6);
+  expect_near(mesh.surface_points[0].xi, Eigen::Vector2d(1, 0.5), 1e-15);
+  EXPECT_NEAR(area(mesh, mesh.shells[0]), pi, 0.01);
+}
+
+TEST(NastranReader, BarWithOffsetsAndReleases) {
+  const Deck deck = nastran(R"(CORD2C,1,,0.,0.,0.,0.,0.,1.
+,1.,0.,0.
+GRID,1,1,2.,90.,0.,1
+GRID,2,,0.,2.,3.,1
+GRID,3,,5.,2.,0.
+CBAR,10,5,1,2,1.,0.,0.
+,45,56,.1,.2,0.,.1,.2,0.
+CBAR,11,5,1,2,3,,,BOO
+,,,0.,.1,0.,0.,.1,0.
+PBAR,5,7,.01,4.-6,1.-6,2.-6,1.5
+,.1,.05,-.1,.05
+,.5,.25,1.-7
+MAT1,7,206.+9,,.3,7850.
+)");
+  const Beam& bar = deck.mesh.beams.at(0);
+  // At 90 degrees: radial is y, tangential -x.
+  expect_near(bar.axis_2, Vector3::UnitY(), 1e-12);
+  expect_near(bar.offset[0], Vector3(-0.2, 0.1, 0), 1e-12);
+  EXPECT_THAT(bar.release[0], ElementsAre(false, false, false, true, true, false));
+  EXPECT_THAT(bar.release[1], ElementsAre(false, false, false, false, true, true));
+  // Towards grid 3: x; offsets along the bar's own y.
+  const Beam& other = deck.mesh.beams.at(1);
+  expect_near(other.axis_2, Vector3(5, 0, 0), 1e-12);
+  expect_near(other.offset[1], Vector3(0.1, 0, 0), 1e-12);
+  const BeamSection& section = deck.mesh.section_of(bar);
+  EXPECT_DOUBLE_EQ(section.second_moment_3, 4e-6);  // I1 bends in the plane of axes 1 and 2
+  EXPECT_DOUBLE_EQ(section.second_moment_2, 1e-6);
+  EXPECT_DOUBLE_EQ(section.product_23, 1e-7);
+  EXPECT_DOUBLE_EQ(section.shear_area_2, 0.005);
+  EXPECT_DOUBLE_EQ(section.shear_area_3, 0.0025);
+  EXPECT_DOUBLE_EQ(section.mass_per_length, 1.5);
+  EXPECT_EQ(section.stress_points.size(), 2U);
+}
+
+TEST(NastranReader, ShapesOfBars) {
+  const auto section = [](const std::string& card) {
+    const Deck deck =
+        nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nMAT1,7,206000.,,.3,7.85-9\n" + card, "mm-t-N");
+    return deck.mesh.section_of(deck.mesh.beams.at(0));
+  };
+  const auto bar = [&](const std::string& shape) {
+    return section("CBAR,1,5,1,2,0.,0.,1.\nPBARL,5,7,," + shape);
+  };
+  const double mm4 = 1e-12;
+  // y is up, z across: a bar of width 10 and height 20.
+  EXPECT_NEAR(bar("BAR\n,10.,20.").second_moment_3, 10 * 8000 / 12.0 * mm4, 1e-20);
+  EXPECT_NEAR(bar("BAR\n,10.,20.").area, 200e-6, 1e-18);
+  EXPECT_NEAR(bar("ROD\n,10.").area, pi * 1e-4, 1e-12);
+  EXPECT_NEAR(bar("TUBE\n,10.,9.").area, pi * 19e-6, 1e-12);
+  EXPECT_NEAR(bar("TUBE2\n,10.,1.").area, pi * 19e-6, 1e-12);
+  EXPECT_NEAR(bar("T\n,100.,200.,10.,8.").area, (1000 + 190 * 8) * 1e-6, 1e-15);
+  EXPECT_NEAR(bar("T2\n,100.,200.,10.,8.").second_moment_3,
+              bar("T\n,100.,200.,10.,8.").second_moment_3, 1e-20);
+  EXPECT_NEAR(bar("I\n,200.,100.,80.,8.,10.,12.").area, (1000 + 960 + 178 * 8) * 1e-6, 1e-15);
+  EXPECT_NEAR(bar("I1\n,92.,8.,180.,200.").area, (2 * 1000 + 180 * 8) * 1e-6, 1e-15);
+  EXPECT_NEAR(bar("CHAN\n,60.,200.,8.,10.").area, (2 * 600 + 180 * 8) * 1e-6, 1e-15);
+  EXPECT_NEAR(bar("CHAN1\n,52.,8.,180.,200.").second_moment_3,
+              bar("CHAN\n,60.,200.,8.,10.").second_moment_3, 1e-18);
+  EXPECT_NEAR(bar("CHAN2\n,10.,8.,60.,200.").second_moment_2,
+              bar("CHAN\n,60.,200.,8.,10.").second_moment_3, 1e-18);
+  EXPECT_NEAR(bar("BOX\n,100.,200.,10.,8.").second_moment_3,
+              (100 * 8e6 - 84 * std::pow(180, 3)) / 12 * mm4, 1e-16);
+  EXPECT_NEAR(bar("BOX1\n,100.,200.,10.,10.,8.,8.").second_moment_3,
+              bar("BOX\n,100.,200.,10.,8.").second_moment_3, 1e-18);
+  EXPECT_NEAR(bar("H\n,80.,20.,100.,8.").area, (20 * 100 + 80 * 8) * 1e-6, 1e-15);
+  EXPECT_NEAR(bar("T1\n,100.,90.,10.,8.").area, (1000 + 720) * 1e-6, 1e-15);
+  EXPECT_NEAR(bar("CROSS\n,90.,10.,100.,8.").area, (1000 + 720) * 1e-6, 1e-15);
+  EXPECT_LT(bar("Z\n,50.,8.,180.,200.").product_23, 0);
+  EXPECT_NEAR(bar("Z\n,50.,8.,180.,200.").area, (180 * 8 + 20 * 58) * 1e-6, 1e-15);
+  EXPECT_NEAR(bar("HAT\n,50.,2.,40.,15.").area, (40 * 2 + 2 * 46 * 2 + 2 * 17 * 2) * 1e-6, 1e-15);
+  // A mass beyond the bar's follows the dimensions: t/mm is 1e6 kg/m.
+  EXPECT_NEAR(bar("BAR\n,10.,20.,1.-6").mass_per_length, 1.0, 1e-12);
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,1,5,1,2,0.,0.,1.\n"
+                                    "PBARL,5,7,,HEXA\n,1.,2.,3.\nMAT1,7,2.+11,,.3"),
+              HasSubstr("deck.bdf:4: error: PBARL 5: the shape \"HEXA\" is not known"));
+}
+
+// The axis of a PBEAML's T is its shear centre, in the flange: the centroid hangs below.
+TEST(NastranReader, BeamsAreAboutTheirShearCentre) {
+  const Deck deck = nastran(R"(GRID,1,,0.,0.,0.
+GRID,2,,4.,0.,0.
+CBEAM,1,5,1,2,0.,0.,1.
+CBEAM,2,6,1,2,0.,0.,1.
+,,,0.,0.,.5,0.,0.,.5
+PBEAML,5,7,,T
+,.2,.4,.02,.01,,YES,1.,.2
+,.4,.02,.01
+PBEAM,6,7,.01,4.-6,1.-6,0.,2.-6
+,.1,.05,-.1,.05
+,YES,1.,.01,4.-6,1.-6,0.,2.-6
+,.1,.05,-.1,.05
+,1.,0.,,,,,,
+,,,,,.03,.02,.03,.02
+MAT1,7,206.+9,,.3,7850.
+)");
+  const Profile tee = tee_bar(0.4, 0.01, 0.2, 0.02);
+  const Beam& beam = deck.mesh.beams.at(0);
+  expect_near(beam.offset[0], Vector3(0, 0, -tee.section.shear_centre[0]), 1e-12);
+  EXPECT_NEAR(deck.mesh.section_of(beam).area, tee.section.area, 1e-15);
+  // The neutral axis of the other lies at y = 0.03, z = 0.02; the element's z is the world's -y.
+  expect_near(deck.mesh.beams.at(1).offset[0], Vector3(0, -0.02, 0.53), 1e-12);
+  const BeamSection& section = deck.mesh.section_of(deck.mesh.beams.at(1));
+  EXPECT_DOUBLE_EQ(section.shear_area_2, 0.01);
+  EXPECT_EQ(section.shear_area_3, std::numeric_limits<double>::infinity());
+  expect_near(section.shear_centre, Eigen::Vector2d(-0.03, -0.02), 1e-15);
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nCBEAM,1,5,1,2,0.,0.,1.\n"
+                                    "PBEAML,5,7,,BAR\n,.2,.4,,YES,1.,.2,.3\nMAT1,7,206.+9,,.3\n"),
+              HasSubstr("PBEAML 5 tapers by more than 1 %"));
+}
+
+TEST(NastranReader, Rods) {
+  const Deck deck = nastran(R"(GRID,1,,0.,0.,0.
+GRID,2,,4.,0.,0.
+CROD,1,5,1,2
+CTUBE,2,6,1,2
+CONROD,3,1,2,7,.003,1.-6,,2.
+PROD,5,7,.001,1.-7
+PTUBE,6,7,.1,.01
+MAT1,7,206.+9,,.3,7850.
+)");
+  for (const Beam& rod : deck.mesh.beams) EXPECT_TRUE(rod.is_rod);
+  EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[0]).area, 0.001, 1e-15);
+  EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[1]).area, pi * (0.05 * 0.05 - 0.04 * 0.04),
+              1e-15);
+  EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[2]).mass_per_length, 2, 1e-15);
+}
+
+TEST(NastranReader, RigidAndDistributingLinks) {
+  const Deck deck = nastran(R"(CORD2C,1,,0.,0.,0.,0.,0.,1.
+,1.,0.,0.
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,0.,1.,0.,1
+GRID,4,,0.,0.,1.
+GRID,5,,0.,0.,2.
+RBE2,10,1,123456,2,3
+RBE2,11,4,1,2,3,1.2-5
+RBE3,12,,5,123456,1.,123,1,2
+,2.5,123,3,4,UM,5,123
+RBAR,13,1,5,123456,,,123
+RBE1,14,4,123456
+,UM,5,456
+)");
+  const Mesh& mesh = deck.mesh;
+  ASSERT_EQ(mesh.rigid_links.size(), 5U);
+  EXPECT_THAT(mesh.rigid_links[0].slaves, ElementsAre(1, 2));
+  // A part of the displacements counts along the axes of each dependent grid.
+  EXPECT_THAT(mesh.rigid_links[1].slaves, ElementsAre(2));
+  expect_near(mesh.rigid_links[1].axes.col(0), Vector3::UnitY(), 1e-12);
+  EXPECT_THAT(mesh.rigid_links[2].slaves, ElementsAre(1));
+  EXPECT_THAT(mesh.rigid_links[3].bound, ElementsAre(true, true, true, false, false, false));
+  EXPECT_THAT(mesh.rigid_links[4].bound, ElementsAre(false, false, false, true, true, true));
+  ASSERT_EQ(mesh.distributing_links.size(), 1U);
+  EXPECT_EQ(mesh.distributing_links[0].reference, 4);
+  EXPECT_THAT(mesh.distributing_links[0].vertices, ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(mesh.distributing_links[0].weights, ElementsAre(1, 1, 2.5, 2.5));
+  EXPECT_THAT(entry(deck, "RBE2").left_out, HasSubstr("thermal"));
+  EXPECT_THAT(
+      complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nRBE3,1,,1,123,1.,123456,2\n"),
+      HasSubstr("RBE3 1 counts components 123456"));
+}
+
+TEST(NastranReader, Springs) {
+  const Deck deck = nastran(R"(CORD2C,1,,0.,0.,0.,0.,0.,1.
+,1.,0.,0.
+GRID,1,,0.,1.,0.,1
+GRID,2,,2.,1.,0.
+CELAS1,10,5,1,1,2,1
+CELAS2,11,200.,,,2,4
+CBUSH,12,6,1,2,0.,0.,1.
+,0.25
+CBUSH,13,6,2,,,,,0
+PELAS,5,100.
+PBUSH,6,K,1000.,,,50.
+)",
+                            "mm-t-N");
+  const Mesh& mesh = deck.mesh;
+  ASSERT_EQ(mesh.springs.size(), 6U);
+  EXPECT_DOUBLE_EQ(mesh.springs[0].stiffness, 1e5);  // N/mm
+  expect_near(mesh.springs[0].axes[0].col(0), Vector3::UnitY(), 1e-12);
+  expect_near(mesh.springs[0].axes[1].col(0), Vector3::UnitX(), 1e-12);
+  EXPECT_DOUBLE_EQ(mesh.springs[1].stiffness, 0.2);  // N mm/rad
+  EXPECT_THAT(mesh.springs[1].vertices, ElementsAre(1, -1));
+  EXPECT_THAT(mesh.springs[1].components, ElementsAre(3, 3));
+  // A quarter of the way from 1 to 2; along it, and about it.
+  expect_near(mesh.springs[2].arms[0], Vector3(0.5e-3, 0, 0), 1e-15);
+  expect_near(mesh.springs[2].arms[1], Vector3(-1.5e-3, 0, 0), 1e-15);
+  expect_near(mesh.springs[2].axes[0].col(0), Vector3::UnitX(), 1e-12);
+  EXPECT_DOUBLE_EQ(mesh.springs[2].stiffness, 1e6);
+  EXPECT_THAT(mesh.springs[3].components, ElementsAre(3, 3));
+  EXPECT_DOUBLE_EQ(mesh.springs[3].stiffness, 0.05);
+  EXPECT_EQ(mesh.springs[4].vertices[1], -1);
+}
+
+TEST(NastranReader, Masses) {
+  const Deck deck = nastran(R"(PARAM,WTMASS,0.1
+CORD2R,1,,0.,0.,0.,0.,0.,1.
+,0.,1.,0.
+GRID,1,,1.,2.,3.
+CONM2,10,1,1,50.,1.,0.,0.
+,1.,.1,2.,.2,.3,3.
+CONM2,11,1,-1,50.,1.,2.,4.
+CONM1,12,1,,50.,,50.
+,50.,,-50.,,10.,50.
+,,,0.,60.
+)");
+  const PointMass& mass = deck.mesh.masses.at(0);
+  EXPECT_DOUBLE_EQ(mass.mass, 5);
+  expect_near(mass.offset, Vector3::UnitY(), 1e-12);
+  // Turned by 90 degrees about z: what was about x is about y; products change place and sign.
+  Eigen::Matrix3d inertia;
+  inertia << 2, 0.1, 0.3, 0.1, 1, -0.2, 0.3, -0.2, 3;
+  expect_near(mass.inertia, 0.1 * inertia, 1e-12);
+  expect_near(deck.mesh.masses.at(1).offset, Vector3(0, 0, 1), 1e-12);
+}
+
+// PCOMP of layers of one material is a plate; of two, its A, B, D are those of the stack.
+TEST(NastranReader, LayeredPlates) {
+  const std::string mesh =
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,2.,0.\nGRID,4,,0.,2.,0.\n"
+      "CQUAD4,10,5,1,2,3,4,30.\nMAT1,7,206.+9,,.3,7850.\nMAT1,8,1.+8,,.3,60.\n";
+  const Deck one = nastran(mesh + "PCOMP,5,0.,2.5\n,7,.004,0.,YES,7,.006,45.,YES\n");
+  EXPECT_TRUE(one.mesh.laminates.empty());
+  EXPECT_NEAR(one.mesh.shell_sections[0].thickness, 0.01, 1e-15);
+  EXPECT_NEAR(one.mesh.shell_sections[0].offset, 0.005, 1e-15);  // its bottom is on the grids
+  EXPECT_NEAR(one.mesh.shell_sections[0].mass_per_area, 2.5, 1e-15);
+  const Deck two = nastran(mesh + "PCOMP,5,,,,,,,SYM\n,7,.001,0.,,8,.025\n");
+  ASSERT_EQ(two.mesh.laminates.size(), 1U);
+  const Material steel = {"", 206e9, 0.3, 7850, 0}, foam = {"", 1e8, 0.3, 60, 0};
+  const Laminate expected = stack({{isotropic_ply(steel), 0.001, 0},
+                                   {isotropic_ply(foam), 0.05, 0},
+                                   {isotropic_ply(steel), 0.001, 0}});
+  expect_near(two.mesh.laminates[0].bending, expected.bending, 1e-9 * expected.bending.norm());
+  expect_near(two.mesh.laminates[0].shear, expected.shear, 1e-9 * expected.shear.norm());
+  EXPECT_NEAR(mass_properties(two.mesh).mass, 4 * (2 * 7.85 + 0.05 * 60), 1e-9);
+  // The layers' axis 1 is 30 degrees off the first side.
+  expect_near(two.mesh.shells[0].laminate_axis, Vector3(std::cos(pi / 6), 0.5, 0), 1e-12);
+}
+
+TEST(NastranReader, PlatesWithAnotherBendingStiffness) {
+  const std::string mesh =
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,2.,0.\n"
+      "CTRIA3,10,5,1,2,3\nMAT1,7,206.+9,,.3,7850.\n";
+  const Deck deck = nastran(mesh + "PSHELL,5,7,.01,7,3.,7\n");
+  ASSERT_EQ(deck.mesh.laminates.size(), 1U);
+  const double d = 206e9 / 0.91 * 1e-6 / 12;
+  EXPECT_NEAR(deck.mesh.laminates[0].bending(0, 0), 3 * d, 1e-6 * d);
+  EXPECT_NEAR(deck.mesh.laminates[0].membrane(0, 0), 206e9 / 0.91 * 0.01, 1);
+  // MAT8 of equal moduli is no different from MAT1.
+  const Deck same = nastran(
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,2.,0.\nCTRIA3,10,5,1,2,3\n"
+      "MAT8,7,2.6+11,2.6+11,.3,1.+11,,,7850.\nPSHELL,5,7,.01,7,,7\n");
+  EXPECT_TRUE(same.mesh.laminates.empty());
+  EXPECT_DOUBLE_EQ(same.mesh.materials[0].youngs_modulus, 2.6e11);
+}
+
+// Mass and centre by hand: plate of 4 m^2, 10 mm, with 5 kg/m^2 on it; bar of 3 m; a point mass.
+TEST(NastranReader, MassAndCentreByHand) {
+  const Deck deck = nastran(R"(GRID,1,,0.,0.,0.
+GRID,2,,2000.,0.,0.
+GRID,3,,2000.,2000.,0.
+GRID,4,,0.,2000.,0.
+GRID,5,,0.,0.,3000.
+CQUAD4,10,5,1,2,3,4,,100.
+PSHELL,5,7,10.,7,,7,,5.-9
+CBAR,11,6,1,5,1.,0.,0.
+,,,200.,0.,0.,200.,0.,0.
+PBAR,6,7,1000.,1.+6,1.+6,1.+5,1.-6
+CONM2,12,5,,.1,0.,500.
+MAT1,7,206000.,,.3,7.85-9
+)",
+                            "mm-t-N");
+  const double plate = 4 * (0.01 * 7850 + 5), bar = 3 * (0.001 * 7850 + 1), point = 100;
+  const MassProperties mass = mass_properties(deck.mesh);
+  EXPECT_NEAR(mass.mass, plate + bar + point, 1e-9);
+  const Vector3 centre =
+      (plate * Vector3(1, 1, 0.1) + bar * Vector3(0.2, 0, 1.5) + point * Vector3(0, 0.5, 3)) /
+      (plate + bar + point);
+  expect_near(mass.centre, centre, 1e-12);
+}
+
+TEST(NastranReader, LoadsAndSubcases) {
+  const Deck deck =
+      nastran("CEND\nSPC = 1\nSUBCASE 1\n LOAD = 10\nSUBCASE 2\n SPC = 2\n LOAD = 3\nBEGIN BULK\n" +
+              square + R"(CTRIA3,11,5,1,2,3
+SPC1,1,123456,1,THRU,3
+SPC1,4,3,4
+SPCADD,2,1,4
+LOAD,10,2.,1.5,3,-1.,5
+FORCE,3,1,,100.,0.,0.,-1.
+MOMENT,3,1,,10.,0.,1.,0.
+PLOAD4,5,10,1.,2.,3.,4.
+PLOAD4,5,11,6.,,,,,
+,,0.,0.,2.
+PLOAD2,3,7.,10,THRU,11
+GRAV,5,,9.81,0.,0.,-1.
+FORCE1,3,2,50.,2,3
+PLOAD,5,12.,1,2,3,4
+)");
+  ASSERT_EQ(deck.load_cases.size(), 2U);
+  EXPECT_THAT(deck.load_cases[0].loads, ElementsAre(std::pair(0, 3.0), std::pair(1, -2.0)));
+  EXPECT_THAT(deck.load_cases[1].loads, ElementsAre(std::pair(0, 1.0)));
+  EXPECT_EQ(deck.load_cases[0].supports.size(), 1U);
+  EXPECT_EQ(deck.load_cases[1].supports.size(), 2U);
+  EXPECT_EQ(deck.support_sets.at(0).supports.size(), 3U);
+  const LoadSet &three = deck.load_sets.at(0), &five = deck.load_sets.at(1);
+  expect_near(three.point_loads[0].force, Vector3(0, 0, -100), 1e-12);
+  expect_near(three.point_loads[1].moment, Vector3(0, 10, 0), 1e-12);
+  expect_near(three.point_loads[2].force, Vector3(0, 50, 0), 1e-12);
+  EXPECT_EQ(three.plate_loads.size(), 2U);
+  EXPECT_THAT(five.plate_loads[0].pressure, ElementsAre(1, 2, 4, 3));
+  expect_near(five.plate_loads[1].direction, Vector3::UnitZ(), 1e-15);
+  expect_near(five.gravity, Vector3(0, 0, -9.81), 1e-15);
+  EXPECT_EQ(five.point_loads.size(), 4U);
+  expect_near(five.point_loads[0].force, Vector3(0, 0, 12), 1e-12);
+}
+
+TEST(NastranReader, EquationsThatMakeTwoFreedomsOne) {
+  const Deck deck = nastran(
+      "CEND\nMPC = 4\nSPC = 1\nBEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,0.,0.,0.\n"
+      "MPC,4,1,3,1.,2,3,-1.\nMPC,5,1,1,1.,2,2,3.\nSPC1,1,1,1\n");
+  ASSERT_EQ(deck.mesh.rigid_links.size(), 1U);
+  EXPECT_THAT(deck.mesh.rigid_links[0].bound, ElementsAre(false, false, true, false, false, false));
+  EXPECT_EQ(deck.mesh.rigid_links[0].master, 1);
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,0.,0.,0.\nMPC,5,1,1,1.,2,2,3.\n"),
+              HasSubstr("deck.bdf:3: error: MPC: an equation of set 5 is none"));
+}
+
+TEST(NastranReader, UnitsAndTheirPlausibility) {
+  const std::string mm =
+      "GRID,1,,0.,0.,0.\nGRID,2,,2000.,0.,0.\nGRID,3,,2000.,2000.,0.\n"
+      "CTRIA3,10,5,1,2,3\nPSHELL,5,7,10.,7,,7\nMAT1,7,206000.,,.3,7.85-9\n";
+  const Mesh mesh = nastran(mm, "mm-t-N").mesh;
+  EXPECT_DOUBLE_EQ(mesh.vertices[1].x(), 2);
+  EXPECT_NEAR(mesh.materials[0].density, 7850, 1e-9);
+  EXPECT_NEAR(mesh.materials[0].youngs_modulus, 206e9, 1);
+  EXPECT_THAT(complaints_of_nastran(mm, "m-kg-N"),
+              HasSubstr("deck.bdf:6: error: MAT1: MAT1 7 has a Young's modulus of 0.206 MPa if "
+                        "units are m-kg-N"));
+  EXPECT_THAT(complaints_of_nastran(square, "mm-t-N"), HasSubstr("Is the deck in other units?"));
+  const std::string inches =
+      "GRID,1,,0.,0.,0.\nGRID,2,,100.,0.,0.\nGRID,3,,100.,100.,0.\n"
+      "CTRIA3,10,5,1,2,3\nPSHELL,5,7,.5,7,,7\nMAT1,7,3.+7,,.3,.284\n";
+  EXPECT_THAT(complaints_of_nastran(inches, "in-lbf"), HasSubstr("or does it give weights?"));
+  const Deck weighed = nastran("PARAM,WTMASS,.00259\n" + inches, "in-lbf");
+  EXPECT_NEAR(weighed.mesh.materials[0].density, 7860, 10);
+  EXPECT_THROW(unit_system("cm"), ModelError);
+}
+
+TEST(NastranReader, SaysEverythingThatIsWrongAtOnce) {
+  const std::string text = complaints_of_nastran(R"(GRID,1,,0.,0.,0.
+GRID,2,,nan,0.,0.
+GRID,3,,1.,inf,0.
+GRID,1,,1.,1.,0.
+GRID,4,,1.+400,0.,0.
+CQUAD4,10,5,1,99,1,1
+CTRIA3,11,6,1,1,1
+WEIRD,1,2,3
+CHEXA,12,5,1,2,3,4,5,6
+CBAR,13,5,1,1,1.,0.,0.
+PSHELL,6,9,.01
+SPC1,1,789,1
+)");
+  for (const char* line :
+       {":2: error: GRID: \"nan\" as coordinate (field 4 of line 1) is no finite number",
+        ":3: error: GRID: \"inf\"", ":4: error: GRID: grid 1 is there twice",
+        ":5: error: GRID: \"1.+400\"",
+        ":6: error: CQUAD4: CQUAD4 10 names grid 99, which does not exist",
+        ":7: error: CTRIA3: CTRIA3 11 has two corners in one grid",
+        ":8: error: the card WEIRD is not known here", ":9: error: CHEXA: solids are not lifted",
+        ":10: error: CBAR: CBAR 13 has no length", ":12: error: SPC1: \"789\" as components"})
+    EXPECT_THAT(text, HasSubstr(line));
+  EXPECT_THAT(complaints_of_nastran(square + "CTRIA3,11,6,1,2,3\nCTRIA3,12,6,1,2,3\n"),
+              HasSubstr("deck.bdf:8: error: CTRIA3: property 6 does not exist (2 times)"));
+  EXPECT_THAT(complaints_of_nastran("CEND\nLOAD = 7\nBEGIN BULK\n" + square),
+              HasSubstr("load set 7 does not exist"));
+  EXPECT_THAT(complaints_of_nastran("CEND\n"), HasSubstr("the deck has no grids"));
+  EXPECT_THROW(read_nastran("/nowhere/deck.bdf", UnitSystem()), DeckError);
+}
+
+TEST(NastranReader, LeavesOutWhatHasNoMeaningHereAndSaysSo) {
+  const Deck deck = nastran(square +
+                                "DESVAR,1,T1,1.,.1,5.\nCAERO1,1,1\nCAERO1,2,1\nPLOTEL,1,1,2\n"
+                                "PARAM,POST,-1\nCHEXA,12,5,1,2,3,4,5,6\nMAT1,9,2.+11,,.3\n",
+                            "m-kg-N", {.leave_solids_out = true});
+  EXPECT_EQ(entry(deck, "CAERO1").read, 2);
+  EXPECT_EQ(entry(deck, "CAERO1").used, 0);
+  EXPECT_THAT(entry(deck, "CAERO1").left_out, HasSubstr("aeroelasticity"));
+  EXPECT_THAT(entry(deck, "DESVAR").left_out, HasSubstr("optimisation"));
+  EXPECT_THAT(entry(deck, "CHEXA").left_out, HasSubstr("solids"));
+  EXPECT_EQ(entry(deck, "MAT1").read, 2);
+  EXPECT_EQ(entry(deck, "MAT1").used, 1);
+  EXPECT_EQ(entry(deck, "CQUAD4").used, 1);
+  EXPECT_THAT(entry(deck, "CQUAD4").left_out, testing::IsEmpty());
+  EXPECT_THAT(describe_ledger(deck), HasSubstr("CAERO1"));
+}
+
+TEST(NastranReader, ADeckWithoutPropertiesAsksForThem) {
+  const Deck deck = nastran(
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,2.,0.\n"
+      "$HMNAME PROP                   5\"side plating\" 4\n"
+      "CTRIA3,10,5,1,2,3\nCTRIA3,11,6,1,2,3\n");
+  EXPECT_EQ(deck.mesh.shells[0].section, -1);
+  EXPECT_THAT(deck.groups_without_thickness, ElementsAre("side plating", "property 6"));
+}
+
+}  // namespace
+}  // namespace blocklift::structure::test
