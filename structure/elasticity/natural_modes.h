@@ -1,55 +1,13 @@
 #pragma once
 
-#include <vector>
-
-#include <Eigen/Core>
-
-#include "structure/elasticity/mass_matrix.h"
-#include "structure/system/linear_solver.h"
+#include "structure/elasticity/part_model.h"
+#include "structure/system/natural_modes.h"
 
 namespace blocklift::structure {
 
-/// Undamped free vibration: K phi = omega^2 M phi.
-struct NaturalModes {
-  /// Eigenvalues omega^2, ascending, rad^2/s^2. Those of rigid motions are zero but for rounding (of
-  /// either sign).
-  Eigen::VectorXd squared_frequencies;
-  /// omega / 2 pi, Hz; zero for rigid motions.
-  Eigen::VectorXd frequencies;
-  /// Rigid motions that the held unknowns leave to each connected body, all together: the first modes.
-  int rigid_motions = 0;
-  /// One column a mode, 3 rows a node, m/sqrt(kg): phi_i' M phi_j = 1 if i = j, else 0. The component
-  /// of largest magnitude is positive.
-  Eigen::MatrixXd shapes;
-  /// |K phi - omega^2 M phi| over |K phi| + (omega^2 + shift) |M phi|, the largest of all modes; held
-  /// unknowns are left out.
-  double residual = 0;
-};
-
-/// The lowest natural modes of a body that is free, partly or wholly supported.
-///
-/// SLEPc's Krylov-Schur method on (K + s M)^-1 M, whose matrix is factorised once; s > 0 is a small
-/// part of the first elastic omega^2 (of its estimate by bending and stretching shapes), so that a
-/// free body's singular stiffness does no harm. Rigid motions of the whole are known beforehand; the search is
-/// repeated beside the modes that it found until nothing lower comes, as one run may miss copies of a
-/// repeated frequency.
-/// Source: Hernandez, Roman, Vidal (2005), SLEPc; Ericsson and Ruhe (1980) for the spectral transform.
-/// @param stiffness lower triangle, unknown 3 n + a being node n along axis a.
-/// @param mass by nodes, kg; at nodes without mass the unknowns must be fixed.
-/// @param nodes places of the nodes, m.
-/// @param fixed unknowns that do not move (their values are not looked at).
-/// @param rigid_motions how many of them `fixed` leaves.
-/// @param count of modes, at least 1.
-/// @param order of elimination, as for ConstrainedSystem.
-/// @throws ModelError if there are fewer unknowns than modes, the mass is zero, memory does not suffice,
-///   or the iteration does not converge.
-NaturalModes find_natural_modes(const SparseLower& stiffness, const NodalMass& mass,
-                                const Eigen::Matrix3Xd& nodes,
-                                const std::vector<FixedUnknown>& fixed, int rigid_motions,
-                                int count, EliminationOrder order);
-
 /// Modes of a part that its supports hold (at zero displacement); without supports, of the free part,
-/// whose first six are rigid. @throws ModelError as above, or if an element is inverted.
+/// whose first six are rigid; unknown 3 n + a is node n along axis a.
+/// @throws ModelError as find_natural_modes, or if an element is inverted.
 NaturalModes find_part_modes(const PartModel& model, int count);
 
 }  // namespace blocklift::structure

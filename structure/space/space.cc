@@ -257,12 +257,21 @@ void Space::make_beams(const Resolution& resolution) {
     const Vector3 a = mesh_->vertices[at(ends[0])], b = mesh_->vertices[at(ends[1])];
     return a + (cell.origin + cell.size * xi) * (b - a);
   };
+  const auto edges = edges_of_shells(*mesh_);
+  const auto is_on_edge = [&](const BeamCell& cell) {
+    const auto& ends = mesh_->beams[at(cell.beam)].vertices;
+    return std::binary_search(edges.begin(), edges.end(),
+                              std::pair<int, int>(std::minmax(ends[0], ends[1])));
+  };
+  const auto is_lone_rod = [&](const BeamCell& cell) {
+    return mesh_->beams[at(cell.beam)].is_rod && !is_on_edge(cell);
+  };
   for (int round = 0; round < most_divisions; ++round) {
     bool is_any = false;
     for (const auto& cell : own.beams.active_cell_iterators()) {
       const BeamCell located = locate_beam(cell);
-      if ((point_on(located, 1) - point_on(located, 0)).norm() <=
-          (1 + 1e-9) * size_at(point_on(located, 0.5)))
+      if (is_lone_rod(located) || (point_on(located, 1) - point_on(located, 0)).norm() <=
+                                      (1 + 1e-9) * size_at(point_on(located, 0.5)))
         continue;
       cell->set_refine_flag();
       is_any = true;
@@ -271,16 +280,15 @@ void Space::make_beams(const Resolution& resolution) {
     own.beams.execute_coarsening_and_refinement();
   }
 
-  // A beam along a shell's edge bends with it; one that stands alone is exact at its ends with degree 2.
+  // A beam along a shell's edge bends with it; one that stands alone is exact at its ends with degree 2, and
+  // a rod, which nothing would hold between its ends, with degree 1.
   own.beam_elements.push_back(dealii::FE_Q<1, 3>(static_cast<unsigned>(degree_)));
   own.beam_elements.push_back(dealii::FE_Q<1, 3>(static_cast<unsigned>(std::max(degree_, 2))));
   own.beam_nodes.reinit(own.beams);
-  const auto edges = edges_of_shells(*mesh_);
+  own.beam_elements.push_back(dealii::FE_Q<1, 3>(1));
   for (const auto& cell : own.beam_nodes.active_cell_iterators()) {
-    const auto& ends = mesh_->beams[at(locate_beam(cell).beam)].vertices;
-    const bool is_on_edge = std::binary_search(edges.begin(), edges.end(),
-                                               std::pair<int, int>(std::minmax(ends[0], ends[1])));
-    cell->set_active_fe_index(is_on_edge ? 0 : 1);
+    const BeamCell located = locate_beam(cell);
+    cell->set_active_fe_index(is_lone_rod(located) ? 2 : is_on_edge(located) ? 0 : 1);
   }
   own.beam_nodes.distribute_dofs(own.beam_elements);
   const int first = node_count();

@@ -1,11 +1,13 @@
 #include "structure/system/assembly.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "structure/batches.h"
@@ -187,6 +189,43 @@ class ElementStiffness {
   Eigen::MatrixXd own_;
 };
 
+/// Where rods and released beams alone meet, nothing may stiffen a rotation about some axis, which need not
+/// be one of the world's: along it the node gets a stiffness of its own and stays at rest.
+void hold_loose_rotations(const Space& space, SparseLower& stiffness) {
+  for (const BeamCell& cell : space.beams()) {
+    const Beam& beam = space.mesh().beams[at(cell.beam)];
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+      const bool is_released = std::any_of(beam.release[end].begin() + 3, beam.release[end].end(),
+                                           [](bool released) { return released; });
+      if (!beam.is_rod && !is_released) continue;
+      const int node = end == 0 ? cell.nodes.front() : cell.nodes.back();
+      std::array<long, 3> unknowns{};
+      bool is_plain = true;
+      for (int c = 0; c < 3; ++c) {
+        const Space::Term* term = space.begin_of(6 * node + 3 + c);
+        is_plain = is_plain && space.end_of(6 * node + 3 + c) - term == 1;
+        if (is_plain) unknowns[at(c)] = term->unknown;
+      }
+      if (!is_plain) continue;
+      const auto entry = [&](int a, int b) -> double& {
+        return stiffness.coeffRef(std::max(unknowns[at(a)], unknowns[at(b)]),
+                                  std::min(unknowns[at(a)], unknowns[at(b)]));
+      };
+      Eigen::Matrix3d block;
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) block(a, b) = entry(a, b);
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(block);
+      const double largest = axes.eigenvalues()[2];
+      for (int i = 0; i < 3; ++i) {
+        if (axes.eigenvalues()[i] > 1e-10 * largest) continue;
+        const Vector3 axis = axes.eigenvectors().col(i);
+        for (int a = 0; a < 3; ++a)
+          for (int b = 0; b <= a; ++b) entry(a, b) += std::max(largest, 1.0) * axis[a] * axis[b];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 SparseLower assemble(const Space& space, const std::function<ElementMatrix()>& make_worker,
@@ -223,6 +262,7 @@ SparseLower assemble_stiffness(const Space& space, int threads) {
         return [element](int e) -> const Eigen::MatrixXd& { return (*element)(e); };
       },
       threads);
+  hold_loose_rotations(space, stiffness);
   for (Eigen::Index k = 0; k < stiffness.cols(); ++k) {
     double& diagonal = stiffness.valuePtr()[stiffness.outerIndexPtr()[k]];
     if (diagonal == 0) diagonal = 1;

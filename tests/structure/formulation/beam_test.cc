@@ -1,0 +1,250 @@
+#include "structure/formulation/beam.h"
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "pipeline/verification/models/shells/shell_models.h"
+#include "structure/error.h"
+#include "structure/index.h"
+
+namespace blocklift::structure {
+namespace {
+
+constexpr double length = 3, force = 1000;
+constexpr double close = 1e-9;  // of the figure: some hundred unknowns, condition 1e6
+
+BeamSection sample_section() {
+  BeamSection section;
+  section.area = 4e-3;
+  section.second_moment_2 = 8e-6;
+  section.second_moment_3 = 3e-6;
+  section.torsion = 5e-6;
+  section.shear_area_2 = 2e-3;
+  section.shear_area_3 = 1.5e-3;
+  return section;
+}
+
+// A line of beams along x, then along what comes next.
+Mesh line_of_beams(const BeamSection& section, const std::vector<Vector3>& vertices,
+                   const Vector3& axis_2 = Vector3::UnitY()) {
+  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  mesh.beam_sections = {section};
+  mesh.vertices = vertices;
+  for (int v = 0; v + 1 < static_cast<int>(vertices.size()); ++v) {
+    Beam beam;
+    beam.vertices = {v, v + 1};
+    beam.axis_2 = axis_2;
+    beam.label = v + 1;
+    mesh.beams.push_back(beam);
+  }
+  return mesh;
+}
+
+void clamp(const Space& space, const Vector3& place, std::vector<FixedUnknown>& fixed) {
+  testing::hold(
+      space, [&](const Vector3& x) { return (x - place).norm() < 1e-9; }, {0, 1, 2, 3, 4, 5},
+      fixed);
+}
+
+// Motion of a cantilever clamped at the first vertex, loaded at the last.
+Eigen::Matrix<double, 6, 1> tip_motion(const Mesh& mesh, int degree,
+                                       const Eigen::Matrix<double, 6, 1>& load) {
+  const Space space(mesh, {degree, {}});
+  std::vector<FixedUnknown> fixed;
+  clamp(space, mesh.vertices.front(), fixed);
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
+  const int tip = space.node_of_vertex(static_cast<int>(mesh.vertices.size()) - 1);
+  loads.segment<6>(6 * tip) = load;
+  return testing::solve(space, loads, fixed).segment<6>(6 * tip);
+}
+
+Eigen::Matrix<double, 6, 1> unit(int c, double value) {
+  return value * Eigen::Matrix<double, 6, 1>::Unit(c);
+}
+
+// Timoshenko: w = P l^3 / 3 E I + P l / G A_s, slope P l^2 / 2 E I; exact at the end for any degree, as the
+// reduced rule makes quadratic elements. Axis 1 = x, 2 = y, 3 = z.
+TEST(Beam, TimoshenkosCantilever) {
+  const BeamSection s = sample_section();
+  const Material m = testing::plain_steel();
+  const double e = m.youngs_modulus, g = m.shear_modulus();
+  for (int degree = 1; degree <= 4; ++degree) {
+    const Mesh mesh = line_of_beams(s, {{0, 0, 0}, {1, 0, 0}, {length, 0, 0}});
+    const auto across_y = tip_motion(mesh, degree, unit(1, force));
+    const double w_y = force * std::pow(length, 3) / (3 * e * s.second_moment_3) +
+                       force * length / (g * s.shear_area_2);
+    EXPECT_NEAR(across_y[1], w_y, close * w_y) << degree;
+    const double slope = force * length * length / (2 * e * s.second_moment_3);
+    EXPECT_NEAR(across_y[5], slope, close * slope) << degree;
+    const auto across_z = tip_motion(mesh, degree, unit(2, force));
+    const double w_z = force * std::pow(length, 3) / (3 * e * s.second_moment_2) +
+                       force * length / (g * s.shear_area_3);
+    EXPECT_NEAR(across_z[2], w_z, close * w_z) << degree;
+    EXPECT_NEAR(tip_motion(mesh, degree, unit(0, force))[0], force * length / (e * s.area),
+                close * w_z);
+    EXPECT_NEAR(tip_motion(mesh, degree, unit(3, force))[3], force * length / (g * s.torsion),
+                close * w_z);
+  }
+}
+
+// With I_23 a force along one axis bends about both: the curvatures are those of the inverse of
+// [I_2 -I_23; -I_23 I_3]. Without shear deformation.
+TEST(Beam, SkewBendingOfAnUnsymmetricSection) {
+  BeamSection s = sample_section();
+  s.product_23 = 2e-6;
+  s.shear_area_2 = s.shear_area_3 = std::numeric_limits<double>::infinity();
+  const double e = testing::plain_steel().youngs_modulus;
+  const Mesh mesh = line_of_beams(s, {{0, 0, 0}, {length, 0, 0}});
+  const auto motion = tip_motion(mesh, 2, unit(2, force));
+  const double determinant = s.second_moment_2 * s.second_moment_3 - s.product_23 * s.product_23;
+  const double factor = force * std::pow(length, 3) / (3 * e * determinant);
+  // Infinite shear areas are 1e4 times the section's: of the deflection 3 E I / (G A 1e4 l^2), below 1e-6.
+  EXPECT_NEAR(motion[2], factor * s.second_moment_3, 1e-6 * factor * s.second_moment_3);
+  EXPECT_NEAR(motion[1], -factor * s.product_23, 1e-6 * factor * s.second_moment_3);
+}
+
+// The section's product of inertia as a turn of the axes: a flat bar turned by 30 degrees.
+TEST(Beam, ProductOfInertiaIsATurnOfTheAxes) {
+  BeamSection principal = sample_section();
+  principal.shear_area_2 = principal.shear_area_3 = 2e-3;
+  const double angle = M_PI / 6, c = std::cos(angle), s = std::sin(angle);
+  // x_2 = c a - s b, x_3 = s a + c b with principal coordinates a, b.
+  const double aa = principal.second_moment_3, bb = principal.second_moment_2;
+  BeamSection turned = principal;
+  turned.second_moment_3 = c * c * aa + s * s * bb;
+  turned.second_moment_2 = s * s * aa + c * c * bb;
+  turned.product_23 = s * c * (aa - bb);
+  const std::vector<Vector3> vertices{{0, 0, 0}, {length, 0, 0}};
+  const Mesh by_axes = line_of_beams(principal, vertices, Vector3(0, c, s));
+  const Mesh by_product = line_of_beams(turned, vertices);
+  Eigen::Matrix<double, 6, 1> load;
+  load << 100, 200, 300, 40, 50, 60;
+  const auto expected = tip_motion(by_axes, 3, load), found = tip_motion(by_product, 3, load);
+  EXPECT_LT((found - expected).norm(), close * expected.norm());
+}
+
+// A beam beside its nodes: the force at the nodes bends and twists it as rigid arms would.
+TEST(Beam, OffsetIsARigidArm) {
+  const Vector3 offset(0, 0.2, -0.3);
+  Mesh beside = line_of_beams(sample_section(), {{0, 0, 0}, {1, 0, 0}, {length, 0, 0}});
+  for (Beam& beam : beside.beams) beam.offset = {offset, offset};
+  const Mesh plain = line_of_beams(sample_section(), {{0, 0, 0}, {1, 0, 0}, {length, 0, 0}});
+  Eigen::Matrix<double, 6, 1> load;
+  load << 1000, 200, 300, 40, 50, 60;
+  // At the centroid's end the force's moment is that about it; back at the node u = u_c - theta x offset.
+  Eigen::Matrix<double, 6, 1> moved = load;
+  moved.tail<3>() -= offset.cross(Vector3(load.head<3>()));
+  Eigen::Matrix<double, 6, 1> expected = tip_motion(plain, 2, moved);
+  expected.head<3>() -= Vector3(expected.tail<3>()).cross(offset);
+  const auto found = tip_motion(beside, 2, load);
+  EXPECT_LT((found - expected).norm(), 1e-8 * expected.norm());
+}
+
+TEST(Beam, RigidMotionsStrainNothingWithSlopingOffsets) {
+  for (int degree = 2; degree <= 4; ++degree) {
+    Mesh mesh = line_of_beams(sample_section(), {{0.3, 0.1, -0.2}, {2, 1, 0.7}});
+    mesh.beams[0].offset = {Vector3(0, 0.1, 0.2), Vector3(0.05, -0.1, 0.3)};
+    const Space space(mesh, {degree, {}});
+    const Eigen::MatrixXd k = beam_stiffness(space, 0);
+    Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(k.rows(), 6);
+    for (std::size_t i = 0; i < space.beams()[0].nodes.size(); ++i) {
+      const auto row = 6 * static_cast<Eigen::Index>(i);
+      const Vector3 x = space.nodes().col(space.beams()[0].nodes[i]);
+      for (int c = 0; c < 3; ++c) {
+        rigid(row + c, c) = rigid(row + 3 + c, 3 + c) = 1;
+        rigid.block<3, 1>(row, 3 + c) = Vector3::Unit(c).cross(x);
+      }
+    }
+    EXPECT_LT((k * rigid).cwiseAbs().maxCoeff(), 1e-12 * k.cwiseAbs().maxCoeff()) << degree;
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
+    EXPECT_GT(values[6], 1e-9 * values.maxCoeff()) << degree;
+  }
+}
+
+// Clamped at both ends with a hinge in the middle: two cantilevers under half of the force each.
+TEST(Beam, ReleasedHingePassesNoMoment) {
+  BeamSection s = sample_section();
+  for (const bool offset : {false, true}) {
+    Mesh mesh = line_of_beams(s, {{0, 0, 0}, {1.5, 0, 0}, {3, 0, 0}});
+    mesh.beams[0].release[1] = {false, false, false, false, true, false};
+    if (offset)
+      for (Beam& beam : mesh.beams) beam.offset = {Vector3(0, 0, 0.2), Vector3(0, 0, 0.2)};
+    const Space space(mesh, {2, {}});
+    std::vector<FixedUnknown> fixed;
+    clamp(space, {0, 0, 0}, fixed);
+    clamp(space, {3, 0, 0}, fixed);
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
+    const int middle = space.node_of_vertex(1);
+    load[6 * middle + 2] = force;
+    const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+    const Material m = testing::plain_steel();
+    const double half = force / 2, reach = 1.5;
+    const double w = half * std::pow(reach, 3) / (3 * m.youngs_modulus * s.second_moment_2) +
+                     half * reach / (m.shear_modulus() * s.shear_area_3);
+    EXPECT_NEAR(motion[6 * middle + 2], w, 1e-8 * w) << offset;
+  }
+}
+
+TEST(Beam, ReleasesThatLeaveItLooseAreRefused) {
+  Mesh mesh = line_of_beams(sample_section(), {{0, 0, 0}, {1, 0, 0}});
+  mesh.beams[0].release[0][0] = mesh.beams[0].release[1][0] = true;
+  const Space space(mesh, {2, {}});
+  EXPECT_THROW(beam_stiffness(space, 0), ModelError);
+}
+
+// Three legs of rods under a force: stiffness sum E A / L t t', whatever turns at the joint.
+TEST(Beam, TripodOfRods) {
+  const std::vector<Vector3> feet{{-1, 0.3, 0}, {1.2, 0.5, 0.1}, {0.1, -1, -0.2}};
+  const Vector3 head(0.2, 0.1, 1.5), pull(300, -500, -1000);
+  Mesh mesh = line_of_beams(sample_section(), {feet[0], head});
+  for (const std::size_t i : {1U, 2U}) {
+    mesh.vertices.push_back(feet[i]);
+    Beam beam = mesh.beams[0];
+    beam.vertices = {static_cast<int>(mesh.vertices.size()) - 1, 1};
+    mesh.beams.push_back(beam);
+  }
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+  for (const Vector3& foot : feet) {
+    const Vector3 leg = head - foot;
+    stiffness += testing::plain_steel().youngs_modulus * sample_section().area /
+                 std::pow(leg.norm(), 3) * leg * leg.transpose();
+  }
+  const Vector3 expected = stiffness.inverse() * pull;
+  for (Beam& beam : mesh.beams) beam.is_rod = true;
+  for (const double torsion : {0.0, 5e-6}) {
+    mesh.beam_sections[0].torsion = torsion;
+    for (const int degree : {1, 3}) {
+      const Space space(mesh, {degree, [](const Vector3&) { return 0.4; }});
+      std::vector<FixedUnknown> fixed;
+      for (const Vector3& foot : feet) clamp(space, foot, fixed);
+      Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
+      load.segment<3>(6 * space.node_of_vertex(1)) = pull;
+      const Vector3 found =
+          testing::solve(space, load, fixed).segment<3>(6 * space.node_of_vertex(1));
+      EXPECT_LT((found - expected).norm(), close * expected.norm()) << degree;
+    }
+  }
+}
+
+// Divided beams are the same beam; degree and cells do not matter under forces at the ends.
+TEST(Beam, DivisionChangesNothing) {
+  const Mesh mesh = line_of_beams(sample_section(), {{0, 0, 0}, {2, 1, 0.5}});
+  Eigen::Matrix<double, 6, 1> load;
+  load << 1000, 200, 300, 40, 50, 60;
+  const auto whole = tip_motion(mesh, 3, load);
+  const Space space(mesh, {3, [](const Vector3&) { return 0.4; }});
+  ASSERT_GT(space.beams().size(), 4U);
+  std::vector<FixedUnknown> fixed;
+  clamp(space, mesh.vertices[0], fixed);
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
+  loads.segment<6>(6 * space.node_of_vertex(1)) = load;
+  const auto divided = testing::solve(space, loads, fixed).segment<6>(6 * space.node_of_vertex(1));
+  EXPECT_LT((divided - whole).norm(), 1e-8 * whole.norm());
+}
+
+}  // namespace
+}  // namespace blocklift::structure

@@ -1,0 +1,201 @@
+#include "structure/system/matter.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "pipeline/verification/models/shells/shell_models.h"
+#include "structure/error.h"
+#include "structure/index.h"
+
+namespace blocklift::structure {
+namespace {
+
+constexpr double exact = 1e-12;  // of the figure; sums of some hundred terms
+
+Eigen::Matrix3d box_inertia(double mass, const Vector3& sides) {
+  const Vector3 squares = sides.cwiseAbs2() * mass / 12;
+  return Vector3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y())
+      .asDiagonal();
+}
+
+Mesh plate(double offset) {
+  Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(3 * x, 2 * y, 0.4); }, 2,
+                                  2, 0.1, testing::plain_steel());
+  mesh.shell_sections[0].offset = offset;
+  return mesh;
+}
+
+TEST(Matter, PlateIsABox) {
+  for (const double offset : {0.0, 0.25}) {
+    const Mesh mesh = plate(offset);
+    const Space space(mesh, {2, {}});
+    const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
+    const double expected = 7850 * 3 * 2 * 0.1;
+    EXPECT_NEAR(mass.mass, expected, exact * expected);
+    EXPECT_LT((mass.centre_of_mass_B - Vector3(1.5, 1, 0.4 + offset)).norm(), exact);
+    const Eigen::Matrix3d inertia = box_inertia(expected, {3, 2, 0.1});
+    EXPECT_LT((mass.inertia_BBcm_B - inertia).norm(), exact * inertia.norm());
+  }
+}
+
+TEST(Matter, BeamCarriesItsSectionsMoments) {
+  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  // A bar of 0.2 (axis 2 = y) by 0.6 (axis 3 = z), beside its vertices.
+  BeamSection section;
+  section.area = 0.12;
+  section.second_moment_2 = 0.2 * std::pow(0.6, 3) / 12;
+  section.second_moment_3 = 0.6 * std::pow(0.2, 3) / 12;
+  section.torsion = 1e-3;
+  section.shear_area_2 = section.shear_area_3 = 0.1;
+  mesh.beam_sections = {section};
+  mesh.vertices = {{0, 0, 0}, {4, 0, 0}};
+  testing::add_beams(mesh, {0, 0, 0}, {4, 0, 0}, 0, Vector3::UnitY(), {0, 0.5, -0.7});
+  const Space space(mesh, {2, {}});
+  const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
+  const double expected = 7850 * 4 * 0.12;
+  EXPECT_NEAR(mass.mass, expected, exact * expected);
+  EXPECT_LT((mass.centre_of_mass_B - Vector3(2, 0.5, -0.7)).norm(), exact);
+  const Eigen::Matrix3d inertia = box_inertia(expected, {4, 0.2, 0.6});
+  EXPECT_LT((mass.inertia_BBcm_B - inertia).norm(), exact * inertia.norm());
+}
+
+TEST(Matter, PointMassCarriesItsInertia) {
+  Mesh mesh = plate(0);
+  PointMass mass;
+  mass.vertex = 0;
+  mass.mass = 500;
+  mass.offset = {0.3, -0.2, 1};
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.4, Vector3(1, 1, 2).normalized()).toRotationMatrix();
+  mass.inertia = turn * box_inertia(500, {1, 2, 0.5}) * turn.transpose();
+  mesh.masses = {mass};
+  mesh.materials[0].density = 1e-9;
+  const Space space(mesh, {2, {}});
+  const MassProperties found = find_mass_properties(space, nullptr, nullptr);
+  EXPECT_NEAR(found.mass, 500, 1e-8);
+  EXPECT_LT((found.centre_of_mass_B - (mesh.vertices[0] + mass.offset)).norm(), 1e-8);
+  EXPECT_LT((found.inertia_BBcm_B - mass.inertia).norm(), 1e-8 * mass.inertia.norm());
+}
+
+// Half a cylinder's shell of radius r: area pi r l, centre at 2 r / pi, polar moment m (r^2 + t^2 / 4) (the
+// two heights carry t^2 / 12 across; its area's change through the thickness is not in a shell). By
+// isoparametric cells of degree 4 the circle's error is 1e-7.
+TEST(Matter, HalfACylinder) {
+  const double r = 2, l = 3, t = 0.1;
+  const Mesh mesh = testing::sheet_mesh(
+      [&](double x, double y) {
+        return Vector3(r * std::cos(M_PI * x), l * y, r * std::sin(M_PI * x));
+      },
+      4, 2, t, testing::plain_steel(), 4);
+  const Space space(mesh, {4, {}});
+  const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
+  const double expected = 7850 * M_PI * r * l * t;
+  EXPECT_NEAR(mass.mass, expected, 1e-6 * expected);
+  EXPECT_LT((mass.centre_of_mass_B - Vector3(0, l / 2, 2 * r / M_PI)).norm(), 1e-6);
+  const double polar = expected * (r * r + t * t / 12 - std::pow(2 * r / M_PI, 2));
+  EXPECT_NEAR(mass.inertia_BBcm_B(1, 1), polar, 1e-6 * polar);
+}
+
+Mesh everything() {
+  Mesh mesh = plate(0.2);
+  BeamSection section;
+  section.area = 0.01;
+  section.second_moment_2 = 1e-5;
+  section.second_moment_3 = 2e-5;
+  section.torsion = 1e-5;
+  section.shear_area_2 = section.shear_area_3 = 0.008;
+  mesh.beam_sections = {section};
+  testing::add_beams(mesh, {0, 1, 0.4}, {3, 1, 0.4}, 0, Vector3::UnitY(), {0, 0, -0.3});
+  PointMass mass;
+  mass.vertex = 2;
+  mass.mass = 300;
+  mass.offset = {0, 0.5, 1};
+  mass.inertia = box_inertia(300, {1, 1, 2});
+  PointMass other = mass;
+  other.vertex = 6;
+  other.mass = 200;
+  mesh.masses = {mass, other};
+  return mesh;
+}
+
+// d'Alembert: the loads' resultant is that of the whole mass as one rigid body,
+// F = -m (a + alpha x c + omega x (omega x c)), and likewise the moment, for a stated mass and centre too.
+TEST(Matter, InertiaLoadsHaveTheRigidBodysResultant) {
+  const Mesh mesh = everything();
+  const Space space(mesh, {2, {}});
+  const double stated = 9000;
+  const Vector3 centre(1.6, 1.02, 0.6);
+  for (const bool is_stated : {false, true}) {
+    const MassProperties mass =
+        find_mass_properties(space, is_stated ? &stated : nullptr, is_stated ? &centre : nullptr);
+    if (is_stated) {
+      EXPECT_NEAR(mass.mass, stated, exact * stated);
+      EXPECT_LT((mass.centre_of_mass_B - centre).norm(), 1e-10);
+    }
+    const Vector3 a(1, -2, 9), alpha(0.3, 0.2, -0.1), omega(0.4, -0.3, 0.5);
+    const InertiaField field = InertiaField::moving(a, Vector3::Zero(), alpha, omega);
+    const Eigen::VectorXd load = inertia_loads(space, mass) * field.coefficients();
+    const Wrench found = resultant(space, load);
+    const Vector3 c = mass.centre_of_mass_B;
+    const Vector3 force = -mass.mass * (a + alpha.cross(c) + omega.cross(omega.cross(c)));
+    const Eigen::Matrix3d& inertia = mass.inertia_BBcm_B;
+    const Vector3 moment = c.cross(force) - inertia * alpha - omega.cross(Vector3(inertia * omega));
+    EXPECT_LT((found.force - force).norm(), 1e-11 * force.norm());
+    EXPECT_LT((found.moment - moment).norm(), 1e-11 * moment.norm());
+  }
+}
+
+// M a for a rigid acceleration is minus the inertia load of it; the kinetic energy of a rigid motion is the
+// body's.
+TEST(Matter, MassMatrixAgreesWithTheInertiaLoads) {
+  const Mesh mesh = everything();
+  const Space space(mesh, {3, {}});
+  const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(space.freedoms(), 6);
+  for (int n = 0; n < space.node_count(); ++n)
+    for (int c = 0; c < 3; ++c) {
+      rigid(6 * n + c, c) = rigid(6 * n + 3 + c, 3 + c) = 1;
+      rigid.block<3, 1>(6 * n, 3 + c) = Vector3::Unit(c).cross(Vector3(space.nodes().col(n)));
+    }
+  const Eigen::MatrixXd forces = mass_matrix(space, mass) * rigid;
+  const Eigen::MatrixXd loads = inertia_loads(space, mass).leftCols<6>();
+  EXPECT_LT((forces + loads).norm(), 1e-12 * loads.norm());
+  const Eigen::Matrix<double, 6, 6> energy = rigid.transpose() * forces;
+  EXPECT_NEAR(energy(0, 0), mass.mass, exact * mass.mass);
+  const Vector3 c = mass.centre_of_mass_B;
+  const Eigen::Matrix3d about_origin =
+      mass.inertia_BBcm_B +
+      mass.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  EXPECT_LT((energy.bottomRightCorner<3, 3>() - about_origin).norm(), 1e-11 * about_origin.norm());
+}
+
+TEST(Matter, SpreadWrenchesHaveExactResultants) {
+  const Mesh mesh = everything();
+  const Space space(mesh, {2, [](const Vector3& x) { return x.x() < 1 ? 0.3 : 2; }});
+  std::vector<int> cells;
+  for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell)
+    if (space.place(cell, {0.5, 0.5}).x() < 1.2) cells.push_back(cell);
+  const Vector3 pin(0.7, 0.3, 2);
+  const Eigen::MatrixXd wrenches = Eigen::MatrixXd::Identity(6, 6) * 1e6;
+  const Eigen::MatrixXd loads = spread_wrenches(space, cells, pin, wrenches);
+  for (int k = 0; k < 6; ++k) {
+    const Wrench found = resultant(space, loads.col(k));
+    EXPECT_LT((found.force - wrenches.col(k).head<3>()).norm(), 1e-6 * 1e-4);
+    EXPECT_LT((found.moment - pin.cross(found.force) - wrenches.col(k).tail<3>()).norm(),
+              1e-10 * 1e6);
+  }
+  EXPECT_THROW(spread_wrenches(space, {}, pin, wrenches), ModelError);
+}
+
+TEST(Matter, DensityBelowZeroIsRefused) {
+  const Mesh mesh = plate(0);
+  const Space space(mesh, {2, {}});
+  const double stated = 5000;
+  const Vector3 far(2.9, 1, 0.4);
+  EXPECT_THROW(find_mass_properties(space, &stated, &far), ModelError);
+}
+
+}  // namespace
+}  // namespace blocklift::structure
