@@ -37,12 +37,15 @@ struct Plate {
   std::string material;            ///< name of one of BlockDescription::materials
 };
 
-/// Rectangular hole through plates. It cuts the named plates only: what crosses them stays.
+/// Hole through plates: a rectangle, whose corners may be rounded, or a polygon. It cuts the named plates
+/// only: what crosses a rectangle stays; other shapes lie between what joins or divides their plate.
 struct Opening {
   std::string name;
   std::string plate;              ///< name of the plates that it cuts
   std::vector<double> positions;  ///< which of the plates, by position (m); empty: all of them
   std::array<Interval, 3> extent;
+  double corner_radius = 0;  ///< m; half of the sides: a circle, half of the shorter one: a slot
+  std::vector<Vector3> corners;  ///< of a polygon, in order, instead of the extent, m
 };
 
 /// Equal stiffeners on plates, in a row: beams that stand on one side and run along an axis, from edge to

@@ -16,24 +16,23 @@ namespace blocklift::structure {
 
 namespace {
 
-constexpr double same_place = 0.5e-3;  // m: cuts nearer than this are one
-constexpr double most_points = 5e7;    // of the grid: 1 GB
+constexpr double most_points = 5e7;  // of the grid: 1 GB
 
 }  // namespace
 
 SheetGrid::SheetGrid(std::vector<Sheet> sheets) : sheets_(std::move(sheets)) {
   for (int axis = 0; axis < 3; ++axis) check_stations(axis);
+  for (int axis = 0; axis < 3; ++axis) collect_planes(axis);
+  collect_frames();
   double points = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    collect_planes(axis);
-    points *= count(axis);
-  }
+  for (int axis = 0; axis < 3; ++axis) points *= count(axis);
   if (points > most_points)
     throw ModelError(
         fmt::format("the edges of the block's plates make a grid of {:.2g} points, and "
                     "{:.2g} are allowed; align them, or leave some plates out",
                     points, most_points));
   fill();
+  set_frames_apart();
   mark_stiffeners();
   for (int axis = 0; axis < 3; ++axis) {
     is_kept_[at(axis)].assign(faces_[0].size(), 1);
@@ -91,13 +90,15 @@ double SheetGrid::snapped(int axis, double coordinate, const Sheet* end) const {
   return nearest ? nearest->position : coordinate;
 }
 
-void SheetGrid::collect_planes(int axis) {
+void SheetGrid::add_plane(int axis, double coordinate) {
   std::vector<double>& planes = planes_[at(axis)];
-  const auto add = [&](double coordinate) {
-    if (std::none_of(planes.begin(), planes.end(),
-                     [&](double plane) { return std::abs(plane - coordinate) < same_place; }))
-      planes.push_back(coordinate);
-  };
+  if (std::none_of(planes.begin(), planes.end(),
+                   [&](double plane) { return std::abs(plane - coordinate) < same_place; }))
+    planes.push_back(coordinate);
+}
+
+void SheetGrid::collect_planes(int axis) {
+  const auto add = [&](double coordinate) { add_plane(axis, coordinate); };
   for (const Sheet& sheet : sheets_)
     if (sheet.normal == axis) add(sheet.position);
   for (const Sheet& sheet : sheets_) {
@@ -110,7 +111,7 @@ void SheetGrid::collect_planes(int axis) {
     for (const StiffenerLine& line : sheet.stiffeners)
       if (line.along != axis) add(snapped(axis, line.position, nullptr));
   }
-  std::sort(planes.begin(), planes.end());
+  std::sort(planes_[at(axis)].begin(), planes_[at(axis)].end());
 }
 
 int SheetGrid::plane_at(int axis, double coordinate) const {
@@ -203,7 +204,7 @@ bool SheetGrid::bears(int sheet, const StiffenerLine& line, const Place& place) 
 }
 
 // Thickness beside a stiffener: the plate's own, or that of what covers it on both sides; 0 where there is
-// neither plate nor pad.
+// neither plate nor pad. Stiffeners end at the frames of openings.
 double SheetGrid::thickness_under(int sheet, const StiffenerLine& line, const Place& place) const {
   const int normal = sheets_[at(sheet)].normal, across = 3 - line.along - normal;
   double thinnest = 0;
@@ -211,7 +212,9 @@ double SheetGrid::thickness_under(int sheet, const StiffenerLine& line, const Pl
     Place beside = place;
     beside[at(across)] -= step;
     if (!has_sheet(normal, beside, sheet)) continue;
-    const Sheet& top = sheets_[at(owners_[at(face(normal, beside))])];
+    const int top_sheet = owners_[at(face(normal, beside))];
+    if (top_sheet >= static_cast<int>(sheets_.size())) continue;
+    const Sheet& top = sheets_[at(top_sheet)];
     if (top.rank == SheetRank::lug) continue;
     if (thinnest == 0 || top.thickness < thinnest) thinnest = top.thickness;
   }
@@ -337,7 +340,11 @@ std::vector<Panel> SheetGrid::panels() const {
         for (place[at(u)] = 0; place[at(u)] < count(u); ++place[at(u)]) {
           const int signature = face(normal, place);
           if (signature == 0 || !is_kept(u, place) || !is_kept(v, place)) continue;
-          Panel panel{normal, place, place, {}, owners_[at(signature)]};
+          Panel panel{normal, place, place, {}, owners_[at(signature)], -1};
+          if (panel.owner >= static_cast<int>(sheets_.size())) {
+            panel.frame = panel.owner - static_cast<int>(sheets_.size());
+            panel.owner = frames_[at(panel.frame)].sheet;
+          }
           for (const int axis : {u, v}) {
             Place end = place;
             do ++end[at(axis)];

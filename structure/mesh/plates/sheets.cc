@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -85,6 +86,7 @@ Sheet make_sheet(const std::string& name, int group, SheetRank rank, Axis normal
           thickness,
           0,
           {},
+          {},
           {}};
 }
 
@@ -138,11 +140,37 @@ std::vector<Sheet*> sheets_of(const BlockDescription& block, const std::string& 
   return selected;
 }
 
+HoleOutline outline_of(const Opening& opening, const std::string& what, int normal) {
+  const auto u = static_cast<std::size_t>((normal + 1) % 3);
+  const auto v = static_cast<std::size_t>((normal + 2) % 3);
+  try {
+    if (opening.corners.empty()) {
+      check_rectangle(what, static_cast<Axis>(normal), opening.extent);
+      const Interval &along_u = opening.extent[u], &along_v = opening.extent[v];
+      return HoleOutline::rounded({along_u.lower, along_v.lower}, {along_u.upper, along_v.upper},
+                                  opening.corner_radius);
+    }
+    if (opening.corner_radius != 0) throw ModelError("a polygon's corners are not rounded");
+    std::vector<Eigen::Vector2d> corners;
+    for (const Vector3& corner : opening.corners)
+      corners.emplace_back(corner[static_cast<Eigen::Index>(u)],
+                           corner[static_cast<Eigen::Index>(v)]);
+    return HoleOutline::polygon(std::move(corners));
+  } catch (const ModelError& error) {
+    const std::string said = error.what();
+    throw ModelError(said.rfind(what, 0) == 0 ? said : what + ": " + said);
+  }
+}
+
 void cut_openings(const BlockDescription& block, std::vector<Sheet>& sheets) {
   for (const Opening& opening : block.openings) {
     const std::string what = "opening \"" + opening.name + "\"";
     for (Sheet* sheet :
          sheets_of(block, what + " is cut into", opening.plate, opening.positions, sheets)) {
+      if (!opening.corners.empty() || opening.corner_radius != 0) {
+        sheet->cutouts.push_back({what, outline_of(opening, what, sheet->normal)});
+        continue;
+      }
       check_rectangle(what, static_cast<Axis>(sheet->normal), opening.extent);
       sheet->holes.push_back(opening.extent);
     }

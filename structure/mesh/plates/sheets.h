@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "structure/mesh/plates/block_description.h"
+#include "structure/mesh/plates/hole_outline.h"
 
 namespace blocklift::structure {
 
@@ -19,6 +20,12 @@ struct StiffenerLine {
   int side = 1;         ///< of the sheet, along its normal
 };
 
+/// Opening that is no rectangle, drawn in the two axes that follow a sheet's normal.
+struct Cutout {
+  std::string name;  ///< for messages: opening "manhole"
+  HoleOutline outline;
+};
+
 /// One rectangle of plate, pad or lug at one position: the generator's unit of work.
 struct Sheet {
   std::string name;  ///< for messages: "web_frames at x = 4 m"
@@ -29,7 +36,8 @@ struct Sheet {
   std::array<Interval, 3> extent;
   double thickness = 0;
   int material = 0;                            ///< place in BlockDescription::materials
-  std::vector<std::array<Interval, 3>> holes;  ///< openings cut into it
+  std::vector<std::array<Interval, 3>> holes;  ///< rectangular openings cut into it
+  std::vector<Cutout> cutouts;
   std::vector<StiffenerLine> stiffeners;
 };
 

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,14 +14,13 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/plates/cell_maker.h"
 #include "structure/mesh/plates/sheet_grid.h"
 #include "structure/mesh/plates/sheets.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-constexpr double most_shells = 5e6;
 
 using Place = std::array<int, 3>;
 using PanelEdge = std::pair<Place, Place>;
@@ -36,124 +32,6 @@ std::array<PanelEdge, 4> edges_of(const Panel& panel) {
   left[u] = panel.lower[u];
   return {{{panel.lower, right}, {left, panel.upper}, {panel.lower, left}, {right, panel.upper}}};
 }
-
-/// Division of what lies between two planes into equal parts, the same wherever it occurs.
-class Divisions {
- public:
-  Divisions(const SheetGrid& grid, double largest_element)
-      : grid_(grid), largest_element_(largest_element) {
-    if (!(largest_element > 0))
-      throw ModelError(
-          fmt::format("the largest element is {:g} m; it must be positive", largest_element));
-    for (int axis = 0; axis < 3; ++axis) coordinates_[at(axis)] = grid.planes(axis);
-  }
-
-  double parts(int axis, int lower, int upper) const {
-    const std::vector<double>& planes = grid_.planes(axis);
-    return std::max(1.0,
-                    std::ceil((planes[at(upper)] - planes[at(lower)]) / largest_element_ - 1e-9));
-  }
-  /// Number of the coordinate after some of the parts.
-  int number(int axis, int lower, int upper, int part) {
-    const auto count = static_cast<int>(parts(axis, lower, upper));
-    if (part == 0) return lower;
-    if (part == count) return upper;
-    std::vector<double>& coordinates = coordinates_[at(axis)];
-    const auto [entry, is_new] =
-        numbers_.try_emplace({axis, lower, upper, part}, static_cast<int>(coordinates.size()));
-    if (is_new)
-      coordinates.push_back(coordinates[at(lower)] +
-                            (coordinates[at(upper)] - coordinates[at(lower)]) * part / count);
-    return entry->second;
-  }
-  double coordinate(int axis, int number) const { return coordinates_[at(axis)][at(number)]; }
-
- private:
-  const SheetGrid& grid_;
-  double largest_element_;
-  std::array<std::vector<double>, 3> coordinates_;
-  std::map<std::tuple<int, int, int, int>, int> numbers_;
-};
-
-void check_size(const std::vector<Panel>& panels, const Divisions& divisions,
-                double largest_element) {
-  double shells = 0;
-  for (const Panel& panel : panels) {
-    double here = 1;
-    for (int axis = 0; axis < 3; ++axis)
-      if (axis != panel.normal)
-        here *= divisions.parts(axis, panel.lower[at(axis)], panel.upper[at(axis)]);
-    shells += here;
-  }
-  if (shells > most_shells)
-    throw ModelError(
-        fmt::format("elements of at most {:g} m make {:.2g} shells, and {:.2g} are "
-                    "allowed; use larger elements",
-                    largest_element, shells, most_shells));
-}
-
-/// Makes the shells of panels and the beams of stiffeners, on common vertices.
-class CellMaker {
- public:
-  CellMaker(Divisions divisions, Mesh& mesh) : divisions_(std::move(divisions)), mesh_(mesh) {}
-
-  void add(const Panel& panel, int section) {
-    const int u = (panel.normal + 1) % 3, v = (panel.normal + 2) % 3;
-    for (int j = 0; j < parts(panel, v); ++j)
-      for (int i = 0; i < parts(panel, u); ++i) {
-        Shell shell;
-        for (int corner = 0; corner < 4; ++corner) {
-          Place place = panel.lower;
-          for (const auto& [axis, part] : {std::pair{u, i + corner % 2}, {v, j + corner / 2}})
-            place[at(axis)] = number(panel, axis, part);
-          shell.vertices[at(corner)] = vertex(place);
-        }
-        shell.section = section;
-        shell.region = panel.owner;
-        shell.label = static_cast<long>(mesh_.shells.size()) + 1;
-        mesh_.shells.push_back(shell);
-      }
-  }
-
-  /// @param pattern a beam with all but vertices and label.
-  void add(const StiffenerSpan& span, const Beam& pattern) {
-    for (int i = 0; i < parts(span, span.along); ++i) {
-      Beam beam = pattern;
-      for (int end = 0; end < 2; ++end) {
-        Place place = span.lower;
-        place[at(span.along)] = number(span, span.along, i + end);
-        beam.vertices[at(end)] = vertex(place);
-      }
-      beam.label = static_cast<long>(mesh_.shells.size() + mesh_.beams.size()) + 1;
-      mesh_.beams.push_back(beam);
-    }
-  }
-
- private:
-  template <typename Piece>
-  int parts(const Piece& piece, int axis) const {
-    return static_cast<int>(divisions_.parts(axis, piece.lower[at(axis)], piece.upper[at(axis)]));
-  }
-  template <typename Piece>
-  int number(const Piece& piece, int axis, int part) {
-    return divisions_.number(axis, piece.lower[at(axis)], piece.upper[at(axis)], part);
-  }
-  int vertex(const Place& place) {
-    const auto [entry, is_new] =
-        vertices_.try_emplace(place, static_cast<int>(mesh_.vertices.size()));
-    if (is_new) {
-      mesh_.vertices.emplace_back(divisions_.coordinate(0, place[0]),
-                                  divisions_.coordinate(1, place[1]),
-                                  divisions_.coordinate(2, place[2]));
-      mesh_.vertex_labels.push_back(static_cast<long>(mesh_.vertices.size()));
-    }
-    return entry->second;
-  }
-
-  Divisions divisions_;
-  Mesh& mesh_;
-  std::map<Place, int> vertices_;
-};
 
 void add_groups_and_regions(const BlockDescription& block, const std::vector<Sheet>& sheets,
                             Mesh& mesh) {
@@ -333,14 +211,14 @@ void add_lifting_points(const BlockDescription& block, const SheetGrid& grid,
 Mesh generate_shell_mesh(const BlockDescription& block) {
   const SheetGrid grid(spread_into_sheets(block));
   const std::vector<Panel> panels = grid.panels();
-  Divisions divisions(grid, block.largest_element);
-  check_size(panels, divisions, block.largest_element);
   check_joined(grid, panels);
   Mesh mesh;
   add_groups_and_regions(block, grid.sheets(), mesh);
-  CellMaker maker(std::move(divisions), mesh);
+  CellMaker maker(grid, panels, block.largest_element, mesh);
   for (const Panel& panel : panels)
-    maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
+    if (panel.frame < 0) maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
+  for (const HoleFrame& frame : grid.frames())
+    maker.add(frame, section_of(grid.sheets()[at(frame.sheet)], mesh));
   add_beams(block, grid, maker, mesh);
   add_lifting_points(block, grid, panels, mesh);
   return mesh;
