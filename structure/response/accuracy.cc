@@ -17,8 +17,8 @@ namespace {
 constexpr double looked_at = 0.6;   // of the largest stress: squares that later steps look at
 constexpr double refined_at = 0.8;  // likewise: about which cells are divided
 // A first mesh shows little of what gathers in a corner: there squares of less stress are followed too.
-constexpr double looked_at_in_corners = 0.25;
-constexpr double growth = 0.6;      // of cells with the distance from a square
+constexpr double looked_at_in_corners = 0.4;
+constexpr double growth = 0.8;      // of cells with the distance from a square
 constexpr double first_edge = 0.1;  // m
 constexpr int most_steps = 6;
 constexpr std::size_t most_centres = 60;
