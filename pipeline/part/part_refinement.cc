@@ -9,8 +9,8 @@
 
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
-#include "structure/stress_tensor.h"
 #include "structure/response/part_refinement.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {
 

@@ -82,7 +82,8 @@ void write_state(ResultsWriter& file, std::string_view way, std::string_view nam
   const structure::SurfaceField field = surface.evaluate(responses, state.load);
   file.write_points(layout::join(path, "displacement"), field.displacement,
                     {"m", "displacement relative to the block's mean rigid motion, block frame"});
-  file.write(layout::join(path, "von_mises"), field.von_mises, {"Pa", "von Mises stress, the larger of a plate's two surfaces"});
+  file.write(layout::join(path, "von_mises"), field.von_mises,
+             {"Pa", "von Mises stress, the larger of a plate's two surfaces"});
   const auto write_point = [&](const char* point, const structure::Extreme& extreme) {
     file.write(layout::join(path, point), std::span<const double>(extreme.point_B.data(), 3),
                {"m", "place in the block frame: " + extreme.part});

@@ -132,8 +132,7 @@ void check_mesh(const Mesh& mesh) {
     require(shell.region >= 0 && shell.region < count(mesh.regions), "shell", shell.label,
             "belongs to no region");
     const auto vertex = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
-    const double area =
-        0.5 * ((vertex(3) - vertex(0)).cross(vertex(2) - vertex(1))).norm();
+    const double area = 0.5 * ((vertex(3) - vertex(0)).cross(vertex(2) - vertex(1))).norm();
     const double size = longest_edge(mesh, shell);
     require(area > 1e-8 * size * size, "shell", shell.label, "has no area");
   }
@@ -142,8 +141,7 @@ void check_mesh(const Mesh& mesh) {
             "names a vertex that is not there");
     require(beam.section >= 0 && beam.section < count(mesh.beam_sections), "beam", beam.label,
             "has no section");
-    const Vector3 along =
-        mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])];
+    const Vector3 along = mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])];
     require(along.norm() > 0, "beam", beam.label, "has no length");
     require(along.cross(beam.axis_2).norm() > 1e-6 * along.norm() * beam.axis_2.norm(), "beam",
             beam.label, "runs along the direction that is to tell its second axis");

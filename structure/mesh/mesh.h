@@ -25,8 +25,8 @@ struct Laminate {
 /// Plate thickness of shells, m, about the surface on which their vertices lie.
 struct ShellSection {
   double thickness = 0;
-  int material = 0;   ///< place in Mesh::materials
-  double offset = 0;  ///< of the mid-surface from the vertices' surface, along the normal, m
+  int material = 0;          ///< place in Mesh::materials
+  double offset = 0;         ///< of the mid-surface from the vertices' surface, along the normal, m
   double mass_per_area = 0;  ///< beyond the plate's own: paint, outfit, kg/m^2
   /// Place in Mesh::laminates where thickness and material are but the isotropic plate that comes
   /// nearest; -1: they are all there is.
@@ -52,19 +52,19 @@ struct Shell {
 /// Cross-section of a beam about its own centroid; its axes 2 and 3 lie across the beam.
 struct BeamSection {
   std::string name;
-  int material = 0;           ///< place in Mesh::materials
-  double area = 0;            ///< m^2
-  double second_moment_2 = 0; ///< I_2 = int x_3^2 dA, bending about axis 2, m^4
-  double second_moment_3 = 0; ///< I_3 = int x_2^2 dA, m^4
-  double product_23 = 0;      ///< int x_2 x_3 dA, m^4
-  double torsion = 0;         ///< J, m^4
-  double shear_area_2 = 0;    ///< for shear along axis 2, m^2; infinite: no shear deformation
-  double shear_area_3 = 0;    ///< m^2
+  int material = 0;            ///< place in Mesh::materials
+  double area = 0;             ///< m^2
+  double second_moment_2 = 0;  ///< I_2 = int x_3^2 dA, bending about axis 2, m^4
+  double second_moment_3 = 0;  ///< I_3 = int x_2^2 dA, m^4
+  double product_23 = 0;       ///< int x_2 x_3 dA, m^4
+  double torsion = 0;          ///< J, m^4
+  double shear_area_2 = 0;     ///< for shear along axis 2, m^2; infinite: no shear deformation
+  double shear_area_3 = 0;     ///< m^2
   /// Points (x_2, x_3) where the largest stresses are, m.
   std::vector<Eigen::Vector2d> stress_points;
   Eigen::Vector2d shear_centre = Eigen::Vector2d::Zero();  ///< (x_2, x_3), m
-  double mass_per_length = 0;  ///< beyond the beam's own, kg/m
-  long label = 0;              ///< the property's number in its file
+  double mass_per_length = 0;                              ///< beyond the beam's own, kg/m
+  long label = 0;                                          ///< the property's number in its file
 };
 
 /// Which of the six freedoms (displacements, rotations along the beam's own axes 1, 2, 3) one end of a
@@ -88,9 +88,9 @@ struct Beam {
 /// Mass at a vertex.
 struct PointMass {
   int vertex = 0;
-  double mass = 0;                                      ///< kg
-  Vector3 offset = Vector3::Zero();                     ///< of its centre from the vertex, m
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    ///< about its own centre, kg m^2
+  double mass = 0;                                    ///< kg
+  Vector3 offset = Vector3::Zero();                   ///< of its centre from the vertex, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its own centre, kg m^2
   long label = 0;
 };
 
@@ -136,8 +136,8 @@ struct Spring {
 
 /// What cells belong to: one plate of a block, a part of a deck.
 struct Region {
-  std::string name;   ///< such as "web_frames at x = 4 m"
-  int group = 0;      ///< place in Mesh::groups
+  std::string name;  ///< such as "web_frames at x = 4 m"
+  int group = 0;     ///< place in Mesh::groups
   /// Rank of the plate: which one a square belongs to is decided by it (lugs are apart).
   bool is_lug = false;
 };

@@ -11,8 +11,9 @@ namespace blocklift::pipeline {
 
 std::vector<VerificationCase> verification_suite(const ModelLibrary& library) {
   std::vector<VerificationCase> suite;
-  for (std::vector<VerificationCase>& stage : std::vector<std::vector<VerificationCase>>{
-           dynamics_cases(library), hydrodynamics_cases(), structure_cases(library), shell_cases()}) {
+  for (std::vector<VerificationCase>& stage :
+       std::vector<std::vector<VerificationCase>>{dynamics_cases(library), hydrodynamics_cases(),
+                                                  structure_cases(library), shell_cases()}) {
     suite.insert(suite.end(), std::make_move_iterator(stage.begin()),
                  std::make_move_iterator(stage.end()));
   }
