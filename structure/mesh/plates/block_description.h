@@ -45,7 +45,7 @@ struct Opening {
   std::vector<double> positions;  ///< which of the plates, by position (m); empty: all of them
   std::array<Interval, 3> extent;
   double corner_radius = 0;  ///< m; half of the sides: a circle, half of the shorter one: a slot
-  std::vector<Vector3> corners;  ///< of a polygon, in order, instead of the extent, m
+  std::vector<Vector3> corners = {};  ///< of a polygon, in order, instead of the extent, m
 };
 
 /// Equal stiffeners on plates, in a row: beams that stand on one side and run along an axis, from edge to
