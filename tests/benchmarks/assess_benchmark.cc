@@ -18,7 +18,7 @@ void assess_goliath_turnover(benchmark::State& state) {
     state.counters["factorisation_s"] = solution.factorisation_s;
     state.counters["assembly_over_factorisation"] = solution.assembly_s / solution.factorisation_s;
     state.counters["solve_s"] = solution.solve_s;
-    state.counters["unknowns"] = assessment.block.model->unknowns();
+    state.counters["unknowns"] = assessment.block.model->space().unknowns();
   }
 }
 BENCHMARK(assess_goliath_turnover)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "pipeline/build/describe_block.h"
-#include "structure/mesh/plates/block_generator.h"
+#include "structure/mesh/plates/shell_generator.h"
 
 namespace blocklift::pipeline::test {
 
@@ -20,8 +20,9 @@ const SmallLift& small_lift() {
         describe_block(*lift_case.load.model, lift_case.load.model_name.value,
                        lift_case.structure.largest_element);
     auto model = std::make_unique<structure::ElasticModel>(
-        structure::generate_block_mesh(description), lift_case.structure.element_degree,
-        description.total_mass, description.centre_of_mass_B);
+        structure::generate_shell_mesh(description),
+        structure::Resolution{lift_case.structure.element_degree, {}}, description.total_mass,
+        description.centre_of_mass_B);
     const structure::MassProperties& mass = model->mass_properties();
     BuiltLift built =
         build_lift(lift_case, {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B});

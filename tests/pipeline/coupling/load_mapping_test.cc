@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "structure/system/matter.h"
 #include "tests/pipeline/small_lift.h"
 
 namespace blocklift::pipeline {
@@ -99,10 +100,11 @@ TEST(LoadMapping, DynamicsAndStructureHaveOneMass) {
   field.acceleration_less_gravity = v;
   field.angular_acceleration = w;
   const Eigen::VectorXd load = lift.model->inertia_loads() * field.coefficients();
-  const Eigen::Matrix3Xd& nodes = lift.model->space().nodes;
+  const Eigen::Matrix3Xd& nodes = lift.model->space().nodes();
   double energy = 0;
   for (Eigen::Index n = 0; n < nodes.cols(); ++n)
-    energy -= 0.5 * load.segment<3>(3 * n).dot(v + w.cross(Vector3(nodes.col(n))));
+    energy -= 0.5 * (load.segment<3>(6 * n).dot(v + w.cross(Vector3(nodes.col(n)))) +
+                     load.segment<3>(6 * n + 3).dot(w));
   EXPECT_NEAR(energy, moved.kinetic_energy({w, v}), 1e-10 * energy);
 }
 
@@ -144,11 +146,11 @@ TEST(LoadMapping, ResultantOfTheLugForcesIsTheSameOnBothSides) {
   }
 
   const LoadCase load = map_instant(history, sample, attachment(), lift.mass());
-  Eigen::VectorXd nodal = Eigen::VectorXd::Zero(lift.model->unknowns());
+  Eigen::VectorXd nodal = Eigen::VectorXd::Zero(lift.model->freedoms());
   for (int lug = 0; lug < 4; ++lug)
     nodal += lift.model->lug_loads().middleCols<3>(3 * lug) *
              load.lug_forces_B[static_cast<std::size_t>(lug)];
-  const Wrench sum_B = structure::resultant(lift.model->space().nodes, nodal);
+  const Wrench sum_B = structure::resultant(lift.model->space(), nodal);
   const Vector3 entered_force_W = X_WB.R * sum_B.force;
   const Vector3 entered_moment_W =
       X_WB.R * sum_B.moment + (X_WB.p - common_W).cross(entered_force_W);

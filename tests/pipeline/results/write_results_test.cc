@@ -149,7 +149,7 @@ TEST(Summary, HoldsEverythingThatReadersCountOn) {
   EXPECT_EQ(summary["hoists"].size(), 2u);
   EXPECT_EQ(summary["cranes"].size(), 1u);
   const auto& structure = summary["structure"];
-  EXPECT_EQ(structure["unknowns"], small_assessment().block.model->unknowns());
+  EXPECT_EQ(structure["unknowns"], small_assessment().block.model->space().unknowns());
   expect_way(structure["per_rope_maxima"]);
   expect_way(structure["simultaneous"]);
   EXPECT_EQ(structure["simultaneous_by_rope"].size(), 4u);

@@ -11,6 +11,7 @@
 #include "structure/error.h"
 #include "structure/response/block_envelope.h"
 #include "structure/stress_tensor.h"
+#include "tests/structure/block_models.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/sample_history.h"
 
@@ -160,7 +161,7 @@ TEST(StressShares, SumToOneAndLeaveOutPressure) {
 // The small block: the envelope over a short history is the largest of its instants, evaluated one
 // by one by the stress recovery, everywhere that both report.
 TEST(BlockEnvelope, IsTheLargestOfAllInstants) {
-  const ElasticModel model(make_elastic_model(testing::small_block(), 2));
+  const ElasticModel model(testing::make_elastic_model(testing::small_block(), 2));
   const UnitResponses responses(model);
   const StressRecovery recovery(responses);
   std::vector<LoadCase> instants;

@@ -9,22 +9,20 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
-#include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/block_error.h"
 #include "structure/response/flexibility.h"
 #include "structure/response/stress.h"
 #include "structure/response/unit_responses.h"
 #include "structure/system/assembly.h"
 #include "structure/system/matter.h"
+#include "tests/structure/block_models.h"
 #include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {
 namespace {
 
 ElasticModel small_model(int degree) {
-  const BlockDescription block = testing::small_block();
-  return ElasticModel(generate_shell_mesh(block), {degree, {}}, block.total_mass,
-                      block.centre_of_mass_B);
+  return testing::make_elastic_model(testing::small_block(), degree);
 }
 
 // The small block on its four lugs, once for all tests of it.
