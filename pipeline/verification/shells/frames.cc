@@ -132,12 +132,20 @@ VerificationCase bolt_pattern() {
             Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
             mesh.vertices = {
                 {0, 0, 0.5}, {-0.3, -0.2, 0}, {0.3, -0.2, 0}, {-0.3, 0.2, 0}, {0.3, 0.2, 0}};
-            DistributingLink link{
-                0, {1, 2, 3, 4}, {1, 1, 1, 1}, {true, true, true, true, true, true}, 1};
+            DistributingLink link;
+            link.reference = 0;
+            link.vertices = {1, 2, 3, 4};
+            link.weights = {1, 1, 1, 1};
             mesh.distributing_links = {link};
             constexpr double stiffness = 1e6;
             for (int v = 1; v <= 4; ++v)
-              for (int c = 0; c < 6; ++c) mesh.springs.push_back({{v, -1}, {c, 0}, stiffness, v});
+              for (int c = 0; c < 6; ++c) {
+                Spring spring;
+                spring.vertices = {v, -1};
+                spring.components = {c, 0};
+                spring.stiffness = stiffness;
+                mesh.springs.push_back(spring);
+              }
             const Space space(mesh, {1, {}});
             Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
             load.segment<6>(6 * space.node_of_vertex(0)) << 1000, 0, -2000, 100, 50, 300;
@@ -166,7 +174,10 @@ VerificationCase rigid_arm() {
           .source = "Timoshenko's beam under a force and a moment",
           .compute = [] {
             Mesh mesh = frame({{0, 0, 0}, {3, 0, 0}, {4, 0, 0.5}}, {{0, 1}});
-            mesh.rigid_links = {{1, {2}, {true, true, true, true, true, true}, 1}};
+            RigidLink link;
+            link.master = 1;
+            link.slaves = {2};
+            mesh.rigid_links = {link};
             const Space space(mesh, {3, {}});
             const Eigen::VectorXd motion = solve(space, {0}, {{2, {0, 0, -1000}}});
             const BeamSection s = pipe();

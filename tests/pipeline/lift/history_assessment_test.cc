@@ -56,7 +56,7 @@ TEST_F(SmallLiftHistory, IsTheLargestOfEverySample) {
   Eigen::Index when = 0;
   for (Eigen::Index sample = 0; sample < in_motion.sample_count(); ++sample) {
     const double stress =
-        recovery_->membrane()
+        recovery_->checked()
             .von_mises(responses_->coefficients(map_instant(in_motion, sample, *attachment_, mass)))
             .maxCoeff();
     if (stress > largest) {
