@@ -43,7 +43,8 @@ Eigen::Matrix3d cross(const Vector3& v) {
 }
 
 DistributingLink spread(const std::vector<double>& weights) {
-  DistributingLink link{0, {}, weights, {true, true, true, true, true, true}, 7};
+  DistributingLink link{
+      0, {}, weights, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 7};
   for (std::size_t i = 0; i < weights.size(); ++i) link.vertices.push_back(static_cast<int>(i) + 1);
   return link;
 }
@@ -96,7 +97,8 @@ TEST(Links, SpreadForcesKeepTheirResultant) {
 
 TEST(Links, RigidSlavesMoveWithTheirMaster) {
   Nodes nodes({{0.3, -0.2, 1}, {1, 0, 0.1}});
-  nodes.mesh.rigid_links = {{0, {1}, {true, true, true, true, true, true}, 3}};
+  nodes.mesh.rigid_links = {
+      {0, {1}, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 3}};
   const Eigen::MatrixXd rows = nodes.rows_of(1);
   Motion6 expected, master;
   master << 1, 2, 3, 0.1, -0.2, 0.3;
@@ -112,8 +114,9 @@ TEST(Links, RigidSlavesMoveWithTheirMaster) {
 
 TEST(Links, TwoLinksOfOneFreedomAreRefused) {
   Nodes nodes({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  nodes.mesh.rigid_links = {{0, {1}, {true, true, true, true, true, true}, 3},
-                            {2, {1}, {true, true, true, true, true, true}, 4}};
+  nodes.mesh.rigid_links = {
+      {0, {1}, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 3},
+      {2, {1}, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 4}};
   EXPECT_THROW(find_link_ties(nodes.mesh, nodes.node_of_vertex, nodes.places), ModelError);
 }
 
@@ -130,8 +133,10 @@ TEST(Links, LinksFollowOneAnother) {
        {testing::vertex_at(mesh, {1, 0, 0}), reference, testing::vertex_at(mesh, {1, 0.2, 0})},
        {1, 1, 1},
        {true, true, true, true, true, true},
+       Eigen::Matrix3d::Identity(),
        1}};
-  mesh.rigid_links = {{hub, {tip}, {true, true, true, true, true, true}, 2}};
+  mesh.rigid_links = {
+      {hub, {tip}, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 2}};
   const Space space(mesh, {2, {}});
   std::vector<FixedUnknown> fixed;
   testing::hold(
@@ -155,7 +160,16 @@ TEST(Links, SpringsInSeries) {
   Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(x, y, 0); }, 1, 1, 0.01,
                                   testing::plain_steel());
   const int a = testing::vertex_at(mesh, {3, 0, 0}), b = testing::vertex_at(mesh, {4, 0, 0});
-  mesh.springs = {{{a, -1}, {2, 0}, 100, 1}, {{a, b}, {2, 2}, 300, 2}, {{b, -1}, {4, 0}, 50, 3}};
+  const auto add = [&](std::array<int, 2> ends, std::array<int, 2> components, double stiffness) {
+    Spring spring;
+    spring.vertices = ends;
+    spring.components = components;
+    spring.stiffness = stiffness;
+    mesh.springs.push_back(spring);
+  };
+  add({a, -1}, {2, 0}, 100);
+  add({a, b}, {2, 2}, 300);
+  add({b, -1}, {4, 0}, 50);
   const Space space(mesh, {1, {}});
   std::vector<FixedUnknown> fixed;
   testing::hold(
