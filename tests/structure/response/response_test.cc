@@ -248,7 +248,7 @@ TEST(CheckedStress, BendingDropsOut) {
     EXPECT_NEAR(stress, 206e9 * 1e-4, 1e-3);
   EXPECT_LT(checked.von_mises(Eigen::Vector2d(0, 1)).maxCoeff(), 1e-3);
   for (Eigen::Index s = 0; s < checked.bending().rows(); s += 3)
-    EXPECT_NEAR(checked.bending().block<3, 1>(s, 1).norm(), 206e9 * curvature * thickness / 2, 1);
+    EXPECT_NEAR((checked.bending().block<3, 1>(s, 1).norm()), 206e9 * curvature * thickness / 2, 1);
 }
 
 // However a plate is divided into shells or regions, its squares are the same.

@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/system/assembly.h"
 #include "tests/structure/formulation/gravity.h"
-#include "tests/structure/formulation/shell_samples.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/mesh/plates/mesh_measures.h"
 
@@ -130,7 +130,7 @@ TEST(ShapedOpenings, LieBetweenPlatesAndStiffeners) {
       lowest = std::min(lowest, mesh.vertices[at(beam.vertices[0])].z());
   EXPECT_GE(lowest, 0.9);
   EXPECT_LE(lowest, 0.9 + 0.5);
-  const auto reactions = samples::weigh(mesh, 2, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}});
+  const auto reactions = testing::weigh(mesh, 2, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}});
   const double weight = 9.81 * steel.mass;
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], weight, 1e-6 * weight);
 }
@@ -150,9 +150,9 @@ TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
     const auto at_place = [](const Vector3& place) {
       return [place](const Vector3& p) { return (p - place).norm() < 1e-9; };
     };
-    samples::hold(space, at_place({0, 0, 0}), {0, 1, 2}, fixed);
-    samples::hold(space, at_place({0, breadth, 0}), {0, 2}, fixed);
-    samples::hold(space, at_place({length, 0, 0}), {2}, fixed);
+    testing::hold(space, at_place({0, 0, 0}), {0, 1, 2}, fixed);
+    testing::hold(space, at_place({0, breadth, 0}), {0, 2}, fixed);
+    testing::hold(space, at_place({length, 0, 0}), {2}, fixed);
     // Tension as the work-equivalent forces of a linear field: the internal forces of uniform stress in the
     // plate without its hole are those on its ends alone.
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
@@ -175,7 +175,7 @@ TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
                   (end > 0 ? 1 : -1) * stress * t * (b - a).norm() * weight[q] * values[i];
           }
         }
-    const Eigen::VectorXd motion = samples::solve(space, load, fixed);
+    const Eigen::VectorXd motion = testing::solve(space, load, fixed);
     stretch[has_hole ? 1 : 0] = load.dot(motion);
   }
   const double youngs = 206e9;

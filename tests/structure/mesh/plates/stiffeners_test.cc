@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "tests/structure/formulation/gravity.h"
-#include "tests/structure/formulation/shell_samples.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/mesh/plates/mesh_measures.h"
 
@@ -147,7 +147,7 @@ TEST(Stiffeners, StandOnThePositionsThatTheyName) {
               density * 3 * 2 * height * width, 1e-7);
   for (const Beam& beam : mesh.beams) EXPECT_EQ(mesh.vertices[at(beam.vertices[0])].x(), 2);
   const std::array<Vector3, 3> supports{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}};
-  const auto reactions = samples::weigh(mesh, 2, supports);
+  const auto reactions = testing::weigh(mesh, 2, supports);
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], 9.81 * measure(mesh).mass, 0.1);
 }
 
@@ -164,12 +164,12 @@ TEST(Stiffeners, BendAboutTheCommonCentroid) {
     const Mesh mesh = generate_shell_mesh(block);
     const Space space(mesh, {2, {}});
     std::vector<FixedUnknown> fixed;
-    samples::hold(
+    testing::hold(
         space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
-    const int end = samples::nearest_node(space, {length, breadth / 2, 0});
+    const int end = testing::nearest_node(space, {length, breadth / 2, 0});
     load[6 * end + 2] = -1e3;
-    const double deflection = -samples::solve(space, load, fixed)[6 * end + 2];
+    const double deflection = -testing::solve(space, load, fixed)[6 * end + 2];
 
     const double strip = breadth * t, bar = height * width, arm = t / 2 + height / 2;
     const double centroid = bar * arm / (strip + bar);
