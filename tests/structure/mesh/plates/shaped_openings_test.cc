@@ -130,7 +130,7 @@ TEST(ShapedOpenings, LieBetweenPlatesAndStiffeners) {
       lowest = std::min(lowest, mesh.vertices[at(beam.vertices[0])].z());
   EXPECT_GE(lowest, 0.9);
   EXPECT_LE(lowest, 0.9 + 0.5);
-  const auto reactions = testing::weigh(mesh, 2, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}});
+  const auto reactions = samples::weigh(mesh, 2, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}});
   const double weight = 9.81 * steel.mass;
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], weight, 1e-6 * weight);
 }

@@ -147,7 +147,7 @@ TEST(Stiffeners, StandOnThePositionsThatTheyName) {
               density * 3 * 2 * height * width, 1e-7);
   for (const Beam& beam : mesh.beams) EXPECT_EQ(mesh.vertices[at(beam.vertices[0])].x(), 2);
   const std::array<Vector3, 3> supports{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}};
-  const auto reactions = testing::weigh(mesh, 2, supports);
+  const auto reactions = samples::weigh(mesh, 2, supports);
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], 9.81 * measure(mesh).mass, 0.1);
 }
 
