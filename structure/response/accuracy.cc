@@ -47,7 +47,7 @@ struct Evaluation {
   }
 };
 
-Evaluation evaluate(CheckedStress checked, const Eigen::MatrixXd& static_factors,
+Evaluation evaluate(const CheckedStress& checked, const Eigen::MatrixXd& static_factors,
                     const Eigen::MatrixXd& dynamic_factors) {
   return {checked.squares(), largest_of(checked, static_factors),
           largest_of(checked, dynamic_factors)};

@@ -206,7 +206,7 @@ void Space::make_shells(const Resolution& resolution) {
 
   const int order = std::min(geometry_order(*mesh_), degree_);
   const dealii::FE_Q<2, 3> geometry(static_cast<unsigned>(order));
-  const std::vector<Point<2>> support = geometry.get_unit_support_points();
+  const std::vector<Point<2>>& support = geometry.get_unit_support_points();
   own.shell_mapping = std::make_unique<dealii::MappingQCache<2, 3>>(static_cast<unsigned>(order));
   own.shell_mapping->initialize(own.shells, [&](const ShellIterator& cell) {
     const ShellCell located = locate(cell);

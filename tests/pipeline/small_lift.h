@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "pipeline/lift/lift_run.h"
-#include "structure/elasticity/elastic_model.h"
+#include "structure/response/elastic_model.h"
 
 namespace blocklift::pipeline::test {
 

@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/sections.h"
 

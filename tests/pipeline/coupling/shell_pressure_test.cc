@@ -10,6 +10,7 @@
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "structure/error.h"
 #include "structure/mesh/plates/shell_generator.h"
+#include "structure/system/matter.h"
 #include "tests/dynamics/force/one_body.h"
 
 namespace blocklift::pipeline {

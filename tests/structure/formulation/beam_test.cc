@@ -242,7 +242,8 @@ TEST(Beam, DivisionChangesNothing) {
   clamp(space, mesh.vertices[0], fixed);
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
   loads.segment<6>(6 * space.node_of_vertex(1)) = load;
-  const auto divided = testing::solve(space, loads, fixed).segment<6>(6 * space.node_of_vertex(1));
+  const Eigen::Matrix<double, 6, 1> divided =
+      testing::solve(space, loads, fixed).segment<6>(6 * space.node_of_vertex(1));
   EXPECT_LT((divided - whole).norm(), 1e-8 * whole.norm());
 }
 

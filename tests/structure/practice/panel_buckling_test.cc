@@ -124,7 +124,8 @@ TEST(BlockPanels, AreTheFieldsBetweenCrossingPlates) {
 TEST(BlockPanels, PadsDivideNoPanel) {
   const ElasticModel model(generate_shell_mesh(testing::small_block()), {1, {}});
   int sides = 0;
-  for (const Panel& panel : panels_at_rest(model).panels()) {
+  const BlockPanels panels = panels_at_rest(model);
+  for (const Panel& panel : panels.panels()) {
     EXPECT_EQ(panel.group.find('L'), std::string::npos) << panel.plate;
     if (panel.group != "sides") continue;
     ++sides;

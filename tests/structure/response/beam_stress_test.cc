@@ -7,8 +7,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/formulation/beam.h"
-#include "tests/structure/formulation/shell_samples.h"
 #include "tests/structure/motions.h"
 
 namespace blocklift::structure {
@@ -21,7 +21,7 @@ constexpr double length = 2, width = 0.02, height = 0.1;
 /// Bar along x of a rectangular section, axis 2 upwards.
 Mesh bar() {
   Mesh mesh;
-  mesh.materials = {samples::steel()};
+  mesh.materials = {testing::plain_steel()};
   mesh.groups = {{"bar", 0}};
   mesh.regions = {{"bar", 0, false}};
   mesh.vertices = {Vector3::Zero(), Vector3(length, 0, 0)};

@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
 #include "structure/response/shell_stress.h"
-#include "tests/structure/formulation/shell_samples.h"
 #include "tests/structure/motions.h"
 
 namespace blocklift::structure {
@@ -26,8 +26,8 @@ Eigen::Isometry3d tilt() {
 }
 
 Mesh flat_plate(int m, int n) {
-  return samples::mesh_of([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n, thickness,
-                          samples::steel());
+  return testing::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n, thickness,
+                          testing::plain_steel());
 }
 
 /// Stretching with a bending that is uniform, in the plate's own axes:
@@ -55,7 +55,7 @@ class TiltedPlate : public ::testing::TestWithParam<int> {
 // Hooke's law in the plane: s_11 = E s - E / (1 - nu^2) k z, s_22 = -nu E / (1 - nu^2) k z; the uniform
 // bending has no shear, which elements of degree 2 and more hold exactly.
 TEST_P(TiltedPlate, StressAtAHeightIsHookesLaw) {
-  const Material steel = samples::steel();
+  const Material steel = testing::plain_steel();
   const double e = steel.youngs_modulus, nu = steel.poisson_ratio;
   for (const double z : {-0.01, -0.004, 0.0, 0.01})
     for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.31, 0.2), Eigen::Vector2d(1.5, 0.5)}) {
@@ -147,7 +147,7 @@ TEST(BlockField, WherePlatesMeetTheNormalTellsWhichIsMeant) {
 TEST(ShellStress, UniformStrainIsMetInEveryPointOfATriangle) {
   Mesh mesh = flat_plate(1, 1);
   mesh.shells = {{{0, 1, 2, 2}, 0, 0, -1, 1}, {{3, 2, 1, 1}, 0, 0, -1, 2}};
-  const double e = samples::steel().youngs_modulus;
+  const double e = testing::plain_steel().youngs_modulus;
   for (const int degree : {1, 2, 3}) {
     const ElasticModel model(mesh, {degree, {}});
     const Eigen::VectorXd motion = testing::motion_of(

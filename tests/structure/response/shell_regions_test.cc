@@ -6,10 +6,10 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/system/matter.h"
-#include "tests/structure/formulation/shell_samples.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/motions.h"
 
@@ -50,13 +50,13 @@ TEST(ShellRegions, OuterPlatesOfATurnedBoxMakeTheShell) {
       Eigen::Index axis = 0;
       EXPECT_NEAR(outward.cwiseAbs().maxCoeff(&axis), 1, 1e-9);
       const double side = outward[axis];
-      EXPECT_NEAR(side * centre[axis], Vector3(2, 1, 0.5)[axis],
-                  1e-9);  // not the bulkhead, nor the lug
+      const Vector3 half_size(2, 1, 0.5);
+      EXPECT_NEAR(side * centre[axis], half_size[axis], 1e-9);  // not the bulkhead, nor the lug
       areas[static_cast<std::size_t>(2 * axis + (side > 0 ? 1 : 0))] +=
           area_of(model.space(), region.cells);
     }
     for (std::size_t face = 0; face < 6; ++face)
-      EXPECT_NEAR(areas[face], std::array{2.0, 4.0, 8.0}[face / 2], 1e-9) << face;
+      EXPECT_NEAR(areas[face], (std::array{2.0, 4.0, 8.0}[face / 2]), 1e-9) << face;
     // A place outside belongs to the face that it lies before and that looks its way.
     const auto& above = shell.regions()[static_cast<std::size_t>(
         shell.nearest(X * Vector3(1.9, 0.2, 0.7), X.linear() * Vector3(0.5, 0, 1).normalized()))];
@@ -90,12 +90,12 @@ TEST(ShellRegions, LoadsHaveTheWrenchesOfTheirRegions) {
 
 // A cylinder without ends: outside and inside of each cell look at nothing and at the opposite wall.
 TEST(ShellRegions, CurvedPlatingIsOutsideOnItsConvexSide) {
-  const Mesh mesh = samples::mesh_of(
+  const Mesh mesh = testing::sheet_mesh(
       [](double x, double y) {
         const double angle = 2 * std::numbers::pi * y;
         return Vector3(3 * x, std::cos(angle), std::sin(angle));
       },
-      3, 12, 0.01, samples::steel(), 3);
+      3, 12, 0.01, testing::plain_steel(), 3);
   const ElasticModel model(mesh, {2, {}});
   const ShellRegions shell(model, 1.1);
   double area = 0;

@@ -153,7 +153,8 @@ TEST(Links, LinksFollowOneAnother) {
   EXPECT_GT(of(tip).head<3>().norm(), 0);
   // The work of the load is that of the forces that the links make of it.
   const Eigen::VectorXd reduced = space.reduce(load);
-  EXPECT_NEAR(space.expand(reduced).dot(load), reduced.squaredNorm(), 1e-9 * reduced.squaredNorm());
+  const Eigen::VectorXd expanded = space.expand(reduced);
+  EXPECT_NEAR(expanded.dot(load), reduced.squaredNorm(), 1e-9 * reduced.squaredNorm());
 }
 
 TEST(Links, SpringsInSeries) {

@@ -38,8 +38,10 @@ TEST(AbaqusReader, PlateWithSetsAndHeading) {
   EXPECT_EQ(deck.mesh.shells[0].label, 10);
   EXPECT_EQ(deck.mesh.groups.at(0).name, "Plate");
   EXPECT_DOUBLE_EQ(deck.mesh.section_of(deck.mesh.shells[0]).thickness, 0.01);
-  for (const NamedSet& set : deck.sets)
-    if (set.name == "ALL") EXPECT_THAT(set.vertices, ElementsAre(0, 1, 2, 3));
+  for (const NamedSet& set : deck.sets) {
+    if (set.name != "ALL") continue;
+    EXPECT_THAT(set.vertices, ElementsAre(0, 1, 2, 3));
+  }
   EXPECT_EQ(entry(deck, "*ELEMENT").used, 1);
 }
 
