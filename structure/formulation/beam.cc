@@ -83,19 +83,41 @@ Eigen::MatrixXd released_motions(const Space& space, int cell) {
   return directions;
 }
 
+/// @throws ModelError if the releases of both ends leave the beam between them a rigid motion of its own.
+void require_held(const Mesh& mesh, const Beam& beam) {
+  const Eigen::Matrix3d axes = beam_axes(mesh, beam);
+  const Vector3 ends[2] = {mesh.vertices[at(beam.vertices[0])] + beam.offset[0],
+                           mesh.vertices[at(beam.vertices[1])] + beam.offset[1]};
+  const Vector3 middle = (ends[0] + ends[1]) / 2;
+  const double length = (ends[1] - ends[0]).norm();
+  // What held components of the centroid's ends do in the six rigid motions, rotations times half the length.
+  Eigen::MatrixXd held(0, 6);
+  for (std::size_t end = 0; end < 2; ++end)
+    for (int c = 0; c < 6; ++c) {
+      if (beam.release[end][at(c)]) continue;
+      const Vector3 axis = axes.row(c % 3).transpose();
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(6);
+      if (c < 3)
+        row << axis.transpose(), (ends[end] - middle).cross(axis).transpose() / (length / 2);
+      else
+        row.tail<3>() = axis.transpose();
+      held.conservativeResize(held.rows() + 1, Eigen::NoChange);
+      held.bottomRows<1>() = row;
+    }
+  if (held.rows() < 6 || Eigen::FullPivLU<Eigen::MatrixXd>(held).setThreshold(1e-9).rank() < 6)
+    throw ModelError(fmt::format("beam {}: its releases leave it loose", beam.label));
+}
+
 /// What released ends do of themselves for motions of the nodes: no force acts along their directions D,
 /// D' K (u + D a) = 0.
 Eigen::MatrixXd motion_with_releases(const Eigen::MatrixXd& stiffness,
-                                     const Eigen::MatrixXd& directions, const Beam& beam) {
+                                     const Eigen::MatrixXd& directions, const Mesh& mesh,
+                                     const Beam& beam) {
   Eigen::MatrixXd motion = Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols());
   if (directions.cols() == 0) return motion;
+  require_held(mesh, beam);
   const Eigen::MatrixXd forces = directions.transpose() * stiffness;
-  const Eigen::LLT<Eigen::MatrixXd> solver(forces * directions);
-  const double least = 1e-12 * stiffness.diagonal().maxCoeff();
-  if (solver.info() != Eigen::Success ||
-      !(solver.matrixLLT().diagonal().array().square().minCoeff() > least))
-    throw ModelError(fmt::format("beam {}: its releases leave it loose", beam.label));
-  motion -= directions * solver.solve(forces);
+  motion -= directions * Eigen::LLT<Eigen::MatrixXd>(forces * directions).solve(forces);
   return motion;
 }
 
@@ -165,7 +187,7 @@ Eigen::MatrixXd beam_stiffness(const Space& space, int cell) {
   const Eigen::MatrixXd directions = released_motions(space, cell);
   if (directions.cols() == 0) return whole;
   const Beam& beam = space.mesh().beams[at(space.beams()[at(cell)].beam)];
-  const Eigen::MatrixXd motion = motion_with_releases(whole, directions, beam);
+  const Eigen::MatrixXd motion = motion_with_releases(whole, directions, space.mesh(), beam);
   return motion.transpose() * whole * motion;
 }
 
@@ -174,7 +196,7 @@ Eigen::MatrixXd beam_motion(const Space& space, int cell) {
   if (directions.cols() == 0)
     return Eigen::MatrixXd::Identity(directions.rows(), directions.rows());
   const Beam& beam = space.mesh().beams[at(space.beams()[at(cell)].beam)];
-  return motion_with_releases(whole_stiffness(space, cell), directions, beam);
+  return motion_with_releases(whole_stiffness(space, cell), directions, space.mesh(), beam);
 }
 
 }  // namespace blocklift::structure

@@ -101,17 +101,48 @@ void add(Row&& row, const Eigen::RowVectorXd& factors, const Vector3& a, int off
 
 constexpr int u = 0, theta = 3;  // where a node's displacement and rotation begin
 
-/// A strain by the unit coordinates (a covariant component).
+/// Adds a height times a curvature by the unit coordinates; g . (theta x n) = theta . (n x g).
 template <typename Row>
-void covariant_strain(const Surface& s, const Shapes& shape, ShellStrain strain, Row&& row) {
-  row.setZero();
-  // g . (theta x n) = theta . (n x g)
+void add_curvature(const Surface& s, const Shapes& shape, ShellStrain strain, double height,
+                   Row&& row) {
   const auto curvature = [&](const Vector3& g, const Vector3& dn_of_g, const Vector3& dn_along,
                              const Eigen::RowVectorXd& along) {
-    add(row, along, s.n.cross(g), theta);
-    add(row, shape.value, dn_along.cross(g), theta);
-    add(row, along, dn_of_g, u);
+    add(row, along, height * s.n.cross(g), theta);
+    add(row, shape.value, height * dn_along.cross(g), theta);
+    add(row, along, height * dn_of_g, u);
   };
+  switch (strain) {
+    case curvature_11:
+      curvature(s.g_1, s.dn_1, s.dn_1, shape.d_1);
+      break;
+    case curvature_22:
+      curvature(s.g_2, s.dn_2, s.dn_2, shape.d_2);
+      break;
+    default:
+      curvature(s.g_1, s.dn_1, s.dn_2, shape.d_2);
+      curvature(s.g_2, s.dn_2, s.dn_1, shape.d_1);
+  }
+}
+
+/// Adds to the drilling what a height makes of it: to its first power the turn of u + height theta x n along
+/// the surface there, which is n_1 x g_2 + g_1 x n_2 larger.
+template <typename Row>
+void add_drilling_of_height(const Surface& s, const Shapes& shape, double height, Row&& row) {
+  const double share = height / (2 * s.area);
+  const Vector3 change = s.dn_1.cross(s.g_2) + s.g_1.cross(s.dn_2);
+  add(row, shape.value, share * (2 * s.n.dot(change) * s.n - change), theta);
+  add(row, shape.d_1, -share * s.n.cross(s.g_2), theta);
+  add(row, shape.d_2, share * s.n.cross(s.g_1), theta);
+  add(row, shape.d_1, -share * s.dn_2, u);
+  add(row, shape.d_2, share * s.dn_1, u);
+}
+
+/// A strain by the unit coordinates (a covariant component) of the mid-surface, which lies at an offset from
+/// the nodes' surface.
+template <typename Row>
+void covariant_strain(const Surface& s, const Shapes& shape, ShellStrain strain, double offset,
+                      Row&& row) {
+  row.setZero();
   switch (strain) {
     case membrane_11:
       add(row, shape.d_1, s.g_1, u);
@@ -124,14 +155,9 @@ void covariant_strain(const Surface& s, const Shapes& shape, ShellStrain strain,
       add(row, shape.d_1, s.g_2, u);
       break;
     case curvature_11:
-      curvature(s.g_1, s.dn_1, s.dn_1, shape.d_1);
-      break;
     case curvature_22:
-      curvature(s.g_2, s.dn_2, s.dn_2, shape.d_2);
-      break;
     case curvature_12:
-      curvature(s.g_1, s.dn_1, s.dn_2, shape.d_2);
-      curvature(s.g_2, s.dn_2, s.dn_1, shape.d_1);
+      add_curvature(s, shape, strain, 1, row);
       break;
     case shear_1:
       add(row, shape.d_1, s.n, u);
@@ -145,7 +171,11 @@ void covariant_strain(const Surface& s, const Shapes& shape, ShellStrain strain,
       add(row, shape.value, s.n, theta);
       add(row, shape.d_1, -s.g_2 / (2 * s.area), u);
       add(row, shape.d_2, s.g_1 / (2 * s.area), u);
+      if (offset != 0) add_drilling_of_height(s, shape, offset, row);
   }
+  if (offset != 0 && strain <= membrane_12)
+    add_curvature(s, shape, static_cast<ShellStrain>(strain + curvature_11 - membrane_11), offset,
+                  row);
 }
 
 /// Unit tangents at right angles, the first as near to a direction as it gets.
@@ -188,8 +218,21 @@ std::vector<double> lagrange_at(const std::vector<double>& places, double x) {
 }
 
 const auto tangents_flags = dealii::update_jacobians;
-const auto surface_flags =
-    dealii::update_jacobians | dealii::update_jacobian_grads | dealii::update_quadrature_points;
+const auto curved_flags = dealii::update_jacobians | dealii::update_jacobian_grads;
+const auto surface_flags = curved_flags | dealii::update_quadrature_points;
+
+/// What the geometry at points of tied or mean strains has to tell: with offsets the curvature, too.
+dealii::UpdateFlags flags_of_strains(const Mesh& mesh) {
+  const auto has_offset = [](const ShellSection& section) { return section.offset != 0; };
+  return std::any_of(mesh.shell_sections.begin(), mesh.shell_sections.end(), has_offset)
+             ? curved_flags
+             : tangents_flags;
+}
+
+/// The surface as a mid-surface at an offset needs it.
+Surface surface_for(double offset, const dealii::FEValues<2, 3>& values, unsigned q) {
+  return offset != 0 ? surface_at(values, q) : tangents_at(values, q);
+}
 
 }  // namespace
 
@@ -205,10 +248,11 @@ struct ShellOperator::Tabulation {
 
 /// Strains that are taken at points of their own and interpolated.
 struct ShellOperator::TiedStrains {
-  TiedStrains(const Space::Implementation& own, const std::vector<double>& x,
-              const std::vector<double>& y, std::vector<ShellStrain> of,
-              const Eigen::Matrix2Xd& wanted, const Eigen::Matrix2Xd& rule)
-      : table(std::make_unique<Tabulation>(own, grid(x, y), tangents_flags)),
+  TiedStrains(const Space& space, const std::vector<double>& x, const std::vector<double>& y,
+              std::vector<ShellStrain> of, const Eigen::Matrix2Xd& wanted,
+              const Eigen::Matrix2Xd& rule)
+      : table(std::make_unique<Tabulation>(space.implementation(), grid(x, y),
+                                           flags_of_strains(space.mesh()))),
         strains(std::move(of)),
         interpolation(weights(x, y, wanted)),
         to_rule(weights(x, y, rule)) {}
@@ -241,14 +285,14 @@ struct ShellOperator::TiedStrains {
 struct ShellOperator::Mean {
   explicit Mean(const Space& space)
       : rule(square_rule(space.degree() + 1)),
-        table(space.implementation(), rule.topRows<2>(), tangents_flags) {}
+        table(space.implementation(), rule.topRows<2>(), flags_of_strains(space.mesh())) {}
 
-  void reinit(const Vector3& along) {
+  void reinit(const Vector3& along, double offset) {
     area = 0;
     to_mean.clear();
     surfaces.clear();
     for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-      surfaces.push_back(tangents_at(table.values, static_cast<unsigned>(q)));
+      surfaces.push_back(surface_for(offset, table.values, static_cast<unsigned>(q)));
       const auto [e_1, e_2] = unit_tangents(surfaces.back(), along);
       const double part = rule(2, q) * surfaces.back().area;
       to_mean.push_back(part * turn_to(surfaces.back(), e_1, e_2).strains);
@@ -282,7 +326,7 @@ ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points)
       mean_(std::make_unique<Mean>(space)) {
   const auto tie = [&](const std::vector<double>& x, const std::vector<double>& y,
                        const std::vector<ShellStrain>& strains) {
-    ties_.emplace_back(space.implementation(), x, y, strains, points, mean_->rule.topRows<2>());
+    ties_.emplace_back(space, x, y, strains, points, mean_->rule.topRows<2>());
     for (const ShellStrain strain : strains) is_tied_[at(strain)] = true;
   };
   if (space.degree() == 1) {
@@ -306,7 +350,7 @@ void ShellOperator::reinit(int cell) {
   const double offset = space_.mesh().section_of(shell).offset;
   // One direction for the whole cell, so that components can be compared and averaged in it.
   const Vector3 along = space_.place(cell, {1, 0.5}) - space_.place(cell, {0, 0.5});
-  mean_->reinit(along);
+  mean_->reinit(along, offset);
 
   static thread_local std::vector<Turn> turns;
   turns.clear();
@@ -316,7 +360,7 @@ void ShellOperator::reinit(int cell) {
     point.strain.resize(shell_strains, 6 * space_.nodes_per_shell());
     for (int strain = 0; strain < shell_strains; ++strain)
       if (!is_tied_[at(strain)])
-        covariant_strain(surface, table_->shapes[q], static_cast<ShellStrain>(strain),
+        covariant_strain(surface, table_->shapes[q], static_cast<ShellStrain>(strain), offset,
                          point.strain.row(strain));
     point.place = to_vector(table_->values.quadrature_point(static_cast<unsigned>(q)));
     point.normal = surface.n;
@@ -326,8 +370,8 @@ void ShellOperator::reinit(int cell) {
   }
   const bool is_balanced = space_.degree() > 1 && mean_->is_even();
   mean_->strains.resize(3, 0);
-  if (!is_balanced) find_mean_strains();
-  tie_strains();
+  if (!is_balanced) find_mean_strains(offset);
+  tie_strains(offset);
   for (std::size_t q = 0; q < points_.size(); ++q) {
     Rows& strain = points_[q].strain;
     strain.middleRows<3>(membrane_11) =
@@ -340,25 +384,23 @@ void ShellOperator::reinit(int cell) {
       strain.row(membrane_12) = mean_->strains.row(2);
     else if (!is_balanced)
       strain.middleRows<3>(membrane_11) += mean_->strains;
-    if (offset != 0)
-      strain.middleRows<3>(membrane_11) += offset * strain.middleRows<3>(curvature_11);
   }
 }
 
 // The mean of the membrane strains as the displacements have them.
-void ShellOperator::find_mean_strains() {
+void ShellOperator::find_mean_strains(double offset) {
   static thread_local Eigen::RowVectorXd row;
   row.resize(6 * space_.nodes_per_shell());
   mean_->strains.setZero(3, row.size());
   for (std::size_t q = 0; q < mean_->surfaces.size(); ++q)
     for (const ShellStrain strain : {membrane_11, membrane_22, membrane_12}) {
-      covariant_strain(mean_->surfaces[q], mean_->table.shapes[q], strain, row);
+      covariant_strain(mean_->surfaces[q], mean_->table.shapes[q], strain, offset, row);
       for (int i = 0; i < 3; ++i) mean_->strains.row(i) += mean_->to_mean[q](i, strain) * row;
     }
 }
 
 // Interpolates the tied strains, and takes their mean away from that of the displacements.
-void ShellOperator::tie_strains() {
+void ShellOperator::tie_strains(double offset) {
   static thread_local Eigen::RowVectorXd row;
   row.resize(6 * space_.nodes_per_shell());
   for (ShellPoint& point : points_)
@@ -367,9 +409,9 @@ void ShellOperator::tie_strains() {
   for (const TiedStrains& tie : ties_)
     for (std::size_t k = 0; k < tie.table->shapes.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
-      const Surface surface = tangents_at(tie.table->values, static_cast<unsigned>(k));
+      const Surface surface = surface_for(offset, tie.table->values, static_cast<unsigned>(k));
       for (const ShellStrain strain : tie.strains) {
-        covariant_strain(surface, tie.table->shapes[k], strain, row);
+        covariant_strain(surface, tie.table->shapes[k], strain, offset, row);
         // Where both are Gauss points of one line most shares are nothing.
         for (std::size_t q = 0; q < points_.size(); ++q)
           if (const double share = tie.interpolation(static_cast<Eigen::Index>(q), column);

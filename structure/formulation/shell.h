@@ -67,8 +67,8 @@ class ShellOperator {
   struct Tabulation;
   struct TiedStrains;
   struct Mean;
-  void tie_strains();
-  void find_mean_strains();
+  void tie_strains(double offset);
+  void find_mean_strains(double offset);
 
   const Space& space_;
   std::vector<ShellPoint> points_;

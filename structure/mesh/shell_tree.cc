@@ -33,9 +33,9 @@ bool meets(const Eigen::AlignedBox3d& box, const Vector3& origin, const Vector3&
       if (low > 0 || high < 0) return false;
       continue;
     }
-    const auto [near, far] = std::minmax(low / direction[axis], high / direction[axis]);
-    enter = std::max(enter, near);
-    leave = std::min(leave, far);
+    const double to_low = low / direction[axis], to_high = high / direction[axis];
+    enter = std::max(enter, std::min(to_low, to_high));
+    leave = std::min(leave, std::max(to_low, to_high));
   }
   return enter <= leave;
 }

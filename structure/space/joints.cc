@@ -112,10 +112,15 @@ std::vector<NodeTie> find_joint_ties(int nodes, const std::vector<EdgeTrace>& tr
     edges[{trace.from, trace.to}].push_back(&trace);
   }
   // Nodes of one place first, so that what follows a polynomial is known to be on no master.
-  for (const auto& [edge, meeting] : edges)
+  for (const auto& [edge, meeting] : edges) {
+    const std::vector<const EdgeTrace*> masters = find_masters(meeting);
+    for (std::size_t i = 1; i < masters.size(); ++i)
+      if (std::abs(masters[i]->begin - masters[i - 1]->end) < same_place)
+        forest.join(masters[i - 1]->nodes.back(), masters[i]->nodes.front());
     for_each_follower(meeting, [&](const EdgeTrace& master, int node, double x) {
       if (const int i = same_node(master, x); i >= 0) forest.join(node, master.nodes[at(i)]);
     });
+  }
   std::vector<NodeTie> ties;
   std::vector<char> is_tied(at(nodes), 0);
   for (const auto& [edge, meeting] : edges)

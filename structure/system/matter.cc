@@ -264,7 +264,8 @@ class MassSum {
   explicit MassSum(const Space& space) : space_(space) {}
 
   void add(const MatterPoint& point, double dm) {
-    if (point.nodes != nodes_) flush(point);
+    if (!std::equal(members_.begin(), members_.end(), point.nodes, point.nodes + point.node_count))
+      flush(point);
     const Eigen::Matrix3d arm = cross_matrix(point.arm);
     Eigen::Matrix<double, 6, 6> block;
     block << Eigen::Matrix3d::Identity(), -arm, arm, -arm * arm;
@@ -288,14 +289,12 @@ class MassSum {
         if (std::abs(own_(i, j)) > least)
           entries_.emplace_back(6 * members_[at(i / 6)] + i % 6, 6 * members_[at(j / 6)] + j % 6,
                                 own_(i, j));
-    nodes_ = next.nodes;
     count_ = next.node_count;
     members_.assign(next.nodes, next.nodes + next.node_count);
     own_.setZero(6 * count_, 6 * count_);
   }
 
   const Space& space_;
-  const int* nodes_ = nullptr;
   int count_ = 0;
   std::vector<int> members_;
   Eigen::MatrixXd own_;

@@ -112,7 +112,7 @@ TEST_F(SmallBlock, SurfaceCoversPlatesAndBeams) {
   EXPECT_EQ(surface.quads().size(),
             9 * model_->space().shells().size() + 3 * model_->mesh().beams.size());
   EXPECT_LT(surface.points().size(), 14 * model_->space().shells().size());
-  const Surface coarse(*model_, 700);
+  const Surface coarse(*model_, 300);
   EXPECT_EQ(coarse.quads().size(), model_->space().shells().size() + model_->mesh().beams.size());
 }
 

@@ -96,7 +96,7 @@ TEST(ShellRegions, CurvedPlatingIsOutsideOnItsConvexSide) {
         return Vector3(3 * x, std::cos(angle), std::sin(angle));
       },
       3, 12, 0.01, testing::plain_steel(), 3);
-  const ElasticModel model(mesh, {2, {}});
+  const ElasticModel model(mesh, {3, {}});
   const ShellRegions shell(model, 1.1);
   double area = 0;
   for (const ShellRegion& region : shell.regions()) {
