@@ -289,7 +289,8 @@ BucklingUtilisation buckling_utilisation(const PanelSize& size, const FreeEdges&
   return {std::sqrt(result.elastic), std::sqrt(result.critical)};
 }
 
-BlockPanels::BlockPanels(const ElasticModel& model, const Eigen::MatrixXd& motions,
+BlockPanels::BlockPanels(const ElasticModel& model,
+                         const Eigen::Ref<const Eigen::MatrixXd>& motions,
                          const std::vector<PlateStiffening>& stiffening)
     : materials_(model.mesh().materials) {
   describe(model.mesh());
@@ -326,7 +327,8 @@ void BlockPanels::stiffen(const std::vector<PlateStiffening>& stiffening) {
     }
 }
 
-void BlockPanels::integrate(const ElasticModel& model, const Eigen::MatrixXd& motions) {
+void BlockPanels::integrate(const ElasticModel& model,
+                            const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Space& space = model.space();
   const Mesh& mesh = model.mesh();
   components_.setZero(rows_per_panel * static_cast<Eigen::Index>(panels_.size()), motions.cols());

@@ -92,7 +92,7 @@ struct PlateStiffening {
 class BlockPanels {
  public:
   /// @param motions freedoms x m, m and rad.
-  BlockPanels(const ElasticModel& model, const Eigen::MatrixXd& motions,
+  BlockPanels(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
               const std::vector<PlateStiffening>& stiffening);
 
   const std::vector<Panel>& panels() const { return panels_; }
@@ -112,7 +112,7 @@ class BlockPanels {
  private:
   void describe(const Mesh& mesh);
   void stiffen(const std::vector<PlateStiffening>& stiffening);
-  void integrate(const ElasticModel& model, const Eigen::MatrixXd& motions);
+  void integrate(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
   std::vector<Material> materials_;
   std::vector<Panel> panels_;

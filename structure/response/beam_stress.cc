@@ -12,7 +12,8 @@ namespace blocklift::structure {
 
 namespace {
 
-Eigen::MatrixXd motions_of_beam(const BeamCell& cell, const Eigen::MatrixXd& motions) {
+Eigen::MatrixXd motions_of_beam(const BeamCell& cell,
+                                const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   Eigen::MatrixXd local(6 * static_cast<Eigen::Index>(cell.nodes.size()), motions.cols());
   for (std::size_t i = 0; i < cell.nodes.size(); ++i)
     local.middleRows<6>(6 * static_cast<Eigen::Index>(i)) =
@@ -29,7 +30,7 @@ double modulus_of(const Mesh& mesh, const BeamSection& section) {
 }
 
 Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
-                           const Eigen::MatrixXd& motions) {
+                           const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   return beam_point(space, cell, xi).strain * beam_motion(space, cell) *
          motions_of_beam(space.beams()[at(cell)], motions);
 }
@@ -49,7 +50,7 @@ std::vector<Eigen::Vector2d> stress_points(const BeamSection& section) {
 }
 
 Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
-                              const Eigen::MatrixXd& motions) {
+                              const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Eigen::MatrixXd strain = strains_of(space, cell, xi, motions);
   const Beam& beam = beam_of(space, cell);
   const BeamSection& section = space.mesh().section_of(beam);
@@ -66,7 +67,7 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
 }
 
 Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,
-                                           const Eigen::MatrixXd& motions) {
+                                           const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const BeamSection& section = space.mesh().section_of(beam_of(space, cell));
   return modulus_of(space.mesh(), section) * strains_of(space, cell, xi, motions).row(0);
 }

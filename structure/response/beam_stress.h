@@ -18,11 +18,11 @@ std::vector<Eigen::Vector2d> stress_points(const BeamSection& section);
 /// released turn and move as the release lets them.
 /// @param cell place in Space::beams(); @param xi on its unit length.
 Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
-                              const Eigen::MatrixXd& motions);
+                              const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
 /// Their mean over the section, N / A, a column a motion.
 Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,
-                                           const Eigen::MatrixXd& motions);
+                                           const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
 /// Rows 6 point + component of Stress for rows of normal stresses.
 Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses);

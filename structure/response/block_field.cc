@@ -107,7 +107,8 @@ SteelPlace find_cell(const Space& space, const Vector3& place) {
   return SteelFinder(space).find(place);
 }
 
-Eigen::MatrixXd displacements_at(const ElasticModel& model, const Eigen::MatrixXd& motions,
+Eigen::MatrixXd displacements_at(const ElasticModel& model,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& motions,
                                  const Eigen::Matrix3Xd& places, const Vector3& normal) {
   const Space& space = model.space();
   const SteelFinder finder(space);
@@ -131,7 +132,8 @@ Eigen::MatrixXd displacements_at(const ElasticModel& model, const Eigen::MatrixX
   return result;
 }
 
-Eigen::MatrixXd stresses_at(const ElasticModel& model, const Eigen::MatrixXd& motions,
+Eigen::MatrixXd stresses_at(const ElasticModel& model,
+                            const Eigen::Ref<const Eigen::MatrixXd>& motions,
                             const SteelPlace& place) {
   const Mesh& mesh = model.mesh();
   const Space& space = model.space();

@@ -38,13 +38,15 @@ SteelPlace find_cell(const Space& space, const Vector3& place);
 /// (freedoms x m), m. Off the mid-surface they are those of Reissner and Mindlin, u + theta x arm.
 /// @param normal of the plate that is meant where several meet, see SteelFinder.
 /// @throws ModelError naming the first place that lies in no plate.
-Eigen::MatrixXd displacements_at(const ElasticModel& model, const Eigen::MatrixXd& motions,
+Eigen::MatrixXd displacements_at(const ElasticModel& model,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& motions,
                                  const Eigen::Matrix3Xd& places,
                                  const Vector3& normal = Vector3::Zero());
 
 /// Stresses at a place, row a component (xx, yy, zz, xy, yz, zx) in the block's axes, a column for each of
 /// `motions`, Pa. At the height z: membrane + 2 z / t bending, and 3/2 (1 - (2 z / t)^2) of the mean shear.
-Eigen::MatrixXd stresses_at(const ElasticModel& model, const Eigen::MatrixXd& motions,
+Eigen::MatrixXd stresses_at(const ElasticModel& model,
+                            const Eigen::Ref<const Eigen::MatrixXd>& motions,
                             const SteelPlace& place);
 
 }  // namespace blocklift::structure

@@ -32,7 +32,7 @@ ShellStress::ShellStress(const Space& space, const Eigen::Matrix2Xd& points)
     of_triangles_ = std::make_unique<ShellOperator>(space, pulled_in(points));
 }
 
-Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::MatrixXd& motions) {
+Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Mesh& mesh = space_.mesh();
   const Shell& shell = mesh.shells[at(space_.shells()[at(cell)].shell)];
   current_ = of_triangles_ && shell.is_triangle() ? of_triangles_.get() : &of_squares_;
@@ -56,7 +56,8 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::MatrixXd& motions) {
   return rows;
 }
 
-Eigen::MatrixXd motions_of_cell(const Space& space, int cell, const Eigen::MatrixXd& motions) {
+Eigen::MatrixXd motions_of_cell(const Space& space, int cell,
+                                const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const int count = space.nodes_per_shell();
   const int* nodes = space.shell_nodes(cell);
   Eigen::MatrixXd local(6 * count, motions.cols());

@@ -36,7 +36,7 @@ class ShellStress {
   ShellStress(const Space& space, const Eigen::Matrix2Xd& points);
 
   /// Stresses in a cell of Space::shells() for motions (freedoms x k): rows shell_stress_rows point + row.
-  Eigen::MatrixXd of_all(int cell, const Eigen::MatrixXd& motions);
+  Eigen::MatrixXd of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions);
   /// Places and axes at the points of the cell last looked at.
   const std::vector<ShellPoint>& points() const { return current_->points(); }
 
@@ -48,7 +48,8 @@ class ShellStress {
 };
 
 /// Motions of a cell's nodes, 6 nodes_per_shell() x k, from those of all (freedoms x k).
-Eigen::MatrixXd motions_of_cell(const Space& space, int cell, const Eigen::MatrixXd& motions);
+Eigen::MatrixXd motions_of_cell(const Space& space, int cell,
+                                const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
 /// Stresses (rows 6 point + component of Stress, along e_1, e_2 and the normal) at one height for the rows of
 /// ShellStress::of_all, without shear across the plate.

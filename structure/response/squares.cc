@@ -219,7 +219,8 @@ std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
   return SquarePlacer(mesh, fields, walker, size).place();
 }
 
-CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions, double size,
+CheckedStress::CheckedStress(const ElasticModel& model,
+                             const Eigen::Ref<const Eigen::MatrixXd>& motions, double size,
                              int threads) {
   const PlateFields fields = find_fields(model.mesh());
   const FieldWalker walker(model.mesh(), fields);
@@ -227,7 +228,8 @@ CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& m
   evaluate(model, walker, motions, threads);
 }
 
-CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions,
+CheckedStress::CheckedStress(const ElasticModel& model,
+                             const Eigen::Ref<const Eigen::MatrixXd>& motions,
                              std::vector<Square> squares, int threads)
     : squares_(std::move(squares)) {
   const PlateFields fields = find_fields(model.mesh());
@@ -235,7 +237,7 @@ CheckedStress::CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& m
 }
 
 void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walker,
-                             const Eigen::MatrixXd& motions, int threads) {
+                             const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads) {
   const Space& space = model.space();
   const CellFinder cells(space);
   // A node's six freedoms of all motions lie together.

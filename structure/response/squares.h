@@ -30,10 +30,10 @@ struct Square {
 class CheckedStress {
  public:
   /// @param motions freedoms x m, m and rad. The model must outlive this object.
-  CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions, double size = 0.05,
-                int threads = 0);
+  CheckedStress(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                double size = 0.05, int threads = 0);
   /// The same of given squares of the same mesh.
-  CheckedStress(const ElasticModel& model, const Eigen::MatrixXd& motions,
+  CheckedStress(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
                 std::vector<Square> squares, int threads = 0);
 
   const std::vector<Square>& squares() const { return squares_; }
@@ -47,7 +47,7 @@ class CheckedStress {
 
  private:
   void evaluate(const ElasticModel& model, const FieldWalker& walker,
-                const Eigen::MatrixXd& motions, int threads);
+                const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads);
 
   std::vector<Square> squares_;
   Eigen::MatrixXd components_, bending_;

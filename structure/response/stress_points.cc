@@ -71,7 +71,8 @@ void StressPoints::give_back(std::unique_ptr<ShellStress> one) const {
   recoveries_.push_back(std::move(one));
 }
 
-Eigen::MatrixXd StressPoints::stresses(int first, int count, const Eigen::MatrixXd& motions) const {
+Eigen::MatrixXd StressPoints::stresses(int first, int count,
+                                       const Eigen::Ref<const Eigen::MatrixXd>& motions) const {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(6 * count, motions.cols());
   const int shells = std::clamp(shell_points_ - first, 0, count);
   if (shells > 0) shell_stresses(first, shells, motions, rows.topRows(6 * shells));
@@ -85,7 +86,8 @@ Eigen::MatrixXd StressPoints::stresses(int first, int count, const Eigen::Matrix
   return rows;
 }
 
-void StressPoints::shell_stresses(int first, int count, const Eigen::MatrixXd& motions,
+void StressPoints::shell_stresses(int first, int count,
+                                  const Eigen::Ref<const Eigen::MatrixXd>& motions,
                                   Eigen::Ref<Eigen::MatrixXd> rows) const {
   std::unique_ptr<ShellStress> recovery = borrow();
   int known_cell = -1;

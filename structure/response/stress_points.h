@@ -26,7 +26,8 @@ class StressPoints {
   Vector3 place(int point) const;
   /// Rows 6 point + component for points first .. first + count - 1, a column for each of `motions`
   /// (freedoms x m). May be called from several threads.
-  Eigen::MatrixXd stresses(int first, int count, const Eigen::MatrixXd& motions) const;
+  Eigen::MatrixXd stresses(int first, int count,
+                           const Eigen::Ref<const Eigen::MatrixXd>& motions) const;
 
  private:
   struct BeamPointOf {
@@ -37,7 +38,7 @@ class StressPoints {
   int points_per_cell() const { return 2 * space_.nodes_per_shell(); }
   std::unique_ptr<ShellStress> borrow() const;
   void give_back(std::unique_ptr<ShellStress> one) const;
-  void shell_stresses(int point, int count, const Eigen::MatrixXd& motions,
+  void shell_stresses(int point, int count, const Eigen::Ref<const Eigen::MatrixXd>& motions,
                       Eigen::Ref<Eigen::MatrixXd> rows) const;
 
   const Space& space_;
