@@ -37,12 +37,13 @@ def build(arguments):
     write_manual(stage, run(arguments.blocklift, "schema", "--manual"))
     write_register(stage, run(arguments.blocklift, "verify", "--list"), arguments.figures)
     shutil.copy(Path(__file__).with_name("mkdocs.yml"), output / "mkdocs.yml")
+    shutil.copy(Path(__file__).with_name("style.css"), output / "pages" / "style.css")
     for problem in problems:
         print(problem, file=sys.stderr)
     if problems:
         return 1
-    subprocess.run(["mkdocs", "build", "--strict", "--quiet", "--config-file", "mkdocs.yml"],
-                   cwd=output, check=True)
+    if subprocess.run(["mkdocs", "build", "--strict", "--quiet"], cwd=output).returncode != 0:
+        return 1
     broken = broken_links(output / "site")
     for link in broken:
         print(link, file=sys.stderr)

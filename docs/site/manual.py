@@ -45,9 +45,8 @@ class Page:
     """One kind of file: each table of keys once, however often others mention it."""
 
     def __init__(self, kind):
-        self.kind = kind
         self.anchors = {}
-        self.lines = [f"# Keys of a {kind} file", ""]
+        self.lines = [f"# Keys of a {kind.title} file", ""]
         self._used = {}
         self._anchor(kind)
         self._write_body(kind)

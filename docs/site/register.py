@@ -52,7 +52,7 @@ def figures_of(stage, rows):
         failed = sum(not row["pass"] for row in own)
         picture = f"docs/verification-{name}.svg"
         stage.write(picture, plot(own))
-        text += [f"## {name.capitalize()}", "",
+        text += [f"## Register: {name}", "",
                  f"{len(own) - failed} of {len(own)} figures agree with their references.", "",
                  f"![Errors over tolerances, {name}](verification-{name}.svg)", ""]
         for case in dict.fromkeys(row["name"] for row in own):
@@ -69,7 +69,7 @@ def figures_of(stage, rows):
 
 
 def list_of(listed):
-    text = ["These are the cases; the figures were not computed for this copy of the site.", "",
+    text = ["## Register", "", "These are the cases; the figures were not computed for this copy of the site.", "",
             "| case | reference |", "|---|---|"]
     for line in listed.splitlines():
         name, _, source = line.partition(" ")

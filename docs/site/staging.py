@@ -1,5 +1,6 @@
 """Gathers the pages of the site from the repository."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -83,9 +84,10 @@ class Stage:
             (self.folder / relative).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(target, self.folder / relative)
         elif target.suffix != ".md":
-            # Not .h.md beside the source's own name: a page `x.md` and a page `x.h.md` may both be due.
-            self._sources[target] = f"{relative}.md"
-            name += ".md"
+            # MkDocs passes over folders whose names begin with a point.
+            page = f"{relative}.md".removeprefix(".")
+            self._sources[target] = page
+            name = os.path.relpath(self.root / page, path.parent)
         return name + hash_mark + fragment
 
     def _write_source(self, source, name):
