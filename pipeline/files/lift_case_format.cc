@@ -78,7 +78,8 @@ Format<LoadInCase> load_format() {
                   "of a vessel in the water: linear, in proportion to the wet volume")
       .by_default("quadratic_damping", &LoadInCase::quadratic_damping,
                   vessel_quadratic_damping_format(), "{}",
-                  "with the square of the velocity; likewise")
+                  "of a vessel in the water: with the square of the velocity, in proportion to the "
+                  "wet volume")
       .optional(
           "draughts", &LoadInCase::draughts, located(draughts_format()),
           "of a vessel, upright, from the lowest point of its hull: for them added mass, memory "

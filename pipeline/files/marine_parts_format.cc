@@ -151,7 +151,7 @@ Format<RadiationSettings> radiation_settings_format() {
       .by_default("lowest_frequency", &RadiationSettings::lowest, frequency, "0.3 rad/s",
                   "that the waves and motions have")
       .by_default("highest_frequency", &RadiationSettings::highest, frequency, "1.2 rad/s",
-                  "likewise; its waves must be longer than three panels")
+                  "that the waves and motions have; its waves must be longer than three panels")
       .by_default("frequencies", &RadiationSettings::frequencies, integer(Range::between(2, 200)),
                   "19",
                   "at which diffraction is computed, evenly between; those of regular waves "
@@ -252,7 +252,8 @@ Format<VesselInCase> vessel_in_case_format() {
                   "linear, relative to the current; in proportion to the wet volume")
       .by_default("quadratic_damping", &VesselInCase::quadratic_damping,
                   vessel_quadratic_damping_format(), "{}",
-                  "with the square of the velocity; likewise")
+                  "with the square of the velocity relative to the current; in proportion to the "
+                  "wet volume")
       .optional("members", &VesselInCase::members, list_of(member_format()),
                 "slender members with drag");
   return table.format();

@@ -378,8 +378,10 @@ Format<PartFile> part_file_format() {
                 "largest estimated error of the stress field in the energy norm, such as 5 %; "
                 "elements are raised to quadratic ones and made smaller until it is met: those of "
                 "a geometry of tetrahedra where the error is, others all by half")
-      .optional("checked_stress", &PartFile::checked_stress, checked_stress_format(),
-                "likewise, of the stress that matters")
+      .optional(
+          "checked_stress", &PartFile::checked_stress, checked_stress_format(),
+          "the same for the stress that is checked: elements are made smaller until its error "
+          "is met")
       .optional("references", &PartFile::references, references_format(),
                 "published figures to hold against ours")
       .rule(check_part)

@@ -15,7 +15,7 @@ function waysTable(data: PageData, structure: Structure): Child {
       megapascals(way.static?.checked_von_mises_Pa), megapascals(way.dynamic?.checked_von_mises_Pa), change(way.stress_increase_percent),
       millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), change(way.deformation_increase_percent)]);
   };
-  row(h("b", {}, "Headline: the worst instant"), structure.simultaneous);
+  row(h("b", {}, "The worst of the instants below"), structure.simultaneous);
   for (const way of structure.simultaneous_by_rope ?? []) row(`Instant of largest load in ${way.rope ?? missing}`, way);
   row("Per-rope maxima, all at once", structure.per_rope_maxima);
   row("The whole lift, every instant", structure.history);
@@ -123,7 +123,7 @@ function massTable(structure: Structure): Child {
 
 function modelText(structure: Structure): string {
   const parts: string[] = [];
-  if (known(structure.elements)) parts.push(`${fixed(structure.elements, 0)} hexahedra${known(structure.element_degree)
+  if (known(structure.elements)) parts.push(`${fixed(structure.elements, 0)} shells and beams${known(structure.element_degree)
     ? ` of degree ${structure.element_degree}` : ""}`);
   if (known(structure.unknowns)) parts.push(`${fixed(structure.unknowns, 0)} unknowns`);
   if (known(structure.mesh_size_m)) parts.push(`largest element ${fixed(structure.mesh_size_m, 2)} m`);
