@@ -110,29 +110,27 @@ void find_pressure(const LiftRun& lift, const structure::ElasticModel& model,
 
 /// What pulls and presses on a lifted block, at rest and in motion.
 struct BlockLoads {
-  BlockLoads(const LiftRun& lift, const BlockRun& block)
-      : attachment(
-            attach_block(lift.model.system, lift.model.load, block.model->mesh().lifting_points)),
+  BlockLoads(const LiftRun& lift, const structure::ElasticModel& model,
+             const std::optional<PressureBasis>& pressure)
+      : attachment(attach_block(lift.model.system, lift.model.load, model.mesh().lifting_points)),
         at_rest(lift.static_history),
         in_motion(lift.dynamic_history()) {
-    if (!block.pressure) return;
-    attachment.pressure_resultants = block.pressure->resultants;
-    at_rest.pressure = block.pressure->static_factors;
-    in_motion.pressure = block.pressure->dynamic_factors;
+    if (!pressure) return;
+    attachment.pressure_resultants = pressure->resultants;
+    at_rest.pressure = pressure->static_factors;
+    in_motion.pressure = pressure->dynamic_factors;
   }
   BlockAttachment attachment;
   BlockHistory at_rest, in_motion;
 };
 
 /// Divides elements until the checked stress stands.
-void refine(const LiftCase& the_case, const LiftRun* lift, const Eigen::MatrixXd& static_factors,
-            const Eigen::MatrixXd& dynamic_factors, BlockRun& block) {
-  const auto prepare = [&](const structure::ElasticModel& model,
-                           structure::UnitResponses& responses) {
-    if (lift) find_pressure(*lift, model, responses, block.pressure);
-  };
+void refine(const LiftCase& the_case,
+            const std::function<structure::LoadFactors(const structure::ElasticModel&,
+                                                       structure::UnitResponses&)>& factors_of,
+            BlockRun& block) {
   structure::RefinedBlock refined = structure::refine_checked_stress(
-      std::move(block.model), std::move(block.responses), static_factors, dynamic_factors, prepare,
+      std::move(block.model), std::move(block.responses), factors_of,
       {the_case.structure.accuracy, the_case.structure.most_unknowns});
   block.model = std::move(refined.model);
   block.responses = std::move(refined.responses);
@@ -142,15 +140,18 @@ void refine(const LiftCase& the_case, const LiftRun* lift, const Eigen::MatrixXd
 /// Stresses of a block that was lifted.
 void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Progress& progress,
                          BlockRun& block) {
-  find_pressure(lift, *block.model, *block.responses, block.pressure);
   progress("block: division of elements", 0.4, "");
-  {
-    const BlockLoads loads(lift, block);
-    refine(the_case, &lift, factors_of(*block.responses, loads.attachment, loads.at_rest),
-           factors_of(*block.responses, loads.attachment, loads.in_motion), block);
-  }
+  // The shell's regions, and with them the fields of pressure, follow the mesh.
+  const auto factors = [&](const structure::ElasticModel& model,
+                           structure::UnitResponses& responses) -> structure::LoadFactors {
+    find_pressure(lift, model, responses, block.pressure);
+    const BlockLoads loads(lift, model, block.pressure);
+    return {factors_of(responses, loads.attachment, loads.at_rest),
+            factors_of(responses, loads.attachment, loads.in_motion)};
+  };
+  refine(the_case, factors, block);
   progress("block: stresses", 0.5, "");
-  const BlockLoads loads(lift, block);
+  const BlockLoads loads(lift, *block.model, block.pressure);
   const auto& [attachment, at_rest, in_motion] = loads;
   const structure::StressRecovery recovery(*block.responses);
   block.assessment = assess_block(*block.responses, recovery, attachment, at_rest, in_motion);
@@ -166,15 +167,17 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Pr
 /// Stresses under a table of loads.
 void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& block) {
   const LoadTable& table = *the_case.load_table;
-  const auto& lugs = block.model->mesh().lifting_points;
+  const std::vector<structure::LiftingPoint> lugs = block.model->mesh().lifting_points;
   const auto static_forces = table_forces(table, table.static_loads, lugs);
   const auto dynamic_forces = table_forces(table, table.dynamic_loads, lugs);
-  const auto factors = [&](const std::vector<structure::Vector3>& forces) -> Eigen::MatrixXd {
-    return block.responses->coefficients(
-        map_load_table(forces, lugs, block.model->mass_properties()));
+  const auto factors = [&](const structure::ElasticModel& model,
+                           structure::UnitResponses& responses) -> structure::LoadFactors {
+    const structure::MassProperties& mass = model.mass_properties();
+    return {responses.coefficients(map_load_table(static_forces, lugs, mass)),
+            responses.coefficients(map_load_table(dynamic_forces, lugs, mass))};
   };
   progress("block: division of elements", 0.4, "");
-  refine(the_case, nullptr, factors(static_forces), factors(dynamic_forces), block);
+  refine(the_case, factors, block);
   progress("block: stresses", 0.5, "");
   const structure::StressRecovery recovery(*block.responses);
   block.assessment = assess_load_table(*block.responses, recovery, static_forces, dynamic_forces);

@@ -111,7 +111,20 @@ void print_block(const BlockAssessment& block, const HistoryAssessment* history)
       history->per_rope_maxima.largest_percent, history->per_rope_maxima.worst_percent);
 }
 
+void print_accuracy(const structure::CheckedAccuracy& accuracy) {
+  if (accuracy.steps.size() < 2) {
+    fmt::print("checked stress of one mesh only: how far it moves with the mesh is not known\n");
+    return;
+  }
+  fmt::print(
+      "the last of {} meshes moved the checked stress by {:.1f} % and its increase by {:.1f} "
+      "points{}\n",
+      accuracy.steps.size(), 100 * accuracy.stress_change(), 100 * accuracy.increase_change(),
+      accuracy.is_reached ? "" : ": the accuracy that is asked for is not reached");
+}
+
 void print_details(const BlockRun& block) {
+  print_accuracy(block.accuracy);
   fmt::print("estimated error of the stress field {:.1f} % in the energy norm, most of it in {}\n",
              100 * block.error.relative, block.error.worst_part);
   if (!block.buckling.panels.empty()) {

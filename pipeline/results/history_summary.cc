@@ -28,6 +28,8 @@ Json extreme_json(const HistoryExtreme& extreme) {
 Json state_json(const HistoryState& state) {
   const HistoryExtreme& checked = state.checked_von_mises;
   Json json{{"checked_von_mises_Pa", json_number(checked.at.value)},
+            {"field_von_mises_Pa", json_number(state.field_von_mises.at.value)},
+            {"field_point_m", json_point(state.field_von_mises.at.point_B)},
             {"peak_von_mises_Pa", json_number(state.peak_von_mises.at.value)},
             {"max_displacement_m", json_number(state.displacement.at.value)},
             {"largest_principal_Pa", json_number(state.largest_principal.at.value)},

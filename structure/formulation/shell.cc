@@ -25,6 +25,9 @@ dealii::Quadrature<2> quadrature_of(const Eigen::Matrix2Xd& points) {
   return dealii::Quadrature<2>(list);
 }
 
+/// Of G t. All of it makes a box with two cells a side 2 % too stiff in torsion, a hundredth 0.1 %.
+constexpr double drilling_share = 0.01;
+
 /// Geometry of a shell's surface at a point, by the unit coordinates.
 struct Surface {
   Vector3 g_1, g_2, n;
@@ -439,7 +442,7 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Ma
   law.block<3, 3>(membrane_11, membrane_11) = t * plane;
   law.block<3, 3>(curvature_11, curvature_11) = t * t * t / 12 * plane;
   law(shear_1, shear_1) = law(shear_2, shear_2) = 5.0 / 6 * g * t;
-  law(drilling, drilling) = g * t;
+  law(drilling, drilling) = drilling_share * g * t;
   return law;
 }
 

@@ -47,10 +47,9 @@ struct Evaluation {
   }
 };
 
-Evaluation evaluate(const CheckedStress& checked, const Eigen::MatrixXd& static_factors,
-                    const Eigen::MatrixXd& dynamic_factors) {
-  return {checked.squares(), largest_of(checked, static_factors),
-          largest_of(checked, dynamic_factors)};
+Evaluation evaluate(const CheckedStress& checked, const LoadFactors& factors) {
+  return {checked.squares(), largest_of(checked, factors.at_rest),
+          largest_of(checked, factors.in_motion)};
 }
 
 double smallest_edge_of(const ElasticModel& model) {
@@ -130,14 +129,13 @@ double CheckedAccuracy::increase_change() const {
 
 RefinedBlock refine_checked_stress(
     std::unique_ptr<ElasticModel> model, std::unique_ptr<UnitResponses> responses,
-    const Eigen::MatrixXd& static_factors, const Eigen::MatrixXd& dynamic_factors,
-    const std::function<void(const ElasticModel&, UnitResponses&)>& prepare,
+    const std::function<LoadFactors(const ElasticModel&, UnitResponses&)>& factors_of,
     const AccuracyGoal& goal) {
   RefinedBlock block{std::move(model), std::move(responses), {}};
   const Resolution base = block.model->resolution();
-  Evaluation found =
-      evaluate(CheckedStress(*block.model, block.responses->displacements(), goal.square_size),
-               static_factors, dynamic_factors);
+  const LoadFactors of_first = factors_of(*block.model, *block.responses);
+  Evaluation found = evaluate(
+      CheckedStress(*block.model, block.responses->displacements(), goal.square_size), of_first);
   block.accuracy.steps.push_back(step_of(*block.model, found));
   std::vector<Vector3> centres;
   double edge = first_edge;
@@ -147,9 +145,8 @@ RefinedBlock refine_checked_stress(
     auto finer = block.model->with(graded(base, centres, edge));
     if (finer->space().unknowns() > goal.most_unknowns) break;
     auto solved = std::make_unique<UnitResponses>(*finer);
-    prepare(*finer, *solved);
-    found = evaluate(CheckedStress(*finer, solved->displacements(), candidates(found)),
-                     static_factors, dynamic_factors);
+    const LoadFactors factors = factors_of(*finer, *solved);
+    found = evaluate(CheckedStress(*finer, solved->displacements(), candidates(found)), factors);
     block.responses = std::move(solved);
     block.model = std::move(finer);
     block.accuracy.steps.push_back(step_of(*block.model, found));

@@ -41,6 +41,11 @@ struct CheckedAccuracy {
   double increase_change() const;
 };
 
+/// Factors of a model's unit responses, a column an instant.
+struct LoadFactors {
+  Eigen::MatrixXd at_rest, in_motion;
+};
+
 /// A block on the mesh that was found to be fine enough.
 struct RefinedBlock {
   std::unique_ptr<ElasticModel> model;
@@ -54,12 +59,10 @@ struct RefinedBlock {
 /// Each step solves anew and looks at the squares that had at least six tenths of the largest stress before.
 /// Cells about the largest of them are divided to 0.1 m, then 0.05 m and so on, growing with the distance.
 /// The loads are those of the rigid block, whatever its mesh.
-/// @param static_factors, dynamic_factors of the unit responses, a column an instant.
-/// @param prepare adds to new responses the loads that the first ones have beside lugs and inertia.
+/// @param factors_of the factors of a model's responses; it may add to them loads of its own before.
 RefinedBlock refine_checked_stress(
     std::unique_ptr<ElasticModel> model, std::unique_ptr<UnitResponses> responses,
-    const Eigen::MatrixXd& static_factors, const Eigen::MatrixXd& dynamic_factors,
-    const std::function<void(const ElasticModel&, UnitResponses&)>& prepare,
+    const std::function<LoadFactors(const ElasticModel&, UnitResponses&)>& factors_of,
     const AccuracyGoal& goal);
 
 }  // namespace blocklift::structure

@@ -191,7 +191,7 @@ VerificationCase rigid_arm() {
             return std::vector<VerificationRow>{compare("deflection of the arm's end", "m",
                                                         -(end + slope), at_tip.z(), rounding * end),
                                                 compare("its displacement along the beam", "m",
-                                                        -0.5 * slope, at_tip.x(), rounding * end)};
+                                                        0.5 * slope, at_tip.x(), rounding * end)};
           }};
 }
 

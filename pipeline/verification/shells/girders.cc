@@ -39,8 +39,8 @@ SparseLower stiffness_with_drilling(const Space& space, double factor) {
       const Mesh& mesh = own.space.mesh();
       const Shell& shell = mesh.shells[static_cast<std::size_t>(
           own.space.shells()[static_cast<std::size_t>(element)].shell)];
-      const double stiffness =
-          mesh.material_of(shell).shear_modulus() * mesh.section_of(shell).thickness;
+      const double stiffness = shell_stiffness_law(
+          mesh.material_of(shell), mesh.section_of(shell).thickness)(drilling, drilling);
       for (Eigen::Index q = 0; q < own.rule.cols(); ++q) {
         const ShellPoint& point = own.strains.points()[static_cast<std::size_t>(q)];
         const Eigen::RowVectorXd row = point.strain.row(drilling);
@@ -108,7 +108,8 @@ struct Tee {
         [](const Vector3&) -> Vector3 {
           return {0, 0, -1000 / width};
         });
-    return -testing::solve(space, load, fixed).dot(load) / -1000;
+    // At the web: the flange bends across it under what acts on its end.
+    return -testing::displacement_at(space, testing::solve(space, load, fixed), {length, 0, 0}).z();
   }
   // Bending about the common centroid, shear by the web alone.
   static double theory() {
@@ -340,16 +341,19 @@ VerificationCase i_beam_sideways() {
           }};
 }
 
-// What the choice of the drilling stiffness G t does: figures with a hundredth and a hundred times of it.
+// What the choice of the drilling stiffness does: figures with a hundredth and a hundred times of it, which is
+// the full G t of Hughes and Brezzi (1989). Along the edges of a box in torsion the slope of one plate is the
+// drilling of the next, twice what its own displacements make of it: a layer of one cell, stiff by its drilling.
 VerificationCase drilling_stiffness() {
   return {.name = "drilling-stiffness",
           .stage = "structure",
-          .source = "the same with the drilling stiffness G t of Hughes and Brezzi (1989)",
+          .source =
+              "the same with a hundredth of the drilling stiffness G t of Hughes and Brezzi (1989)",
           .compute = [] {
             std::vector<VerificationRow> rows;
             for (const int degree : {2, 3})
               for (const double factor : {0.01, 0.1, 10.0, 100.0}) {
-                const double tolerance = factor > 10 ? 0.02 : 5e-3;
+                const double tolerance = factor > 10 ? 0.03 : 5e-3;
                 const double bent = sideways(degree, 6, 1), twisted = tube_twist(degree, 4, 1);
                 rows.push_back(compare(
                     fmt::format("I-beam sideways, {} times the drilling stiffness, degree {}",

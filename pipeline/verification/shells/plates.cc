@@ -149,7 +149,7 @@ VerificationCase morleys_plate() {
         std::vector<VerificationRow> rows;
         const Material material = testing::plain_steel();
         for (const auto& [degree, cells, tolerance] :
-             {std::tuple{2, 16, 0.03}, {3, 8, 0.03}, {3, 16, 0.02}, {4, 8, 0.02}}) {
+             {std::tuple{2, 16, 0.03}, {3, 8, 0.04}, {3, 16, 0.02}, {4, 8, 0.02}}) {
           const double t = 1e-3;
           const Rhombus plate(30, degree, cells, t, material);
           const double w = testing::displacement_at(*plate.space, plate.motion, plate.centre).z() *
@@ -167,6 +167,7 @@ VerificationCase morleys_plate() {
       }};
 }
 
+// As above; at a/t = 100 the soft support adds some 2 % to the target, which is Kirchhoff's.
 VerificationCase nafems_le6() {
   return {.name = "nafems-le6",
           .stage = "structure",
@@ -174,7 +175,7 @@ VerificationCase nafems_le6() {
           .compute = [] {
             std::vector<VerificationRow> rows;
             for (const auto& [degree, cells, tolerance] :
-                 {std::tuple{2, 16, 0.03}, {3, 8, 0.03}, {3, 16, 0.02}}) {
+                 {std::tuple{2, 16, 0.03}, {3, 8, 0.03}, {3, 16, 0.025}}) {
               const Rhombus plate(30, degree, cells, 0.01, testing::plain_steel());
               rows.push_back(compare(
                   fmt::format("largest stress at the centre below, {} x {} cells of degree {}",

@@ -26,8 +26,8 @@ Eigen::Isometry3d tilt() {
 }
 
 Mesh flat_plate(int m, int n) {
-  return testing::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n, thickness,
-                          testing::plain_steel());
+  return testing::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n,
+                             thickness, testing::plain_steel());
 }
 
 /// Stretching with a bending that is uniform, in the plate's own axes:

@@ -59,8 +59,8 @@ export interface Practice {
   worst_part?: string; worst_point_m?: number[]; worst_envelope_Pa?: Maybe<number>; share_of_patches_short?: Maybe<number>;
 }
 export interface StructureHistory extends StructureWay {
-  static?: StructureState & { instants?: number; rope_share?: number };
-  dynamic?: StructureState & { instants?: number; rope_share?: number };
+  static?: StructureState & { instants?: number; rope_share?: number; field_von_mises_Pa?: Maybe<number> };
+  dynamic?: StructureState & { instants?: number; rope_share?: number; field_von_mises_Pa?: Maybe<number> };
   places?: number; practice?: { per_rope_maxima?: Practice; rope_instants?: Practice };
   fatigue?: { curve?: string; source?: string; stress_concentration?: number; lifts?: number };
   points?: {
@@ -95,7 +95,15 @@ export interface PadeyeSummary {
 export interface PadeyePicture {
   lug: string; state: string; rope: string; time?: number; force: number[]; plate: number[]; von_mises: number[]; corners: number[][];
 }
+export interface AccuracyStep {
+  unknowns?: number; elements?: number; smallest_edge_m?: Maybe<number>;
+  static_checked_von_mises_Pa?: Maybe<number>; dynamic_checked_von_mises_Pa?: Maybe<number>; stress_increase_percent?: Maybe<number>;
+}
+export interface CheckedAccuracy {
+  asked?: number; is_reached?: boolean; stress_change?: Maybe<number>; increase_change_percent?: Maybe<number>; steps?: AccuracyStep[];
+}
 export interface Structure {
+  accuracy?: CheckedAccuracy;
   unknowns?: number; elements?: number; element_degree?: number; mesh_size_m?: number;
   material?: string; yield_Pa?: Maybe<number>;
   per_rope_maxima?: StructureWay; simultaneous?: StructureWay; history?: StructureHistory; simultaneous_by_rope?: StructureWay[];

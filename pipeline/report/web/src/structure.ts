@@ -1,10 +1,20 @@
 // What the loads do to the block: three ways of taking maxima, lugs, balance, masses.
-import { known, PageData, Structure, StructureWay } from "./data";
+import { CheckedAccuracy, known, PageData, Structure, StructureWay } from "./data";
 import { Child, Column, h, table } from "./dom";
 import type { Section } from "./section";
 import { change, fixed, megapascals, millimetres, missing, point, scientific, seconds, tonnes } from "./numbers";
 
 const left = (head: string): Column => ({ head, align: "left" });
+
+/** What the last refinement changed, as the error that stands beside the checked stress. */
+export function accuracyText(accuracy: CheckedAccuracy | undefined): string {
+  const steps = accuracy?.steps ?? [];
+  if (!accuracy || steps.length === 0) return "";
+  if (steps.length === 1) return "one mesh only: how far the stress moves with the mesh is not known";
+  return `the last of ${steps.length} meshes moved the stress by ${fixed(100 * (accuracy.stress_change ?? 0), 1)}\u202f%, `
+    + `the increase by ${fixed(accuracy.increase_change_percent, 1)} points`
+    + (accuracy.is_reached ? "" : `: the ${fixed(100 * (accuracy.asked ?? 0), 0)}\u202f% that are asked for are not reached`);
+}
 
 /** The published pair belongs to the way in which it was computed: each rope at its own maximum. */
 function waysTable(data: PageData, structure: Structure): Child {
@@ -37,7 +47,7 @@ function historyTables(structure: Structure): Child {
   const states = (["static", "dynamic"] as const).filter((state) => history[state]).map((state) => {
     const one = history[state]!;
     return [`${state.charAt(0).toUpperCase()}${state.slice(1)}, ${fixed(one.instants, 0)} instants`,
-      megapascals(one.checked_von_mises_Pa), one.checked_group ?? missing, seconds(one.time_s), one.rope ?? missing,
+      megapascals(one.checked_von_mises_Pa), one.checked_group ?? missing, megapascals(one.field_von_mises_Pa), seconds(one.time_s), one.rope ?? missing,
       percent(one.rope_share), megapascals(one.peak_von_mises_Pa), millimetres(one.max_displacement_m)];
   });
   const practices = ([["Every rope at its own largest load, at once", history.practice?.per_rope_maxima],
@@ -49,7 +59,7 @@ function historyTables(structure: Structure): Child {
     fixed(one.cycles_per_lift, 0), scientific(one.damage_per_lift), scientific(one.damage)]);
   return [
     table("Every instant: the largest stress and deformation of the whole lift", [left("History"), { head: "Checked, MPa" }, left("in"),
-      { head: "at, s" }, left("Rope"), { head: "its share, %" }, { head: "Raw peak, MPa" }, { head: "Deformation, mm" }], states),
+      { head: "Away from corners, MPa", title: "largest of the squares that no corner of plates, lugs or openings is near" }, { head: "at, s" }, left("Rope"), { head: "its share, %" }, { head: "Raw peak, MPa" }, { head: "Deformation, mm" }], states),
     table("What simpler practices give in its place (negative: too little)", [left("Practice"), left("Safe"),
       { head: "Largest stress" }, { head: "Where it falls short most" }, left("in"), { head: "Plate area short, %",
         title: "of the patches that see at least half of the largest stress, those more than 1 % short" }], practices),
@@ -110,6 +120,18 @@ function balanceTable(structure: Structure): Child {
     { head: "Force residual / load" }, { head: "Moment residual / load" }, { head: "Support reactions / weight" }], rows);
 }
 
+/** Mesh after mesh about what governs: by how much the checked stress and its increase still move. */
+function accuracyTable(structure: Structure): Child {
+  const steps = structure.accuracy?.steps ?? [];
+  if (steps.length === 0) return null;
+  return [
+    table("Checked stress, mesh after mesh", [{ head: "Mesh" }, { head: "Shells and beams" }, { head: "Unknowns" },
+      { head: "Smallest element, mm" }, { head: "Static, MPa" }, { head: "Dynamic, MPa" }, { head: "Increase" }],
+    steps.map((step, i) => [fixed(i + 1, 0), fixed(step.elements, 0), fixed(step.unknowns, 0), millimetres(step.smallest_edge_m),
+      megapascals(step.static_checked_von_mises_Pa), megapascals(step.dynamic_checked_von_mises_Pa), change(step.stress_increase_percent)])),
+    h("p", { class: "source" }, accuracyText(structure.accuracy))];
+}
+
 function massTable(structure: Structure): Child {
   const mass = structure.mass;
   if (!mass) return null;
@@ -142,6 +164,6 @@ export function structureSection(data: PageData): Section | null {
       h("p", { class: "lead" }, "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
         + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. "
         + (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : ""), modelText(structure)),
-      waysTable(data, structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
+      waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
   };
 }

@@ -2,6 +2,7 @@
 import { Check, known, LoadMaxima, PageData, Structure } from "./data";
 import { Child, h, table } from "./dom";
 import type { Section } from "./section";
+import { accuracyText } from "./structure";
 import { change, inReportUnit, kilonewtons, megapascals, millimetres, missing, ratio, seconds, share, tonnesForce } from "./numbers";
 
 // What stands for the utilisation where nothing finite describes it: a rope that has gone slack.
@@ -67,7 +68,8 @@ function keyFigures(data: PageData): Child[] {
     const published = data.summary.comparison;
     figures.push(figure("Block stress increase", change(way.stress_increase_percent), "",
       [`${megapascals(way.static?.checked_von_mises_Pa)} to ${megapascals(way.dynamic?.checked_von_mises_Pa)} MPa`, h("br"),
-        beside(structure, "stress_increase_percent", published?.stress_increase_percent)]));
+        beside(structure, "stress_increase_percent", published?.stress_increase_percent), h("br"),
+        accuracyText(structure.accuracy)]));
     figures.push(figure("Block deformation increase", change(way.deformation_increase_percent), "",
       [`${millimetres(way.static?.max_displacement_m)} to ${millimetres(way.dynamic?.max_displacement_m)} mm`, h("br"),
         beside(structure, "deformation_increase_percent", published?.deformation_increase_percent)]));
