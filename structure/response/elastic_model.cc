@@ -43,7 +43,7 @@ ElasticModel::ElasticModel(Mesh mesh, const Resolution& resolution,
                            std::optional<double> total_mass,
                            std::optional<Vector3> centre_of_mass_B)
     : ElasticModel(std::make_shared<const Mesh>(std::move(mesh)), resolution, total_mass,
-                   centre_of_mass_B) {}
+                   std::move(centre_of_mass_B)) {}
 
 ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& resolution,
                            std::optional<double> total_mass,
@@ -51,7 +51,7 @@ ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& r
     : mesh_(std::move(mesh)),
       resolution_(resolution),
       stated_mass_(total_mass),
-      stated_centre_B_(centre_of_mass_B) {
+      stated_centre_B_(std::move(centre_of_mass_B)) {
   require_memory(*mesh_, resolution_);
   space_ = std::make_unique<Space>(*mesh_, resolution_);
   mass_ = find_mass_properties(*space_, stated_mass_ ? &*stated_mass_ : nullptr,

@@ -40,6 +40,8 @@ double elliptic_membrane(int degree, int cells) {
   return testing::stress_at(space, testing::solve(space, load, fixed), {2, 0, 0}, 0)(1, 1) / 1e6;
 }
 
+// D lies in a corner of stretched cells: coarse meshes are within per cents there, and the finer ones show where
+// they go.
 VerificationCase nafems_le1() {
   return {
       .name = "nafems-le1-shell",
@@ -47,13 +49,13 @@ VerificationCase nafems_le1() {
       .source = "NAFEMS (1990), The standard NAFEMS benchmarks, LE1: 92.7 MPa",
       .compute = [] {
         std::vector<VerificationRow> rows;
-        for (const auto& [degree, cells, tolerance] : {std::tuple{2, 4, 0.02},
-                                                       {2, 8, 0.01},
+        for (const auto& [degree, cells, tolerance] : {std::tuple{2, 4, 0.03},
+                                                       {2, 8, 0.015},
+                                                       {2, 16, 0.005},
                                                        {3, 2, 0.03},
                                                        {3, 4, 0.01},
-                                                       {3, 8, 0.01},
-                                                       {2, 16, 0.01},
-                                                       {4, 2, 0.01}})
+                                                       {3, 8, 0.002},
+                                                       {4, 2, 0.015}})
           rows.push_back(compare(
               fmt::format("sigma_yy at D, {} x {} cells of degree {}", cells, 2 * cells, degree),
               "MPa", 92.7, elliptic_membrane(degree, cells), tolerance * 92.7));

@@ -93,8 +93,10 @@ VerificationCase curved_beam() {
           };
           rows.push_back(compare(fmt::format("in-plane shear, six cells of degree {}", degree), "1",
                                  0.08734, along(Vector3::UnitX()), 0.02 * 0.08734));
+          // Bending and torsion change by 15 degrees along a cell: too much for 2 % by quadratics.
+          const double out_of_plane = degree == 2 ? 0.05 : 0.02;
           rows.push_back(compare(fmt::format("out-of-plane shear, six cells of degree {}", degree),
-                                 "1", 0.5022, along(Vector3::UnitZ()), 0.03 * 0.5022));
+                                 "1", 0.5022, along(Vector3::UnitZ()), out_of_plane * 0.5022));
         }
         return rows;
       }};
