@@ -91,6 +91,8 @@ struct AbaqusModel {
 void read_abaqus_cells(AbaqusModel& model, const std::vector<AbaqusBlock>& blocks);
 /// Materials, sections, and the shells and beams that have them.
 void read_abaqus_sections(AbaqusModel& model);
+/// Systems of axes at nodes, which springs, links, supports and loads count along.
+void read_abaqus_transforms(AbaqusModel& model);
 /// Masses, springs, couplings, rigid bodies, equations.
 void read_abaqus_links(AbaqusModel& model);
 /// Supports, loads and steps.
