@@ -17,7 +17,7 @@ namespace blocklift::structure {
 /// What an element type is here.
 enum class AbaqusKind { shell, beam, truss, mass, inertia, spring, rigid, solid, nothing };
 
-struct AbaqusElement {
+struct AbaqusDeckElement {
   long label = 0;
   AbaqusKind kind = AbaqusKind::shell;
   std::string type;
@@ -62,7 +62,7 @@ struct AbaqusModel {
   const DeckOptions& options;
   const UnitSystem units;
   std::vector<AbaqusScope> scopes;  ///< the first is the model's own, the last the assembly's
-  std::vector<AbaqusElement> elements;
+  std::vector<AbaqusDeckElement> elements;
   std::vector<const AbaqusBlock*> model_blocks;
   std::vector<std::vector<const AbaqusBlock*>> steps;
   std::map<std::string, AbaqusSurface> surfaces;

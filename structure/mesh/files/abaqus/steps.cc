@@ -115,7 +115,7 @@ class StepBlocks {
     Deck& deck = model_.deck;
     const auto label = static_cast<long>(deck.load_cases.size()) + 1;
     const AbaqusBlock::Parameter* named = step.find("NAME");
-    LoadCase load_case;
+    DeckLoadCase load_case;
     load_case.label = label;
     load_case.title = named != nullptr ? named->as_given : fmt::format("step {}", label);
     loads_.label = label;
@@ -196,7 +196,7 @@ class StepBlocks {
     loads_.gravity += value * model_.units.length * direction.normalized();
   }
 
-  void add_load(const AbaqusElement& element, const std::string& kind, double value) {
+  void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
     if (kind == "P" && element.shell >= 0) {
       add_pressure(element.shell, value);
       return;
@@ -227,7 +227,7 @@ class StepBlocks {
       throw CardError{fmt::format("surface {} does not exist", fields[0])};
     if (kind != "P") throw CardError{fmt::format("a load {} is not known; P is", kind)};
     for (const auto& [e, face] : surface->second.faces) {
-      const AbaqusElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.shell < 0 || (face != "SPOS" && face != "SNEG"))
         throw CardError{
             fmt::format("pressure on face {} of element {}; SPOS and SNEG of shells are "

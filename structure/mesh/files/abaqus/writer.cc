@@ -370,7 +370,7 @@ class AbaqusText {
     }
   }
 
-  void write_step(const LoadCase& one) {
+  void write_step(const DeckLoadCase& one) {
     line(one.title.empty() ? "*STEP" : fmt::format("*STEP, NAME=\"{}\"", one.title));
     line("*STATIC");
     line("*BOUNDARY, OP=NEW");

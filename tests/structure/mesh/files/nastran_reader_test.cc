@@ -535,7 +535,7 @@ MAT1,7,206000.,,.3,7.85-9
 )",
                             "mm-t-N");
   const double plate = 4 * (0.01 * 7850 + 5), bar = 3 * (0.001 * 7850 + 1), point = 100;
-  const MassProperties mass = mass_properties(deck.mesh);
+  const MeshMass mass = mass_properties(deck.mesh);
   EXPECT_NEAR(mass.mass, plate + bar + point, 1e-9);
   const Vector3 centre =
       (plate * Vector3(1, 1, 0.1) + bar * Vector3(0.2, 0, 1.5) + point * Vector3(0, 0.5, 3)) /

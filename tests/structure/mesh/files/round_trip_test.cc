@@ -132,7 +132,7 @@ TEST(RoundTrip, Abaqus) {
   EXPECT_EQ(again.mesh.vertex_labels, deck.mesh.vertex_labels);
   EXPECT_EQ(again.mesh.shells.size(), deck.mesh.shells.size());
   EXPECT_EQ(again.mesh.beams.size(), deck.mesh.beams.size());
-  const MassProperties a = mass_properties(deck.mesh), b = mass_properties(again.mesh);
+  const MeshMass a = mass_properties(deck.mesh), b = mass_properties(again.mesh);
   EXPECT_NEAR(a.mass, b.mass, tolerance * a.mass);
   EXPECT_LT((a.centre - b.centre).norm(), tolerance);
   EXPECT_LT((a.inertia - b.inertia).norm(), tolerance * a.inertia.norm());
@@ -183,7 +183,7 @@ TEST(RoundTrip, DoubleBottom) {
 TEST(RoundTrip, MassOfTheDoubleBottomByHand) {
   const models::DoubleBottomMeasures measures{.cells_per_spacing = 4, .bays = 8};
   const Deck deck = models::make_double_bottom(measures);
-  const std::vector<MassProperties> groups = mass_by_group(deck.mesh);
+  const std::vector<MeshMass> groups = mass_by_group(deck.mesh);
   const auto mass = [&](const std::string& name) {
     for (std::size_t g = 0; g < deck.mesh.groups.size(); ++g)
       if (deck.mesh.groups[g].name == name) return groups[g].mass;
