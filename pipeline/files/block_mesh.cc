@@ -323,6 +323,19 @@ void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& dia
   MeshReader(block, folder, diagnostics).read();
 }
 
+std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh) {
+  std::vector<structure::LedgerEntry> cards;
+  if (!mesh.deck) return cards;
+  for (structure::LedgerEntry entry : mesh.deck->ledger) {
+    if (is_of_loads(entry.name)) {
+      entry.used = 0;
+      entry.left_out = "loads and supports are those of the lift";
+    }
+    if (entry.used != entry.read || !entry.left_out.empty()) cards.push_back(std::move(entry));
+  }
+  return cards;
+}
+
 std::string describe_block_mesh(const MeshModel& mesh) {
   if (!mesh.deck || !mesh.diagnosis) return {};
   const Deck& deck = *mesh.deck;
@@ -333,17 +346,9 @@ std::string describe_block_mesh(const MeshModel& mesh) {
       deck.mesh.masses.size(), deck.mesh.rigid_links.size() + deck.mesh.distributing_links.size(),
       deck.mesh.springs.size(), mesh.diagnosis->mass.mass / 1000, mesh.diagnosis->mass.centre.x(),
       mesh.diagnosis->mass.centre.y(), mesh.diagnosis->mass.centre.z());
-  for (const structure::LedgerEntry& entry : deck.ledger) {
-    if (is_of_loads(entry.name)) {
-      text +=
-          fmt::format("  {}: 0 of {} used; left out: loads and supports are those of the lift\n",
-                      entry.name, entry.read);
-      continue;
-    }
-    if (entry.used == entry.read && entry.left_out.empty()) continue;
+  for (const structure::LedgerEntry& entry : unused_cards(mesh))
     text += fmt::format("  {}: {} of {} used{}{}\n", entry.name, entry.used, entry.read,
                         entry.left_out.empty() ? "" : "; left out: ", entry.left_out);
-  }
   for (const structure::DeckRemark& remark : deck.remarks)
     text += fmt::format("  {}: {}{}\n", remark.place, remark.text,
                         remark.count > 1 ? fmt::format(" ({} times)", remark.count) : "");

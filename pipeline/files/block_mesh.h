@@ -37,6 +37,9 @@ Format<MeshModel> mesh_model_format();
 void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
                      Diagnostics& diagnostics);
 
+/// The deck's cards that are not, or not all, in the block; its loads and supports are among them.
+std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh);
+
 /// What was found in the deck and what became of it, as lines of text: cards that are not or not all
 /// used, remarks of the reader, and what the look-over saw.
 std::string describe_block_mesh(const MeshModel& mesh);
