@@ -129,7 +129,8 @@ class MeshReader {
     return false;
   }
 
-  /// A lifted block hangs on its ropes alone.
+  /// A lifted block hangs on its ropes alone, and masses on it alone: solvers hold what hangs on
+  /// nothing, a lift does not.
   static void let_go(Deck& deck) {
     auto& springs = deck.mesh.springs;
     const auto first =
@@ -141,6 +142,20 @@ class MeshReader {
     if (count > 0)
       deck.remarks.push_back(
           {deck.path.string(), "springs to the ground are left out: the block is lifted", count});
+    const std::vector<int> parts = structure::connected_parts(deck.mesh);
+    double loose = 0;
+    auto& masses = deck.mesh.masses;
+    const auto kept = masses.size();
+    std::erase_if(masses, [&](const structure::PointMass& mass) {
+      const bool is_loose = parts[static_cast<std::size_t>(mass.vertex)] < 0;
+      if (is_loose) loose += mass.mass;
+      return is_loose;
+    });
+    if (masses.size() < kept)
+      deck.remarks.push_back(
+          {deck.path.string(),
+           fmt::format("{} masses, {:.4g} t, are at nodes that nothing carries, and are left out",
+                       kept - masses.size(), loose / 1000)});
   }
 
   /// Groups that the deck gives no thickness have one of the block's file, of its only material.

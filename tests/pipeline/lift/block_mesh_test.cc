@@ -151,7 +151,7 @@ TEST(BlockMesh, WhatIsWrongIsSaidWithFileAndLine) {
   say(mesh, "PLOTEL,", "WRONG,", ": error: the card WRONG is not known here");
   EXPECT_THAT(complaints_after(mesh, "PLOTEL,", "WRONG,"), testing::StartsWith("box.bdf:"));
   say(mesh + "lugs: {L1: {node: 12345}}\n", "", "",
-      "block.yaml:3:18: error: lug L1 is at node 12345, of which the deck has none");
+      "block.yaml:3:19: error: lug L1 is at node 12345, of which the deck has none");
   say(mesh + "lugs: {L1: {set: lug plat}}\n", "", "", "did you mean \"lug plate\"?");
   say(mesh + "lugs: {L1: {pin: [9 m, 0 m, 0 m]}}\n", "", "", "is 5 m away; give a radius");
   say("mesh: {file: box.bdf, units: mm-t-N}\n", "", "", "the deck gives no yield stress of");
