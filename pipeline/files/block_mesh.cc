@@ -1,6 +1,7 @@
 #include "pipeline/files/block_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 
@@ -129,6 +130,31 @@ class MeshReader {
     return false;
   }
 
+  /// Vertices whose displacement something holds in all directions.
+  static std::vector<char> vertices_that_carry(const Mesh& mesh) {
+    std::vector<std::array<bool, 3>> held(mesh.vertices.size());
+    const auto hold = [&](int vertex, const bool* bound) {
+      for (std::size_t c = 0; c < 3; ++c) held[static_cast<std::size_t>(vertex)][c] |= bound[c];
+    };
+    constexpr std::array<bool, 3> all{true, true, true};
+    for (const structure::Shell& shell : mesh.shells)
+      for (const int vertex : shell.vertices) hold(vertex, all.data());
+    for (const structure::Beam& beam : mesh.beams)
+      for (const int vertex : beam.vertices) hold(vertex, all.data());
+    for (const structure::SurfacePoint& point : mesh.surface_points) hold(point.vertex, all.data());
+    for (const structure::Spring& spring : mesh.springs)
+      for (const int vertex : spring.vertices) hold(vertex, all.data());
+    for (const structure::DistributingLink& link : mesh.distributing_links)
+      hold(link.reference, link.bound.data());
+    for (const structure::RigidLink& link : mesh.rigid_links) {
+      hold(link.master, link.bound.data());
+      for (const int slave : link.slaves) hold(slave, link.bound.data());
+    }
+    std::vector<char> carries;
+    for (const auto& of_vertex : held) carries.push_back(of_vertex == all ? 1 : 0);
+    return carries;
+  }
+
   /// A lifted block hangs on its ropes alone, and masses on it alone: solvers hold what hangs on
   /// nothing, a lift does not.
   static void let_go(Deck& deck) {
@@ -142,20 +168,20 @@ class MeshReader {
     if (count > 0)
       deck.remarks.push_back(
           {deck.path.string(), "springs to the ground are left out: the block is lifted", count});
-    const std::vector<int> parts = structure::connected_parts(deck.mesh);
+    const std::vector<char> carries = vertices_that_carry(deck.mesh);
     double loose = 0;
     auto& masses = deck.mesh.masses;
     const auto kept = masses.size();
     std::erase_if(masses, [&](const structure::PointMass& mass) {
-      const bool is_loose = parts[static_cast<std::size_t>(mass.vertex)] < 0;
+      const bool is_loose = carries[static_cast<std::size_t>(mass.vertex)] == 0;
       if (is_loose) loose += mass.mass;
       return is_loose;
     });
     if (masses.size() < kept)
       deck.remarks.push_back(
-          {deck.path.string(),
-           fmt::format("{} masses, {:.4g} t, are at nodes that nothing carries, and are left out",
-                       kept - masses.size(), loose / 1000)});
+          {deck.path.string(), fmt::format("{} masses, {:.4g} t, are at nodes that nothing carries "
+                                           "in every direction, and are left out",
+                                           kept - masses.size(), loose / 1000)});
   }
 
   /// Groups that the deck gives no thickness have one of the block's file, of its only material.

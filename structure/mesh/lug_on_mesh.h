@@ -11,10 +11,10 @@ namespace blocklift::structure {
 /// A lug on a mesh that has none of its own: where it is and what carries it.
 struct LugOnMesh {
   std::string name;
-  std::optional<Vector3> pin;  ///< m; absent: the vertex, or the middle of what is named
-  int vertex = -1;             ///< that it stands at; -1: none is named
+  std::optional<Vector3> pin = {};  ///< m; absent: the vertex, or the middle of what is named
+  int vertex = -1;                  ///< that it stands at; -1: none is named
   /// What carries it, by a named set; all empty: found by place.
-  std::vector<int> shells, beams, vertices;
+  std::vector<int> shells = {}, beams = {}, vertices = {};
   double radius = 0;  ///< within which plates carry it, m; 0: those that meet in the nearest vertex
 };
 

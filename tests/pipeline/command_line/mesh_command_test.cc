@@ -25,6 +25,7 @@ class MeshCommand : public ::testing::Test {
   MeshCommand() {
     const fs::path cases = BLOCKLIFT_TEST_CASES;
     fs::copy(cases / "mesh-lift", "mesh-lift", fs::copy_options::recursive);
+    fs::create_directory("small-lift");
     fs::copy(cases / "small-lift" / "gantry", "small-lift/gantry", fs::copy_options::recursive);
   }
   static Outcome run(const std::string& arguments) {

@@ -163,8 +163,12 @@ TEST(BlockMesh, WhatIsWrongIsSaidWithFileAndLine) {
           "lugs: {L1: {pad: p, normal: z, at: 0 m, x: [0 m, 1 m], y: [0 m, 1 m], thickness: "
           "20 mm, pin: [0 m, 0 m, 0 m]}}\n",
       "", "", "lug L1 stands on a pad, and the block is a mesh");
-  // A part that hangs on nothing.
-  say(mesh, "RBE3,9102,,9002", "RBE3,9102,,9001", "error");
+  say(mesh, "PLOTEL,9900,1,2",
+      "GRID,8001,,9000.,0.,0.\nGRID,8002,,9500.,0.,0.\nGRID,8003,,9500.,500.,0.\n"
+      "CTRIA3,8000,1,8001,8002,8003",
+      "hang together with nothing else");
+  // A mass whose link holds another node: it is left out, and the lift goes on.
+  EXPECT_EQ(complaints_after(mesh, "RBE3,9102,,9002", "RBE3,9102,,9001"), "");
 }
 
 }  // namespace

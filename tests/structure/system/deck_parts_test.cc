@@ -68,8 +68,12 @@ TEST(DeckParts, LinksAlongAxesOfTheirOwn) {
     const Vector3 moved = motion.head<3>() + turned.cross(places[1] - places[0]);
     for (int c = 0; c < 3; ++c) {
       const Vector3 axis = some_axes().col(c);
-      if (bound[at(c)]) EXPECT_NEAR(axis.dot(motion.segment<3>(6) - moved), 0, 1e-14);
-      if (bound[at(c + 3)]) EXPECT_NEAR(axis.dot(motion.segment<3>(9) - turned), 0, 1e-14);
+      if (bound[at(c)]) {
+        EXPECT_NEAR(axis.dot(motion.segment<3>(6) - moved), 0, 1e-14);
+      }
+      if (bound[at(c + 3)]) {
+        EXPECT_NEAR(axis.dot(motion.segment<3>(9) - turned), 0, 1e-14);
+      }
     }
   }
 }
