@@ -27,6 +27,11 @@ using dynamics::Pose;
 BoxShape drawn_box(const BlockModel& block) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 high = -low;
+  if (block.mesh)
+    for (const Vector3& vertex : block.mesh->deck->mesh.vertices) {
+      low = low.cwiseMin(vertex);
+      high = high.cwiseMax(vertex);
+    }
   for (const PlateModel& plate : block.plates) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<Eigen::Index>(axis);

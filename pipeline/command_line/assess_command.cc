@@ -177,6 +177,8 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   line.finish();
 
   fmt::print("{}\n", assessment.lift_case.title);
+  if (const auto& block = assessment.lift_case.load.model; block && block->mesh)
+    fmt::print("\n{}", describe_block_mesh(*block->mesh));
   if (assessment.lift) {
     print_loads(*assessment.lift, assessment.lift_case);
     print_motion(*assessment.lift);

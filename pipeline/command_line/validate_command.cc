@@ -68,9 +68,12 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
     const auto block = library.read_block(path, diagnostics);
     if (!block || diagnostics.error_count() > errors_before) return std::nullopt;
     check_block_model(*block, path.string(), diagnostics);
-    return if_sound(fmt::format("block with {} and {}",
-                                count(block->plates.size(), "kind") + " of plates",
-                                count(block->lugs.size(), "lug")));
+    return if_sound(block->mesh ? fmt::format("block of a mesh with {}\n{}",
+                                              count(block->lugs.size(), "lug"),
+                                              describe_block_mesh(*block->mesh))
+                                : fmt::format("block with {} and {}",
+                                              count(block->plates.size(), "kind") + " of plates",
+                                              count(block->lugs.size(), "lug")));
   }
   if (kind == FileKind::rope) {
     library.read_rope(path, diagnostics);
@@ -98,7 +101,10 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   if (lift_case->has_structure()) {
     check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
   }
-  return if_sound(fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case)));
+  std::string summary = fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case));
+  if (lift_case->load.model && lift_case->load.model->mesh)
+    summary += "\n" + describe_block_mesh(*lift_case->load.model->mesh);
+  return if_sound(std::move(summary));
 }
 
 }  // namespace

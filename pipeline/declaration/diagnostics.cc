@@ -13,6 +13,7 @@ namespace {
 std::string place_text(const Mark& mark) {
   const std::string& file = mark.file ? *mark.file : std::string("input");
   if (mark.line == 0) return file;
+  if (mark.column == 0) return fmt::format("{}:{}", file, mark.line);
   return fmt::format("{}:{}:{}", file, mark.line, mark.column);
 }
 

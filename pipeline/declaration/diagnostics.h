@@ -11,7 +11,8 @@
 
 namespace blocklift::pipeline {
 
-/// A place in an input file. Line and column count from 1; 0 stands for the file as a whole.
+/// A place in an input file. Line and column count from 1; line 0 stands for the file as a whole,
+/// column 0 for the line.
 struct Mark {
   std::shared_ptr<const std::string> file;  ///< path as it is shown to the user
   int line = 0;

@@ -200,6 +200,11 @@ void check_pads(const BlockModel& block, Reading& reading) {
 void check_lugs(const BlockModel& block, Reading& reading) {
   for (const LugModel& lug : block.lugs) {
     const std::string user = "lug " + lug.name.value;
+    if (lug.is_place) {
+      reading.error(lug.name.mark, user + " is a place on a mesh, and the block is one of plates",
+                    {"give its pad, normal, at, thickness and pin"});
+      continue;
+    }
     if (!lug.material.value.empty()) {
       look_up(lug.material, block.materials, user, "material", reading);
     }
@@ -237,6 +242,34 @@ void check_padeyes(const BlockModel& block, Reading& reading) {
   }
 }
 
+/// A mesh brings its plates and materials; what belongs to plates has no place beside it.
+void check_mesh_block(const BlockModel& block, Reading& reading) {
+  const std::string why = "the block is a mesh, whose deck has the plates as they are";
+  const auto refuse = [&](const auto& items, const char* noun) {
+    for (const auto& item : items)
+      reading.error(item.name.mark, fmt::format("{} {}: {}", noun, item.name.value, why));
+  };
+  refuse(block.plates, "plate");
+  refuse(block.openings, "opening");
+  refuse(block.pads, "pad");
+  for (const PadeyeDesign& padeye : block.padeyes)
+    reading.error(padeye.name.mark,
+                  fmt::format("padeye {}: a lug of a mesh is not checked as a padeye by formulae "
+                              "and fine mesh",
+                              padeye.name.value),
+                  {"check it as a part of its own: kind: part with padeye"});
+  for (const LugModel& lug : block.lugs)
+    if (!lug.is_place)
+      reading.error(lug.name.mark,
+                    fmt::format("lug {} stands on a pad, and {}", lug.name.value, why),
+                    {"give its pin, a node, or a set of the deck"});
+  if (!block.materials.empty() && block.mesh->thicknesses.empty())
+    reading.error(
+        block.materials.front().name.mark,
+        fmt::format("material {}: the deck has its own", block.materials.front().name.value),
+        {"a material is given for thicknesses that the deck lacks alone"});
+}
+
 }  // namespace
 
 void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
@@ -246,7 +279,15 @@ void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
                              : "the block has a centre_of_mass but no mass",
                   {"give both, or neither: then they are those of the plates"});
   }
-  if (block.plates.empty()) reading.error(mark, "the block has no plates");
+  if (block.mesh) {
+    check_mesh_block(block, reading);
+    return;
+  }
+  if (block.plates.empty())
+    reading.error(mark, "the block has no plates", {"give plates, or the mesh of a deck"});
+  if (block.materials.empty())
+    reading.error(mark, reading.owner() + " lacks the key \"materials\"",
+                  {"it is what plates are made of"});
   check_plates(block, reading);
   check_overlaps(block, reading);
   check_openings(block, reading);

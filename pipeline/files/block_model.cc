@@ -200,7 +200,38 @@ Format<PadModel> pad_format() {
   return taken(table);
 }
 
-Format<LugModel> lug_format() {
+/// A lug on a mesh.
+Format<LugModel> place_format() {
+  Table<LugModel> table(
+      "lug",
+      "On a mesh a lug is a place, by its pin, a node or a set, and what is there "
+      "carries it: the plates of the set, those with a corner within the radius "
+      "of the pin, or those that meet in the node nearest to it; the nodes of a "
+      "set without plates; a node where no plates meet.");
+  table
+      .optional("pin", &LugModel::pin, position_format(),
+                "centre of the pin; left out: the node, or the middle of the set's nodes")
+      .optional("node", &LugModel::node, integer(Range::positive()),
+                "number of the node that it stands at")
+      .optional("set", &LugModel::set, text(),
+                "a set, or group of a property, whose plates, bars or nodes carry it")
+      .optional("radius", &LugModel::radius, quantity(Dimension::length, Range::positive()),
+                "of the sphere about the pin in which plates carry it")
+      .rule([](const LugModel& lug, Reading& reading, const Mark& mark) {
+        const bool has_place = lug.node || lug.set || lug.pin.mark.line > 0;
+        if (!has_place)
+          reading.error(
+              mark, reading.owner() + " has no place",
+              {"give its pin, a node or a set of the mesh; on plates its pad, normal, at, "
+               "thickness and pin"});
+        if (lug.set && (lug.node || lug.radius))
+          reading.error(lug.set->mark, reading.owner() + " has a set and also a node or a radius",
+                        {"the set alone says what carries it"});
+      });
+  return table.format();
+}
+
+Format<LugModel> plate_lug_format() {
   Table<Written<LugModel>> table("lug",
                                  "A plate that stands on a pad. The rope pulls at the pin; "
                                  "its force is spread over the lug plate.");
@@ -218,6 +249,23 @@ Format<LugModel> lug_format() {
                 "by a fine mesh")
       .rule(check_rectangle<LugModel>);
   return taken(table);
+}
+
+/// A plate on a pad or a place on a mesh, told apart by their keys.
+Format<LugModel> lug_format() {
+  const Format<LugModel> plate = plate_lug_format(), place = place_format();
+  auto description = std::make_shared<ValueDescription>();
+  description->kind = ValueDescription::Kind::any_of;
+  description->alternatives = {plate.description, place.description};
+  return {description, [plate, place](const YAML::Node& node, Reading& reading, LugModel& lug) {
+            const auto has = [&](const char* key) { return static_cast<bool>(node[key]); };
+            const bool is_place =
+                node.IsMap() && (has("node") || has("set") || has("radius") ||
+                                 (has("pin") && !has("pad") && !has("normal") && !has("at")));
+            const bool done = (is_place ? place : plate).read(node, reading, lug);
+            lug.is_place = is_place;
+            return done;
+          }};
 }
 
 }  // namespace
@@ -247,22 +295,24 @@ std::vector<std::string> BlockModel::lug_names() const {
 
 Format<BlockModel> block_model_format() {
   Table<BlockModel> table("block",
-                          "A stiffened block of flat plates in its own frame: x along, y "
-                          "across, z up. Where the plates weigh less than the stated "
-                          "mass, the rest is outfitting, spread over them so that mass "
-                          "and centre of mass agree.");
+                          "A stiffened block in its own frame: x along, y across, z up; of "
+                          "flat plates, or the mesh of one from a deck. Where the plates "
+                          "weigh less than the stated mass, the rest is outfitting, spread "
+                          "over them so that mass and centre of mass agree.");
   table
       .required("kind", &BlockModel::kind, choice<std::string>({{"block", "block"}}),
                 "what this file describes")
       .optional("title", &BlockModel::title, text(), "for people")
-      .required("materials", &BlockModel::materials, named_tables(material_format()),
-                "what plates are made of")
+      .optional("materials", &BlockModel::materials, named_tables(material_format()),
+                "what plates are made of; a mesh brings its own")
       .optional("mass", &BlockModel::mass, quantity(Dimension::mass, Range::positive()),
                 "in the lift, outfitting included; that of the plates if left out")
       .optional("centre_of_mass", &BlockModel::centre_of_mass, position_format(),
                 "in the lift, outfitting included; that of the plates if left out")
-      .required("plates", &BlockModel::plates, named_tables(plate_format()),
+      .optional("plates", &BlockModel::plates, named_tables(plate_format()),
                 "decks, shells, frames, girders, stiffeners")
+      .optional("mesh", &BlockModel::mesh, mesh_model_format(),
+                "in place of plates: a deck of Nastran or Abaqus")
       .optional("openings", &BlockModel::openings, named_tables(opening_format()),
                 "holes in plates")
       .optional("pads", &BlockModel::pads, named_tables(pad_format()),

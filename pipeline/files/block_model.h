@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/declaration/geometry_format.h"
+#include "pipeline/files/block_mesh.h"
 #include "pipeline/files/crane_model.h"
 #include "pipeline/files/padeye_format.h"
 
@@ -62,24 +63,33 @@ struct PadModel : Rectangle {
   Located<std::string> material;                                ///< empty: that of the plate
 };
 
-/// Lug plate with the pin at which a rope pulls.
+/// Lug plate with the pin at which a rope pulls; on a mesh, a place of it and what carries the rope.
 struct LugModel : Rectangle {
   Located<std::string> name;
   Located<std::string> pad;
   double at = std::numeric_limits<double>::quiet_NaN();
   double thickness = std::numeric_limits<double>::quiet_NaN();
-  Located<std::string> material;               ///< empty: that of the pad
-  Located<Vector3> pin;                        ///< centre of the pin, m
+  Located<std::string> material;  ///< empty: that of the pad
+  /// Centre of the pin, m. On a mesh it may be left out: then it is found when the mesh is read.
+  Located<Vector3> pin{Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), {}};
   std::optional<Located<std::string>> padeye;  ///< that it is made as
+  // On a mesh.
+  std::optional<Located<int>> node;         ///< the number of the node that it stands at
+  std::optional<Located<std::string>> set;  ///< of plates, bars or nodes that carry it
+  std::optional<double> radius;             ///< within which plates carry it, m
+
+  bool is_place = false;  ///< on a mesh, by these keys, rather than a plate of its own
 };
 
-/// Stiffened block of flat plates, in its own frame: x along, y across, z up. SI units.
+/// Stiffened block of flat plates, or the mesh of one, in its own frame: x along, y across, z up. SI
+/// units.
 struct BlockModel {
   std::string kind;
   std::string title;
   std::vector<MaterialModel> materials;
   std::optional<Located<double>> mass;             ///< in the lift, outfitting included, kg
   std::optional<Located<Vector3>> centre_of_mass;  ///< likewise, m
+  std::optional<MeshModel> mesh;                   ///< in place of plates
   std::vector<PlateModel> plates;
   std::vector<OpeningModel> openings;
   std::vector<PadModel> pads;

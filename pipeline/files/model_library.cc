@@ -221,7 +221,10 @@ std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
                                                            Diagnostics& diagnostics) {
   const auto known = blocks_.find(file);
   if (known != blocks_.end()) return known->second;
-  return blocks_[file] = read_model(file, "block", block_model_format(), diagnostics);
+  const std::shared_ptr<BlockModel> block =
+      read_model(file, "block", block_model_format(), diagnostics);
+  if (block) read_block_mesh(*block, file.parent_path(), diagnostics);
+  return blocks_[file] = block;
 }
 
 std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,

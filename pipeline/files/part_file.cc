@@ -133,7 +133,7 @@ Format<PartRotation> rotation_format() {
   return table.format();
 }
 
-void check_load(const PartLoadInFile& load, Reading& reading, const Mark& mark) {
+void check_part_load(const PartLoadInFile& load, Reading& reading, const Mark& mark) {
   const int on_groups = load.pressure.has_value() + load.traction.has_value() +
                         load.force.has_value() + load.bearing.has_value();
   const int on_all =
@@ -178,7 +178,7 @@ Format<PartLoadInFile> part_load_format() {
       .optional("acceleration", &PartLoadInFile::acceleration, vector_of(Dimension::acceleration),
                 "of the part: its inertia pulls the other way")
       .optional("rotation", &PartLoadInFile::rotation, rotation_format(), "about a fixed axis")
-      .rule(check_load);
+      .rule(check_part_load);
   return table.format();
 }
 

@@ -43,12 +43,19 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
                                                           const StructureSettings& settings,
                                                           Diagnostics& diagnostics) {
   try {
-    const structure::BlockDescription description =
-        describe_block(block, name, settings.largest_element);
+    const auto stated = [](const auto& located) {
+      return located ? std::optional(located->value) : std::nullopt;
+    };
+    const structure::Resolution resolution = [&]() -> structure::Resolution {
+      if (!block.mesh) return {settings.element_degree, {}};
+      const double largest = settings.largest_element;
+      return {settings.element_degree, [largest](const structure::Vector3&) { return largest; }};
+    }();
     auto model = std::make_unique<structure::ElasticModel>(
-        structure::generate_shell_mesh(description),
-        structure::Resolution{settings.element_degree, {}}, description.total_mass,
-        description.centre_of_mass_B);
+        block.mesh
+            ? block.mesh->deck->mesh
+            : structure::generate_shell_mesh(describe_block(block, name, settings.largest_element)),
+        resolution, stated(block.mass), stated(block.centre_of_mass));
     return check_hot_spots(settings, model->space(), diagnostics) ? std::move(model) : nullptr;
   } catch (const structure::ModelError& error) {
     diagnostics.error(block.place, error.what());

@@ -120,6 +120,19 @@ std::string displacement_sentence(const LiftRun& lift) {
       lift.elastic_displacement->time);
 }
 
+std::string deck_sentence(const MeshModel& mesh) {
+  std::string left_out;
+  for (const structure::LedgerEntry& entry : unused_cards(mesh))
+    left_out += fmt::format("{}{} ({} of {})", left_out.empty() ? "" : ", ", entry.name,
+                            entry.read - entry.used, entry.read);
+  return fmt::format(
+      "The block is read from {} (units {}). A lug there is a place: its force is spread over the "
+      "plates that meet in it or are named, or acts on the link or beam that it stands at. "
+      "Stresses "
+      "of layered plates are their mean. Cards that are not used: {}.",
+      mesh.file.value, mesh.units.value, left_out.empty() ? "none" : left_out);
+}
+
 void add_block_assumptions(const Assessment& assessment, std::vector<std::string>& list) {
   const structure::MassProperties& mass = assessment.block.model->mass_properties();
   list.emplace_back(
@@ -156,6 +169,8 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
   list.emplace_back(
       "In the block each rope's force is spread over its lug plate; contact of the pin and welds "
       "are not part of it.");
+  if (const auto& mesh = assessment.lift_case.load.model->mesh)
+    list.push_back(deck_sentence(*mesh));
   const BlockRun& block = assessment.block;
   if (!block.padeyes.padeyes.empty())
     list.push_back(fmt::format(

@@ -446,6 +446,32 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Ma
   return law;
 }
 
+Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Mesh& mesh,
+                                                                        const Shell& shell,
+                                                                        const Vector3& e_1,
+                                                                        const Vector3& e_2) {
+  const ShellSection& section = mesh.section_of(shell);
+  Eigen::Matrix<double, shell_strains, shell_strains> law =
+      shell_stiffness_law(mesh.material_of(shell), section.thickness);
+  if (section.laminate < 0) return law;
+  const Laminate& laminate = mesh.laminates[at(section.laminate)];
+  law.block<3, 3>(membrane_11, membrane_11) = laminate.membrane;
+  law.block<3, 3>(membrane_11, curvature_11) = law.block<3, 3>(curvature_11, membrane_11) =
+      laminate.coupling;
+  law.block<3, 3>(curvature_11, curvature_11) = laminate.bending;
+  law.block<2, 2>(shear_1, shear_1) = laminate.shear;
+  // Strains along the laminate's axes from those along e_1 and e_2.
+  const double angle = std::atan2(shell.laminate_axis.dot(e_2), shell.laminate_axis.dot(e_1));
+  const double c = std::cos(angle), s = std::sin(angle);
+  Eigen::Matrix<double, shell_strains, shell_strains> turn;
+  turn.setIdentity();
+  for (const int first : {static_cast<int>(membrane_11), static_cast<int>(curvature_11)})
+    turn.block<3, 3>(first, first) << c * c, s * s, c * s, s * s, c * c, -c * s, -2 * c * s,
+        2 * c * s, c * c - s * s;
+  turn.block<2, 2>(shear_1, shear_1) << c, s, -s, c;
+  return turn.transpose() * law * turn;
+}
+
 ShellStiffness::ShellStiffness(const Space& space)
     : space_(space),
       weights_(square_rule(space.degree() + 1).row(2)),
@@ -453,20 +479,22 @@ ShellStiffness::ShellStiffness(const Space& space)
 
 const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
-  const Eigen::Matrix<double, shell_strains, shell_strains> root =
-      shell_stiffness_law(space_.mesh().material_of(shell),
-                          space_.mesh().section_of(shell).thickness)
-          .llt()
-          .matrixU();
   operator_.reinit(cell);
   const std::vector<ShellPoint>& points = operator_.points();
+  const bool is_layered = space_.mesh().section_of(shell).laminate >= 0;
+  Eigen::Matrix<double, shell_strains, shell_strains> root;
   const Eigen::Index columns = points.front().strain.cols();
   // K = sum (root B)' (root B): half of the work of B' D B, and symmetric to the last digit.
   rooted_.resize(shell_strains * static_cast<Eigen::Index>(points.size()), columns);
-  for (std::size_t q = 0; q < points.size(); ++q)
+  for (std::size_t q = 0; q < points.size(); ++q) {
+    // A plate of one material has one law, whatever its axes.
+    if (q == 0 || is_layered)
+      root =
+          shell_stiffness_law(space_.mesh(), shell, points[q].e_1, points[q].e_2).llt().matrixU();
     rooted_.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)).noalias() =
         std::sqrt(weights_[static_cast<Eigen::Index>(q)] * points[q].area) *
         (root * points[q].strain);
+  }
   stiffness_.setZero(columns, columns);
   stiffness_.selfadjointView<Eigen::Lower>().rankUpdate(rooted_.transpose());
   stiffness_.triangularView<Eigen::StrictlyUpper>() = stiffness_.transpose();

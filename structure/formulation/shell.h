@@ -84,6 +84,13 @@ class ShellOperator {
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
                                                                         double thickness);
 
+/// The same of a shell as it is, layered or not, for strains along unit tangents e_1 and e_2 and the shell's
+/// own normal: A, B, D and S of a laminate turned into them, with the drilling stiffness of its nearest plate.
+Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Mesh& mesh,
+                                                                        const Shell& shell,
+                                                                        const Vector3& e_1,
+                                                                        const Vector3& e_2);
+
 /// Stiffness of shells, N/m, N, N m: freedoms in the order of Space::element_freedoms. One object serves
 /// one thread.
 class ShellStiffness {

@@ -35,11 +35,11 @@ struct DiagnosisOptions {
 };
 
 struct Diagnosis {
-  MassProperties mass;
-  std::vector<MassProperties> groups;  ///< by group; the last is the point masses
-  double plate_area = 0;               ///< m^2
-  double beam_length = 0;              ///< m
-  int parts = 0;                       ///< that hang together
+  MeshMass mass;
+  std::vector<MeshMass> groups;  ///< by group; the last is the point masses
+  double plate_area = 0;         ///< m^2
+  double beam_length = 0;        ///< m
+  int parts = 0;                 ///< that hang together
   int free_edges = 0;
   double free_edge_length = 0;  ///< m
   std::vector<Finding> findings;

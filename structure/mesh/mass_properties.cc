@@ -23,8 +23,8 @@ struct MassSum {
     first += m * place;
     second += m * place * place.transpose();
   }
-  MassProperties properties() const {
-    MassProperties result;
+  MeshMass properties() const {
+    MeshMass result;
     result.mass = mass;
     if (!(mass > 0)) return result;
     result.centre = first / mass;
@@ -133,7 +133,7 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
 
 }  // namespace
 
-MassProperties mass_properties(const Mesh& mesh) {
+MeshMass mass_properties(const Mesh& mesh) {
   MassSum all;
   for (const MassSum& sum : sums_by_group(mesh)) {
     all.mass += sum.mass;
@@ -144,8 +144,8 @@ MassProperties mass_properties(const Mesh& mesh) {
   return all.properties();
 }
 
-std::vector<MassProperties> mass_by_group(const Mesh& mesh) {
-  std::vector<MassProperties> groups;
+std::vector<MeshMass> mass_by_group(const Mesh& mesh) {
+  std::vector<MeshMass> groups;
   for (const MassSum& sum : sums_by_group(mesh)) groups.push_back(sum.properties());
   return groups;
 }

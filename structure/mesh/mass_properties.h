@@ -8,7 +8,8 @@
 
 namespace blocklift::structure {
 
-struct MassProperties {
+/// Mass of a mesh before finite elements are made on it.
+struct MeshMass {
   double mass = 0;                                    ///< kg
   Vector3 centre = Vector3::Zero();                   ///< m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, kg m^2
@@ -17,10 +18,10 @@ struct MassProperties {
 /// Mass of a mesh: plates over their mid-surfaces (Gauss' rule, exact for flat plates), beams along
 /// the lines of their centroids, point masses. What lies across a plate or a beam's line (t^2 / 12
 /// and the like) is left out of the inertia. Shells without section weigh nothing.
-MassProperties mass_properties(const Mesh& mesh);
+MeshMass mass_properties(const Mesh& mesh);
 
 /// The same of each group; the last entry is the point masses.
-std::vector<MassProperties> mass_by_group(const Mesh& mesh);
+std::vector<MeshMass> mass_by_group(const Mesh& mesh);
 
 /// Area of a shell between its vertices or, if it is curved, of its surface, m^2.
 double area(const Mesh& mesh, const Shell& shell);

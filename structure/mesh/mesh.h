@@ -155,6 +155,10 @@ struct LiftingPoint {
   int region = 0;                    ///< the lug's plate, over which the force is spread
   int pad_region = -1;               ///< the thickened plate that it stands on; -1: none
   double radius = 0;                 ///< of the sphere about the pin that holds lug and pad, m
+  /// Shells of a mesh without lugs of its own over which the force is spread; empty: the region's.
+  std::vector<int> shells = {};
+  /// Vertex that takes the force as it is (a link's, a beam's); -1: plates take it.
+  int vertex = -1;
 };
 
 /// Conforming mesh of a structure: shells, beams, masses, links and springs on common vertices.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/error.h"
@@ -35,6 +36,32 @@ void require_memory(const Mesh& mesh, const Resolution& resolution) {
                     cells, resolution.degree, unknowns, bytes / 1e9, available / 1e9));
 }
 
+/// Cells over which a lug's force is spread.
+std::vector<int> cells_of_lug(const Space& space, const LiftingPoint& point) {
+  if (point.shells.empty()) return cells_of_region(space, point.region);
+  std::vector<char> carries(space.mesh().shells.size(), 0);
+  for (const int shell : point.shells) carries[at(shell)] = 1;
+  std::vector<int> cells;
+  for (std::size_t cell = 0; cell < space.shells().size(); ++cell)
+    if (carries[at(space.shells()[cell].shell)] != 0) cells.push_back(static_cast<int>(cell));
+  return cells;
+}
+
+/// Unit forces at a pin that is rigidly joined with its vertex.
+Eigen::MatrixXd forces_at_vertex(const Space& space, const LiftingPoint& point) {
+  const int node = space.node_of_vertex(point.vertex);
+  if (node < 0)
+    throw ModelError(fmt::format("lug {} is at a vertex that nothing uses", point.name));
+  const Vector3 arm = point.p_BPin - space.nodes().col(node);
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(space.freedoms(), 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 force = Vector3::Unit(axis);
+    loads.block<3, 1>(6 * static_cast<Eigen::Index>(node), axis) = force;
+    loads.block<3, 1>(6 * static_cast<Eigen::Index>(node) + 3, axis) = arm.cross(force);
+  }
+  return loads;
+}
+
 }  // namespace
 
 ElasticModel::~ElasticModel() = default;
@@ -62,7 +89,9 @@ ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& r
   for (int lug = 0; lug < lug_count(); ++lug) {
     const LiftingPoint& point = mesh_->lifting_points[at(lug)];
     lug_loads_.middleCols<3>(3 * lug) =
-        spread_wrenches(*space_, cells_of_region(*space_, point.region), point.p_BPin, forces);
+        point.vertex >= 0
+            ? forces_at_vertex(*space_, point)
+            : spread_wrenches(*space_, cells_of_lug(*space_, point), point.p_BPin, forces);
   }
 }
 

@@ -37,10 +37,7 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::Matr
   const Shell& shell = mesh.shells[at(space_.shells()[at(cell)].shell)];
   current_ = of_triangles_ && shell.is_triangle() ? of_triangles_.get() : &of_squares_;
   current_->reinit(cell);
-  const Material& material = mesh.material_of(shell);
   const double thickness = mesh.section_of(shell).thickness;
-  const Eigen::Matrix3d hooke = plane_stress_law(material);
-  const double shear = 5.0 / 6 * material.shear_modulus();
   const Eigen::MatrixXd local = motions_of_cell(space_, cell, motions);
   Eigen::MatrixXd rows(shell_stress_rows * static_cast<Eigen::Index>(points().size()),
                        motions.cols());
@@ -48,10 +45,13 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::Matr
     const Eigen::MatrixXd strain = points()[q].strain * local;
     auto here =
         rows.middleRows<shell_stress_rows>(shell_stress_rows * static_cast<Eigen::Index>(q));
-    here.middleRows<3>(membrane_stress_11) = hooke * strain.middleRows<3>(membrane_11);
+    // Forces and moments as an even plate of the thickness bears them; of layers, their mean.
+    const Eigen::MatrixXd forces =
+        shell_stiffness_law(mesh, shell, points()[q].e_1, points()[q].e_2) * strain;
+    here.middleRows<3>(membrane_stress_11) = forces.middleRows<3>(membrane_11) / thickness;
     here.middleRows<3>(bending_stress_11) =
-        thickness / 2 * hooke * strain.middleRows<3>(curvature_11);
-    here.middleRows<2>(shear_stress_13) = shear * strain.middleRows<2>(shear_1);
+        forces.middleRows<3>(curvature_11) * (6 / (thickness * thickness));
+    here.middleRows<2>(shear_stress_13) = forces.middleRows<2>(shear_1) / thickness;
   }
   return rows;
 }

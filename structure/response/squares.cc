@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "structure/batches.h"
+#include "structure/formulation/shell.h"
 #include "structure/index.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress_tensor.h"
@@ -282,10 +283,15 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
         add(curvature, t_1, t_2);
       }
       const double area = square.size * square.size;
-      const Eigen::Matrix3d hooke = plane_stress_law(model.mesh().material_of(shell));
+      const auto law = shell_stiffness_law(model.mesh(), shell, square.e_1, square.e_2);
+      const Eigen::Matrix3d membrane = law.block<3, 3>(membrane_11, membrane_11),
+                            coupling = side * law.block<3, 3>(membrane_11, curvature_11),
+                            bending = law.block<3, 3>(curvature_11, curvature_11);
+      const double t = section.thickness;
       strain += side * section.offset * curvature;
-      components_.middleRows<3>(3 * s) = hooke * strain / area;
-      bending_.middleRows<3>(3 * s) = hooke * curvature * (section.thickness / (2 * area));
+      components_.middleRows<3>(3 * s) = (membrane * strain + coupling * curvature) / (area * t);
+      bending_.middleRows<3>(3 * s) =
+          (coupling * strain + bending * curvature) * (6 / (area * t * t));
     }
   });
 }

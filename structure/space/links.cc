@@ -1,6 +1,8 @@
 #include "structure/space/links.h"
 
+#include <array>
 #include <set>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -20,17 +22,76 @@ Matrix3 cross_matrix(const Vector3& v) {
   return matrix;
 }
 
+/// A freedom's dependence on others, before it is said along which axes.
+struct Motion {
+  std::vector<int> freedoms;
+  std::vector<double> weights;
+};
+
 /// Row c of [a b]: a freedom's dependence on a master's displacement and rotation.
-void append(FreedomTie& tie, int node, const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) {
+void append(Motion& motion, int node, const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) {
   for (int i = 0; i < 3; ++i) {
     if (a[i] != 0) {
-      tie.masters.push_back(6 * node + i);
-      tie.weights.push_back(a[i]);
+      motion.freedoms.push_back(6 * node + i);
+      motion.weights.push_back(a[i]);
     }
     if (b[i] != 0) {
-      tie.masters.push_back(6 * node + 3 + i);
-      tie.weights.push_back(b[i]);
+      motion.freedoms.push_back(6 * node + 3 + i);
+      motion.weights.push_back(b[i]);
     }
+  }
+}
+
+/// Ties three freedoms of a node along those of `axes` that are bound. One bound along no axis of the
+/// world's is solved for the component that it holds best; the node's others stand beside the masters.
+/// @param first freedom of the three; @param wanted motion of each, along the world's axes.
+void tie_along(const Matrix3& axes, const bool* bound, int first,
+               const std::array<Motion, 3>& wanted, std::vector<FreedomTie>& ties) {
+  const bool all = bound[0] && bound[1] && bound[2];
+  if (all || axes.isIdentity(1e-12)) {
+    for (int c = 0; c < 3; ++c)
+      if (bound[c]) ties.push_back({first + c, wanted[at(c)].freedoms, wanted[at(c)].weights});
+    return;
+  }
+  Eigen::MatrixXd rows(0, 3);
+  for (int c = 0; c < 3; ++c) {
+    if (!bound[c]) continue;
+    rows.conservativeResize(rows.rows() + 1, 3);
+    rows.bottomRows<1>() = axes.col(c).transpose();
+  }
+  if (rows.rows() == 0) return;
+  // Two directions leave one component free: the one with the largest share of what is not bound.
+  std::vector<int> held{0, 1, 2}, open;
+  if (rows.rows() == 1) {
+    int best = 0;
+    rows.row(0).cwiseAbs().maxCoeff(&best);
+    held = {best};
+    open = {(best + 1) % 3, (best + 2) % 3};
+  } else {
+    int least = 0;
+    Vector3(rows.row(0)).cross(Vector3(rows.row(1))).cwiseAbs().maxCoeff(&least);
+    held = {(least + 1) % 3, (least + 2) % 3};
+    open = {least};
+  }
+  const auto count = rows.rows();
+  Eigen::MatrixXd of_held(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) of_held.col(i) = rows.col(held[at(i)]);
+  const Eigen::MatrixXd solved = of_held.inverse() * rows;  // shares of the world's components
+  for (Eigen::Index i = 0; i < count; ++i) {
+    FreedomTie tie{first + held[at(i)], {}, {}};
+    for (int c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < wanted[at(c)].freedoms.size(); ++k) {
+        const double weight = solved(i, c) * wanted[at(c)].weights[k];
+        if (weight == 0) continue;
+        tie.masters.push_back(wanted[at(c)].freedoms[k]);
+        tie.weights.push_back(weight);
+      }
+    for (const int c : open) {
+      if (solved(i, c) == 0) continue;
+      tie.masters.push_back(first + c);
+      tie.weights.push_back(-solved(i, c));
+    }
+    ties.push_back(std::move(tie));
   }
 }
 
@@ -41,13 +102,13 @@ void tie_slaves(const RigidLink& link, const std::vector<int>& node_of,
     const int slave = node_of[at(vertex)];
     if (slave == master) continue;
     const Matrix3 arm = -cross_matrix(nodes.col(slave) - nodes.col(master));
+    std::array<Motion, 3> displacement, rotation;
     for (int c = 0; c < 3; ++c) {
-      if (link.bound[at(c)]) {
-        ties.push_back({6 * slave + c, {}, {}});
-        append(ties.back(), master, Vector3::Unit(c).transpose(), arm.row(c));
-      }
-      if (link.bound[at(3 + c)]) ties.push_back({6 * slave + 3 + c, {6 * master + 3 + c}, {1}});
+      append(displacement[at(c)], master, Vector3::Unit(c).transpose(), arm.row(c));
+      rotation[at(c)] = {{6 * master + 3 + c}, {1}};
     }
+    tie_along(link.axes, link.bound.data(), 6 * slave, displacement, ties);
+    tie_along(link.axes, link.bound.data() + 3, 6 * slave + 3, rotation, ties);
   }
 }
 
@@ -76,8 +137,7 @@ void tie_reference(const DistributingLink& link, const std::vector<int>& node_of
 
   const int reference = node_of[at(link.reference)];
   const Matrix3 arm = -cross_matrix(nodes.col(reference) - centre);
-  std::vector<FreedomTie> own(6);
-  for (int c = 0; c < 6; ++c) own[at(c)].freedom = 6 * reference + c;
+  std::array<Motion, 3> displacement, rotation;
   for (std::size_t i = 0; i < link.vertices.size(); ++i) {
     const int node = node_of[at(link.vertices[i])];
     const double weight = link.weights[i];
@@ -88,12 +148,12 @@ void tie_reference(const DistributingLink& link, const std::vector<int>& node_of
     const Matrix3 u_of_u = (weight / sum) * Matrix3::Identity() + arm * rotation_of_u;
     const Matrix3 u_of_theta = arm * rotation_of_theta;
     for (int c = 0; c < 3; ++c) {
-      append(own[at(c)], node, u_of_u.row(c), u_of_theta.row(c));
-      append(own[at(3 + c)], node, rotation_of_u.row(c), rotation_of_theta.row(c));
+      append(displacement[at(c)], node, u_of_u.row(c), u_of_theta.row(c));
+      append(rotation[at(c)], node, rotation_of_u.row(c), rotation_of_theta.row(c));
     }
   }
-  for (int c = 0; c < 6; ++c)
-    if (link.bound[at(c)]) ties.push_back(std::move(own[at(c)]));
+  tie_along(link.axes, link.bound.data(), 6 * reference, displacement, ties);
+  tie_along(link.axes, link.bound.data() + 3, 6 * reference + 3, rotation, ties);
 }
 
 }  // namespace

@@ -334,6 +334,30 @@ void Space::make_free_nodes() {
   for (const PointMass& mass : mesh_->masses) want(mass.vertex);
   for (const Spring& spring : mesh_->springs)
     for (const int vertex : spring.vertices) want(vertex);
+  for (const SurfacePoint& point : mesh_->surface_points) want(point.vertex);
+}
+
+// Nodes of vertices that lie on a shell between its corners follow the shape of its cell there.
+void Space::add_surface_ties(dealii::AffineConstraints<double>& ties) const {
+  if (mesh_->surface_points.empty()) return;
+  std::vector<std::vector<int>> cells(mesh_->shells.size());
+  for (std::size_t cell = 0; cell < shells_.size(); ++cell)
+    cells[at(shells_[cell].shell)].push_back(static_cast<int>(cell));
+  for (const SurfacePoint& point : mesh_->surface_points) {
+    const auto node = static_cast<dealii::types::global_dof_index>(node_of_vertex(point.vertex));
+    if (ties.is_constrained(node)) continue;
+    for (const int cell : cells[at(point.shell)]) {
+      const Eigen::Vector2d xi = (point.xi - shells_[at(cell)].origin) / shells_[at(cell)].size;
+      if (xi.minCoeff() < -1e-9 || xi.maxCoeff() > 1 + 1e-9) continue;
+      const Eigen::VectorXd values = shell_values(xi);
+      ties.add_line(node);
+      for (Eigen::Index i = 0; i < values.size(); ++i)
+        if (std::abs(values[i]) > 1e-12)
+          ties.add_entry(node, static_cast<dealii::types::global_dof_index>(shell_nodes(cell)[i]),
+                         values[i]);
+      break;
+    }
+  }
 }
 
 Vector3 Space::place(int cell, const Eigen::Vector2d& xi) const {
@@ -361,9 +385,8 @@ std::vector<int> Space::element_freedoms(int element) const {
     for (const int node : beams_[at(element - shells)].nodes) take(node);
   } else {
     const Spring& spring = mesh_->springs[at(element - shells - beams)];
-    for (std::size_t end = 0; end < 2; ++end)
-      if (spring.vertices[end] >= 0)
-        freedoms.push_back(6 * node_of_vertex(spring.vertices[end]) + spring.components[end]);
+    for (const int vertex : spring.vertices)
+      if (vertex >= 0) take(node_of_vertex(vertex));
   }
   return freedoms;
 }
@@ -390,13 +413,16 @@ void Space::number_unknowns() {
       ties.add_entry(node, static_cast<dealii::types::global_dof_index>(tie.masters[i]),
                      tie.weights[i]);
   }
+  add_surface_ties(ties);
   ties.close();
 
   std::map<int, FreedomTie> links;
   for (FreedomTie& tie : find_link_ties(*mesh_, node_of_vertex_, nodes_)) {
-    // A link's slave may be tied to its neighbours: the node that they follow is the slave.
+    // A link's slave may be tied to its neighbours: the node that they follow is the slave. A place
+    // between a shell's nodes follows the shell, whose corners the link binds as well.
     const auto* entries =
         ties.get_constraint_entries(static_cast<dealii::types::global_dof_index>(tie.freedom / 6));
+    if (entries && entries->size() > 1) continue;
     if (entries) tie.freedom = 6 * static_cast<int>(entries->front().first) + tie.freedom % 6;
     const int freedom = tie.freedom;
     links.emplace(freedom, std::move(tie));

@@ -9,6 +9,11 @@
 #include "structure/mesh/mesh.h"
 #include "structure/space/elimination.h"
 
+namespace dealii {
+template <typename Number>
+class AffineConstraints;
+}
+
 namespace blocklift::structure {
 
 /// Degree of the elements and size of the cells that a mesh is computed with.
@@ -43,6 +48,7 @@ struct BeamCell {
 /// - nodes of one place along an edge are one;
 /// - where cells of different sizes or degrees meet, the finer side follows the polynomial of the coarser
 ///   one, so that displacements are continuous;
+/// - vertices that lie on a shell between its corners follow its shape;
 /// - slaves of rigid links and references of distributing links follow their masters.
 /// The unknowns are what is left; they are numbered by nested dissection for the Cholesky factorisation.
 ///
@@ -110,6 +116,7 @@ class Space {
   void make_shells(const Resolution& resolution);
   void make_beams(const Resolution& resolution);
   void make_free_nodes();
+  void add_surface_ties(dealii::AffineConstraints<double>& ties) const;
   void number_unknowns();
 
   const Mesh* mesh_;

@@ -177,9 +177,21 @@ class ElementStiffness {
     if (element < shells) return (*shells_)(element);
     if (element < shells + beams) return own_ = beam_stiffness(space_, element - shells);
     const Spring& spring = space_.mesh().springs[at(element - shells - beams)];
-    const bool is_grounded = spring.vertices[0] < 0 || spring.vertices[1] < 0;
-    own_.setConstant(is_grounded ? 1 : 2, is_grounded ? 1 : 2, spring.stiffness);
-    if (!is_grounded) own_(0, 1) = own_(1, 0) = -spring.stiffness;
+    // How far it is stretched by the freedoms of its vertices.
+    std::vector<double> row;
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (spring.vertices[end] < 0) continue;
+      const Vector3 axis =
+          (end == 0 ? 1.0 : -1.0) * spring.axes[end].col(spring.components[end] % 3);
+      const bool turns = spring.components[end] >= 3;
+      const Vector3 of_u = turns ? Vector3::Zero() : axis;
+      const Vector3 of_theta = turns ? axis : Vector3(spring.arms[end].cross(axis));
+      row.insert(row.end(), of_u.begin(), of_u.end());
+      row.insert(row.end(), of_theta.begin(), of_theta.end());
+    }
+    const Eigen::Map<const Eigen::VectorXd> stretch(row.data(),
+                                                    static_cast<Eigen::Index>(row.size()));
+    own_ = spring.stiffness * stretch * stretch.transpose();
     return own_;
   }
 

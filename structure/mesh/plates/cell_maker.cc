@@ -59,7 +59,7 @@ int Divisions::number(int axis, int lower, int upper, int part) {
   return entry->second;
 }
 
-CellMaker::CellMaker(const SheetGrid& grid, const std::vector<Panel>& panels,
+CellMaker::CellMaker(const SheetGrid& grid, const std::vector<SheetPanel>& panels,
                      double largest_element, Mesh& mesh)
     : grid_(grid),
       largest_element_(largest_element),
@@ -70,9 +70,9 @@ CellMaker::CellMaker(const SheetGrid& grid, const std::vector<Panel>& panels,
 }
 
 // Before anything is made: what no machine holds is refused, not begun.
-void CellMaker::check_size(const std::vector<Panel>& panels, double largest_element) const {
+void CellMaker::check_size(const std::vector<SheetPanel>& panels, double largest_element) const {
   double shells = 0;
-  for (const Panel& panel : panels) {
+  for (const SheetPanel& panel : panels) {
     double here = 1;
     for (int axis = 0; axis < 3; ++axis)
       if (axis != panel.normal)
@@ -147,7 +147,7 @@ void CellMaker::add_shell(Shell shell) {
   mesh_.shells.push_back(shell);
 }
 
-void CellMaker::add(const Panel& panel, int section) {
+void CellMaker::add(const SheetPanel& panel, int section) {
   const int u = (panel.normal + 1) % 3, v = (panel.normal + 2) % 3;
   for (int j = 0; j < parts(panel.lower, panel.upper, v); ++j)
     for (int i = 0; i < parts(panel.lower, panel.upper, u); ++i) {

@@ -38,10 +38,10 @@ class Divisions {
 class CellMaker {
  public:
   /// @throws ModelError if the largest element is not positive, or makes more shells than any memory holds.
-  CellMaker(const SheetGrid& grid, const std::vector<Panel>& panels, double largest_element,
+  CellMaker(const SheetGrid& grid, const std::vector<SheetPanel>& panels, double largest_element,
             Mesh& mesh);
 
-  void add(const Panel& panel, int section);
+  void add(const SheetPanel& panel, int section);
   /// Rings of quadrangles between the frame's outline and the opening, curved where that is.
   void add(const HoleFrame& frame, int section);
   /// @param pattern a beam with all but vertices and label.
@@ -52,7 +52,7 @@ class CellMaker {
   struct Ring;
 
   void divide_frame(const HoleFrame& frame);
-  void check_size(const std::vector<Panel>& panels, double largest_element) const;
+  void check_size(const std::vector<SheetPanel>& panels, double largest_element) const;
   int parts(const Place& lower, const Place& upper, int axis) const;
   int vertex(const Place& place);
   int vertex_at(const Vector3& place);

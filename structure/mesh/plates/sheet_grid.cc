@@ -122,8 +122,8 @@ int SheetGrid::plane_at(int axis, double coordinate) const {
   return static_cast<int>(nearest - planes.begin());
 }
 
-Panel SheetGrid::box_of(const Sheet& sheet) const {
-  Panel box;
+SheetPanel SheetGrid::box_of(const Sheet& sheet) const {
+  SheetPanel box;
   box.normal = sheet.normal;
   for (int axis = 0; axis < 3; ++axis) {
     int &lower = box.lower[at(axis)], &upper = box.upper[at(axis)];
@@ -143,8 +143,8 @@ Panel SheetGrid::box_of(const Sheet& sheet) const {
   return box;
 }
 
-Panel SheetGrid::box_of_hole(const Sheet& sheet, const std::array<Interval, 3>& hole) const {
-  Panel box;
+SheetPanel SheetGrid::box_of_hole(const Sheet& sheet, const std::array<Interval, 3>& hole) const {
+  SheetPanel box;
   box.normal = sheet.normal;
   for (int axis = 0; axis < 3; ++axis) {
     if (axis == sheet.normal) continue;
@@ -163,11 +163,11 @@ void SheetGrid::fill() {
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
     const Sheet& sheet = sheets_[s];
     const int u = (sheet.normal + 1) % 3, v = (sheet.normal + 2) % 3;
-    const Panel box = box_of(sheet);
-    std::vector<Panel> holes;
+    const SheetPanel box = box_of(sheet);
+    std::vector<SheetPanel> holes;
     for (const auto& hole : sheet.holes) holes.push_back(box_of_hole(sheet, hole));
     Place place = box.lower;
-    const auto is_in = [&](const Panel& hole) {
+    const auto is_in = [&](const SheetPanel& hole) {
       return place[at(u)] >= hole.lower[at(u)] && place[at(u)] < hole.upper[at(u)] &&
              place[at(v)] >= hole.lower[at(v)] && place[at(v)] < hole.upper[at(v)];
     };
@@ -221,7 +221,7 @@ double SheetGrid::thickness_under(int sheet, const StiffenerLine& line, const Pl
   return thinnest;
 }
 
-SheetGrid::Place SheetGrid::start_of(const Panel& box, const StiffenerLine& line) const {
+SheetGrid::Place SheetGrid::start_of(const SheetPanel& box, const StiffenerLine& line) const {
   Place start = box.lower;
   const int across = 3 - line.along - box.normal;
   start[at(across)] = plane_at(across, snapped(across, line.position, nullptr));
@@ -231,7 +231,7 @@ SheetGrid::Place SheetGrid::start_of(const Panel& box, const StiffenerLine& line
 void SheetGrid::mark_stiffeners() {
   for (auto& asked : is_asked_) asked.assign(faces_[0].size(), 0);
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
-    const Panel box = box_of(sheets_[s]);
+    const SheetPanel box = box_of(sheets_[s]);
     for (const StiffenerLine& line : sheets_[s].stiffeners) {
       const int across = 3 - line.along - box.normal;
       const std::size_t along = at(line.along);
@@ -251,7 +251,7 @@ std::vector<StiffenerSpan> SheetGrid::stiffener_spans() const {
   std::vector<StiffenerSpan> spans;
   for (std::size_t s = 0; s < sheets_.size(); ++s) {
     const auto sheet = static_cast<int>(s);
-    const Panel box = box_of(sheets_[s]);
+    const SheetPanel box = box_of(sheets_[s]);
     for (const StiffenerLine& line : sheets_[s].stiffeners) {
       const std::size_t along = at(line.along);
       Place place = start_of(box, line);
@@ -327,8 +327,8 @@ void SheetGrid::find_cuts(int axis, int plane) {
     }
 }
 
-std::vector<Panel> SheetGrid::panels() const {
-  std::vector<Panel> panels;
+std::vector<SheetPanel> SheetGrid::panels() const {
+  std::vector<SheetPanel> panels;
   for (int normal = 0; normal < 3; ++normal) {
     const int u = (normal + 1) % 3, v = (normal + 2) % 3;
     const auto is_kept = [&](int axis, const Place& point) {
@@ -340,7 +340,7 @@ std::vector<Panel> SheetGrid::panels() const {
         for (place[at(u)] = 0; place[at(u)] < count(u); ++place[at(u)]) {
           const int signature = face(normal, place);
           if (signature == 0 || !is_kept(u, place) || !is_kept(v, place)) continue;
-          Panel panel{normal, place, place, {}, owners_[at(signature)], -1};
+          SheetPanel panel{normal, place, place, {}, owners_[at(signature)], -1};
           if (panel.owner >= static_cast<int>(sheets_.size())) {
             panel.frame = panel.owner - static_cast<int>(sheets_.size());
             panel.owner = frames_[at(panel.frame)].sheet;
@@ -363,7 +363,7 @@ std::vector<Panel> SheetGrid::panels() const {
         }
   }
   std::stable_sort(panels.begin(), panels.end(),
-                   [](const Panel& a, const Panel& b) { return a.owner < b.owner; });
+                   [](const SheetPanel& a, const SheetPanel& b) { return a.owner < b.owner; });
   return panels;
 }
 

@@ -9,7 +9,7 @@
 namespace blocklift::structure {
 
 /// Rectangle between cuts that belongs to one sheet.
-struct Panel {
+struct SheetPanel {
   int normal = 0;
   /// Places of its corners among the planes of each axis; alike along the normal.
   std::array<int, 3> lower{}, upper{};
@@ -56,7 +56,7 @@ class SheetGrid {
     return planes_[static_cast<std::size_t>(axis)];
   }
   /// Conforming: two of them share a whole edge, a corner or nothing.
-  std::vector<Panel> panels() const;
+  std::vector<SheetPanel> panels() const;
   const std::vector<HoleFrame>& frames() const { return frames_; }
   /// Corners of panels on the outline of a frame, from the lower end of both axes anticlockwise about the
   /// sheet's normal.
@@ -91,14 +91,14 @@ class SheetGrid {
   void collect_frames();
   void set_frames_apart();
   int plane_at(int axis, double coordinate) const;
-  Panel box_of(const Sheet& sheet) const;
-  Panel box_of_hole(const Sheet& sheet, const std::array<Interval, 3>& hole) const;
+  SheetPanel box_of(const Sheet& sheet) const;
+  SheetPanel box_of_hole(const Sheet& sheet, const std::array<Interval, 3>& hole) const;
   void fill();
   bool is_cut_at(int axis, const Place& point) const;
   bool has_sheet(int normal, const Place& place, int sheet) const;
   bool bears(int sheet, const StiffenerLine& line, const Place& place) const;
   double thickness_under(int sheet, const StiffenerLine& line, const Place& place) const;
-  Place start_of(const Panel& box, const StiffenerLine& line) const;
+  Place start_of(const SheetPanel& box, const StiffenerLine& line) const;
   void mark_stiffeners();
   void find_cuts(int axis, int plane);
 

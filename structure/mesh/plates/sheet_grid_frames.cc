@@ -134,7 +134,7 @@ void SheetGrid::set_frames_apart() {
     const HoleFrame& frame = frames_[f];
     const Sheet& sheet = sheets_[at(frame.sheet)];
     const int u = (sheet.normal + 1) % 3, v = (sheet.normal + 2) % 3;
-    const Panel box = box_of_hole(sheet, frame.extent);
+    const SheetPanel box = box_of_hole(sheet, frame.extent);
     std::map<int, int> framed;  // signatures, without and with the frame
     Place place = box.lower;
     place[at(sheet.normal)] = plane_at(sheet.normal, sheet.position);
@@ -157,7 +157,7 @@ void SheetGrid::set_frames_apart() {
 std::vector<SheetGrid::Place> SheetGrid::points_around(const HoleFrame& frame) const {
   const Sheet& sheet = sheets_[at(frame.sheet)];
   const int u = (sheet.normal + 1) % 3, v = (sheet.normal + 2) % 3;
-  Panel box = box_of_hole(sheet, frame.extent);
+  SheetPanel box = box_of_hole(sheet, frame.extent);
   box.lower[at(sheet.normal)] = plane_at(sheet.normal, sheet.position);
   std::vector<Place> points;
   Place place = box.lower;

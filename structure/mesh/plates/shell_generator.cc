@@ -25,7 +25,7 @@ namespace {
 using Place = std::array<int, 3>;
 using PanelEdge = std::pair<Place, Place>;
 
-std::array<PanelEdge, 4> edges_of(const Panel& panel) {
+std::array<PanelEdge, 4> edges_of(const SheetPanel& panel) {
   const std::size_t u = at((panel.normal + 1) % 3);
   Place right = panel.lower, left = panel.upper;
   right[u] = panel.upper[u];
@@ -96,7 +96,7 @@ void add_beams(const BlockDescription& block, const SheetGrid& grid, CellMaker& 
 }
 
 /// Numbers of the parts that hang together along edges, a panel each.
-std::vector<int> joined_parts(const std::vector<Panel>& panels) {
+std::vector<int> joined_parts(const std::vector<SheetPanel>& panels) {
   std::map<PanelEdge, std::vector<int>> meeting;
   for (std::size_t p = 0; p < panels.size(); ++p)
     for (const PanelEdge& edge : edges_of(panels[p])) meeting[edge].push_back(static_cast<int>(p));
@@ -108,7 +108,7 @@ std::vector<int> joined_parts(const std::vector<Panel>& panels) {
     front.assign(1, static_cast<int>(start));
     part[start] = parts;
     while (!front.empty()) {
-      const Panel& panel = panels[at(front.back())];
+      const SheetPanel& panel = panels[at(front.back())];
       front.pop_back();
       for (const PanelEdge& edge : edges_of(panel))
         for (const int next : meeting[edge])
@@ -119,7 +119,7 @@ std::vector<int> joined_parts(const std::vector<Panel>& panels) {
   return part;
 }
 
-double area_of(const SheetGrid& grid, const Panel& panel) {
+double area_of(const SheetGrid& grid, const SheetPanel& panel) {
   double area = 1;
   for (int axis = 0; axis < 3; ++axis)
     if (axis != panel.normal)
@@ -128,7 +128,7 @@ double area_of(const SheetGrid& grid, const Panel& panel) {
   return area;
 }
 
-void check_joined(const SheetGrid& grid, const std::vector<Panel>& panels) {
+void check_joined(const SheetGrid& grid, const std::vector<SheetPanel>& panels) {
   const std::vector<int> part = joined_parts(panels);
   const int parts = *std::max_element(part.begin(), part.end()) + 1;
   if (parts == 1) return;
@@ -152,18 +152,18 @@ void check_joined(const SheetGrid& grid, const std::vector<Panel>& panels) {
 }
 
 // A lug stands on its pad when they share a panel, or panels of theirs share an edge.
-void check_lug_on_pad(const std::vector<Panel>& panels, const Lug& lug, int lug_sheet,
+void check_lug_on_pad(const std::vector<SheetPanel>& panels, const Lug& lug, int lug_sheet,
                       int pad_sheet) {
-  const auto has = [](const Panel& panel, int sheet) {
+  const auto has = [](const SheetPanel& panel, int sheet) {
     return std::find(panel.sheets.begin(), panel.sheets.end(), sheet) != panel.sheets.end();
   };
   std::set<PanelEdge> lug_edges;
-  for (const Panel& panel : panels) {
+  for (const SheetPanel& panel : panels) {
     if (!has(panel, lug_sheet)) continue;
     if (has(panel, pad_sheet)) return;
     for (const PanelEdge& edge : edges_of(panel)) lug_edges.insert(edge);
   }
-  for (const Panel& panel : panels)
+  for (const SheetPanel& panel : panels)
     if (has(panel, pad_sheet))
       for (const PanelEdge& edge : edges_of(panel))
         if (lug_edges.count(edge) != 0) return;
@@ -192,7 +192,7 @@ void add_lifting_point(const Lug& lug, int lug_sheet, int pad_sheet, Mesh& mesh)
 }
 
 void add_lifting_points(const BlockDescription& block, const SheetGrid& grid,
-                        const std::vector<Panel>& panels, Mesh& mesh) {
+                        const std::vector<SheetPanel>& panels, Mesh& mesh) {
   const auto first_lug = static_cast<int>(grid.sheets().size() - block.lugs.size());
   const int first_pad = first_lug - static_cast<int>(block.pads.size());
   for (std::size_t i = 0; i < block.lugs.size(); ++i) {
@@ -210,12 +210,12 @@ void add_lifting_points(const BlockDescription& block, const SheetGrid& grid,
 
 Mesh generate_shell_mesh(const BlockDescription& block) {
   const SheetGrid grid(spread_into_sheets(block));
-  const std::vector<Panel> panels = grid.panels();
+  const std::vector<SheetPanel> panels = grid.panels();
   check_joined(grid, panels);
   Mesh mesh;
   add_groups_and_regions(block, grid.sheets(), mesh);
   CellMaker maker(grid, panels, block.largest_element, mesh);
-  for (const Panel& panel : panels)
+  for (const SheetPanel& panel : panels)
     if (panel.frame < 0) maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
   for (const HoleFrame& frame : grid.frames())
     maker.add(frame, section_of(grid.sheets()[at(frame.sheet)], mesh));

@@ -175,12 +175,12 @@ class Cells {
     if (is_one) return;
     long greatest = 1;
     for (const long label : labels_) greatest = std::max(greatest, label);
-    for (const AbaqusElement& element : model_.elements)
+    for (const AbaqusDeckElement& element : model_.elements)
       greatest = std::max(greatest, element.label);
     long step = 10;
     while (step <= greatest) step *= 10;
     for (std::size_t v = 0; v < labels.size(); ++v) labels[v] += step * scope_of_[v];
-    for (AbaqusElement& element : model_.elements) element.label += step * element.scope;
+    for (AbaqusDeckElement& element : model_.elements) element.label += step * element.scope;
     for (std::size_t s = 0; s < model_.scopes.size(); ++s)
       if (!model_.scopes[s].nodes.empty() && s > 0)
         model_.log.remark(
@@ -223,7 +223,7 @@ class Cells {
 
   void add_element(const std::vector<std::string_view>& fields, const ElementType& known,
                    const std::string& type, const std::string& set, SourceLine line) {
-    AbaqusElement element;
+    AbaqusDeckElement element;
     element.label = abaqus_label(fields.front(), "element");
     element.kind = known.kind;
     element.type = type;

@@ -102,7 +102,7 @@ class LinkBlocks {
     const double length = model_.units.length;
     std::vector<int> shells, beams;
     for (const int e : model_.elements_of(*scope_, block.required("ELSET"))) {
-      const AbaqusElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.shell >= 0) shells.push_back(element.shell);
       beams.insert(beams.end(), element.beams.begin(), element.beams.end());
     }
@@ -157,7 +157,7 @@ class LinkBlocks {
     const double stiffness = abaqus_real(block.data[has_freedoms ? 1 : 0].fields(), 0, "stiffness");
     if (stiffness < 0) throw CardError{"the stiffness is negative"};
     for (const int e : elements(block, AbaqusKind::spring)) {
-      const AbaqusElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[at(e)];
       Spring spring;
       spring.label = element.label;
       spring.vertices[0] = element.nodes[0];
@@ -196,7 +196,7 @@ class LinkBlocks {
   std::map<int, double> vertices_of(const AbaqusSurface& surface) const {
     std::map<int, double> weights = surface.nodes;
     for (const auto& [e, face] : surface.faces) {
-      const AbaqusElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.shell < 0)
         throw CardError{fmt::format("element {} of the surface is no shell", element.label)};
       const Shell& shell = mesh_.shells[at(element.shell)];

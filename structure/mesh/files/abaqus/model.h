@@ -17,7 +17,7 @@ namespace blocklift::structure {
 /// What an element type is here.
 enum class AbaqusKind { shell, beam, truss, mass, inertia, spring, rigid, solid, nothing };
 
-struct AbaqusElement {
+struct AbaqusDeckElement {
   long label = 0;
   AbaqusKind kind = AbaqusKind::shell;
   std::string type;
@@ -62,7 +62,7 @@ struct AbaqusModel {
   const DeckOptions& options;
   const UnitSystem units;
   std::vector<AbaqusScope> scopes;  ///< the first is the model's own, the last the assembly's
-  std::vector<AbaqusElement> elements;
+  std::vector<AbaqusDeckElement> elements;
   std::vector<const AbaqusBlock*> model_blocks;
   std::vector<std::vector<const AbaqusBlock*>> steps;
   std::map<std::string, AbaqusSurface> surfaces;
@@ -91,6 +91,8 @@ struct AbaqusModel {
 void read_abaqus_cells(AbaqusModel& model, const std::vector<AbaqusBlock>& blocks);
 /// Materials, sections, and the shells and beams that have them.
 void read_abaqus_sections(AbaqusModel& model);
+/// Systems of axes at nodes, which springs, links, supports and loads count along.
+void read_abaqus_transforms(AbaqusModel& model);
 /// Masses, springs, couplings, rigid bodies, equations.
 void read_abaqus_links(AbaqusModel& model);
 /// Supports, loads and steps.

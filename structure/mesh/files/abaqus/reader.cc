@@ -144,6 +144,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
   read_abaqus_cells(model, blocks);
   if (deck.mesh.vertices.empty()) log.complain({}, "the deck has no nodes");
   read_abaqus_sections(model);
+  read_abaqus_transforms(model);
   read_abaqus_links(model);
   read_abaqus_steps(model);
   log.check();

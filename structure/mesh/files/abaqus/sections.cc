@@ -108,7 +108,7 @@ class Sections {
     const int of_region = region(blocks, section.material);
     const Vector3 axis_1 = section.laminate < 0 ? Vector3(Vector3::Zero()) : laminate_axis(blocks);
     for (const int e : elements(blocks)) {
-      AbaqusElement& element = model_.elements[at(e)];
+      AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.kind == AbaqusKind::solid || element.kind == AbaqusKind::nothing) continue;
       if (element.kind != AbaqusKind::shell)
         throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
@@ -190,7 +190,7 @@ class Sections {
     throw CardError{fmt::format("orientation {} does not exist", name)};
   }
 
-  void add_shell(AbaqusElement& element, int section, int of_region, const Vector3& axis_1) {
+  void add_shell(AbaqusDeckElement& element, int section, int of_region, const Vector3& axis_1) {
     Shell shell;
     shell.section = section;
     shell.region = of_region;
@@ -378,7 +378,7 @@ class Sections {
     mesh_.beam_sections.push_back(section);
     const int of_region = region(blocks, shape.material);
     for (const int e : elements(blocks)) {
-      AbaqusElement& element = model_.elements[at(e)];
+      AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.kind != AbaqusKind::beam)
         throw CardError{fmt::format("element {} is a {}, no beam", element.label, element.type)};
       if (!element.beams.empty())
@@ -394,7 +394,7 @@ class Sections {
     }
   }
 
-  void add_beam(AbaqusElement& element, int from, int to, const Vector3& axis_2, int of_region,
+  void add_beam(AbaqusDeckElement& element, int from, int to, const Vector3& axis_2, int of_region,
                 const Eigen::Vector2d& centroid) {
     Beam beam;
     beam.vertices = {from, to};
@@ -426,7 +426,7 @@ class Sections {
       if (code == codes.end() || (!at_start && !is_same(fields[1], "S2")))
         throw CardError{"elements, S1 or S2, and M1, M2, T, M1-M2, M1-T, M2-T or ALLM are due"};
       for (const int e : model_.elements_of(scope, fields[0])) {
-        const AbaqusElement& element = model_.elements[at(e)];
+        const AbaqusDeckElement& element = model_.elements[at(e)];
         if (element.beams.empty())
           throw CardError{fmt::format("element {} is no beam", element.label)};
         Beam& beam = mesh_.beams[at(at_start ? element.beams.front() : element.beams.back())];
@@ -457,7 +457,7 @@ class Sections {
     mesh_.beam_sections.push_back(section);
     const int of_region = region(blocks, section.material);
     for (const int e : trusses) {
-      AbaqusElement& element = model_.elements[at(e)];
+      AbaqusDeckElement& element = model_.elements[at(e)];
       // A third node between the ends bends nothing.
       Beam rod;
       rod.vertices = {element.nodes.front(), element.nodes.back()};
@@ -478,7 +478,7 @@ class Sections {
   void check_all_have_sections() {
     int without = -1;
     const bool has_any = !mesh_.shell_sections.empty();
-    for (AbaqusElement& element : model_.elements) {
+    for (AbaqusDeckElement& element : model_.elements) {
       if (element.kind == AbaqusKind::shell && element.shell < 0) {
         if (has_any) {
           model_.log.complain(element.line, "*ELEMENT: shells have no *SHELL SECTION");
@@ -513,7 +513,7 @@ void read_abaqus_sections(AbaqusModel& model) {
       NamedSet set;
       set.name = scope.name.empty() ? name : scope.name + "." + name;
       for (const int e : elements) {
-        const AbaqusElement& element = model.elements[at(e)];
+        const AbaqusDeckElement& element = model.elements[at(e)];
         if (element.shell >= 0) set.shells.push_back(element.shell);
         set.beams.insert(set.beams.end(), element.beams.begin(), element.beams.end());
       }

@@ -1,4 +1,4 @@
-// Systems of nodes, supports, loads and steps.
+// Supports, loads and steps.
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,6 @@ class StepBlocks {
   explicit StepBlocks(AbaqusModel& model) : model_(model) {}
 
   void read() {
-    // What the assembly names comes last: its lookups reach into the instances.
-    for (const AbaqusScope& scope : model_.scopes) {
-      scope_ = &scope;
-      for (const AbaqusBlock* block : scope.blocks)
-        if (block->name == "TRANSFORM") model_.guarded(*block, [&] { add_transform(*block); });
-    }
     for (const AbaqusScope& scope : model_.scopes) {
       scope_ = &scope;
       for (const AbaqusBlock* block : scope.blocks)
@@ -38,40 +32,6 @@ class StepBlocks {
   }
 
  private:
-  // *TRANSFORM, NSET = , TYPE = R | C | S / two points
-  void add_transform(const AbaqusBlock& block) {
-    const std::string type = block.value("TYPE");
-    if (block.data.empty()) throw CardError{"two points are due"};
-    const Fields fields = block.data.front().fields();
-    const double length = model_.units.length;
-    std::array<Vector3, 2> points;
-    for (std::size_t p = 0; p < 2; ++p)
-      points[p] << abaqus_real(fields, 3 * p, "coordinate") * length,
-          abaqus_real(fields, 3 * p + 1, "coordinate") * length,
-          abaqus_real(fields, 3 * p + 2, "coordinate") * length;
-    const auto to_world = [&](const Vector3& point) -> Vector3 {
-      return scope_->turn * point + length * scope_->shift;
-    };
-    LocalSystem system;
-    if (type.empty() || type == "R") {
-      const Vector3 third = points[0].cross(points[1]);
-      if (!(third.norm() > 0)) throw CardError{"the two directions are one"};
-      system.axes.col(0) = (scope_->turn * points[0]).normalized();
-      system.axes.col(2) = (scope_->turn * third).normalized();
-      system.axes.col(1) = system.axes.col(2).cross(system.axes.col(0));
-    } else if (type == "C") {
-      const Vector3 axis = to_world(points[1]) - to_world(points[0]);
-      if (!(axis.norm() > 0)) throw CardError{"the axis has no length"};
-      const Vector3 across = axis.unitOrthogonal();
-      system = system_through(SystemKind::cylindrical, to_world(points[0]), to_world(points[1]),
-                              to_world(points[0]) + across);
-    } else {
-      throw CardError{fmt::format("TYPE = {} is not known; R and C are", type)};
-    }
-    for (const int node : model_.nodes_of(*scope_, block.required("NSET")))
-      model_.axes_of[node] = system.axes_at(model_.place(node));
-  }
-
   static bool named_condition(const std::string& name, std::array<bool, 6>& held) {
     static const std::map<std::string, std::array<bool, 6>> conditions{
         {"ENCASTRE", {true, true, true, true, true, true}},
@@ -155,7 +115,7 @@ class StepBlocks {
     Deck& deck = model_.deck;
     const auto label = static_cast<long>(deck.load_cases.size()) + 1;
     const AbaqusBlock::Parameter* named = step.find("NAME");
-    LoadCase load_case;
+    DeckLoadCase load_case;
     load_case.label = label;
     load_case.title = named != nullptr ? named->as_given : fmt::format("step {}", label);
     loads_.label = label;
@@ -236,7 +196,7 @@ class StepBlocks {
     loads_.gravity += value * model_.units.length * direction.normalized();
   }
 
-  void add_load(const AbaqusElement& element, const std::string& kind, double value) {
+  void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
     if (kind == "P" && element.shell >= 0) {
       add_pressure(element.shell, value);
       return;
@@ -267,7 +227,7 @@ class StepBlocks {
       throw CardError{fmt::format("surface {} does not exist", fields[0])};
     if (kind != "P") throw CardError{fmt::format("a load {} is not known; P is", kind)};
     for (const auto& [e, face] : surface->second.faces) {
-      const AbaqusElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.shell < 0 || (face != "SPOS" && face != "SNEG"))
         throw CardError{
             fmt::format("pressure on face {} of element {}; SPOS and SNEG of shells are "

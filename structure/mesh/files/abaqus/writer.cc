@@ -106,7 +106,14 @@ class AbaqusText {
   }
 
   void write_shells() {
-    std::map<std::pair<int, std::string>, std::vector<int>> kinds;
+    // In the order in which each first appears, so that what is read comes back in its order.
+    struct Kind {
+      int section;
+      std::string type;
+      std::vector<int> shells;
+    };
+    std::vector<Kind> kinds;
+    std::map<std::pair<int, std::string>, std::size_t> known;
     for (std::size_t s = 0; s < mesh_.shells.size(); ++s) {
       const Shell& shell = mesh_.shells[s];
       if (shell.section < 0)
@@ -117,11 +124,12 @@ class AbaqusText {
       const bool is_quadratic = !middles_[s].empty();
       const char* type =
           shell.is_triangle() ? (is_quadratic ? "STRI65" : "S3") : (is_quadratic ? "S8R" : "S4");
-      kinds[{shell.section, type}].push_back(static_cast<int>(s));
+      const auto [found, is_new] = known.try_emplace({shell.section, type}, kinds.size());
+      if (is_new) kinds.push_back({shell.section, type, {}});
+      kinds[found->second].shells.push_back(static_cast<int>(s));
     }
     shell_number_.resize(mesh_.shells.size());
-    for (const auto& [kind, shells] : kinds) {
-      const auto& [place, type] = kind;
+    for (const auto& [place, type, shells] : kinds) {
       const std::string set = new_set();
       line(fmt::format("*ELEMENT, TYPE={}, ELSET={}", type, set));
       for (const int s : shells) write_shell(s);
@@ -362,7 +370,7 @@ class AbaqusText {
     }
   }
 
-  void write_step(const LoadCase& one) {
+  void write_step(const DeckLoadCase& one) {
     line(one.title.empty() ? "*STEP" : fmt::format("*STEP, NAME=\"{}\"", one.title));
     line("*STATIC");
     line("*BOUNDARY, OP=NEW");

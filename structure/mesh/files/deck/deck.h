@@ -88,7 +88,7 @@ struct LoadSet {
 };
 
 /// Subcase or step.
-struct LoadCase {
+struct DeckLoadCase {
   long label = 0;
   std::string title;
   std::vector<std::pair<int, double>> loads;  ///< places in Deck::load_sets, with factors
@@ -113,7 +113,7 @@ struct Deck {
   Mesh mesh;
   std::vector<SupportSet> support_sets;
   std::vector<LoadSet> load_sets;
-  std::vector<LoadCase> load_cases;
+  std::vector<DeckLoadCase> load_cases;
   std::vector<NamedSet> sets;
   std::vector<LedgerEntry> ledger;  ///< by name
   std::vector<DeckRemark> remarks;

@@ -203,15 +203,31 @@ class Splitter {
         parts.count = text.find('*') != std::string_view::npos ? 4 : 8;
       } else if (field <= parts.count) {
         parts.data[field - 1] = text;
-      } else if (field == parts.count + 1) {
+      } else if (field == parts.count + 1 && !is_number(text)) {
         parts.label = text;
       } else if (!text.empty()) {
         throw CardError{
             fmt::format("a line of free fields has more than {} fields of data", parts.count)};
       }
-      if (comma == std::string_view::npos) return;
+      if (comma == std::string_view::npos) {
+        take_early_label(field, parts);
+        return;
+      }
       begin = comma + 1;
     }
+  }
+
+  static bool is_number(std::string_view text) {
+    return !text.empty() && text.front() != '+' && to_real(text);
+  }
+
+  /// A line may end in its label before all fields are there: "+" and a word are no datum.
+  static void take_early_label(std::size_t field, Line& parts) {
+    if (field < 1 || field > parts.count) return;
+    std::string_view& last = parts.data[field - 1];
+    if (last.empty() || (last.front() != '+' && last.front() != '*') || to_real(last)) return;
+    parts.label = last;
+    last = {};
   }
 
   void add(const Line& line) {
@@ -220,8 +236,7 @@ class Splitter {
       return;
     }
     const std::string_view wanted = bare(line.name);
-    const bool follows = !bulk_.cards.empty() &&
-                         (wanted.empty() || bare(label_).empty() || is_same(bare(label_), wanted));
+    const bool follows = !bulk_.cards.empty() && (wanted.empty() || is_same(bare(label_), wanted));
     if (follows) {
       extend(line);
     } else if (wanted.empty()) {

@@ -319,7 +319,7 @@ class CaseControl {
   }
 
   void add(const Choice& choice) {
-    LoadCase load_case;
+    DeckLoadCase load_case;
     load_case.label = choice.label;
     load_case.title = choice.title;
     const auto& sets = model_.deck.support_sets;
@@ -337,7 +337,7 @@ class CaseControl {
     model_.deck.load_cases.push_back(load_case);
   }
 
-  void add_load(LoadCase& load_case, long set, double factor) const {
+  void add_load(DeckLoadCase& load_case, long set, double factor) const {
     const auto found = load_sets_.find(set);
     if (found == load_sets_.end()) {
       if (is_left_out(set)) return;

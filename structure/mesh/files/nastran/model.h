@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
@@ -44,8 +45,9 @@ struct NastranModel {
   CoordinateSystems systems;  ///< in the deck's units
   double mass_factor = 1;     ///< PARAM WTMASS
   std::unordered_map<long, int> vertex_of, shell_of, beam_of, region_of;
-  std::vector<long> output_system;    ///< of each vertex
-  std::unordered_set<long> elements;  ///< numbers that are taken
+  std::vector<long> output_system;  ///< of each vertex
+  /// Numbers that are taken: by plates, bars and springs; by rigid elements; by masses.
+  std::array<std::unordered_set<long>, 3> elements;
   std::unordered_set<long> solids;
   std::unordered_map<long, CardView> materials, properties;
   std::unordered_map<long, NastranMaterial> material_read;

@@ -90,9 +90,9 @@ class NastranText {
     for (const SupportSet& set : deck_.support_sets)
       support_label_.push_back(supports.take(set.label));
     for (const LoadSet& set : deck_.load_sets) loads.raise(set.label);
-    for (const LoadCase& one : deck_.load_cases) loads.raise(one.label);
+    for (const DeckLoadCase& one : deck_.load_cases) loads.raise(one.label);
     for (const LoadSet& set : deck_.load_sets) load_label_.push_back(loads.take(set.label));
-    for (const LoadCase& one : deck_.load_cases) {
+    for (const DeckLoadCase& one : deck_.load_cases) {
       combined_supports_.push_back(one.supports.size() > 1 ? supports.take(0) : 0);
       const bool is_one = one.loads.size() == 1 && one.loads.front().second == 1.0;
       combined_loads_.push_back(is_one || one.loads.empty() ? 0 : loads.take(0));
@@ -105,7 +105,7 @@ class NastranText {
     out_.line("CEND");
     if (!deck_.title.empty()) out_.line("TITLE = " + deck_.title);
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) {
-      const LoadCase& one = deck_.load_cases[i];
+      const DeckLoadCase& one = deck_.load_cases[i];
       out_.line(fmt::format("SUBCASE {}", one.label > 0 ? one.label : static_cast<long>(i) + 1));
       if (!one.title.empty()) out_.line("  SUBTITLE = " + one.title);
       if (!one.supports.empty())

@@ -251,11 +251,11 @@ TIE, 6, 1
 // Two instances of one part, the second turned by 90 degrees about z after its shift.
 TEST(AbaqusReader, PartsAndInstances) {
   const Deck deck = abaqus(
-      "*PART, NAME=Panel\n" + nodes +
+      "*PART, NAME=SheetPanel\n" + nodes +
       "*ELEMENT, TYPE=S4, ELSET=P\n10, 1, 2, 3, 4\n*NSET, NSET=FOOT\n1, 2\n"
       "*SHELL SECTION, ELSET=P, MATERIAL=STEEL\n.01\n*END PART\n"
-      "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=One, PART=Panel\n*END INSTANCE\n"
-      "*INSTANCE, NAME=Two, PART=Panel\n5., 0., 1.\n5., 0., 1., 5., 0., 2., 90.\n*END INSTANCE\n"
+      "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=One, PART=SheetPanel\n*END INSTANCE\n"
+      "*INSTANCE, NAME=Two, PART=SheetPanel\n5., 0., 1.\n5., 0., 1., 5., 0., 2., 90.\n*END INSTANCE\n"
       "*NODE\n1, 9., 9., 9.\n"
       "*NSET, NSET=BOTH, INSTANCE=Two\n1\n*NSET, NSET=BOTH, INSTANCE=One\nFOOT\n"
       "*END ASSEMBLY\n" +

@@ -137,7 +137,7 @@ void expect_same_rest(const Mesh& a, const Mesh& b, double tolerance) {
 /// What a load case pulls with, in sum.
 void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
   ASSERT_EQ(a.load_cases.size(), b.load_cases.size());
-  const auto forces = [](const Deck& deck, const LoadCase& one) {
+  const auto forces = [](const Deck& deck, const DeckLoadCase& one) {
     Eigen::MatrixXd sums =
         Eigen::MatrixXd::Zero(3, 2 * static_cast<long>(deck.mesh.vertices.size()) + 1);
     for (const auto& [set, factor] : one.loads) {
@@ -150,7 +150,7 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
     }
     return sums;
   };
-  const auto pressures = [](const Deck& deck, const LoadCase& one) {
+  const auto pressures = [](const Deck& deck, const DeckLoadCase& one) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(
         7, static_cast<long>(deck.mesh.shells.size() + deck.mesh.beams.size()));
     for (const auto& [set, factor] : one.loads) {
@@ -164,7 +164,7 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
     }
     return sums;
   };
-  const auto held = [](const Deck& deck, const LoadCase& one) {
+  const auto held = [](const Deck& deck, const DeckLoadCase& one) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(12, static_cast<long>(deck.mesh.vertices.size()));
     for (const int set : one.supports)
       for (const Support& support : deck.support_sets[at(set)].supports)

@@ -43,7 +43,7 @@ GRID           2             2.0     0.0    -1.5
 GRID           3             2.0     2.0  -1.5+0
 CTRIA3        10       5       1       2       3
 PSHELL         5       7     .01       7               7
-MAT1           7  2.06+11            0.3   7.85E3
+MAT1           7 2.06+11             0.3  7.85E3
 )";
   const std::string large =
       R"(GRID*                  1                            0.D0             0.0
@@ -103,6 +103,9 @@ TEST(NastranReader, ContinuationsFollowTheirCardOrNameIt) {
               1e-12);
   EXPECT_THAT(complaints_of_nastran(grids + "+ZZ,1,2\n"),
               HasSubstr("deck.bdf:8: error: a line continues \"ZZ\""));
+  // A ninth number of free fields is no label that may be passed over.
+  EXPECT_THAT(complaints_of_nastran(grids + "RBE2,9,1,123,2,3,4,5,6,7\n"),
+              HasSubstr("deck.bdf:8: error: a line of free fields has more than 8 fields of data"));
 }
 
 TEST(NastranReader, SectionsBeforeBulkDataAndTitles) {
@@ -243,7 +246,12 @@ TEST(NastranReader, QuadraticShellsAreCurved) {
   ASSERT_EQ(mesh.surface_points.size(), 1U);
   EXPECT_EQ(mesh.vertex_labels[static_cast<std::size_t>(mesh.surface_points[0].vertex)], 6);
   expect_near(mesh.surface_points[0].xi, Eigen::Vector2d(1, 0.5), 1e-15);
-  EXPECT_NEAR(area(mesh, mesh.shells[0]), pi, 0.01);
+  // Its arc is the parabola through the three points: half chord a, height 1 - a, slope s at its
+  // ends, long a (sqrt(1 + s^2) + asinh(s) / s). Three Gauss points leave (b - a)^7 f^(6) / 2,016,000,
+  // f = sqrt(1 + s^2 x^2) on (-1, 1), f^(6) up to 45 s^6 = 14.6: 9.3e-4 of a.
+  const double slope = 2 * (1 - s) / s;
+  const double arc = s * (std::sqrt(1 + slope * slope) + std::asinh(slope) / slope);
+  EXPECT_NEAR(area(mesh, mesh.shells[0]), 2 * arc, 2 * s * 9.3e-4);
 }
 
 TEST(NastranReader, BarWithOffsetsAndReleases) {
@@ -450,8 +458,8 @@ CONM2,10,1,1,50.,1.,0.,0.
 ,1.,.1,2.,.2,.3,3.
 CONM2,11,1,-1,50.,1.,2.,4.
 CONM1,12,1,,50.,,50.
-,50.,,-50.,,10.,50.
-,,,0.,60.
+,50.,,-50.,,60.,50.
+,,60.,,,,,,10.
 )");
   const PointMass& mass = deck.mesh.masses.at(0);
   EXPECT_DOUBLE_EQ(mass.mass, 5);
@@ -461,6 +469,13 @@ CONM1,12,1,,50.,,50.
   inertia << 2, 0.1, 0.3, 0.1, 1, -0.2, 0.3, -0.2, 3;
   expect_near(mass.inertia, 0.1 * inertia, 1e-12);
   expect_near(deck.mesh.masses.at(1).offset, Vector3(0, 0, 1), 1e-12);
+  // The matrix of 50 at (0, 0, 1) from its grid: m c^2 = 50 of its 60 about x and y.
+  const PointMass& matrix = deck.mesh.masses.at(2);
+  EXPECT_DOUBLE_EQ(matrix.mass, 5);
+  expect_near(matrix.offset, Vector3(0, 0, 1), 1e-12);
+  expect_near(matrix.inertia, Eigen::Matrix3d::Identity(), 1e-12);
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nCONM1,12,1,,50.,,40.\n,50.\n"),
+              HasSubstr("deck.bdf:2: error: CONM1: CONM1 12 is not the matrix of a rigid body"));
 }
 
 // PCOMP of layers of one material is a plate; of two, its A, B, D are those of the stack.
@@ -520,7 +535,7 @@ MAT1,7,206000.,,.3,7.85-9
 )",
                             "mm-t-N");
   const double plate = 4 * (0.01 * 7850 + 5), bar = 3 * (0.001 * 7850 + 1), point = 100;
-  const MassProperties mass = mass_properties(deck.mesh);
+  const MeshMass mass = mass_properties(deck.mesh);
   EXPECT_NEAR(mass.mass, plate + bar + point, 1e-9);
   const Vector3 centre =
       (plate * Vector3(1, 1, 0.1) + bar * Vector3(0.2, 0, 1.5) + point * Vector3(0, 0.5, 3)) /

@@ -40,7 +40,7 @@ GRID,14,,0.,2.,0.
 GRID,15,,1.,0.,.2
 GRID,16,,2.,1.,0.
 GRID,17,,1.,2.,.2
-GRID,18,,0.,1.,0.
+GRID,18,,0.,1.,0.,3
 GRID,19,,5.,5.,3.
 CQUAD4,101,5,11,12,13,14,,.02
 CTRIA3,102,5,11,12,13
@@ -57,8 +57,8 @@ CELAS2,401,1000.,11,1,12,2
 CELAS2,402,2000.,13,3
 RBE2,501,19,123456,16,17
 RBE2,502,19,12,18
-RBE3,503,,15,123456,1.,123,11,12,2.
-,123,13
+RBE3,503,,15,123456,1.,123,11,12
+,2.,123,13
 PSHELL,5,7,.012,7,,7,,5.
 PSHELL,6,7,.01,7,,7
 PBAR,8,7,.01,4.-6,1.-6,2.-6,1.5
@@ -132,7 +132,7 @@ TEST(RoundTrip, Abaqus) {
   EXPECT_EQ(again.mesh.vertex_labels, deck.mesh.vertex_labels);
   EXPECT_EQ(again.mesh.shells.size(), deck.mesh.shells.size());
   EXPECT_EQ(again.mesh.beams.size(), deck.mesh.beams.size());
-  const MassProperties a = mass_properties(deck.mesh), b = mass_properties(again.mesh);
+  const MeshMass a = mass_properties(deck.mesh), b = mass_properties(again.mesh);
   EXPECT_NEAR(a.mass, b.mass, tolerance * a.mass);
   EXPECT_LT((a.centre - b.centre).norm(), tolerance);
   EXPECT_LT((a.inertia - b.inertia).norm(), tolerance * a.inertia.norm());
@@ -183,7 +183,7 @@ TEST(RoundTrip, DoubleBottom) {
 TEST(RoundTrip, MassOfTheDoubleBottomByHand) {
   const models::DoubleBottomMeasures measures{.cells_per_spacing = 4, .bays = 8};
   const Deck deck = models::make_double_bottom(measures);
-  const std::vector<MassProperties> groups = mass_by_group(deck.mesh);
+  const std::vector<MeshMass> groups = mass_by_group(deck.mesh);
   const auto mass = [&](const std::string& name) {
     for (std::size_t g = 0; g < deck.mesh.groups.size(); ++g)
       if (deck.mesh.groups[g].name == name) return groups[g].mass;

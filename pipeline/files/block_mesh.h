@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/declaration/format.h"
+#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/files/deck/deck.h"
+
+namespace blocklift::pipeline {
+
+struct BlockModel;
+
+/// A deck of Nastran or Abaqus that a block is read from, in place of plates.
+struct MeshModel {
+  Located<std::string> file;  ///< as the block's file names it
+  Located<std::string> units;
+  std::optional<double> yield_stress;               ///< of materials that have none there, Pa
+  std::vector<Named<Located<double>>> thicknesses;  ///< of groups that have none there, m
+  bool leave_solids_out = false;
+  Mark place;
+
+  /// What was read, its mesh with the block's lugs; null if it could not be.
+  std::shared_ptr<const structure::Deck> deck = nullptr;
+  std::shared_ptr<const structure::Diagnosis> diagnosis = nullptr;
+};
+
+Format<MeshModel> mesh_model_format();
+
+/// Reads the deck of a block that names one, puts the block's lugs on it, and looks it over. All that
+/// is wrong is said by the deck's own files and lines, or by the block's.
+/// @param folder of the block's file.
+void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
+                     Diagnostics& diagnostics);
+
+/// The deck's cards that are not, or not all, in the block; its loads and supports are among them.
+std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh);
+
+/// What was found in the deck and what became of it, as lines of text: cards that are not or not all
+/// used, remarks of the reader, and what the look-over saw.
+std::string describe_block_mesh(const MeshModel& mesh);
+
+}  // namespace blocklift::pipeline

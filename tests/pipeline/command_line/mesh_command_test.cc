@@ -1,0 +1,72 @@
+// A block read from a deck, as a user meets it.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/run_program.h"
+#include "tests/pipeline/sample_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::TemporaryFolder;
+using test::text_of_file;
+using test::with;
+using ::testing::HasSubstr;
+
+/// The case with its crane and deck in a folder of their own.
+class MeshCommand : public ::testing::Test {
+ protected:
+  MeshCommand() {
+    const fs::path cases = BLOCKLIFT_TEST_CASES;
+    fs::copy(cases / "mesh-lift", "mesh-lift", fs::copy_options::recursive);
+    fs::create_directory("small-lift");
+    fs::copy(cases / "small-lift" / "gantry", "small-lift/gantry", fs::copy_options::recursive);
+  }
+  static Outcome run(const std::string& arguments) {
+    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  }
+  void change(const std::string& file, const std::string& old_passage,
+              const std::string& new_passage) const {
+    const fs::path path = fs::path("mesh-lift") / file;
+    folder_.write(path, with(text_of_file(path), old_passage, new_passage));
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(MeshCommand, LiftsADeckAndNamesWhatItLeavesOut) {
+  const Outcome outcome = run("assess mesh-lift -o out");
+  EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, HasSubstr("deck box.bdf: 199 nodes, 185 shells, 32 beams, 1 masses"));
+  EXPECT_THAT(outcome.out, HasSubstr("FORCE: 0 of 1 used; left out: loads and supports"));
+  EXPECT_TRUE(fs::exists("out/report.html"));
+  const auto summary = nlohmann::json::parse(text_of_file("out/summary.json"));
+  EXPECT_NEAR(summary["structure"]["mass"]["total_kg"].get<double>(), 8000, 1e-3);
+}
+
+TEST_F(MeshCommand, ValidateShowsTheDeck) {
+  for (const char* file : {"mesh-lift/block.yaml", "mesh-lift/case.yaml"}) {
+    const Outcome outcome = run(std::string("validate ") + file);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("PLOTEL: 0 of 1 used"));
+  }
+}
+
+TEST_F(MeshCommand, ABadDeckIsWrongInputAndNothingIsWritten) {
+  change("box.bdf", "CQUAD4,1,1,1,2,3,4", "CQUAD4,1,1,1,7777,3,4");
+  const Outcome outcome = run("assess mesh-lift -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("mesh-lift/box.bdf:"));
+  EXPECT_THAT(outcome.err, HasSubstr("error: CQUAD4: CQUAD4 1 names grid 7777"));
+  EXPECT_FALSE(fs::exists("out"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
