@@ -102,7 +102,8 @@ void CellMaker::divide_frame(const HoleFrame& frame) {
     const auto [lower, upper] = std::minmax(a[at(axis)], b[at(axis)]);
     sides[{axis, a[at(axis)] < b[at(axis)]}].push_back({axis, lower, upper});
   }
-  for (const auto& [direction, side] : sides) {
+  for (const auto& towards : sides) {
+    const std::vector<Side>& side = towards.second;
     const auto parts = [&](const Side& s) { return divisions_.parts(s.axis, s.lower, s.upper); };
     const auto size = [&](const Side& s) {
       return (divisions_.coordinate(s.axis, s.upper) - divisions_.coordinate(s.axis, s.lower)) /
