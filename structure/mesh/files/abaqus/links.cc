@@ -48,7 +48,7 @@ class LinkBlocks {
 
  private:
   std::vector<int> elements(const AbaqusBlock& block, AbaqusKind kind) const {
-    const std::vector<int> all = model_.elements_of(*scope_, block.required("ELSET"));
+    std::vector<int> all = model_.elements_of(*scope_, block.required("ELSET"));
     for (const int e : all)
       if (model_.elements[at(e)].kind != kind)
         throw CardError{fmt::format("element {} is a {}", model_.elements[at(e)].label,

@@ -152,7 +152,7 @@ class Shells {
   }
 
   Vector3 axis_1(const CardView& card, const ShellLayout& layout, const std::vector<int>& corners) {
-    const Vector3 side = (model_.place(corners[1]) - model_.place(corners[0])).normalized();
+    Vector3 side = (model_.place(corners[1]) - model_.place(corners[0])).normalized();
     if (!card.has(layout.angle)) return side;
     if (card.is_integer(layout.angle)) {
       const long system = card.integer(layout.angle, "material system");
@@ -236,7 +236,7 @@ class Bars {
   }
 
   static std::string option_of(const CardView& card) {
-    const std::string option = card.has(7) ? upper(card.text(7)) : "GGG";
+    std::string option = card.has(7) ? upper(card.text(7)) : "GGG";
     // A CBEAM may have a number there, the BIT of p-elements.
     const bool fits = option.size() == 3 && (option[0] == 'G' || option[0] == 'B') &&
                       option.find_first_not_of("GO", 1) == std::string::npos;

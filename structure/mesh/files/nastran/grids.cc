@@ -61,8 +61,8 @@ class Grids {
       const Grid& grid = grids_[at(found->second)];
       return model_.systems.get(grid.input).place(grid.given);
     });
-    for (const auto& [number, definition] : model_.systems.definitions())
-      guarded(definition.line, [&] { model_.systems.get(number); });
+    for (const auto& entry : model_.systems.definitions())
+      guarded(entry.second.line, [&] { model_.systems.get(entry.first); });
     place_all();
   }
 

@@ -148,9 +148,7 @@ class Links {
         for (long number = from + 1; number <= to; ++number)
           if (const auto found = model_.vertex_of.find(number); found != model_.vertex_of.end())
             slaves.push_back(found->second);
-      } else if (card.is_integer(i)) {
-        slaves.push_back(model_.vertex(card, i, "dependent grid"));
-      } else if (to_real(card.text(i))) {
+      } else if (!card.is_integer(i) && to_real(card.text(i))) {
         model_.log.leave_out("RBE2", "ALPHA (thermal expansion)");
       } else {
         slaves.push_back(model_.vertex(card, i, "dependent grid"));

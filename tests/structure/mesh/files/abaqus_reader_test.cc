@@ -255,7 +255,8 @@ TEST(AbaqusReader, PartsAndInstances) {
       "*ELEMENT, TYPE=S4, ELSET=P\n10, 1, 2, 3, 4\n*NSET, NSET=FOOT\n1, 2\n"
       "*SHELL SECTION, ELSET=P, MATERIAL=STEEL\n.01\n*END PART\n"
       "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=One, PART=SheetPanel\n*END INSTANCE\n"
-      "*INSTANCE, NAME=Two, PART=SheetPanel\n5., 0., 1.\n5., 0., 1., 5., 0., 2., 90.\n*END INSTANCE\n"
+      "*INSTANCE, NAME=Two, PART=SheetPanel\n5., 0., 1.\n5., 0., 1., 5., 0., 2., 90.\n*END "
+      "INSTANCE\n"
       "*NODE\n1, 9., 9., 9.\n"
       "*NSET, NSET=BOTH, INSTANCE=Two\n1\n*NSET, NSET=BOTH, INSTANCE=One\nFOOT\n"
       "*END ASSEMBLY\n" +
