@@ -183,7 +183,7 @@ Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
 }
 
 Eigen::MatrixXd beam_stiffness(const Space& space, int cell) {
-  const Eigen::MatrixXd whole = whole_stiffness(space, cell);
+  Eigen::MatrixXd whole = whole_stiffness(space, cell);
   const Eigen::MatrixXd directions = released_motions(space, cell);
   if (directions.cols() == 0) return whole;
   const Beam& beam = space.mesh().beams[at(space.beams()[at(cell)].beam)];

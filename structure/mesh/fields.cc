@@ -298,7 +298,7 @@ PlateFields find_fields(const Mesh& mesh, double kink, const GoesOn& goes_on) {
 }
 
 FieldWalker::FieldWalker(const Mesh& mesh, const PlateFields& fields)
-    : mesh_(mesh), fields_(fields), neighbours_(mesh.shells.size(), {-1, -1, -1, -1}) {
+    : mesh_(mesh), neighbours_(mesh.shells.size(), {-1, -1, -1, -1}) {
   for (const auto& [key, shells] : collect_edges(mesh)) {
     if (shells.size() != 2 ||
         fields.field_of_shell[at(shells[0].shell)] != fields.field_of_shell[at(shells[1].shell)])

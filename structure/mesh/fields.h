@@ -64,7 +64,7 @@ struct ShellPlace {
 /// Finds points of a field by walking from shell to shell.
 class FieldWalker {
  public:
-  /// The mesh and the fields must outlive this object.
+  /// The mesh must outlive this object.
   FieldWalker(const Mesh& mesh, const PlateFields& fields);
   /// The point of the start's field that lies nearest to a place, if the place lies over it (to 1e-6 of a
   /// shell's size).
@@ -72,7 +72,6 @@ class FieldWalker {
 
  private:
   const Mesh& mesh_;
-  const PlateFields& fields_;
   std::vector<std::array<int, 4>> neighbours_;  ///< across edges, within the field; -1: none
 };
 
