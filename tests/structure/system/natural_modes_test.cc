@@ -38,9 +38,10 @@ TEST(NaturalModes, AgreeWithADenseSolver) {
                         m = dense(mass_of_unknowns(space, mass));
   const NaturalModes free = modes_of(space, {}, 14);
   const double shift = 0.1 * free.squared_frequencies[6];
-  Eigen::VectorXd exact =
+  const Eigen::VectorXd inverse =
       Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(m, k + shift * m).eigenvalues();
-  exact = (exact.reverse().head(14).cwiseInverse().array() - shift).matrix();
+  const Eigen::VectorXd exact =
+      (inverse.reverse().head(14).cwiseInverse().array() - shift).matrix();
   EXPECT_EQ(free.rigid_motions, 6);
   for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(free.frequencies[i], 0);
