@@ -128,7 +128,8 @@ VerificationCase tee_beam() {
         std::vector<VerificationRow> rows;
         const double theory = Tee::theory();
         for (const int degree : {2, 3}) {
-          // The web bears shear as some 1 % of the deflection, known to a fifth; the flange lags by as little.
+          // The web bears shear as some 1 % of the deflection, known to a fifth; the flange lags by
+          // as little.
           const double beam = Tee::deflection(true, degree), sheet = Tee::deflection(false, degree);
           rows.push_back(compare(fmt::format("deflection, web as a beam, degree {}", degree), "m",
                                  theory, beam, 5e-3 * theory));
@@ -194,8 +195,9 @@ VerificationCase eccentric_stiffener() {
 }
 
 // --- Shear lag: a stiffener under a wide plate, q sin(pi x / L) on it, diaphragms at x = 0 and L. The plate's
-// effective breadth under a sinusoidal moment is 4 L / (pi (3 + 2 nu - nu^2)) (Timoshenko and Goodier, Theory of
-// elasticity, article 29, by von Karman 1924); its bending adds a reaction 4 D alpha^3 w. A half of it.
+// effective breadth under a sinusoidal moment is 4 L / (pi (3 + 2 nu - nu^2)) (Timoshenko and
+// Goodier, Theory of elasticity, article 29, by von Karman 1924); its bending adds a reaction 4 D
+// alpha^3 w. A half of it.
 double lagging_stiffener(int degree, int along) {
   constexpr double length = 3, t = 0.01, height = 0.3;
   Mesh mesh = testing::empty_mesh(testing::plain_steel(), t);
@@ -340,7 +342,8 @@ VerificationCase i_beam_sideways() {
           }};
 }
 
-// What the choice of the drilling stiffness G t does: figures with a hundredth and a hundred times of it.
+// What the choice of the drilling stiffness G t does: figures with a hundredth and a hundred times
+// of it.
 VerificationCase drilling_stiffness() {
   return {.name = "drilling-stiffness",
           .stage = "structure",
