@@ -37,8 +37,8 @@ class AppliedLoad {
   Definition definition_;
 };
 
-/// Force or moment at one degree of freedom of a joint, given over time: tau_k = f(t), N where the joint
-/// slides, N m where it turns. The carrier feels the opposite.
+/// Force or moment at one degree of freedom of a joint, given over time: tau_k = f(t), N where the
+/// joint slides, N m where it turns. The carrier feels the opposite.
 class JointLoad {
  public:
   struct Definition {

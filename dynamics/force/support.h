@@ -51,8 +51,8 @@ class SupportPad {
   /// Load where the pad is known to carry or not: the same law without its kink.
   SupportLoad calc_load(const Kinematics& kinematics, bool carries) const;
   void add_force(const Kinematics& kinematics, const SupportLoad& load, Loads& loads) const;
-  /// Derivatives of a load: of its normal force while it carries, and of friction, which sticks below
-  /// its limit and slides with it beyond.
+  /// Derivatives of a load: of its normal force while it carries, and of friction, which sticks
+  /// below its limit and slides with it beyond.
   void add_derivatives(const Kinematics& kinematics, const SupportLoad& load,
                        ForceDerivatives& derivatives) const;
   /// Stored: 1/2 k d^2 while it carries. Friction counts as dissipation.

@@ -40,8 +40,8 @@ class RestToRestMove {
   /// @throws ModelError if the distance is not finite or a limit not positive.
   RestToRestMove(double start, double distance, const MotionLimits& limits);
   /// The same stretched in time to last `duration` (s): slower throughout, in the same proportions.
-  /// @throws ModelError if the limits do not allow it within that duration; the message says how long
-  /// it takes at least.
+  /// @throws ModelError if the limits do not allow it within that duration; the message says how
+  /// long it takes at least.
   RestToRestMove(double start, double distance, const MotionLimits& limits, double duration);
 
   double start() const { return start_; }
@@ -65,11 +65,12 @@ class RestToRestMove {
   double jerk_ = 0;  // with the sign of the distance
 };
 
-/// Natural cubic spline through points (x_i, y_i): twice continuously differentiable, straight beyond
-/// the first and last point.
+/// Natural cubic spline through points (x_i, y_i): twice continuously differentiable, straight
+/// beyond the first and last point.
 class NaturalSpline {
  public:
-  /// @throws ModelError if there are fewer than two points, x does not increase, or a value is not finite.
+  /// @throws ModelError if there are fewer than two points, x does not increase, or a value is not
+  /// finite.
   NaturalSpline(std::vector<double> x, std::vector<double> y);
   /// y, dy/dx, d2y/dx2 at x.
   ProfileValue evaluate(double x) const;
@@ -87,7 +88,8 @@ class MotionProfile {
   /// Stays at `value`.
   static MotionProfile constant(double value);
   /// Starts at `initial` and makes the moves one after another.
-  /// @throws ModelError if a move starts before the one before it has ended, or `initial` is not finite.
+  /// @throws ModelError if a move starts before the one before it has ended, or `initial` is not
+  /// finite.
   static MotionProfile sequence(double initial, std::vector<RestToRestMove> moves);
   /// Goes along a spline over the time: position y(t), straight beyond its ends.
   static MotionProfile along(NaturalSpline spline);
@@ -102,7 +104,8 @@ class MotionProfile {
   /// Sorted times at which the jerk jumps (not those at which a cam's leader passes a knot); an
   /// integrator may restart there, and nothing moves before the first or after the last.
   const std::vector<double>& breakpoints() const { return breakpoints_; }
-  /// Extremes; exact for moves from rest to rest, found at 64 instants between breakpoints for cams.
+  /// Extremes; exact for moves from rest to rest, found at 64 instants between breakpoints for
+  /// cams.
   ProfileRange range() const;
 
  private:

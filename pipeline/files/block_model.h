@@ -30,7 +30,8 @@ struct Rectangle {
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
 };
 
-/// Stiffeners that a plate carries and its model does not: they divide its panels in the check of buckling.
+/// Stiffeners that a plate carries and its model does not: they divide its panels in the check of
+/// buckling.
 struct StiffenersModel {
   std::size_t along = 0;                                      ///< axis
   double spacing = std::numeric_limits<double>::quiet_NaN();  ///< m
