@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The tests of a clone: installs what is missing, builds everything, runs the fast tests first, then the long ones,
-# whatever became of the fast ones; one verdict at the end. Arguments go to ctest: ./run-tests.sh -R Rope
+# The tests of a clone: installs what is missing, builds everything, runs the fast tests first, then
+# the long ones, whatever became of the fast ones; one verdict at the end. Arguments go to ctest:
+# ./run-tests.sh -R Rope
 source "$(dirname "${BASH_SOURCE[0]}")/.ci/prepare.sh"
 
 install_packages

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The documentation as a site in build/docs/site: pages, manual of keys, verification register, links checked.
-# The register's figures take two minutes and are computed once for a build of the program; with --quick the register
-# has those of the last time, or the list of its cases.
+# The documentation as a site in build/docs/site: pages, manual of keys, verification register,
+# links checked. The register's figures take two minutes and are computed once for a build of the
+# program; with --quick the register has those of the last time, or the list of its cases.
 source "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
 
 blocklift=build/release/blocklift
@@ -13,7 +13,8 @@ figures=build/docs/verification.json
 mkdir -p build/docs
 if [ "${1:-}" != --quick ] && [ ! "$figures" -nt "$blocklift" ]; then
   say "Computing the figures of the register"
-  # A figure that is off is marked in the register, and is no fault of the pages: the tests complain of it.
+  # A figure that is off is marked in the register, and is no fault of the pages: the tests complain
+  # of it.
   "$blocklift" verify --json >"$figures.new" || [ -s "$figures.new" ]
   mv "$figures.new" "$figures"
 fi

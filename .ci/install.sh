@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The installation as others meet it, of the program in build/release: a program of somebody else finds the libraries
-# and simulates a pendulum with them; the Debian package's dependencies can be had, and what it holds runs from an
-# empty folder. (Unpacked, not installed: a root file system of its own takes longer than all else here.)
+# The installation as others meet it, of the program in build/release: a program of somebody else
+# finds the libraries and simulates a pendulum with them; the Debian package's dependencies can be
+# had, and what it holds runs from an empty folder. (Unpacked, not installed: a root file system of
+# its own takes longer than all else here.)
 source "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
 
 place=$(mktemp -d)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the missing Debian packages of packages.txt (asking sudo where the user is not root), configures
-# and builds. Sourced by first-lift.sh, run-tests.sh and .ci/run; safe to repeat, quick when nothing is missing.
+# Installs the missing Debian packages of packages.txt (asking sudo where the user is not root),
+# configures and builds. Sourced by first-lift.sh, run-tests.sh and .ci/run; safe to repeat, quick
+# when nothing is missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,7 +10,8 @@ say() { printf '\n== %s\n' "$*"; }
 missing_packages() {
   local wanted package
   wanted=$(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' .ci/packages.txt)
-  # Node bundles the report's scripts; any npm on the PATH will do, Debian's comes where there is none.
+  # Node bundles the report's scripts; any npm on the PATH will do, Debian's comes where there is
+  # none.
   command -v npm >/dev/null 2>&1 || wanted="$wanted nodejs npm"
   for package in $wanted; do
     dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || echo "$package"

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# clang-tidy over our own sources with the settings of .clang-tidy, in bundles: nearly all of its time goes into
-# the headers of the libraries, which a bundle of a dozen sources of one target reads and judges once.
-# Sources that cannot stand in one bundle (two have the same name in an unnamed namespace) are judged in halves.
+# clang-tidy over our own sources with the settings of .clang-tidy, in bundles: nearly all of its
+# time goes into the headers of the libraries, which a bundle of a dozen sources of one target reads
+# and judges once. Sources that cannot stand in one bundle (two have the same name in an unnamed
+# namespace) are judged in halves.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -11,7 +12,8 @@ tidy() {
     --extra-arg=-Wno-unknown-warning-option "$1" 2>&1
 }
 
-# judge BUNDLE: a source, or a .cxx of lines `#include "/path/of/source.cc"` whose folder tells the compiler's options.
+# judge BUNDLE: a source, or a .cxx of lines `#include "/path/of/source.cc"` whose folder tells the
+# compiler's options.
 judge() {
   local bundle=$1 complaints sources=()
   [[ $bundle == *.cxx ]] && mapfile -t sources <"$bundle"

@@ -22,7 +22,8 @@ void in_batches(int count, int batch_size, int threads,
       for (first = next.fetch_add(batch_size); first < count; first = next.fetch_add(batch_size))
         work(first, std::min(batch_size, count - first));
     } catch (...) {
-      // Batches below this one have all been dealt out before it: the lowest that fails is always known.
+      // Batches below this one have all been dealt out before it: the lowest that fails is always
+      // known.
       const std::lock_guard lock(failing);
       if (first < failed) {
         failed = first;

@@ -4,7 +4,8 @@
 
 namespace blocklift::structure {
 
-/// The processes that a run was started on (`mpirun -n N`); PETSc is ready in each. Process 0 leads. Without a launcher the group is this process alone.
+/// The processes that a run was started on (`mpirun -n N`); PETSc is ready in each. Process 0
+/// leads. Without a launcher the group is this process alone.
 class ProcessGroup {
  public:
   /// Number of processes that a launcher has started together, 1 without one. No group is needed.

@@ -6,7 +6,8 @@
 namespace blocklift::dynamics {
 
 /// Force at a point of a body, and moment on the body, given over time:
-///   F_Q = (moment, force), along the axes of the world (the load keeps its direction) or of the body
+///   F_Q = (moment, force), along the axes of the world (the load keeps its direction) or of the
+///     body
 ///   (it turns with the body, as a thruster's).
 class AppliedLoad {
  public:
@@ -37,8 +38,8 @@ class AppliedLoad {
   Definition definition_;
 };
 
-/// Force or moment at one degree of freedom of a joint, given over time: tau_k = f(t), N where the joint
-/// slides, N m where it turns. The carrier feels the opposite.
+/// Force or moment at one degree of freedom of a joint, given over time: tau_k = f(t), N where the
+/// joint slides, N m where it turns. The carrier feels the opposite.
 class JointLoad {
  public:
   struct Definition {

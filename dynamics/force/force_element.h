@@ -50,10 +50,10 @@ struct EnergyAccount {
 /// The one interface of everything that pushes or pulls on bodies.
 ///
 /// An element is immutable after it has been built (names are resolved to indices then), adds its
-/// forces to `Loads` without allocating, says how they change with the motion (add_derivatives: every
-/// force of add_forces that acts at a body point is also declared there by add_held_force or
-/// add_tension), and accounts for its energy. A new kind is one class that meets this concept and one
-/// entry in `ForceElements` (lift_system.h).
+/// forces to `Loads` without allocating, says how they change with the motion (add_derivatives:
+/// every force of add_forces that acts at a body point is also declared there by add_held_force or
+/// add_tension), and accounts for its energy. A new kind is one class that meets this concept and
+/// one entry in `ForceElements` (lift_system.h).
 template <class Element>
 concept ForceElement = requires(const Element& element, const MotionState& state, Loads& loads,
                                 ForceDerivatives& derivatives) {

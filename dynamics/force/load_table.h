@@ -6,8 +6,8 @@
 
 namespace blocklift::dynamics {
 
-/// A load over time, a force or a moment: straight between the points of a table, constant before the
-/// first and behind the last.
+/// A load over time, a force or a moment: straight between the points of a table, constant before
+/// the first and behind the last.
 class LoadTable {
  public:
   /// The same at all times.

@@ -21,8 +21,8 @@ void add_segment(const Kinematics& kinematics, BodyIndex from, const Vector3& p_
   derivatives.add_tension(0, 1, {span / length, length, velocity}, tension, 0.0, 0.0);
 }
 
-// The last row of a universal joint's loop: a moment along x cross z, x fixed in the follower and z in the
-// base.
+// The last row of a universal joint's loop: a moment along x cross z, x fixed in the follower and z
+// in the base.
 void add_perpendicular(const Loop& loop, const Kinematics& kinematics, double lambda,
                        ForceDerivatives& derivatives) {
   const Vector3 z = kinematics.X_WB[index(loop.base)].R * loop.X_BaseK.R.col(2);
@@ -43,8 +43,8 @@ void add_perpendicular(const Loop& loop, const Kinematics& kinematics, double la
   derivatives.add_wrench_block(1, 1, -by_base, none);
 }
 
-// Two frames: the force on the follower at its frame has the axes of the base; that on the base is its
-// opposite at the same place, which moves with the follower.
+// Two frames: the force on the follower at its frame has the axes of the base; that on the base is
+// its opposite at the same place, which moves with the follower.
 void add_pair(const Loop& loop, const Kinematics& kinematics, const Vector3& p_WK,
               const LoopState& state, ConstVectorRef lambda, ForceDerivatives& derivatives) {
   derivatives.locate(0, loop.follower, p_WK - kinematics.X_WB[index(loop.follower)].p);

@@ -4,7 +4,8 @@
 
 namespace blocklift::dynamics {
 
-/// @throws ModelError, naming spring and quantity, if a stiffness, damping or length is negative or not finite.
+/// @throws ModelError, naming spring and quantity, if a stiffness, damping or length is negative or
+/// not finite.
 void require_spring_value(const std::string& spring, const char* what, double value);
 
 /// Straight spring and damper between two points; it pulls and pushes.
@@ -60,8 +61,8 @@ class JointSpring {
     double free_coordinate = not_a_number;  ///< q0, rad or m
   };
 
-  /// @throws ModelError if the joint has no such degree of freedom or a quaternion (spherical, free), or
-  /// stiffness or damping is negative or not finite.
+  /// @throws ModelError if the joint has no such degree of freedom or a quaternion (spherical,
+  /// free), or stiffness or damping is negative or not finite.
   JointSpring(const Mechanism& mechanism, Definition definition);
 
   const std::string& name() const { return definition_.name; }

@@ -22,8 +22,10 @@ struct SupportLoad {
 
 /// A point of a body that may stand on level ground, and lift off it.
 ///
-///   N = max(0, k d + c dd/dt) where the depth d = z_ground - z > 0, else 0;  within `reach` of p_WG
-///   alone: beside the pad the load may go below its height (d = min(z_ground - z, reach - distance));
+///   N = max(0, k d + c dd/dt) where the depth d = z_ground - z > 0, else 0;  within `reach` of
+///     p_WG
+///   alone: beside the pad the load may go below its height (d = min(z_ground - z, reach -
+///     distance));
 ///   friction: with s the point's level displacement from where it stands at first and its rate,
 ///   f = -(k_t s + c_t ds/dt), shortened to mu N where longer (regularised Coulomb law).
 /// The elastic part holds a standing load in place, so that a static equilibrium is unique.
@@ -51,8 +53,8 @@ class SupportPad {
   /// Load where the pad is known to carry or not: the same law without its kink.
   SupportLoad calc_load(const Kinematics& kinematics, bool carries) const;
   void add_force(const Kinematics& kinematics, const SupportLoad& load, Loads& loads) const;
-  /// Derivatives of a load: of its normal force while it carries, and of friction, which sticks below
-  /// its limit and slides with it beyond.
+  /// Derivatives of a load: of its normal force while it carries, and of friction, which sticks
+  /// below its limit and slides with it beyond.
   void add_derivatives(const Kinematics& kinematics, const SupportLoad& load,
                        ForceDerivatives& derivatives) const;
   /// Stored: 1/2 k d^2 while it carries. Friction counts as dissipation.

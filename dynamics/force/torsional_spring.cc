@@ -8,8 +8,8 @@
 namespace blocklift::dynamics {
 namespace {
 
-// How the rotation vector theta of R changes by a small turn of R from the left: the inverse of the left
-// Jacobian of SO(3) (Chirikjian 2012, section 10.2).
+// How the rotation vector theta of R changes by a small turn of R from the left: the inverse of the
+// left Jacobian of SO(3) (Chirikjian 2012, section 10.2).
 Matrix3 inverse_left_jacobian(const Vector3& theta) {
   const double angle = theta.norm();
   const double square = angle < 1e-4

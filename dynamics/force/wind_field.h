@@ -15,16 +15,19 @@ enum class WindProfile {
   npd,
 };
 
-/// Spectra of the wind's gusts S(f), m2/s2 per Hz, with U10 the mean at 10 m (m/s) and z a height (m).
+/// Spectra of the wind's gusts S(f), m2/s2 per Hz, with U10 the mean at 10 m (m/s) and z a height
+/// (m).
 enum class GustSpectrum {
   none,
   /// S = 320 (U10/10)^2 (z/10)^0.45 / (1 + f~^n)^(5/(3n)), f~ = 172 f (z/10)^(2/3) (U10/10)^-0.75,
   /// n = 0.468: NPD (Froya), ISO 19901-1, A.7.4. U10 is the mean of one hour.
   npd,
-  /// f S = sigma^2 x/(1 + 1.5 x)^(5/3), x = f/f_p, f_p = 0.025 U(z)/z, sigma = 0.15 (z/20)^e U(z), e =
+  /// f S = sigma^2 x/(1 + 1.5 x)^(5/3), x = f/f_p, f_p = 0.025 U(z)/z, sigma = 0.15 (z/20)^e U(z),
+  /// e =
   /// -0.125 up to 20 m and -0.275 above, U(z) = U10 (z/10)^0.125: API RP 2A (1993), 2.3.2.
   api,
-  /// f S = 4 kappa U10^2 x^2/(1 + x^2)^(4/3), x = 1200 f/U10, the same at all heights: Davenport (1961).
+  /// f S = 4 kappa U10^2 x^2/(1 + x^2)^(4/3), x = 1200 f/U10, the same at all heights: Davenport
+  /// (1961).
   davenport,
 };
 
@@ -34,9 +37,9 @@ double calc_gust_density(GustSpectrum spectrum, double frequency, double U10, do
 
 /// Wind over the heights of the world, steady or with gusts.
 ///
-/// The gusts are a sum of cosines along the mean wind, one at a random place in each of `components`
-/// steps of ln f with the energy of the step and a random phase (RandomSource; draws: place, phase).
-/// One gust acts everywhere at once: loads of large structures are on the safe side.
+/// The gusts are a sum of cosines along the mean wind, one at a random place in each of
+/// `components` steps of ln f with the energy of the step and a random phase (RandomSource; draws:
+/// place, phase). One gust acts everywhere at once: loads of large structures are on the safe side.
 class WindField {
  public:
   struct Definition {

@@ -10,8 +10,8 @@ namespace blocklift::dynamics {
 
 /// Wind on a whole body (a ship, a barge with its deckhouse) by coefficients over the heading.
 ///
-/// With u the velocity of the air relative to the reference point P, u_x and u_y its parts along the
-/// axes of the body, beta = atan2(u_y, u_x) (0: from astern) and q = 1/2 rho (u_x^2 + u_y^2):
+/// With u the velocity of the air relative to the reference point P, u_x and u_y its parts along
+/// the axes of the body, beta = atan2(u_y, u_x) (0: from astern) and q = 1/2 rho (u_x^2 + u_y^2):
 ///
 ///   force  q (A_f C_x, A_l C_y, 0),   moment about P  q (A_l h C_k, A_f h C_m, A_l l C_n)
 ///

@@ -16,15 +16,15 @@ struct BodyFrame {
 /// bodies set in motion (its infinite-frequency added mass).
 ///
 /// With u = (w; v), body after body, the spatial velocities of the frames H at their origins and in
-/// their own axes (rad/s, m/s), the kinetic energy is T = 1/2 u^T A u with a constant symmetric A (6N
-/// x 6N). With the momenta p = A u = (h; l) it asks of each body, about R in the axes of H, for
+/// their own axes (rad/s, m/s), the kinetic energy is T = 1/2 u^T A u with a constant symmetric A
+/// (6N x 6N). With the momenta p = A u = (h; l) it asks of each body, about R in the axes of H, for
 ///
 ///   moment  dh/dt + w x h + v x l,    force  dl/dt + w x l,
 ///
 /// Kirchhoff's equations, so that energy is kept exactly whatever the motion; the terms besides A
-/// du/dt are of second order in it. It is treated implicitly: J^T A J joins the mass matrix (u = J v),
-/// so that A may exceed the masses of the bodies. Source: Lamb, Hydrodynamics (1932), sec. 124; Newman,
-/// Marine Hydrodynamics (1977), sec. 4.13.
+/// du/dt are of second order in it. It is treated implicitly: J^T A J joins the mass matrix (u = J
+/// v), so that A may exceed the masses of the bodies. Source: Lamb, Hydrodynamics (1932), sec. 124;
+/// Newman, Marine Hydrodynamics (1977), sec. 4.13.
 class AddedInertia {
  public:
   /// @throws ModelError if A is not of size 6N, not finite, not symmetric to 1e-6, or not positive
@@ -41,9 +41,9 @@ class AddedInertia {
   /// J, 6N x nv, with u = J v. Does not allocate.
   void calc_jacobian(const Mechanism& mechanism, const Kinematics& kinematics,
                      Eigen::Ref<Eigen::MatrixXd> jacobian) const;
-  /// What the inertia asks for at accelerations A_WB of the bodies: moment and force on each frame, 6N.
-  /// `matrix` is A, or what it is for the moment (AddedInertiaWorkspace); `u` is calc_velocity's,
-  /// `momentum` a workspace of its size. Does not allocate.
+  /// What the inertia asks for at accelerations A_WB of the bodies: moment and force on each frame,
+  /// 6N. `matrix` is A, or what it is for the moment (AddedInertiaWorkspace); `u` is
+  /// calc_velocity's, `momentum` a workspace of its size. Does not allocate.
   void calc_force(const Kinematics& kinematics, const std::vector<MotionVector>& A_WB,
                   const Eigen::MatrixXd& matrix, ConstVectorRef u, VectorRef momentum,
                   VectorRef force) const;
@@ -71,8 +71,8 @@ struct AddedInertiaWorkspace {
   void add_force(const Kinematics& kinematics, const AddedInertia& inertia,
                  const std::vector<MotionVector>& A_WB, VectorRef tau);
 
-  /// A. Of an inertia that changes with the motion its owner writes here what it is at each instant;
-  /// what the change itself asks for is the owner's, too.
+  /// A. Of an inertia that changes with the motion its owner writes here what it is at each
+  /// instant; what the change itself asks for is the owner's, too.
   Eigen::MatrixXd matrix;
   Eigen::MatrixXd jacobian;  ///< J, 6N x nv
   Eigen::MatrixXd product;   ///< A J, 6N x nv

@@ -116,7 +116,8 @@ class Assembler {
     for (int i = 0; i < settings_.largest_iterations && g.lpNorm<Eigen::Infinity>() > nearly_closed;
          ++i) {
       const Eigen::VectorXd delta = step(g, mu);
-      // No coordinate moves by more than half a radian (metre, for mechanisms of that size) at once.
+      // No coordinate moves by more than half a radian (metre, for mechanisms of that size) at
+      // once.
       const double most = delta.lpNorm<Eigen::Infinity>();
       mechanism_.integrate(q, delta, most > 0.5 ? 0.5 / most : 1.0, moved);
       const Eigen::VectorXd g_moved = residual(moved);

@@ -50,9 +50,9 @@ struct ConstrainedDynamicsWorkspace {
   std::vector<char> group;  ///< for each row solved for: is it an angle?
 };
 
-/// Part of a row (scaled to unit length in the metric of the inverse mass) that must be new for it to
-/// count as independent of the rows before it. On the constraint itself rounding is far smaller, and a
-/// toggle position must be met within this angle to count as one.
+/// Part of a row (scaled to unit length in the metric of the inverse mass) that must be new for it
+/// to count as independent of the rows before it. On the constraint itself rounding is far smaller,
+/// and a toggle position must be met within this angle to count as one.
 inline constexpr double redundancy_threshold = 1e-8;
 
 /// Accelerations, drive forces and multipliers of a mechanism with loops:
@@ -60,19 +60,20 @@ inline constexpr double redundancy_threshold = 1e-8;
 /// with tau and vdot half given and half found as in compute_forward_dynamics.
 ///
 /// With M = L^T L over the free velocities (composite-rigid-body algorithm, LTL factorisation) and
-/// B = G L^-1, the least change of y = L vdot that meets B y = gamma is sought (Gauss's principle of
-/// least constraint); lambda follows from B^T lambda = that change. B^T is factorised with a rank-revealing
-/// QR, whose condition is the square root of that of G M^-1 G^T. Where rows repeat others (a Bricard
-/// linkage, a plane mechanism with spatial joints) vdot is unique, and of all multipliers the least in the
-/// sum of squares (SI) are taken. In a toggle position, where G loses rank for an instant, the
-/// accelerations along the lost row are those that least constraint gives: finite, never NaN.
+/// B = G L^-1, the least change of y = L vdot that meets B y = gamma is sought (Gauss's principle
+/// of least constraint); lambda follows from B^T lambda = that change. B^T is factorised with a
+/// rank-revealing QR, whose condition is the square root of that of G M^-1 G^T. Where rows repeat
+/// others (a Bricard linkage, a plane mechanism with spatial joints) vdot is unique, and of all
+/// multipliers the least in the sum of squares (SI) are taken. In a toggle position, where G loses
+/// rank for an instant, the accelerations along the lost row are those that least constraint gives:
+/// finite, never NaN.
 ///
-/// @param rows those to be enforced, independent near the present state; the multipliers of the others
-/// are zero. For use off the constraint, where rows that repeat others contradict them by rounding or by
-/// an integrator's trial step. Null: all rows, the rank being judged at this state.
+/// @param rows those to be enforced, independent near the present state; the multipliers of the
+/// others are zero. For use off the constraint, where rows that repeat others contradict them by
+/// rounding or by an integrator's trial step. Null: all rows, the rank being judged at this state.
 ///
-/// @param added inertia that joins that of the bodies on the left-hand side, M + J^T A J, whatever its
-/// size: the one with which the workspace was made, or null. There need not be any loops.
+/// @param added inertia that joins that of the bodies on the left-hand side, M + J^T A J, whatever
+/// its size: the one with which the workspace was made, or null. There need not be any loops.
 ///
 /// Does not allocate.
 /// @throws SimulationError as compute_forward_dynamics and compute_loops.

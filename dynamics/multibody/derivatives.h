@@ -52,21 +52,24 @@ struct InverseDynamicsDerivatives {
 
 /// Derivatives of the inverse dynamics tau(q, v, vdot) of compute_inverse_dynamics, and M.
 ///
-/// By q: for the tangent increment d that moves q to q (+) d (Mechanism::integrate with s = 1), which
-/// is dq where v is dq/dt; v, vdot are held as numbers. The external forces F_Bo_W are held, each with
-/// its moment about its Bo, except for `arm_moments`: a 3x3 matrix a body whose product with the
-/// body's turn (in W) is the change of F_Bo_W's moment; sum [f]x [r]x for held forces f at points at r
-/// from Bo fixed in the body (empty: zero). Zero at pairs of joints that do not carry one another.
+/// By q: for the tangent increment d that moves q to q (+) d (Mechanism::integrate with s = 1),
+/// which is dq where v is dq/dt; v, vdot are held as numbers. The external forces F_Bo_W are held,
+/// each with its moment about its Bo, except for `arm_moments`: a 3x3 matrix a body whose product
+/// with the body's turn (in W) is the change of F_Bo_W's moment; sum [f]x [r]x for held forces f at
+/// points at r from Bo fixed in the body (empty: zero). Zero at pairs of joints that do not carry
+/// one another.
 ///
-/// With P = V_before x S, Q = A_before x S + V_before x P, and composites of the outer of both joints:
+/// With P = V_before x S, Q = A_before x S + V_before x P, and composites of the outer of both
+/// joints:
 ///   dtau_l/dq_k = S_l (I Q_k + B P_k) + [S_k x* - d/dq_k] F_ext        (l carried by k),
 ///   dtau_l/dq_k = S_l (I Q_k + B P_k + S_k x* F - dF_ext/dq_k)         (k carried by l),
 ///   dtau_l/dv_k = S_l (I (P_k + dS_k/dt) + B S_k) + damping,           M_lk = S_l I S_k,
 ///   B x = V x* I x - I (V x x) + x x* I V, which for a rigid body is
 ///   (([w]x (2 J - tr J 1) - 2 [h]x [v_O]x) x_angular; -2 p x x_angular), p the linear momentum.
 /// Cost O(nv x depth). Does not allocate.
-/// Source: Carpentier and Mansard (2018), RSS; Singh, Russell and Wensing (2022), IEEE RA-L 7(2), whose
-/// spatial-vector form is used about O and extended by external forces, chains and body-fixed columns.
+/// Source: Carpentier and Mansard (2018), RSS; Singh, Russell and Wensing (2022), IEEE RA-L 7(2),
+/// whose spatial-vector form is used about O and extended by external forces, chains and body-fixed
+/// columns.
 void compute_inverse_dynamics_derivatives(const Mechanism& mechanism, const Kinematics& kinematics,
                                           ConstVectorRef v, ConstVectorRef vdot,
                                           const std::vector<ForceVector>& F_Bo_W,
@@ -78,8 +81,8 @@ struct ForwardDynamicsDerivatives {
   explicit ForwardDynamicsDerivatives(const Mechanism& mechanism);
 
   InverseDynamicsDerivatives inverse;
-  /// nv x nv. Row k is the derivative of what forward dynamics finds for velocity k: of vdot_k where it
-  /// is free, of the drive's force tau_k where it is driven.
+  /// nv x nv. Row k is the derivative of what forward dynamics finds for velocity k: of vdot_k
+  /// where it is free, of the drive's force tau_k where it is driven.
   Eigen::MatrixXd by_q, by_v;
 
  private:
@@ -92,10 +95,11 @@ struct ForwardDynamicsDerivatives {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
-/// Derivatives of compute_forward_dynamics at the accelerations vdot that it has found, with F_Bo_W and
-/// the given tau held and the driven velocities' motion prescribed:
+/// Derivatives of compute_forward_dynamics at the accelerations vdot that it has found, with F_Bo_W
+/// and the given tau held and the driven velocities' motion prescribed:
 ///   dvdot_free = -M_free^-1 dID_free,   dtau_driven = dID_driven + M_driven,free dvdot_free.
-/// By q as for compute_inverse_dynamics_derivatives. Cost O(nv x depth) and a Cholesky factorisation.
+/// By q as for compute_inverse_dynamics_derivatives. Cost O(nv x depth) and a Cholesky
+/// factorisation.
 /// @throws SimulationError if the mass matrix of the free velocities is singular.
 void compute_forward_dynamics_derivatives(const Mechanism& mechanism, const Kinematics& kinematics,
                                           ConstVectorRef v, ConstVectorRef vdot,
@@ -109,16 +113,18 @@ void joint_increments(JointKind kind, const double* q, Eigen::Ref<Eigen::MatrixX
 void coordinate_increments(const Mechanism& mechanism, ConstVectorRef q,
                            Eigen::Ref<Eigen::MatrixXd> increments);
 
-/// Derivatives of the rates dq/dt of Mechanism::calc_rates: by_q (nq x nq, by the coordinates themselves,
-/// zero but at quaternions and at the displacement of free joints) and by_v (nq x nv).
+/// Derivatives of the rates dq/dt of Mechanism::calc_rates: by_q (nq x nq, by the coordinates
+/// themselves, zero but at quaternions and at the displacement of free joints) and by_v (nq x nv).
 void joint_rate_derivatives(JointKind kind, const double* q, const double* v,
                             Eigen::Ref<Eigen::MatrixXd> by_q, Eigen::Ref<Eigen::MatrixXd> by_v);
 void rate_derivatives(const Mechanism& mechanism, ConstVectorRef q, ConstVectorRef v,
                       Eigen::Ref<Eigen::MatrixXd> by_q, Eigen::Ref<Eigen::MatrixXd> by_v);
 
 /// How a further increment of u (nv) moves the pose q (+) u:
-///   q (+) (u + du) = (q (+) u) (+) D du  to first order.  nv x nv, D = 1 at u = 0: the right Jacobian of
-/// the exponential, sum (-ad_u)^n / (n+1)! (Chirikjian 2012, section 10.2), for joints with a quaternion.
+///   q (+) (u + du) = (q (+) u) (+) D du  to first order.  nv x nv, D = 1 at u = 0: the right
+///     Jacobian of
+/// the exponential, sum (-ad_u)^n / (n+1)! (Chirikjian 2012, section 10.2), for joints with a
+/// quaternion.
 void increment_jacobian(const Mechanism& mechanism, ConstVectorRef u,
                         Eigen::Ref<Eigen::MatrixXd> jacobian);
 

@@ -10,7 +10,8 @@ double calc_kinetic_energy(const Mechanism& mechanism, const Kinematics& kinemat
 /// Potential energy of gravity, -sum m g . p_WBcm, J: zero where all masses lie at Wo.
 double calc_gravity_potential(const Mechanism& mechanism, const Kinematics& kinematics);
 
-/// Momentum of all bodies in W: angular about Wo (kg m2/s, in `moment`) and linear (kg m/s, in `force`).
+/// Momentum of all bodies in W: angular about Wo (kg m2/s, in `moment`) and linear (kg m/s, in
+/// `force`).
 ForceVector calc_momentum(const Mechanism& mechanism, const Kinematics& kinematics);
 
 /// Power that the joints' viscous damping takes out, sum d v^2, W.

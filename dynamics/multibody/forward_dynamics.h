@@ -31,23 +31,25 @@ struct ForwardDynamicsWorkspace {
 /// Accelerations of the free velocities and forces of the driven ones: articulated-body algorithm
 /// (paper eq. 15-18), hybrid as in Featherstone (2008), section 9.2.
 ///
-/// F_Bo_W: external force on each body about Bo, in W, without gravity; body_count entries (entry 0,
-/// on the world, has no effect). tau, vdot: nv entries, each half given and half found:
+/// F_Bo_W: external force on each body about Bo, in W, without gravity; body_count entries (entry
+/// 0, on the world, has no effect). tau, vdot: nv entries, each half given and half found:
 ///
 /// |      | free velocities                        | driven velocities            |
 /// |------|----------------------------------------|------------------------------|
 /// | tau  | given: joint force besides the damping | found: force of the drive    |
 /// | vdot | found                                  | given: the prescribed motion |
 ///
-/// The drive overcomes the joint's viscous damping too. Does not allocate; cost linear in the bodies.
+/// The drive overcomes the joint's viscous damping too. Does not allocate; cost linear in the
+/// bodies.
 ///
-/// The recursion runs in world axes about each body's own origin: carrying an inertia inwards is then a
-/// mere shift, the rotations of the paper's X drop out, and poses and velocities are used as they are.
-/// Joints of several degrees of freedom are eliminated one velocity at a time, which is Gaussian
-/// elimination of the S^T I S of eq. 16.
+/// The recursion runs in world axes about each body's own origin: carrying an inertia inwards is
+/// then a mere shift, the rotations of the paper's X drop out, and poses and velocities are used as
+/// they are. Joints of several degrees of freedom are eliminated one velocity at a time, which is
+/// Gaussian elimination of the S^T I S of eq. 16.
 ///
-/// @throws SimulationError if nothing resists some free velocity (its S^T I S is singular), naming the
-/// body, or if the state or a force is not finite, naming the body nearest to the world where it shows.
+/// @throws SimulationError if nothing resists some free velocity (its S^T I S is singular), naming
+/// the body, or if the state or a force is not finite, naming the body nearest to the world where
+/// it shows.
 void compute_forward_dynamics(const Mechanism& mechanism, const Kinematics& kinematics,
                               ConstVectorRef v, const std::vector<ForceVector>& F_Bo_W,
                               ForwardDynamicsWorkspace& workspace, VectorRef tau, VectorRef vdot);

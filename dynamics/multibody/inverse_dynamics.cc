@@ -3,7 +3,8 @@
 namespace blocklift::dynamics {
 namespace {
 
-// Force and moment about Bo that the body's motion asks for, less gravity: Newton's and Euler's laws
+// Force and moment about Bo that the body's motion asks for, less gravity: Newton's and Euler's
+// laws
 // (paper eq. 3) for accelerations of the ordinary kind.
 ForceVector inertial_force(const Mechanism& mechanism, const Kinematics& kinematics, std::size_t b,
                            const MotionVector& A) {

@@ -24,9 +24,9 @@ namespace blocklift::dynamics {
 /// | translational | three displacements along the axes of J          | dq/dt                       |
 /// | free          | p_JoBo_J, quaternion of R_JB                     | w_PB, v_PBo, expressed in B |
 ///
-/// w_PB is the angular velocity of B in P, v_PBo the velocity of Bo in P. A universal joint's first axis
-/// is fixed in P, its second in B; the displacements of a planar joint have directions fixed in P.
-/// Angles in rad, displacements in m. The paper's Table I names most of them.
+/// w_PB is the angular velocity of B in P, v_PBo the velocity of Bo in P. A universal joint's first
+/// axis is fixed in P, its second in B; the displacements of a planar joint have directions fixed
+/// in P. Angles in rad, displacements in m. The paper's Table I names most of them.
 enum class JointKind {
   fixed,
   revolute,

@@ -13,12 +13,12 @@ namespace blocklift::dynamics {
 /// Mechanism::loop_row_is_angle. With G the Jacobian (rows x nv) and g the residual:
 ///   g(q) = 0,   G v = 0,   G vdot = gamma = -(dG/dt) v,   M vdot + h = tau + G^T lambda.
 ///
-/// Row i of a joint loop is the power of a unit force (moment; force) that acts on the loop's follower
-/// and, reversed, on its base, both at the follower's frame K: translations along the axes of the base's
-/// frame, moments about them. Residuals of rotations are rotation vectors (of the turn that carries one
-/// axis to the other, or one frame to the other): they are right in sign and size up to half a turn, so
-/// that a rough start finds home. Their rate is the relative angular velocity on the constraint itself;
-/// off it the two differ by the order of the residual.
+/// Row i of a joint loop is the power of a unit force (moment; force) that acts on the loop's
+/// follower and, reversed, on its base, both at the follower's frame K: translations along the axes
+/// of the base's frame, moments about them. Residuals of rotations are rotation vectors (of the
+/// turn that carries one axis to the other, or one frame to the other): they are right in sign and
+/// size up to half a turn, so that a rough start finds home. Their rate is the relative angular
+/// velocity on the constraint itself; off it the two differ by the order of the residual.
 struct LoopState {
   explicit LoopState(const Mechanism& mechanism);
 
@@ -31,14 +31,16 @@ struct LoopState {
   std::vector<Vector3> path_direction_W;
 };
 
-/// Residual, velocity and unit forces of all loops at a state whose kinematics are given (sizes: q nq,
-/// v nv). A length or offset still to be taken from the start has the residual zero. Does not allocate.
-/// @throws SimulationError if the points of a rod or of neighbours on a rope fall together, naming the
-/// loop.
+/// Residual, velocity and unit forces of all loops at a state whose kinematics are given (sizes: q
+/// nq, v nv). A length or offset still to be taken from the start has the residual zero. Does not
+/// allocate.
+/// @throws SimulationError if the points of a rod or of neighbours on a rope fall together, naming
+/// the loop.
 void compute_loops(const Mechanism& mechanism, const Kinematics& kinematics, ConstVectorRef q,
                    ConstVectorRef v, LoopState& state);
 
-/// Jacobian G of the loops (rows x nv). `slot`: for each row of the loops the row of `jacobian` it goes to,
+/// Jacobian G of the loops (rows x nv). `slot`: for each row of the loops the row of `jacobian` it
+/// goes to,
 /// -1: left out. Does not allocate.
 void calc_loop_jacobian(const Mechanism& mechanism, const Kinematics& kinematics,
                         const LoopState& state, const std::vector<int>& slot,
@@ -47,21 +49,21 @@ void calc_loop_jacobian(const Mechanism& mechanism, const Kinematics& kinematics
 Eigen::MatrixXd calc_loop_jacobian(const Mechanism& mechanism, const Kinematics& kinematics,
                                    const LoopState& state);
 
-/// G vdot + (dG/dt) v of all rows, from the accelerations A_WB of all bodies that belong to vdot (see
-/// compute_accelerations). At vdot = 0 this is -gamma. Does not allocate.
+/// G vdot + (dG/dt) v of all rows, from the accelerations A_WB of all bodies that belong to vdot
+/// (see compute_accelerations). At vdot = 0 this is -gamma. Does not allocate.
 void calc_loop_accelerations(const Mechanism& mechanism, const Kinematics& kinematics,
                              const LoopState& state, ConstVectorRef vdot,
                              const std::vector<MotionVector>& A_WB, VectorRef accelerations);
 
-/// Adds the loops' forces at multipliers lambda (N or N m, one a row): on bodies to F_Bo_W, of gears to
-/// tau (nv). Does not allocate.
+/// Adds the loops' forces at multipliers lambda (N or N m, one a row): on bodies to F_Bo_W, of
+/// gears to tau (nv). Does not allocate.
 void add_loop_forces(const Mechanism& mechanism, const Kinematics& kinematics,
                      const LoopState& state, ConstVectorRef lambda,
                      std::vector<ForceVector>& F_Bo_W, VectorRef tau);
 
-/// Force of a loop on its second body about the origin of that body's loop frame, in W. Rope_length: on
-/// the last point of its last path (its tension is -lambda: a length that is held pulls where lambda < 0).
-/// Gear: zero; its multiplier is the joint force on the first joint.
+/// Force of a loop on its second body about the origin of that body's loop frame, in W.
+/// Rope_length: on the last point of its last path (its tension is -lambda: a length that is held
+/// pulls where lambda < 0). Gear: zero; its multiplier is the joint force on the first joint.
 ForceVector loop_force(const Mechanism& mechanism, const Kinematics& kinematics,
                        const LoopState& state, int loop, ConstVectorRef lambda);
 

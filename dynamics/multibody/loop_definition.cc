@@ -163,7 +163,8 @@ class LoopMaker {
     return axis / length;
   }
 
-  // K' in K: z' along the axis; x' along the second axis or, where there is none, the next axis of K.
+  // K' in K: z' along the axis; x' along the second axis or, where there is none, the next axis of
+  // K.
   Matrix3 aligned_frame() const {
     const Vector3 z = unit(d_.axis, "axis");
     Vector3 x;

@@ -12,8 +12,8 @@ namespace blocklift::dynamics {
 
 struct Body;
 
-/// What a loop demands besides the joints of the tree. Joint kinds hold a frame of the second body against
-/// one of the first as the tree's joint of that name would (see JointKind).
+/// What a loop demands besides the joints of the tree. Joint kinds hold a frame of the second body
+/// against one of the first as the tree's joint of that name would (see JointKind).
 ///
 /// | kind          | holds                                                                    | rows |
 /// |---------------|--------------------------------------------------------------------------|------|
@@ -50,7 +50,8 @@ std::string_view loop_kind_name(LoopKind kind);
 std::optional<LoopKind> loop_kind(std::string_view name);
 /// All names, in the order of the enumeration.
 const std::vector<std::string_view>& loop_kind_names();
-/// Number of scalar equations of a kind: its rows in the residual, the Jacobian and the multipliers.
+/// Number of scalar equations of a kind: its rows in the residual, the Jacobian and the
+/// multipliers.
 int loop_row_count(LoopKind kind);
 
 /// A point Q fixed in a body.
@@ -68,8 +69,8 @@ struct LoopDefinition {
   std::string second{world_name};
   Pose X_FirstK = Pose::identity();   ///< the loop's frame in the first body; a point is its origin
   Pose X_SecondK = Pose::identity();  ///< the loop's frame in the second body
-  /// Directions in the frame K, of any length, as for Joint. point_on_line: the line's direction, in the
-  /// second's K. universal: `axis` in the first's K, `second_axis` in the second's.
+  /// Directions in the frame K, of any length, as for Joint. point_on_line: the line's direction,
+  /// in the second's K. universal: `axis` in the first's K, `second_axis` in the second's.
   Vector3 axis = Vector3::UnitZ();
   Vector3 second_axis = Vector3::Constant(not_a_number);
   /// distance: of the points, m. rope_length: sum of all paths, m. NaN: as it is at the start.
@@ -104,9 +105,9 @@ struct Loop {
   int row_offset = 0;     ///< first row among all loops' rows
   int row_count = 0;
 
-  // Joints, distance, point_on_line. The base carries the axes: it is the first body, for point_on_line
-  // the second. K' is K turned so that z' is the axis; rows: translations along the axes of base K' that
-  // are held, then rotations.
+  // Joints, distance, point_on_line. The base carries the axes: it is the first body, for
+  // point_on_line the second. K' is K turned so that z' is the axis; rows: translations along the
+  // axes of base K' that are held, then rotations.
   BodyIndex base = -1;
   BodyIndex follower = -1;
   BodyIndex common = -1;  ///< last common carrier of both: velocities up to there do not enter
@@ -131,11 +132,13 @@ struct Loop {
 
   /// Row i of this loop in words: "rotation about x", "displacement along (0.6, 0.8, 0)", "length".
   std::string row_name(int i) const;
-  /// Is row i of this loop an angle (rad) rather than a length (m)? Gears count as their first joint.
+  /// Is row i of this loop an angle (rad) rather than a length (m)? Gears count as their first
+  /// joint.
   bool row_is_angle(int i) const;
 };
 
-/// Checks a definition against the bodies there are and makes a loop of it (row_offset not yet set).
+/// Checks a definition against the bodies there are and makes a loop of it (row_offset not yet
+/// set).
 /// @throws ModelError as MechanismBuilder::add_loop.
 Loop make_loop(const LoopDefinition& definition, const std::vector<Body>& bodies);
 

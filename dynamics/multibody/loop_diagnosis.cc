@@ -12,8 +12,8 @@ namespace {
 
 using Redundancy = LoopDiagnosis::Redundancy;
 
-// How far beside a position its neighbourhood is looked at: m, rad. What a toggle position lacks is of
-// this order there.
+// How far beside a position its neighbourhood is looked at: m, rad. What a toggle position lacks is
+// of this order there.
 constexpr double beside = 1e-3;
 
 /// Independent rows found one after another.

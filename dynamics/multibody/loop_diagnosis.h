@@ -7,11 +7,11 @@
 
 namespace blocklift::dynamics {
 
-/// Which equations of the loops repeat others, which only do so in the present position, and which drives
-/// they forbid.
+/// Which equations of the loops repeat others, which only do so in the present position, and which
+/// drives they forbid.
 struct LoopDiagnosis {
-  /// A row that says nothing new: it is this combination of rows before it (none: the tree's joints hold
-  /// it already).
+  /// A row that says nothing new: it is this combination of rows before it (none: the tree's joints
+  /// hold it already).
   struct Redundancy {
     struct Part {
       int row = -1;
@@ -41,8 +41,8 @@ struct LoopDiagnosis {
   std::vector<std::string> conflict_sentences(const Mechanism& mechanism) const;
 };
 
-/// Examines the loops at a configuration q (nq) that closes them (see assemble). Rows are judged in the
-/// order of the loops, so that of two that say the same the later one is named.
+/// Examines the loops at a configuration q (nq) that closes them (see assemble). Rows are judged in
+/// the order of the loops, so that of two that say the same the later one is named.
 LoopDiagnosis diagnose_loops(const Mechanism& mechanism, ConstVectorRef q);
 
 }  // namespace blocklift::dynamics

@@ -9,16 +9,17 @@
 namespace blocklift::dynamics {
 namespace {
 
-// Residual at which positions count as on the constraint (m, rad), and what rounding may leave of it
-// where numbers are large.
+// Residual at which positions count as on the constraint (m, rad), and what rounding may leave of
+// it where numbers are large.
 constexpr double on_constraint = 1e-14;
 constexpr double stalled_on_constraint = 1e-11;
 constexpr int most_iterations = 12;
-// Nearer to a toggle position than this the row that is being lost is left alone: dividing by what is left
-// of it would turn rounding (1e-16) into moves that an integrator takes for errors, and it can be missed by
-// the square of this only.
+// Nearer to a toggle position than this the row that is being lost is left alone: dividing by what
+// is left of it would turn rounding (1e-16) into moves that an integrator takes for errors, and it
+// can be missed by the square of this only.
 constexpr double lost_row = 1e-5;
-// Velocity of a row that no free velocity can take up, relative to 1 m/s or the velocities there are.
+// Velocity of a row that no free velocity can take up, relative to 1 m/s or the velocities there
+// are.
 constexpr double no_conflict = 1e-9;
 
 }  // namespace

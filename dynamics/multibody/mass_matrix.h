@@ -14,9 +14,10 @@ struct MassMatrixWorkspace {
   std::vector<SpatialInertia> composite;
 };
 
-/// Mass matrix M (nv x nv, symmetric) of the tree: composite-rigid-body algorithm (Featherstone 2008,
-/// section 6.2). The equations of motion read  M(q) vdot + h(q, v) = tau,  h being what inverse dynamics
-/// returns for vdot = 0. Driven velocities are included like others. Does not allocate.
+/// Mass matrix M (nv x nv, symmetric) of the tree: composite-rigid-body algorithm (Featherstone
+/// 2008, section 6.2). The equations of motion read  M(q) vdot + h(q, v) = tau,  h being what
+/// inverse dynamics returns for vdot = 0. Driven velocities are included like others. Does not
+/// allocate.
 void compute_mass_matrix(const Mechanism& mechanism, const Kinematics& kinematics,
                          MassMatrixWorkspace& workspace, Eigen::Ref<Eigen::MatrixXd> mass_matrix);
 

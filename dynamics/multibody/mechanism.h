@@ -22,9 +22,9 @@ struct BodyDefinition {
   Matrix3 I_BBcm_B = Matrix3::Zero();   ///< about the centre of mass, in B, kg m2
   /// Viscous damping for each v of the joint (N s/m or N m s): tau = -d v. Empty: none.
   std::vector<double> damping = {};
-  /// Which v of the joint follow a prescribed motion. Empty: none. Where v is dq/dt, each has its own
-  /// profile; spherical and free are driven as a whole, along a fixed direction n of v by one profile
-  /// s(t): q = q0 (+) s n (integrate_joint), v = n ds/dt, vdot = n d2s/dt2, which is exact.
+  /// Which v of the joint follow a prescribed motion. Empty: none. Where v is dq/dt, each has its
+  /// own profile; spherical and free are driven as a whole, along a fixed direction n of v by one
+  /// profile s(t): q = q0 (+) s n (integrate_joint), v = n ds/dt, vdot = n d2s/dt2, which is exact.
   std::vector<bool> driven = {};
 };
 
@@ -71,7 +71,8 @@ struct Link {
   bool has_driven;             ///< does any of its velocities follow a prescribed motion?
 };
 
-/// Tree of bodies joined by joints, with loops over it: immutable, shared by all states and threads.
+/// Tree of bodies joined by joints, with loops over it: immutable, shared by all states and
+/// threads.
 ///
 /// Looking up by name is for set-up only. Indices order everything: body i of the mechanism is
 /// entry i of every per-body array, and body i's joint owns q[q_offset ..] and v[v_offset ..].
@@ -122,8 +123,8 @@ class Mechanism {
   std::string loop_row_name(int row) const;
   /// Is that row an angle (rad) rather than a length (m)?
   bool loop_row_is_angle(int row) const;
-  /// The same mechanism with the lengths of rods and ropes and the offsets of gears that were left open
-  /// taken from the configuration q.
+  /// The same mechanism with the lengths of rods and ropes and the offsets of gears that were left
+  /// open taken from the configuration q.
   Mechanism with_loops_as_at(ConstVectorRef q) const;
 
   /// q at which every body coincides with its joint frame.
@@ -172,10 +173,11 @@ class MechanismBuilder {
 
   /// Adds a loop; its bodies must have been added before.
   /// @returns its index among the loops.
-  /// @throws ModelError if the name is empty or taken, a body unknown, both bodies are the same or fixed
-  /// to each other, an axis without length, a frame not a rotation, universal axes not perpendicular, a
-  /// length not positive, a ratio zero or missing, a geared joint without such a coordinate or both of
-  /// them driven, a path too short, or if something is given that the kind does not use.
+  /// @throws ModelError if the name is empty or taken, a body unknown, both bodies are the same or
+  /// fixed to each other, an axis without length, a frame not a rotation, universal axes not
+  /// perpendicular, a length not positive, a ratio zero or missing, a geared joint without such a
+  /// coordinate or both of them driven, a path too short, or if something is given that the kind
+  /// does not use.
   int add_loop(const LoopDefinition& definition);
 
   /// @throws ModelError if a moving joint carries no mass at all that would resist its motion.

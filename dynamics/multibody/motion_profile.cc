@@ -51,8 +51,9 @@ RestToRestMove::RestToRestMove(double start, double distance, const MotionLimits
   if (length >= ramps) {
     cruise_time_ = (length - ramps) / limits.speed;
   } else {
-    // Too short for the full speed: a (t_j + t_a) (2 t_j + t_a) = length with t_j = a / jerk, or, if
-    // that asks for a negative t_a, too short for the full acceleration as well: 2 jerk t_j^3 = length.
+    // Too short for the full speed: a (t_j + t_a) (2 t_j + t_a) = length with t_j = a / jerk, or,
+    // if that asks for a negative t_a, too short for the full acceleration as well: 2 jerk t_j^3 =
+    // length.
     jerk_time_ = a / limits.jerk;
     acceleration_time_ =
         0.5 * (std::sqrt(jerk_time_ * jerk_time_ + 4 * length / a) - 3 * jerk_time_);
@@ -205,7 +206,8 @@ MotionProfile MotionProfile::sequence(double initial, std::vector<RestToRestMove
             [](const RestToRestMove& a, const RestToRestMove& b) { return a.start() < b.start(); });
   std::vector<double> breakpoints;
   for (std::size_t i = 0; i < moves.size(); ++i) {
-    // Stages may follow each other without a pause: what rounding leaves between them is no overlap.
+    // Stages may follow each other without a pause: what rounding leaves between them is no
+    // overlap.
     const double slack = 1e-9 * (1 + std::abs(moves[i].start()));
     if (i > 0 && moves[i].start() < moves[i - 1].end() - slack) {
       refuse("a move starts at ", moves[i].start(), " s while the one before it, started at ",

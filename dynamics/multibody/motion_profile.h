@@ -30,18 +30,19 @@ struct ProfileRange {
 
 /// Displacement from rest to rest in least time with limited speed, acceleration and jerk.
 ///
-/// Seven segments: jerk, constant acceleration, jerk, cruise, and the same mirrored. Segments vanish
-/// when the distance is too short to reach a limit. With t_j, t_a, t_v the durations of jerk, constant
-/// acceleration and cruise:  distance = jerk t_j (t_j + t_a) (2 t_j + t_a + t_v), from which the jerk is
-/// set, so that the move ends exactly at its distance. Source: Biagiotti and Melchiorri (2008), 3.4.
+/// Seven segments: jerk, constant acceleration, jerk, cruise, and the same mirrored. Segments
+/// vanish when the distance is too short to reach a limit. With t_j, t_a, t_v the durations of
+/// jerk, constant acceleration and cruise:  distance = jerk t_j (t_j + t_a) (2 t_j + t_a + t_v),
+/// from which the jerk is set, so that the move ends exactly at its distance. Source: Biagiotti and
+/// Melchiorri (2008), 3.4.
 class RestToRestMove {
  public:
   /// Starts at `start` (s) and covers `distance` (m or rad, of either sign, zero allowed).
   /// @throws ModelError if the distance is not finite or a limit not positive.
   RestToRestMove(double start, double distance, const MotionLimits& limits);
   /// The same stretched in time to last `duration` (s): slower throughout, in the same proportions.
-  /// @throws ModelError if the limits do not allow it within that duration; the message says how long
-  /// it takes at least.
+  /// @throws ModelError if the limits do not allow it within that duration; the message says how
+  /// long it takes at least.
   RestToRestMove(double start, double distance, const MotionLimits& limits, double duration);
 
   double start() const { return start_; }
@@ -65,11 +66,12 @@ class RestToRestMove {
   double jerk_ = 0;  // with the sign of the distance
 };
 
-/// Natural cubic spline through points (x_i, y_i): twice continuously differentiable, straight beyond
-/// the first and last point.
+/// Natural cubic spline through points (x_i, y_i): twice continuously differentiable, straight
+/// beyond the first and last point.
 class NaturalSpline {
  public:
-  /// @throws ModelError if there are fewer than two points, x does not increase, or a value is not finite.
+  /// @throws ModelError if there are fewer than two points, x does not increase, or a value is not
+  /// finite.
   NaturalSpline(std::vector<double> x, std::vector<double> y);
   /// y, dy/dx, d2y/dx2 at x.
   ProfileValue evaluate(double x) const;
@@ -87,7 +89,8 @@ class MotionProfile {
   /// Stays at `value`.
   static MotionProfile constant(double value);
   /// Starts at `initial` and makes the moves one after another.
-  /// @throws ModelError if a move starts before the one before it has ended, or `initial` is not finite.
+  /// @throws ModelError if a move starts before the one before it has ended, or `initial` is not
+  /// finite.
   static MotionProfile sequence(double initial, std::vector<RestToRestMove> moves);
   /// Goes along a spline over the time: position y(t), straight beyond its ends.
   static MotionProfile along(NaturalSpline spline);
@@ -102,7 +105,8 @@ class MotionProfile {
   /// Sorted times at which the jerk jumps (not those at which a cam's leader passes a knot); an
   /// integrator may restart there, and nothing moves before the first or after the last.
   const std::vector<double>& breakpoints() const { return breakpoints_; }
-  /// Extremes; exact for moves from rest to rest, found at 64 instants between breakpoints for cams.
+  /// Extremes; exact for moves from rest to rest, found at 64 instants between breakpoints for
+  /// cams.
   ProfileRange range() const;
 
  private:

@@ -7,8 +7,8 @@
 namespace blocklift::dynamics {
 namespace {
 
-// Part of the longest column of its group below which a column is zero: far above rounding, far below
-// ratios of inertias that occur.
+// Part of the longest column of its group below which a column is zero: far above rounding, far
+// below ratios of inertias that occur.
 constexpr double zero = 1e-11;
 
 }  // namespace

@@ -6,12 +6,13 @@
 
 namespace blocklift::dynamics {
 
-/// Householder factorisation with column pivoting of a matrix A (rows x columns) of any rank: A P = Q R.
+/// Householder factorisation with column pivoting of a matrix A (rows x columns) of any rank: A P =
+/// Q R.
 ///
-/// Columns are scaled to unit length first. A column counts as zero where its length is below a part of
-/// 1e-11 of the longest of its group (groups hold columns of one unit), and as dependent on those before
-/// it where what is left of it is below the threshold. All memory is taken by the constructor.
-/// Source: Golub and Van Loan (2013), section 5.4.2.
+/// Columns are scaled to unit length first. A column counts as zero where its length is below a
+/// part of 1e-11 of the longest of its group (groups hold columns of one unit), and as dependent on
+/// those before it where what is left of it is below the threshold. All memory is taken by the
+/// constructor. Source: Golub and Van Loan (2013), section 5.4.2.
 class RankRevealingQr {
  public:
   RankRevealingQr(Eigen::Index rows, Eigen::Index largest_columns);
@@ -33,7 +34,8 @@ class RankRevealingQr {
 
   /// Moves x (rows) the shortest way to where a_j . x = b_j for the independent columns a_j.
   void correct(ConstVectorRef b, VectorRef x);
-  /// Least y (columns) with A y = the move that correct() made last; zero for columns that are zero.
+  /// Least y (columns) with A y = the move that correct() made last; zero for columns that are
+  /// zero.
   void multipliers(VectorRef y);
   /// Coefficients c of the combination of independent columns that a dependent column is:
   /// a_(pivot rank + i) = sum c_k a_(pivot k). c: rank() entries.

@@ -35,7 +35,8 @@ struct Catenary {
 /// end; may be negative where it hangs free) apart.
 ///
 /// Span and rise are the derivatives of a convex function of H and V, the complementary energy
-///   Phi = int_0^L0 (T + T^2/(2 EA)) ds,   T = sqrt(H^2 + v^2),   v = V - w (L0 - s), not below 0 on
+///   Phi = int_0^L0 (T + T^2/(2 EA)) ds,   T = sqrt(H^2 + v^2),   v = V - w (L0 - s), not below 0
+///     on
 /// the bottom, so that Newton's method with a line search finds them from anywhere; the energy is
 /// H span + V rise - Phi. Where the line is so slack that it lies in a heap under its upper end, H
 /// is zero. Does not allocate.

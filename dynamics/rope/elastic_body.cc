@@ -139,7 +139,8 @@ void ElasticBody::take_geometry(const Kinematics& kinematics, const Ropes& ropes
   w.compliance_gradient.noalias() = d_.compliance * w.gradient;
 }
 
-// Elastic and damping forces for the set of stretched ropes. Rows of the others are those of the identity.
+// Elastic and damping forces for the set of stretched ropes. Rows of the others are those of the
+// identity.
 void ElasticBody::solve(Workspace& w) const {
   const Eigen::Index n = w.elongation.size();
   w.matrix.noalias() = w.gradient.transpose() * w.compliance_gradient;
@@ -178,8 +179,8 @@ bool ElasticBody::declared_taut(const Ropes& ropes, Eigen::Index rope) const {
   return ropes.contacts && (*ropes.contacts)[static_cast<std::size_t>(ropes_[at(rope)])] != 0;
 }
 
-// Changes the rope that contradicts its state most; false if none does. What is declared to pull stays
-// stretched, so that its law has no kink.
+// Changes the rope that contradicts its state most; false if none does. What is declared to pull
+// stays stretched, so that its law has no kink.
 bool ElasticBody::correct_stretched(const Ropes& ropes, Workspace& w) const {
   Eigen::Index worst = -1;
   double most = 0;

@@ -14,25 +14,26 @@ namespace blocklift::dynamics {
 ///
 /// The ends of the ropes are displaced within the body, against its mean motion, by (m, in B)
 ///   d = Phi eta + u,   u = C F,
-/// F being the forces of the stretched ropes on the body (3 numbers an end, N, in B), C a compliance that
-/// follows at once (m/N), and eta generalised elastic coordinates (m) that have inertia of their own. Each
-/// of those is the position of a body on a prismatic joint to the world, level, so that its weight does
-/// not move it, held by a joint spring; what pulls at the lugs drives it by Phi^T F. With a natural mode of
-/// the free body, phi^T M phi = m, that is its motion if the body has the mass m and the spring the
-/// stiffness m omega^2, but for the couplings with the rigid motion that vanish with the deformation (mean
-/// axes).
+/// F being the forces of the stretched ropes on the body (3 numbers an end, N, in B), C a
+/// compliance that follows at once (m/N), and eta generalised elastic coordinates (m) that have
+/// inertia of their own. Each of those is the position of a body on a prismatic joint to the world,
+/// level, so that its weight does not move it, held by a joint spring; what pulls at the lugs
+/// drives it by Phi^T F. With a natural mode of the free body, phi^T M phi = m, that is its motion
+/// if the body has the mass m and the spring the stiffness m omega^2, but for the couplings with
+/// the rigid motion that vanish with the deformation (mean axes).
 ///
-/// With L the lengths of the ropes at the displaced ends, the elastic forces T = k (L - L0) of the ropes
-/// that are stretched, L > L0, make Pi = sum k (L - L0)^2 / 2 + F^T C F / 2 stationary over u, so that they
-/// are conservative. They are found by  (1/k + g^T C g) T = L - L0 - g^T u,  g = dL/du, with the direction of
-/// the pull improved four times, each of which reduces its error by the displacement over the length of
-/// the last segment. Damping acts on each rope's own share of the elongation's rate:
+/// With L the lengths of the ropes at the displaced ends, the elastic forces T = k (L - L0) of the
+/// ropes that are stretched, L > L0, make Pi = sum k (L - L0)^2 / 2 + F^T C F / 2 stationary over
+/// u, so that they are conservative. They are found by  (1/k + g^T C g) T = L - L0 - g^T u,  g =
+/// dL/du, with the direction of the pull improved four times, each of which reduces its error by
+/// the displacement over the length of the last segment. Damping acts on each rope's own share of
+/// the elongation's rate:
 ///   T_d = W^T c W (Ldot - L0dot),   W = 1/k (1/k + g^T C g)^-1,
-/// which is Rayleigh's dissipation condensed as the stiffness is: exact to the first order in c/k times
-/// the frequency. A rope pulls with T + T_d, or not at all where that would push. The ends still follow
-/// its elastic force, so that the energy stored does not jump when it goes slack while it contracts
-/// faster than it can pull. C = 0 and no modes is the rigid body.
-/// Sources: Shabana (2013), sections 5.2 and 5.7 (mean axes); Guyan (1965) for the condensation.
+/// which is Rayleigh's dissipation condensed as the stiffness is: exact to the first order in c/k
+/// times the frequency. A rope pulls with T + T_d, or not at all where that would push. The ends
+/// still follow its elastic force, so that the energy stored does not jump when it goes slack while
+/// it contracts faster than it can pull. C = 0 and no modes is the rigid body. Sources: Shabana
+/// (2013), sections 5.2 and 5.7 (mean axes); Guyan (1965) for the condensation.
 class ElasticBody {
  public:
   /// The first or last point of a rope, fixed to the body.
@@ -90,9 +91,9 @@ class ElasticBody {
     std::vector<RopeLoad>& loads;
   };
 
-  /// @throws ModelError if an end is not at a point of the body, is named twice or lies at a rope with an
-  /// end at itself, sizes do not fit, the compliance is not symmetric or not positive semidefinite, or a
-  /// mode is not on a prismatic joint that no drive moves.
+  /// @throws ModelError if an end is not at a point of the body, is named twice or lies at a rope
+  /// with an end at itself, sizes do not fit, the compliance is not symmetric or not positive
+  /// semidefinite, or a mode is not on a prismatic joint that no drive moves.
   ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ropes, Definition definition);
 
   const Definition& definition() const { return d_; }
@@ -106,8 +107,8 @@ class ElasticBody {
   /// Number of points of all these ropes.
   std::size_t point_count() const { return points_; }
 
-  /// Loads of the body's ropes; adds their pull to the bodies, and the modes' forces to tau. Does not
-  /// allocate.
+  /// Loads of the body's ropes; adds their pull to the bodies, and the modes' forces to tau. Does
+  /// not allocate.
   void add_forces(const Kinematics& kinematics, ConstVectorRef q, ConstVectorRef v,
                   const Ropes& ropes, Workspace& w, std::vector<ForceVector>& F_Bo_W,
                   VectorRef tau) const;

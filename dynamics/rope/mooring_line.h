@@ -42,7 +42,8 @@ class MooringLine {
   Definition definition_;
 };
 
-/// Tugger line: a straight light line that pulls and never pushes, kept by a winch that stands still:
+/// Tugger line: a straight light line that pulls and never pushes, kept by a winch that stands
+/// still:
 ///   T = max(0, k (L - L0) + c dL/dt) where L > L0, else 0   (N).
 class TuggerLine {
  public:

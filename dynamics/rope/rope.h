@@ -67,11 +67,12 @@ struct RopeLoad {
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
 /// rope hangs from (N/m). The sheaves are points: the wrap around them is not part of the path.
 ///
-/// Energy: stored 1/2 k (L - L0)^2 while stretched; dissipated (T - k (L - L0)) (Ldot - L0dot), which
-/// includes what a rope that contracts faster than it can pull keeps to itself; supplied by the winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the rope
-/// that runs onto the drum. Then the power on the bodies, -T Ldot, is exactly
-/// supplied - dissipated - d(stored)/dt, and it equals the power of the point forces.
-/// Source: first variation of the path length; SIMO theory manual for stiffness in series.
+/// Energy: stored 1/2 k (L - L0)^2 while stretched; dissipated (T - k (L - L0)) (Ldot - L0dot),
+/// which includes what a rope that contracts faster than it can pull keeps to itself; supplied by
+/// the winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the
+/// rope that runs onto the drum. Then the power on the bodies, -T Ldot, is exactly supplied -
+/// dissipated - d(stored)/dt, and it equals the power of the point forces. Source: first variation
+/// of the path length; SIMO theory manual for stiffness in series.
 class Rope {
  public:
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same

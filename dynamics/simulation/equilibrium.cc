@@ -180,8 +180,8 @@ void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, 
   residual.noalias() = coordinates.basis().transpose() * free_force;
 }
 
-// Minus the derivative of the residual by u: the stiffness at q(u), times what a further increment of u
-// moves there.
+// Minus the derivative of the residual by u: the stiffness at q(u), times what a further increment
+// of u moves there.
 void EquilibriumSolver::Implementation::calc_stiffness(const Eigen::VectorXd& u,
                                                        const Contacts* set,
                                                        Eigen::MatrixXd& result) {
@@ -296,7 +296,8 @@ bool EquilibriumSolver::Implementation::try_step(double h, double largest_move,
   return true;
 }
 
-// Descent from a rough guess with the ropes' own laws; true when forces are small enough for Newton.
+// Descent from a rough guess with the ropes' own laws; true when forces are small enough for
+// Newton.
 bool EquilibriumSolver::Implementation::relax() {
   double h = 0.1;  // s; grows into Newton's method
   for (int i = 0; i < settings.largest_relaxations; ++i) {

@@ -22,11 +22,11 @@ struct EquilibriumSettings {
 /// are their generalised forces. Newton's method with line search (KINSOL) runs with a fixed set of
 /// taut ropes and loaded pads, on which the equations are smooth; the set is then corrected and the
 /// solution repeated until it agrees with itself. Neutral directions (yaw of a load on one rope)
-/// stay where they are. From a rough guess, where ropes may hang slack, a descent over the
-/// mass matrix comes first:  (K + M/h^2) du = f  with growing h.
-/// Where loops tie joints together the unknowns are the motions that they leave free, q being brought onto
-/// the loops at each trial; what the loops bear goes into their multipliers, the least that balance.
-/// Forces are scaled by weight: m g for a displacement, m g times the radius of gyration for a turn.
+/// stay where they are. From a rough guess, where ropes may hang slack, a descent over the mass
+/// matrix comes first:  (K + M/h^2) du = f  with growing h. Where loops tie joints together the
+/// unknowns are the motions that they leave free, q being brought onto the loops at each trial;
+/// what the loops bear goes into their multipliers, the least that balance. Forces are scaled by
+/// weight: m g for a displacement, m g times the radius of gyration for a turn.
 class EquilibriumSolver {
  public:
   explicit EquilibriumSolver(const LiftSystem& system, EquilibriumSettings settings = {});

@@ -105,8 +105,8 @@ const LoopHistory& History::loop(std::string_view name) const {
   return find_by_name(loops, name, "loop");
 }
 
-// The water that goes with the bodies resists their acceleration: a load as any other to who asks what a
-// body bears.
+// The water that goes with the bodies resists their acceleration: a load as any other to who asks
+// what a body bears.
 void History::add_water_inertia(const RadiatedWater& water, const LiftWorkspace& w) {
   const AddedInertia& inertia = water.inertia();
   inertia.calc_force(w.kinematics, A_WB_, (w.loops ? *w.loops : *w.tied).added->matrix,
@@ -196,7 +196,8 @@ void History::record(const LiftSystem& system, Eigen::Index sample, double t, Li
 void History::record_works(Eigen::Index sample, const Eigen::Vector4d& works) {
   energy.drive_work[sample] = works[0];
   energy.winch_work[sample] = works[1];
-  // All of the work of hulls in waves was summed; their buoyancy stored the part that still water does.
+  // All of the work of hulls in waves was summed; their buoyancy stored the part that still water
+  // does.
   energy.wind_work[sample] = works[2] + buoyancy_in_waves_[sample] - buoyancy_in_waves_[0];
   energy.dissipated[sample] = works[3];
 }

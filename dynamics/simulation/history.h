@@ -99,7 +99,8 @@ class History {
 
   /// Records the instant that the workspace holds: kinematics, loads, accelerations (w.vdot).
   void record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w);
-  /// Energies done since the start, J, in the order of EnergyRates, at a sample that has been recorded.
+  /// Energies done since the start, J, in the order of EnergyRates, at a sample that has been
+  /// recorded.
   void record_works(Eigen::Index sample, const Eigen::Vector4d& works);
 
  private:

@@ -7,11 +7,12 @@ namespace blocklift::dynamics {
 /// The equations of motion of a lift, linear about an instant: workspace and result of
 /// calc_tangent_matrices. Over the free velocities (nv_free x nv_free each),
 ///   M dvdot + C dv + K e = 0,
-/// e being the tangent increment of the coordinates (Mechanism::integrate), dv and dvdot the changes of
-/// velocities and accelerations; time, drives and winches are held. M is the mass matrix, C and K hold
-/// gyroscopic, centrifugal and geometric terms, damping, and the stiffness of all ropes, pads and force
-/// elements that act. N/m, N m/rad and so on, as the velocities are. Of loops, K holds what their forces do
-/// at held multipliers lambda; those change besides:  M dvdot + C dv + K e = G^T dlambda.
+/// e being the tangent increment of the coordinates (Mechanism::integrate), dv and dvdot the
+/// changes of velocities and accelerations; time, drives and winches are held. M is the mass
+/// matrix, C and K hold gyroscopic, centrifugal and geometric terms, damping, and the stiffness of
+/// all ropes, pads and force elements that act. N/m, N m/rad and so on, as the velocities are. Of
+/// loops, K holds what their forces do at held multipliers lambda; those change besides:  M dvdot +
+/// C dv + K e = G^T dlambda.
 struct TangentMatrices {
   explicit TangentMatrices(const LiftSystem& system);
 
@@ -25,15 +26,16 @@ struct TangentMatrices {
   Eigen::MatrixXd frame_jacobian;              ///< of RadiatedWater's frames, 6N x nv_free: u = J v
 };
 
-/// Tangent matrices at the instant that calc_right_hand_side has just left in the workspace; its v, vdot,
-/// rope and support loads are used (a rope or pad acts as it did there, without its kink). At rest after
-/// an equilibrium, with v and vdot zero, they are those of small vibrations. How added mass and memory change
-/// with the draught of a body that is lowered is left out: of second order in motion. Does not allocate.
+/// Tangent matrices at the instant that calc_right_hand_side has just left in the workspace; its v,
+/// vdot, rope and support loads are used (a rope or pad acts as it did there, without its kink). At
+/// rest after an equilibrium, with v and vdot zero, they are those of small vibrations. How added
+/// mass and memory change with the draught of a body that is lowered is left out: of second order
+/// in motion. Does not allocate.
 void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
                            TangentMatrices& tangent);
 
-/// The part of `tangent.stiffness` that is the stretching of ropes, springs and pads, at rest; the rest is
-/// gravity and forces that turn. nv_free x nv_free. Overwrites tangent.forces.
+/// The part of `tangent.stiffness` that is the stretching of ropes, springs and pads, at rest; the
+/// rest is gravity and forces that turn. nv_free x nv_free. Overwrites tangent.forces.
 void calc_elastic_stiffness(const LiftSystem& system, double t, LiftWorkspace& w,
                             TangentMatrices& tangent, Eigen::Ref<Eigen::MatrixXd> stiffness);
 
@@ -49,13 +51,13 @@ struct JacobianWorkspace {
   Eigen::MatrixXd scaled;            ///< nv_free x state_size
 };
 
-/// Jacobian d(dy/dt)/dy of the whole right-hand side (state_size x state_size) at the state y and time t,
-/// the quaternions' kinematics dq/dt = N(q) v included:
+/// Jacobian d(dy/dt)/dy of the whole right-hand side (state_size x state_size) at the state y and
+/// time t, the quaternions' kinematics dq/dt = N(q) v included:
 ///   [ dN(q)v/dq       N       ]
 ///   [ -M^-1 K E   -M^-1 C     ],   E the tangent increments of the coordinates;
 /// with the memory of radiated water -M^-1 J^T C_x and its own rows (0, B J, A) besides.
-/// Evaluates the right-hand side once and leaves it in w.vdot, w.rates. Does not allocate but for radiated
-/// water.
+/// Evaluates the right-hand side once and leaves it in w.vdot, w.rates. Does not allocate but for
+/// radiated water.
 /// @throws what calc_right_hand_side throws.
 void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const Contacts* contacts,
                    LiftWorkspace& w, JacobianWorkspace& workspace,

@@ -149,8 +149,8 @@ void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, Vec
 
 namespace {
 
-// What the water that floating bodies radiate does to them now, but for its inertia: by its memory, and as
-// it is taken up by a body that enters it.
+// What the water that floating bodies radiate does to them now, but for its inertia: by its memory,
+// and as it is taken up by a body that enters it.
 void add_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
   calc_water_forces(water, t, w);
   add_frame_forces(water.frames(), w.kinematics, w.water_force, w.loads.F_Bo_W);

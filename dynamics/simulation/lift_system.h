@@ -31,7 +31,8 @@ using ForceElements =
                std::vector<QuadraticDamping>, std::vector<MooringLine>, std::vector<TuggerLine>,
                std::vector<AppliedLoad>, std::vector<JointLoad>>;
 
-/// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the works too.
+/// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the
+/// works too.
 template <class Element>
 inline constexpr bool is_hull_force = std::is_same_v<std::remove_cvref_t<Element>, HullForce>;
 
@@ -67,13 +68,12 @@ struct LiftDefinition {
 /// its state.
 ///
 /// State y = (q_free, v_free, x): the coordinates and velocities that no drive prescribes, in the
-/// order of the mechanism, and the memory of the water that floating bodies radiate; y has nq_free +
-/// nv_free + memory_count entries. The driven ones follow from the time.
-/// Ropes and support pads are one-sided: each acts or does not act, and changes at an instant.
-/// `Contacts` says which act, ropes first, then pads.
-/// Loops of the mechanism tie the free coordinates together; the state keeps all of them, and whoever
-/// moves it brings it back onto the loops (LoopProjector). Lengths and offsets of loops that are left open
-/// are taken from q_start.
+/// order of the mechanism, and the memory of the water that floating bodies radiate; y has nq_free
+/// + nv_free + memory_count entries. The driven ones follow from the time. Ropes and support pads
+/// are one-sided: each acts or does not act, and changes at an instant. `Contacts` says which act,
+/// ropes first, then pads. Loops of the mechanism tie the free coordinates together; the state
+/// keeps all of them, and whoever moves it brings it back onto the loops (LoopProjector). Lengths
+/// and offsets of loops that are left open are taken from q_start.
 class LiftSystem {
  public:
   /// A driven joint without a drive in the operation stands still where q_start has it.
@@ -176,40 +176,42 @@ void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& 
 
 /// Free coordinates and velocities and the water's memory of a state into the workspace.
 void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w);
-/// Free coordinates and velocities of whole vectors q and v into a state; its memory stays as it is.
+/// Free coordinates and velocities of whole vectors q and v into a state; its memory stays as it
+/// is.
 void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, VectorRef y);
 
-/// Kinematics of the workspace's q, v and feeds, and the loads of ropes, elastic bodies and pads alone: all
-/// that calc_contact_indicators asks for. `contacts` as below.
+/// Kinematics of the workspace's q, v and feeds, and the loads of ropes, elastic bodies and pads
+/// alone: all that calc_contact_indicators asks for. `contacts` as below.
 void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, LiftWorkspace& w);
 
-/// Are hulls' forces, which cost the most, to be found anew, or are those of the workspace good enough?
+/// Are hulls' forces, which cost the most, to be found anew, or are those of the workspace good
+/// enough?
 enum class HullForces { evaluated, kept };
 
 /// Forces on the hulls, w.F_Bo_W_of_hulls, at the workspace's kinematics.
 void calc_hull_forces(const LiftSystem& system, double t, LiftWorkspace& w);
-/// What the memory of the radiated water does, w.water_force, at the workspace's kinematics, with its
-/// velocities and shares.
+/// What the memory of the radiated water does, w.water_force, at the workspace's kinematics, with
+/// its velocities and shares.
 void calc_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w);
 
 /// Kinematics and loads of the workspace's q, v and feeds. `contacts`: which one-sided elements
 /// act; null: each as its own law says.
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w,
                 HullForces hulls = HullForces::evaluated);
-/// Accelerations (w.vdot), drive forces (driven entries of w.joint_force) and multipliers of loops of what calc_loads
-/// has left.
+/// Accelerations (w.vdot), drive forces (driven entries of w.joint_force) and multipliers of loops
+/// of what calc_loads has left.
 void calc_accelerations(const LiftSystem& system, LiftWorkspace& w);
 
 /// dy/dt at (t, y): the right-hand side. Leaves accelerations (w.vdot), drive forces
-/// (driven entries of w.joint_force), rope loads and multipliers of loops in the workspace. Does not
-/// allocate.
+/// (driven entries of w.joint_force), rope loads and multipliers of loops in the workspace. Does
+/// not allocate.
 /// @throws ModelError or SimulationError where the geometry is degenerate or the pose singular.
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
                           const Contacts* contacts, LiftWorkspace& w, VectorRef ydot);
 
-/// For each one-sided element a value (kN) that is positive where it acts and negative where it does
-/// not, continuous between, of the instant that calc_loads or calc_contact_loads has just evaluated. Size
-/// contact_count.
+/// For each one-sided element a value (kN) that is positive where it acts and negative where it
+/// does not, continuous between, of the instant that calc_loads or calc_contact_loads has just
+/// evaluated. Size contact_count.
 void calc_contact_indicators(const LiftWorkspace& w, VectorRef indicators);
 
 /// Which one-sided elements act at a state. One that is just at the change is judged by where it

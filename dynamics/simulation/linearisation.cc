@@ -19,7 +19,8 @@ constexpr double equal_limit = 1e-7;
 // Damping ratios beyond it are no rounding.
 constexpr double growth_limit = 1e-6;
 
-// The equations in coordinates y with z = L^-T y, M = L L^T: mass one, and time in units of 1/scale.
+// The equations in coordinates y with z = L^-T y, M = L L^T: mass one, and time in units of
+// 1/scale.
 struct Normalised {
   Eigen::MatrixXd to_z;  ///< L^-T
   Eigen::MatrixXd damping, stiffness;
@@ -168,7 +169,8 @@ void align(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& form, std::vector
   for (Eigen::Index i = 0; i < count; ++i) {
     shapes.col(i) = modes[first + static_cast<std::size_t>(i)].shape.normalized();
   }
-  // An orthonormal basis by the mass first; shapes that coincide (a defective group) stay as they are.
+  // An orthonormal basis by the mass first; shapes that coincide (a defective group) stay as they
+  // are.
   const Eigen::MatrixXcd product = shapes.adjoint() * mass * shapes;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> norm(product);
   if (norm.eigenvalues()[0] < 1e-9 * norm.eigenvalues()[count - 1]) return;

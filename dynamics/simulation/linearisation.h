@@ -19,7 +19,8 @@ enum class ModeKind {
 /// "oscillating", ...
 std::string_view mode_kind_name(ModeKind kind);
 
-/// A body's part in a mode: complex amplitudes, whose moduli are sizes and whose arguments are phases.
+/// A body's part in a mode: complex amplitudes, whose moduli are sizes and whose arguments are
+/// phases.
 struct BodyModeMotion {
   BodyIndex body = -1;
   Eigen::Vector3cd rotation;             ///< rotation vector in W, rad
@@ -32,12 +33,13 @@ struct BodyModeMotion {
 struct Mode {
   ModeKind kind = ModeKind::neutral;
   std::complex<double> eigenvalue;  ///< lambda, 1/s; of a pair the one with positive imaginary part
-  /// Tangent increments, nv; driven entries zero. Scaled so that the largest displacement of a centre of
-  /// mass, or turn by the mechanism's radius of gyration of that body, is 1 m, and is real there.
+  /// Tangent increments, nv; driven entries zero. Scaled so that the largest displacement of a
+  /// centre of mass, or turn by the mechanism's radius of gyration of that body, is 1 m, and is
+  /// real there.
   Eigen::VectorXcd shape;
   std::vector<BodyModeMotion> bodies;  ///< one a moving body that has mass
-  /// Part of the restoring energy that is stored in ropes, springs and pads, 0 to 1; the rest is weight
-  /// and tension that have turned: a pendulum has 0, a bounce 1.
+  /// Part of the restoring energy that is stored in ropes, springs and pads, 0 to 1; the rest is
+  /// weight and tension that have turned: a pendulum has 0, a bounce 1.
   double elastic_share = 0.0;
   /// Bodies and their motion, from `bodies`: "load: pendulum along x", "hook: bounce against load".
   std::string name;
@@ -47,8 +49,8 @@ struct Mode {
   double damping_ratio() const;  ///< -Re(lambda) / |lambda|; below zero: grows. 0 where neutral
 };
 
-/// The motions about an equilibrium, linear:  M z'' + C z' + K z = 0,  e = basis z being the increments of
-/// the free velocities' coordinates (all of them where no loop binds them).
+/// The motions about an equilibrium, linear:  M z'' + C z' + K z = 0,  e = basis z being the
+/// increments of the free velocities' coordinates (all of them where no loop binds them).
 struct Linearisation {
   double time = not_a_number;  ///< s
   Eigen::MatrixXd mass, damping, stiffness;
@@ -56,23 +58,24 @@ struct Linearisation {
   std::vector<Mode> modes;  ///< slowest first; neutral and unstable ones before all others
 };
 
-/// Floating bodies swing with their infinite-frequency added mass; the memory of the water they radiate,
-/// which lengthens slow periods and damps, is not in the modes.
+/// Floating bodies swing with their infinite-frequency added mass; the memory of the water they
+/// radiate, which lengthens slow periods and damps, is not in the modes.
 ///
 /// Linearises at the rest that an EquilibriumSolver has left in its workspace at time t: drives and
 /// winches held, one-sided elements acting as they do there. Loops leave the motions along them, an
 /// orthonormal basis of the null space of their Jacobian; what their forces do by turning is in K.
 ///
-/// Eigenvalues are those of the quadratic problem (lambda^2 M + lambda C + K) z = 0, as 2n x 2n ordinary
-/// one in coordinates in which M = 1 and the largest frequency is about 1 (Tisseur and Meerbergen 2001,
-/// SIAM Review 43, section 3.4). A mode counts as neutral below 1e-6 of the largest |lambda|: a double
-/// eigenvalue zero comes out as the square root of the rounding. Within a group of equal eigenvalues
-/// (a pendulum that swings alike to all sides) shapes are chosen along the axes of W.
+/// Eigenvalues are those of the quadratic problem (lambda^2 M + lambda C + K) z = 0, as 2n x 2n
+/// ordinary one in coordinates in which M = 1 and the largest frequency is about 1 (Tisseur and
+/// Meerbergen 2001, SIAM Review 43, section 3.4). A mode counts as neutral below 1e-6 of the
+/// largest |lambda|: a double eigenvalue zero comes out as the square root of the rounding. Within
+/// a group of equal eigenvalues (a pendulum that swings alike to all sides) shapes are chosen along
+/// the axes of W.
 /// @throws SimulationError if the mass matrix is singular.
 Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w);
 
-/// Linearises where the lift hangs at rest at each of the ascending times (s), following the equilibrium
-/// from a guess q_start (nq) at t = 0 in steps of at most `interval` (s).
+/// Linearises where the lift hangs at rest at each of the ascending times (s), following the
+/// equilibrium from a guess q_start (nq) at t = 0 in steps of at most `interval` (s).
 /// @throws SimulationError where there is no equilibrium.
 std::vector<Linearisation> linearise_sweep(const LiftSystem& system,
                                            const std::vector<double>& times,

@@ -7,15 +7,15 @@ namespace blocklift::dynamics {
 /// The loops' demand on the accelerations, linear about an instant: workspace and result of
 /// LoopTangent::calc. With a(q, v, vdot) = G vdot + (dG/dt) v,
 ///   G dvdot + by_v dv + by_q e = 0
-/// over the free velocities, e being the tangent increment of the coordinates; a row for each equation of
-/// the loops that is enforced and independent there.
+/// over the free velocities, e being the tangent increment of the coordinates; a row for each
+/// equation of the loops that is enforced and independent there.
 class LoopTangent {
  public:
   explicit LoopTangent(const LiftSystem& system);
 
-  /// At the instant that calc_right_hand_side has just left in `w`, which has loops. G is exact; by_q and
-  /// by_v are forward differences of the loops' accelerations alone (kinematics and loops: no dynamics,
-  /// no forces), accurate to about 1e-7 of their size. Does not allocate.
+  /// At the instant that calc_right_hand_side has just left in `w`, which has loops. G is exact;
+  /// by_q and by_v are forward differences of the loops' accelerations alone (kinematics and loops:
+  /// no dynamics, no forces), accurate to about 1e-7 of their size. Does not allocate.
   void calc(const LiftSystem& system, const LiftWorkspace& w);
 
   Eigen::Index row_count() const { return count_; }

@@ -31,8 +31,8 @@ BodyEnergies energies(const BodyModeMotion& motion, double mass, const Matrix3& 
           mass * size(motion.displacement_centre.z()), about(0) + about(1), about(2)};
 }
 
-// Direction of the largest part of a complex motion in the level plane, as an angle from x (rad), and how
-// round the path is: 0 a line, 1 a circle.
+// Direction of the largest part of a complex motion in the level plane, as an angle from x (rad),
+// and how round the path is: 0 a line, 1 a circle.
 struct LevelDirection {
   double angle;
   double roundness;

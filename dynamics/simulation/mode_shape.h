@@ -9,12 +9,12 @@ void find_body_motions(const Mechanism& mechanism, const Kinematics& kinematics,
 
 /// The mode in words, from the motions of its bodies.
 ///
-/// Named are the bodies with the most kinetic energy, until they have 60 % of it, and the kind of motion
-/// that has most of the first one's: level displacement "pendulum along x" ("sway" where ropes, springs or
-/// pads rather than weight bring it back), upright displacement "bounce", turn about the vertical "yaw",
-/// about x "roll about x", about y "pitch about y", about another level axis "rocking about ...".
-/// Directions within 15 degrees of an axis of W are named by it. A further body with 5 % of the energy
-/// or more that moves the other way is named with "against".
+/// Named are the bodies with the most kinetic energy, until they have 60 % of it, and the kind of
+/// motion that has most of the first one's: level displacement "pendulum along x" ("sway" where
+/// ropes, springs or pads rather than weight bring it back), upright displacement "bounce", turn
+/// about the vertical "yaw", about x "roll about x", about y "pitch about y", about another level
+/// axis "rocking about ...". Directions within 15 degrees of an axis of W are named by it. A
+/// further body with 5 % of the energy or more that moves the other way is named with "against".
 std::string mode_name(const Mechanism& mechanism, const Kinematics& kinematics, const Mode& mode);
 
 }  // namespace blocklift::dynamics

@@ -74,8 +74,8 @@ class OperationBuilder {
 
   /// Drive of a whole spherical or free joint along the direction n of its v (a turn about a fixed
   /// axis, a screw): q = q0 (+) s n, s starting at 0.
-  /// @throws ModelError if the name is taken, the joint is of another kind or not driven, or the sizes
-  /// of q0 and n are not those of the joint.
+  /// @throws ModelError if the name is taken, the joint is of another kind or not driven, or the
+  /// sizes of q0 and n are not those of the joint.
   void add_direction_drive(const Mechanism& mechanism, std::string name, BodyIndex body,
                            const Eigen::VectorXd& q0, const Eigen::VectorXd& direction);
 
@@ -88,18 +88,18 @@ class OperationBuilder {
   /// move of the same drive.
   void add_move(std::string_view drive, const RestToRestMove& move);
 
-  /// A joint's drive goes along a profile throughout: a table over time, a constant speed. Its start is
-  /// the profile's.
+  /// A joint's drive goes along a profile throughout: a table over time, a constant speed. Its
+  /// start is the profile's.
   /// @throws ModelError if there is no such drive, it is a winch, or it is moved otherwise.
   void set_motion(std::string_view drive, MotionProfile motion);
 
   /// Integration steps end at these times (s), too: loads change their slope there.
   void add_breakpoints(const std::vector<double>& times);
 
-  /// From `start` to `end` (s) the drive follows another: its own travel is a smooth function of the
-  /// leader's travel since `start` (both zero there), like a cam. Leader's moves come first.
-  /// @throws ModelError if there is no such drive or leader, the leader follows another drive itself
-  /// or does not move in that time, its travel leaves the spline's range, or the drive moves
+  /// From `start` to `end` (s) the drive follows another: its own travel is a smooth function of
+  /// the leader's travel since `start` (both zero there), like a cam. Leader's moves come first.
+  /// @throws ModelError if there is no such drive or leader, the leader follows another drive
+  /// itself or does not move in that time, its travel leaves the spline's range, or the drive moves
   /// otherwise in that time.
   void add_follower(std::string_view drive, std::string_view leader, double start, double end,
                     const NaturalSpline& own_travel_over_leaders);
@@ -108,8 +108,8 @@ class OperationBuilder {
   double end() const;
 
   /// @param duration when the operation ends, s; at least end().
-  /// @throws ModelError if the duration is not positive or too short, or a winch would pull its rope
-  /// in entirely.
+  /// @throws ModelError if the duration is not positive or too short, or a winch would pull its
+  /// rope in entirely.
   Operation build(double duration) const;
 
  private:

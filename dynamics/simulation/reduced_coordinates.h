@@ -7,15 +7,17 @@
 
 namespace blocklift::dynamics {
 
-/// The motions that the loops leave free next to a reference configuration, as independent coordinates z:
+/// The motions that the loops leave free next to a reference configuration, as independent
+/// coordinates z:
 ///   q(z) = q_reference (+) w,   w = Z z + N y(z),   g(q(z)) = 0,
-/// Z (nv_free x n) and N (nv_free x rank) being orthonormal bases of what the loops allow and forbid at
-/// the reference: y is found by Newton's method. Derivatives of q(z) are exact wherever it exists, not at
-/// the reference alone. Without loops z are the increments of all free velocities, Z = 1.
-/// Source: Absil and Malick (2012), SIAM J. Optim. 22(1), "orthographic retraction".
+/// Z (nv_free x n) and N (nv_free x rank) being orthonormal bases of what the loops allow and
+/// forbid at the reference: y is found by Newton's method. Derivatives of q(z) are exact wherever
+/// it exists, not at the reference alone. Without loops z are the increments of all free
+/// velocities, Z = 1. Source: Absil and Malick (2012), SIAM J. Optim. 22(1), "orthographic
+/// retraction".
 ///
-/// Generalised forces f (nv_free) at q(z) are balanced by multipliers with  N^T (f + G^T lambda) = 0; what
-/// remains is  Z^T (f + G^T lambda) = P^T f  with  P = Z - N (G N)^-1 G Z.
+/// Generalised forces f (nv_free) at q(z) are balanced by multipliers with  N^T (f + G^T lambda) =
+/// 0; what remains is  Z^T (f + G^T lambda) = P^T f  with  P = Z - N (G N)^-1 G Z.
 class ReducedCoordinates {
  public:
   explicit ReducedCoordinates(const LiftSystem& system);
@@ -30,13 +32,14 @@ class ReducedCoordinates {
 
   /// q (nq) = q(z). @throws SimulationError where the loops cannot be closed along N.
   void move_to(const Eigen::VectorXd& z, VectorRef q);
-  /// How dz moves the pose q(z) of the last move_to: increments of the free velocities, nv_free x n.
+  /// How dz moves the pose q(z) of the last move_to: increments of the free velocities, nv_free x
+  /// n.
   Eigen::MatrixXd tangent();
   /// P there: the virtual motions that forces are weighed with, nv_free x n.
   Eigen::MatrixXd virtual_motions() const;
 
-  /// Multipliers (all rows) of forces f (nv_free) there, which becomes f + G^T lambda. Where rows repeat
-  /// others those left out are zero.
+  /// Multipliers (all rows) of forces f (nv_free) there, which becomes f + G^T lambda. Where rows
+  /// repeat others those left out are zero.
   void balance(VectorRef f, VectorRef lambda) const;
   /// The same at the reference, of all multipliers the least in the sum of squares.
   void balance_at_reference(VectorRef f, VectorRef lambda);

@@ -9,9 +9,10 @@
 
 namespace blocklift::dynamics {
 
-/// Brings the states of a lift back to where they belong: quaternions to unit length, and where the mechanism has
-/// loops, positions and velocities onto them; and takes out of the error of a step what leads away from there. Which
-/// equations of the loops are independent is judged at each state anew (w.loop_rows). Workspaces are made once.
+/// Brings the states of a lift back to where they belong: quaternions to unit length, and where the
+/// mechanism has loops, positions and velocities onto them; and takes out of the error of a step
+/// what leads away from there. Which equations of the loops are independent is judged at each state
+/// anew (w.loop_rows). Workspaces are made once.
 class StateProjection {
  public:
   /// Where there are loops, assembles q and v of the workspace first, driven as at time 0.
@@ -31,7 +32,8 @@ class StateProjection {
   /// What `project` would add to the state. False: a quaternion is none.
   /// @throws SimulationError as project.
   bool calc_correction(double t, ConstVectorRef y, VectorRef correction, LiftWorkspace& w);
-  /// Takes out of an error of the state y what calc_correction would take away again, at its last call.
+  /// Takes out of an error of the state y what calc_correction would take away again, at its last
+  /// call.
   void project_error(ConstVectorRef y, VectorRef error, const LiftWorkspace& w);
 
  private:

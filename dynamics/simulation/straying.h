@@ -17,8 +17,8 @@ struct ArrangedBody {
   double length = not_a_number, breadth = not_a_number;  ///< of its hull, m
 };
 
-/// The arrangement that the water of several bodies was computed for. Seen from above all frames H have
-/// one and the same direction in it.
+/// The arrangement that the water of several bodies was computed for. Seen from above all frames H
+/// have one and the same direction in it.
 struct Arrangement {
   std::vector<ArrangedBody> bodies;
   int lowered_body = -1;  ///< that counts in the water alone; -1: none
@@ -35,13 +35,14 @@ struct LargestInTime {
   void take(double another, double when);
 };
 
-/// How far two bodies came from the places against each other that their water was computed for, while
-/// both were in the water.
+/// How far two bodies came from the places against each other that their water was computed for,
+/// while both were in the water.
 struct PairStraying {
   int first = -1, second = -1;  ///< in the arrangement
   long samples = 0;             ///< with both in the water; 0: they never met there
   long samples_beyond = 0;      ///< of them, with `at_ends` above `limit`
-  /// Change of the level vector from one frame to the other, in axes that turn with the mean of both, m.
+  /// Change of the level vector from one frame to the other, in axes that turn with the mean of
+  /// both, m.
   LargestInTime distance;
   LargestInTime turn;           ///< of one heading against the other, rad
   LargestInTime at_ends;        ///< distance, and turn times half the longer hull's length, m
@@ -53,18 +54,22 @@ struct PairStraying {
 /// How far the arrangement was kept.
 struct Straying {
   std::vector<PairStraying> pairs;
-  /// Mean turn of all that are in the water against where the water was computed, rad: their excitation follows it.
+  /// Mean turn of all that are in the water against where the water was computed, rad: their
+  /// excitation follows it.
   LargestInTime group_turn;
 };
 
 /// By how much (m) two hulls may be out of place: the lesser of
-///  - a fifth of the narrower hull's breadth, since the flow about one body at another changes over the lesser one's
+///  - a fifth of the narrower hull's breadth, since the flow about one body at another changes over
+///    the lesser one's
 ///    breadth;
-///  - a fortieth of the sea's waves' length: what one makes comes to the other 2 pi/40 out of phase, wrong by
+///  - a fortieth of the sea's waves' length: what one makes comes to the other 2 pi/40 out of
+///    phase, wrong by
 ///    2 sin(pi/40) = 16 % of itself.
-/// Two barges of 60 x 20 m, 17 m apart, moved by 2 m against each other: in waves of 125 m and more (a sixtieth) added
-/// mass, damping and excitation change by 3 to 6 % of a barge's own; in waves of 60 to 100 m (a thirtieth to a
-/// fiftieth), where the water between them swings to and fro, by up to 40 %.
+/// Two barges of 60 x 20 m, 17 m apart, moved by 2 m against each other: in waves of 125 m and more
+/// (a sixtieth) added mass, damping and excitation change by 3 to 6 % of a barge's own; in waves of
+/// 60 to 100 m (a thirtieth to a fiftieth), where the water between them swings to and fro, by up
+/// to 40 %.
 double straying_limit(const ArrangedBody& a, const ArrangedBody& b, double wave_length);
 
 /// Measures it at the samples of a history.

@@ -6,9 +6,10 @@ namespace blocklift::dynamics::sundials {
 
 namespace {
 
-// SUNDIALS' own serial vectors are worked on entry by entry, with a call or two for each pair of short loops: half of
-// the time of an integration with a dozen unknowns. The operations that its integrators repeat in each step are
-// replaced by these, vector code without calls. Entries are combined one by one, so that results may be operands.
+// SUNDIALS' own serial vectors are worked on entry by entry, with a call or two for each pair of
+// short loops: half of the time of an integration with a dozen unknowns. The operations that its
+// integrators repeat in each step are replaced by these, vector code without calls. Entries are
+// combined one by one, so that results may be operands.
 
 using Entries = Eigen::Map<Eigen::VectorXd>;
 

@@ -26,8 +26,8 @@ namespace {
 // as one.
 constexpr double beside = 2e-6;
 
-// Where loops pass a singular position, rounding (1e-16) is divided by what is left of the row that they lose,
-// down to 1e-5 (LoopProjector): no smaller local error can be met there.
+// Where loops pass a singular position, rounding (1e-16) is divided by what is left of the row that
+// they lose, down to 1e-5 (LoopProjector): no smaller local error can be met there.
 constexpr double least_tolerance_through_singular_positions = 1e-11;
 
 /// One run of CVODES over an operation.
@@ -175,8 +175,8 @@ int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data)
   });
 }
 
-// The matrix of Newton's method by the analytical Jacobian, in the structure of mechanics; CVODES' own
-// matrix A is a mere token.
+// The matrix of Newton's method by the analytical Jacobian, in the structure of mechanics; CVODES'
+// own matrix A is a mere token.
 int Integrator::newton_matrix(double t, N_Vector y, N_Vector, SUNMatrix, int keep_point,
                               int* point_set, double gamma, void* data, N_Vector, N_Vector,
                               N_Vector) {
@@ -227,8 +227,8 @@ int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
 int Integrator::works(double t, N_Vector y, N_Vector rates, void* data) {
   auto& self = *static_cast<Integrator*>(data);
   return self.guarded([&] {
-    // At the end of a step the hulls' forces are those that the last of Newton's iterations asked for: of the
-    // same time, and of a state that differs by what the step may err.
+    // At the end of a step the hulls' forces are those that the last of Newton's iterations asked
+    // for: of the same time, and of a state that differs by what the step may err.
     const HullForces hulls = t == self.evaluated_time_ ? HullForces::kept : HullForces::evaluated;
     const EnergyRates powers = calc_energy_rates(
         self.system_, self.within_interval(t), sundials::view(y), &self.contacts_, hulls, self.w_);
@@ -293,8 +293,8 @@ void Integrator::set_up_cvode() {
   }
   if (settings_.works) {
     check(CVodeQuadInit(cvode_, works, work_.get()), "CVodeQuadInit");
-    // Where nothing is free, or loops and drives leave nothing free, the works alone say how long a step
-    // may be.
+    // Where nothing is free, or loops and drives leave nothing free, the works alone say how long a
+    // step may be.
     const bool alone = system_.state_size() == 0 || projection_->leaves_nothing_free();
     check(CVodeSetQuadErrCon(cvode_, alone ? SUNTRUE : SUNFALSE), "CVodeSetQuadErrCon");
     check(CVodeQuadSStolerances(cvode_, settings_.relative_tolerance, settings_.relative_tolerance),

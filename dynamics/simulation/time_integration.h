@@ -15,14 +15,14 @@ struct IntegrationSettings {
   double sample_interval = 0.05;  ///< s
   bool works = true;              ///< accumulate the works of drives, winches, wind and dissipation
   long largest_step_count = 50'000'000;
-  /// The water's surface to be marched beside (MarchedSurface), from calm; null: none. The system's water
-  /// then has its added mass and no states.
+  /// The water's surface to be marched beside (MarchedSurface), from calm; null: none. The system's
+  /// water then has its added mass and no states.
   DirectRadiation* surface = nullptr;
   double surface_step = not_a_number;  ///< s
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
-  /// Called at each sample with its number and time (s) and the workspace of that instant: accelerations,
-  /// loads and multipliers are those of the sample. May be empty.
+  /// Called at each sample with its number and time (s) and the workspace of that instant:
+  /// accelerations, loads and multipliers are those of the sample. May be empty.
   std::function<void(Eigen::Index, double, const LiftWorkspace&)> observe = {};
 };
 
@@ -54,23 +54,25 @@ struct IntegrationResult {
   Eigen::VectorXd q_end, v_end;      ///< state at the end, nq and nv
 };
 
-/// Integrates the operation from (q, v) (nq and nv; driven entries are replaced by the drives') over
-/// its whole duration.
+/// Integrates the operation from (q, v) (nq and nv; driven entries are replaced by the drives')
+/// over its whole duration.
 ///
-/// BDF with Newton's method (CVODES), quaternions projected back to unit length at every step. Steps
-/// end at stage changes and wherever a motion is not smooth, and at each instant at which a rope
-/// goes slack or taut or a pad is loaded or lifts off: which of them act is fixed during a step,
-/// so that no step crosses a change, and the integration starts anew behind it. Samples come from
-/// the method's own interpolation; accelerations, tensions and drive forces are computed anew from
-/// the interpolated state, so that each sample is consistent in itself. Largest loads are those of
-/// the samples.
+/// BDF with Newton's method (CVODES), quaternions projected back to unit length at every step.
+/// Steps end at stage changes and wherever a motion is not smooth, and at each instant at which a
+/// rope goes slack or taut or a pad is loaded or lifts off: which of them act is fixed during a
+/// step, so that no step crosses a change, and the integration starts anew behind it. Samples come
+/// from the method's own interpolation; accelerations, tensions and drive forces are computed anew
+/// from the interpolated state, so that each sample is consistent in itself. Largest loads are
+/// those of the samples.
 ///
-/// A mechanism with loops is assembled first: the closest configuration and velocities that its loops
-/// allow. Every step ends with positions and velocities projected back onto the loops (and the error
-/// estimate along them); which equations are independent is judged there anew, so that loops may repeat
-/// one another. Samples lie on the loops, their multipliers are the least that balance them.
+/// A mechanism with loops is assembled first: the closest configuration and velocities that its
+/// loops allow. Every step ends with positions and velocities projected back onto the loops (and
+/// the error estimate along them); which equations are independent is judged there anew, so that
+/// loops may repeat one another. Samples lie on the loops, their multipliers are the least that
+/// balance them.
 ///
-/// @throws SimulationError if the loops cannot be closed at the start, or when a step fails: time, ropes, bodies, and what to try.
+/// @throws SimulationError if the loops cannot be closed at the start, or when a step fails: time,
+/// ropes, bodies, and what to try.
 IntegrationResult integrate(const LiftSystem& system, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, const IntegrationSettings& settings = {});
 

@@ -281,7 +281,8 @@ class LiftBuilder {
     }
   }
 
-  /// Coordinates at the start: cranes as they are put together; load, vessels and hook blocks as guessed.
+  /// Coordinates at the start: cranes as they are put together; load, vessels and hook blocks as
+  /// guessed.
   void set_start(const dynamics::Mechanism& mechanism) {
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) set_crane(mechanism, i);
     set_free_start(mechanism, "load", load_pose());

@@ -14,15 +14,16 @@
 
 namespace blocklift::pipeline {
 
-/// Mass, centre of mass and inertia of the load in its own frame B. They come from the block's mesh,
-/// so that dynamics and structure have one source.
+/// Mass, centre of mass and inertia of the load in its own frame B. They come from the block's
+/// mesh, so that dynamics and structure have one source.
 struct LoadMass {
   double mass = dynamics::not_a_number;                ///< kg
   Vector3 p_BoBcm_B = Vector3::Zero();                 ///< centre of mass, m
   Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< about the centre of mass, kg m^2
 };
 
-/// How the load gives way at its lugs (structure::LugFlexibility): 3 rows a lug, in the order of `lugs`.
+/// How the load gives way at its lugs (structure::LugFlexibility): 3 rows a lug, in the order of
+/// `lugs`.
 struct LoadFlexibility {
   std::vector<std::string> lugs;
   Eigen::MatrixXd compliance;           ///< that follows at once, m/N
@@ -68,7 +69,8 @@ struct BuiltLift {
   Schedule schedule;
   /// The same lift without waves and in mean wind, where there are waves or gusts.
   std::optional<dynamics::LiftSystem> calm = {};
-  /// The water's surface that is marched beside `system`; none: its water has a memory of its own, or there is none.
+  /// The water's surface that is marched beside `system`; none: its water has a memory of its own,
+  /// or there is none.
   MarchedWater marched = {};
   /// What the water of `system` was computed for; empty where vessels make no waves.
   dynamics::Arrangement arrangement = {};
@@ -82,17 +84,18 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 
 /// Builds the dynamics of a sound lift case.
 ///
-/// Bodies are named "C1.gantry", hook blocks as their hoists ("C1.upper_1"), the block "load". A hook
-/// block is a body on a translational joint to the world, its tackle a rope from the sheave to its
-/// centre. The load is free; its start and that of the hook blocks (plumb below their sheaves, by
-/// the unstretched length) are guesses from which the equilibrium is found.
+/// Bodies are named "C1.gantry", hook blocks as their hoists ("C1.upper_1"), the block "load". A
+/// hook block is a body on a translational joint to the world, its tackle a rope from the sheave to
+/// its centre. The load is free; its start and that of the hook blocks (plumb below their sheaves,
+/// by the unstretched length) are guesses from which the equilibrium is found.
 ///
-/// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave pressure and
-/// damping, and with draughts the water that it sets in motion.
+/// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave
+/// pressure and damping, and with draughts the water that it sets in motion.
 ///
-/// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
-/// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints to the
-///   world, see dynamics::ElasticBody.
+/// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no
+/// waves.
+/// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints
+///   to the world, see dynamics::ElasticBody.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.
 /// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
 ///   complaints does.

@@ -15,11 +15,12 @@
 
 namespace blocklift::pipeline {
 
-/// Vessels whose radiation is to be computed, as they lie at the start: the input of the panel method.
+/// Vessels whose radiation is to be computed, as they lie at the start: the input of the panel
+/// method.
 ///
-/// The database's world D has its origin midway between the vessels in the calm surface and the axes of W,
-/// so that it does not depend on where the vessels lie together. One that is lowered counts for the middle
-/// only if there is no other.
+/// The database's world D has its origin midway between the vessels in the calm surface and the
+/// axes of W, so that it does not depend on where the vessels lie together. One that is lowered
+/// counts for the middle only if there is no other.
 struct RadiationProblem {
   struct Body {
     std::string name;
@@ -73,8 +74,8 @@ MarchedWater make_marched_water(const RadiationProblem& problem);
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
                                                  dynamics::DatabaseReport* report = nullptr);
 
-/// Makes of marine parts the bodies that float and what acts on them. The parts must outlive the builder
-/// and be sound.
+/// Makes of marine parts the bodies that float and what acts on them. The parts must outlive the
+/// builder and be sound.
 class MarineBuilder {
  public:
   MarineBuilder(const MarineParts& parts, double gravity, std::optional<FloatingLoad> load = {})
@@ -83,15 +84,18 @@ class MarineBuilder {
   /// A vessel as a body on a free joint in the world; inertia of its model.
   static dynamics::BodyDefinition body(const VesselInCase& vessel);
 
-  /// Where each vessel lies at the start, upright, by its draught or by its weight with what stands on it.
+  /// Where each vessel lies at the start, upright, by its draught or by its weight with what stands
+  /// on it.
   /// @param carried mass that stands on a vessel, kg.
   void place(const std::function<double(const std::string&)>& carried);
   const dynamics::Pose& start(const std::string& vessel) const { return start_.at(vessel); }
 
-  /// What is to be computed for the vessels that ask for radiation; no bodies: nothing. After place().
+  /// What is to be computed for the vessels that ask for radiation; no bodies: nothing. After
+  /// place().
   RadiationProblem radiation_problem() const;
 
-  /// Adds buoyancy and wave forces of hulls, damping, members, lines and, with databases, diffraction.
+  /// Adds buoyancy and wave forces of hulls, damping, members, lines and, with databases,
+  /// diffraction.
   /// @param at_rest without waves: for static equilibrium.
   using BodyOf = std::function<dynamics::BodyPoint(const PointModel&)>;
   void add_elements(const BodyOf& point, const dynamics::HydrodynamicSeries* series, bool at_rest,
@@ -101,15 +105,16 @@ class MarineBuilder {
   void add_hull(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
                 const DampingInCase& linear, const DampingInCase& quadratic, double displaced_mass,
                 bool at_rest, dynamics::ForceElements& elements);
-  /// The radiated water of the vessels; null without databases. Its memory is fitted to 0.5 % of its
-  /// peak, or to 2 or 10 % where water that swings between hulls would take too many states.
+  /// The radiated water of the vessels; null without databases. Its memory is fitted to 0.5 % of
+  /// its peak, or to 2 or 10 % where water that swings between hulls would take too many states.
   /// With a surface that is marched the water has its added mass, and no memory of its own.
   /// @throws dynamics::ModelError if even that is not reached.
   std::shared_ptr<const dynamics::RadiatedWater> make_water(
       const BodyOf& point, const dynamics::HydrodynamicSeries* series,
       const MarchedWater& marched) const;
 
-  /// The places of bodies that share their water for which it is computed; empty without radiation. After place().
+  /// The places of bodies that share their water for which it is computed; empty without radiation.
+  /// After place().
   dynamics::Arrangement arrangement(const BodyOf& point) const;
 
   bool has_waves() const { return parts_.sea && parts_.sea->waves; }

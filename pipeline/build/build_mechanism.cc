@@ -17,7 +17,8 @@ namespace {
 using dynamics::LoadTable;
 using dynamics::MotionProfile;
 
-/// Open by more than this counts as open where loops must be closed as given, m or rad, or their rates.
+/// Open by more than this counts as open where loops must be closed as given, m or rad, or their
+/// rates.
 constexpr double closed = 1e-6;
 
 LoadTable load_table(const std::optional<Located<Components>>& constant,

@@ -19,7 +19,8 @@ struct BuiltMechanism {
   std::map<std::string, dynamics::BodyIndex> carried_by;  ///< joint to the body that it carries
   /// The same without waves and in mean wind, where there are waves or gusts.
   std::optional<dynamics::LiftSystem> calm = {};
-  /// The water's surface that is marched beside `system`; none: its water has a memory of its own, or there is none.
+  /// The water's surface that is marched beside `system`; none: its water has a memory of its own,
+  /// or there is none.
   MarchedWater marched = {};
   /// What the water of `system` was computed for; empty where vessels make no waves.
   dynamics::Arrangement arrangement = {};
@@ -31,17 +32,21 @@ struct BuiltMechanism {
 /// What is to be computed for the file's vessels before it is built; no bodies: nothing.
 RadiationProblem radiation_problem(const MechanismFile& file);
 
-/// Builds the dynamics of a sound mechanism file, with loops closed at the start as its initial state
-/// says.
-/// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no waves.
-/// @throws dynamics::ModelError, dynamics::SimulationError if the parts do not make a mechanism, the loops
-///   cannot be closed, or are open where they must not be; a file that was read without complaints does.
+/// Builds the dynamics of a sound mechanism file, with loops closed at the start as its initial
+/// state says.
+/// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no
+/// waves.
+/// @throws dynamics::ModelError, dynamics::SimulationError if the parts do not make a mechanism,
+///   the loops cannot be closed, or are open where they must not be; a file that was read without
+///   complaints does.
 BuiltMechanism build_mechanism(const MechanismFile& file,
                                const dynamics::HydrodynamicSeries* radiation = nullptr,
                                MarchedWater marched = {});
 
-/// Reads a mechanism file with all that it names, checks it, and builds it once to see that it can be.
-/// @returns the mechanism only if nothing is wrong with it; else the complaints are in `diagnostics`.
+/// Reads a mechanism file with all that it names, checks it, and builds it once to see that it can
+/// be.
+/// @returns the mechanism only if nothing is wrong with it; else the complaints are in
+/// `diagnostics`.
 std::optional<MechanismFile> read_mechanism(const std::filesystem::path& path,
                                             ModelLibrary& library, Diagnostics& diagnostics);
 

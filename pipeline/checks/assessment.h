@@ -16,8 +16,8 @@
 
 namespace blocklift::pipeline {
 
-/// The structural stage with what its pictures are made of. Without a model where no structure was asked:
-/// the load is a vessel.
+/// The structural stage with what its pictures are made of. Without a model where no structure was
+/// asked: the load is a vessel.
 struct BlockRun {
   std::unique_ptr<structure::ElasticModel> model;
   std::unique_ptr<structure::UnitResponses> responses;

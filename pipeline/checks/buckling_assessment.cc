@@ -29,7 +29,8 @@ BlockPanels make_panels(const LiftCase& lift_case, const structure::UnitResponse
   return {responses.model(), responses.displacements(), stiffening};
 }
 
-/// States of the block: factors of the unit responses, a column a state, and times if there are any.
+/// States of the block: factors of the unit responses, a column a state, and times if there are
+/// any.
 struct States {
   const Eigen::MatrixXd& factors;
   const Eigen::VectorXd* time = nullptr;  ///< s

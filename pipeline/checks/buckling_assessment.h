@@ -38,8 +38,8 @@ BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const structure::UnitResponses& responses,
                                    const BlockAssessment& block);
 
-/// A line for each name of plates: its panel that is nearest to buckling, critical stresses by Johnson and
-/// Ostenfeld, against 1 over the case's buckling factor.
+/// A line for each name of plates: its panel that is nearest to buckling, critical stresses by
+/// Johnson and Ostenfeld, against 1 over the case's buckling factor.
 std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAssessment& buckling);
 
 /// `structure.buckling` of summary.json: the first panels; all of them are in results.h5.

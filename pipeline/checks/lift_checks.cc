@@ -85,8 +85,8 @@ void add_capacities(const LiftCase& lift_case, const LiftRun& lift, std::vector<
   }
 }
 
-/// Where the load hangs: samples at which no pad bears it and, where it is a vessel, still water at its
-/// place would not bear nine tenths of its weight.
+/// Where the load hangs: samples at which no pad bears it and, where it is a vessel, still water at
+/// its place would not bear nine tenths of its weight.
 std::vector<char> find_hanging(const LiftCase& lift_case, const LiftRun& lift,
                                const dynamics::History& history) {
   std::vector<char> hangs(static_cast<std::size_t>(history.sample_count()), 1);

@@ -14,8 +14,8 @@ namespace blocklift::pipeline {
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift);
 
 /// Checked von Mises stress against yield with the case's factor, a line a material: the plate with
-/// the highest utilisation at any instant of the lift, or in the load table's states where there is no
-/// history (null).
+/// the highest utilisation at any instant of the lift, or in the load table's states where there is
+/// no history (null).
 std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block,
                                const HistoryAssessment* history = nullptr);
 

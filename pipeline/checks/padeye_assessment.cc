@@ -19,7 +19,8 @@ using structure::LoadCase;
 using structure::UnitResponses;
 using structure::Vector3;
 
-/// Gravity less the acceleration of the block at a point, m/s^2, in B (see structure::InertiaField).
+/// Gravity less the acceleration of the block at a point, m/s^2, in B (see
+/// structure::InertiaField).
 Vector3 gravity_less_acceleration(const structure::InertiaField& field, const Vector3& p) {
   const auto& w = field.angular_velocity_products;
   Eigen::Matrix3d products;
@@ -223,8 +224,8 @@ std::string rope_at(const LiftCase& lift_case, const std::string& lug) {
   return {};
 }
 
-/// @param find_instants_of the instants of a padeye that finite elements look at, formulae considered on the
-///   way; none where nothing pulls at it.
+/// @param find_instants_of the instants of a padeye that finite elements look at, formulae
+///   considered on the way; none where nothing pulls at it.
 template <typename Find>
 PadeyesAssessment assess_at(const LiftCase& lift_case, const UnitResponses& responses,
                             const Find& find_instants_of) {

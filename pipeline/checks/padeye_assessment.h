@@ -59,9 +59,10 @@ struct PadeyesAssessment {
   double evaluation_s = 0;  ///< wall-clock time
 };
 
-/// Looks at every padeye of the block: hand formulae at all instants of both histories; finite elements at
-/// the largest static and dynamic load, the largest force along the pin, and the instant of the base's
-/// largest utilisation. Padeyes of one design, width and height share one factorisation.
+/// Looks at every padeye of the block: hand formulae at all instants of both histories; finite
+/// elements at the largest static and dynamic load, the largest force along the pin, and the
+/// instant of the base's largest utilisation. Padeyes of one design, width and height share one
+/// factorisation.
 PadeyesAssessment assess_padeyes(const LiftCase& lift_case,
                                  const structure::UnitResponses& responses,
                                  const BlockAttachment& attachment,

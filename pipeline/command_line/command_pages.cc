@@ -22,7 +22,8 @@ std::vector<std::string> flags_of(const CLI::Option& option) {
   return flags;
 }
 
-/// The words that an option takes, where it takes only some ("TEXT:{bemio,wamit}"): each in quotes of a shell.
+/// The words that an option takes, where it takes only some ("TEXT:{bemio,wamit}"): each in quotes
+/// of a shell.
 std::string words_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   std::string words;

@@ -6,8 +6,8 @@
 namespace blocklift::pipeline {
 
 /// One line on a terminal that shows how far a stage of the run has come. It appears once the
-/// program has run for a second and is wiped when the stage ends; it is cut to the terminal's width,
-/// and where standard error is no terminal it never shows.
+/// program has run for a second and is wiped when the stage ends; it is cut to the terminal's
+/// width, and where standard error is no terminal it never shows.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string stage);

@@ -13,8 +13,8 @@ struct SimulateOptions {
 };
 
 /// `blocklift simulate FILE`: the motion of a mechanism or lift case into results.h5.
-/// @returns the exit code: 0. What goes wrong is thrown: InputError for the input, anything else for the
-///   run.
+/// @returns the exit code: 0. What goes wrong is thrown: InputError for the input, anything else
+///   for the run.
 int simulate_file(const SimulateOptions& options);
 
 }  // namespace blocklift::pipeline

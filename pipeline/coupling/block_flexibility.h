@@ -7,8 +7,8 @@
 
 namespace blocklift::pipeline {
 
-/// How the block of a case gives way at its lugs, from its structure: static condensation, and natural
-/// modes where the settings ask for them; none if it is taken as rigid.
+/// How the block of a case gives way at its lugs, from its structure: static condensation, and
+/// natural modes where the settings ask for them; none if it is taken as rigid.
 std::optional<LoadFlexibility> make_flexibility(const structure::UnitResponses& responses,
                                                 const DynamicsSettings& settings);
 

@@ -91,7 +91,8 @@ LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
   const Pose X_WB = block.X_WB(sample);
   LoadCase result;
   result.lug_forces_B.assign(attachment.lugs.size(), Vector3::Zero());
-  // All that acts on the body, less ropes at lugs and pressure on the shell, is left for the spread load.
+  // All that acts on the body, less ropes at lugs and pressure on the shell, is left for the spread
+  // load.
   Wrench rest;
   rest.moment = X_WB.R.transpose() * Vector3(block.load.row(sample).head<3>());
   rest.force = X_WB.R.transpose() * Vector3(block.load.row(sample).tail<3>());

@@ -57,9 +57,10 @@ BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyI
                              const std::vector<structure::LiftingPoint>& lugs);
 
 /// Loads on the block at one sample: every rope's force at that instant, gravity, and the inertia
-/// of the motion that the dynamics found. Water presses on the shell. What else acts on the body (wind,
-/// pads that it stands on, radiation and drag of the water, tugger lines that end elsewhere) is spread over
-/// the block's mass. Nothing is adjusted: the balance of the result measures how well the two stages agree.
+/// of the motion that the dynamics found. Water presses on the shell. What else acts on the body
+/// (wind, pads that it stands on, radiation and drag of the water, tugger lines that end elsewhere)
+/// is spread over the block's mass. Nothing is adjusted: the balance of the result measures how
+/// well the two stages agree.
 structure::LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
                                 const BlockAttachment& attachment,
                                 const structure::MassProperties& mass);

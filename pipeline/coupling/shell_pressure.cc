@@ -67,8 +67,8 @@ Eigen::MatrixXd resultants_of(const structure::ShellRegions& shell,
   return sum;
 }
 
-// The fewest modes (columns of `modes`, most important first) that leave no more than the tolerance of the
-// largest column, and what they leave.
+// The fewest modes (columns of `modes`, most important first) that leave no more than the tolerance
+// of the largest column, and what they leave.
 std::pair<Eigen::Index, double> count_modes(const Eigen::MatrixXd& modes,
                                             const Eigen::MatrixXd& columns, double tolerance) {
   Eigen::VectorXd left = columns.colwise().squaredNorm();

@@ -11,18 +11,18 @@
 /// Pressure of the water on the shell of a block that floats, or is lowered into the water.
 namespace blocklift::pipeline {
 
-/// A hull's wet surface seen from the regions of a block's shell: each triangle of the hull presses on the
-/// region nearest to it that looks the same way, with its own force at its own place.
+/// A hull's wet surface seen from the regions of a block's shell: each triangle of the hull presses
+/// on the region nearest to it that looks the same way, with its own force at its own place.
 ///
-/// The pressure is that of dynamics::HullForce on the same triangles, so that the wrenches of all regions
-/// sum up to the force that moved the body: to rounding in still water, in waves to the share by which that
-/// force takes boxes of panels whole.
+/// The pressure is that of dynamics::HullForce on the same triangles, so that the wrenches of all
+/// regions sum up to the force that moved the body: to rounding in still water, in waves to the
+/// share by which that force takes boxes of panels whole.
 class ShellPressure {
  public:
   ShellPressure(const dynamics::Hull& hull, const structure::ShellRegions& shell);
 
-  /// Wrenches on the regions with the block at a pose: rows 6 region + i, force (N) and moment about the
-  /// region's centre (N m), in B.
+  /// Wrenches on the regions with the block at a pose: rows 6 region + i, force (N) and moment
+  /// about the region's centre (N m), in B.
   /// @param in_waves false: the surface stays calm.
   void calc_wrenches(const dynamics::Sea& sea, bool in_waves, double time,
                      const dynamics::Pose& X_WB, Eigen::Ref<Eigen::VectorXd> wrenches) const;
@@ -45,10 +45,10 @@ struct PressureSettings {
 
 /// Few fields of pressure on a block's shell that make up that of every instant of two histories.
 ///
-/// They are the proper orthogonal modes (Sirovich 1987) of the regions' wrenches over both histories, moments
-/// divided by half a region's size. The error is the largest over all instants of what is left, over the
-/// largest of the wrenches themselves, both in the Euclidean norm; as many modes are taken as keep it below
-/// the tolerance.
+/// They are the proper orthogonal modes (Sirovich 1987) of the regions' wrenches over both
+/// histories, moments divided by half a region's size. The error is the largest over all instants
+/// of what is left, over the largest of the wrenches themselves, both in the Euclidean norm; as
+/// many modes are taken as keep it below the tolerance.
 struct PressureBasis {
   int regions = 0;             ///< of the shell
   double error = 0;            ///< see above

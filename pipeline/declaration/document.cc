@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number of bytes of the UTF-8 sequence that begins the text, 0 if there is none that is valid.
-/// RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF.
+/// The number of bytes of the UTF-8 sequence that begins the text, 0 if there is none that is
+/// valid. RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -165,8 +165,9 @@ class SecondDocument : public YAML::EventHandler {
   YAML::Mark mark_ = YAML::Mark::null_mark();
 };
 
-/// Where a second document begins; null if there is none. YAML::LoadAll is not asked: a lone comma or
-/// bracket between documents, which the parser does not pass, gives it empty documents without end.
+/// Where a second document begins; null if there is none. YAML::LoadAll is not asked: a lone comma
+/// or bracket between documents, which the parser does not pass, gives it empty documents without
+/// end.
 YAML::Mark find_second_document(const std::string& text) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);

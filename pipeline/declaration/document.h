@@ -27,8 +27,8 @@ struct Document {
 /// Reads a YAML file.
 ///
 /// Complains about, and returns nothing for, a file that is missing, no ordinary file, unreadable,
-/// larger than `largest_input_file` (without reading it), empty, binary, not UTF-8, not YAML, nested
-/// beyond reason, or more than one YAML document.
+/// larger than `largest_input_file` (without reading it), empty, binary, not UTF-8, not YAML,
+/// nested beyond reason, or more than one YAML document.
 std::optional<Document> load_document(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// The path as messages show it: relative to the working directory where that is shorter to say.

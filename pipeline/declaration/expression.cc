@@ -275,7 +275,8 @@ std::optional<int> power_of_growth(double ratio, double factor) {
 
 /// None if the value does not grow by a whole power of each base unit. The value must not be zero.
 std::optional<Exponents> find_exponents(Expression& expression, double value) {
-  // Factors with no simple relation to each other, so that different growths do not agree by chance.
+  // Factors with no simple relation to each other, so that different growths do not agree by
+  // chance.
   constexpr std::array<double, 4> factors = {1.7320508, 2.2360680, 1.3956124, 1.6180340};
   std::array<int, 4> powers{};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -285,7 +286,8 @@ std::optional<Exponents> find_exponents(Expression& expression, double value) {
     if (!power) return std::nullopt;
     powers[i] = *power;
   }
-  // All together, and far larger and smaller: conditions on values of no dimension change sides then.
+  // All together, and far larger and smaller: conditions on values of no dimension change sides
+  // then.
   for (const double scale : {1.0, 1e5, 1e-5}) {
     BaseUnits sizes{};
     double expected = value;

@@ -21,8 +21,8 @@ class Parameters {
   std::vector<std::pair<std::string, Measure>> values_;
 };
 
-/// An expression cannot be used. what() completes a sentence that begins with the name of the key, as
-/// that of QuantityError; hints say what is allowed.
+/// An expression cannot be used. what() completes a sentence that begins with the name of the key,
+/// as that of QuantityError; hints say what is allowed.
 class ExpressionError : public QuantityError {
  public:
   ExpressionError(const std::string& message, std::vector<std::string> hints = {})
@@ -33,7 +33,8 @@ class ExpressionError : public QuantityError {
   std::vector<std::string> hints_;
 };
 
-/// An expression uses a parameter whose own value could not be read, which has been complained about.
+/// An expression uses a parameter whose own value could not be read, which has been complained
+/// about.
 class UnreadParameter : public ExpressionError {
   using ExpressionError::ExpressionError;
 };
@@ -41,19 +42,20 @@ class UnreadParameter : public ExpressionError {
 /// Does a text begin with an equals sign, so that an expression stands behind it?
 bool is_expression(std::string_view text);
 
-/// Is the text a name that an expression can use: a letter first, then letters, digits and _, and no
-/// function, constant or unit of every day's use?
+/// Is the text a name that an expression can use: a letter first, then letters, digits and _, and
+/// no function, constant or unit of every day's use?
 bool is_parameter_name(std::string_view text);
 
 /// Evaluates `= boom / 2 + 30 cm`.
 ///
-/// A number directly before a unit counts as one factor; elsewhere a name is a parameter or else a unit.
-/// Trigonometric functions take and give angles. The dimension of the result is found by evaluating
-/// the expression again with metre, kilogram, second and radian of other sizes, one after another and
-/// all together, near and far from their own: a result that has a dimension grows by a whole power of each.
+/// A number directly before a unit counts as one factor; elsewhere a name is a parameter or else a
+/// unit. Trigonometric functions take and give angles. The dimension of the result is found by
+/// evaluating the expression again with metre, kilogram, second and radian of other sizes, one
+/// after another and all together, near and far from their own: a result that has a dimension grows
+/// by a whole power of each.
 ///
-/// @throws ExpressionError if a name is unknown, the expression is malformed, its result is not finite
-///   or has no dimension because it adds or compares what cannot be added.
+/// @throws ExpressionError if a name is unknown, the expression is malformed, its result is not
+///   finite or has no dimension because it adds or compares what cannot be added.
 Measure evaluate_expression(std::string_view text, const Parameters& parameters);
 
 /// The same as a quantity of one of the allowed dimensions; zero has the only one that is allowed.

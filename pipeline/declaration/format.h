@@ -16,8 +16,8 @@
 
 namespace blocklift::pipeline {
 
-/// Reads a value of a type that only its maker knows. Formats are many and their types too: all that
-/// tables do with readers stands once, in sources, for readers without types.
+/// Reads a value of a type that only its maker knows. Formats are many and their types too: all
+/// that tables do with readers stands once, in sources, for readers without types.
 class ErasedReader {
  public:
   ErasedReader() = default;
@@ -218,7 +218,8 @@ Format<std::vector<T>> named_tables(Format<T> table) {
           }};
 }
 
-/// Up to three ways to write a value, told apart by the kind of YAML node. An absent way is refused.
+/// Up to three ways to write a value, told apart by the kind of YAML node. An absent way is
+/// refused.
 template <class T>
 Format<T> by_shape(std::optional<Format<T>> scalar, std::optional<Format<T>> list,
                    std::optional<Format<T>> table) {

@@ -22,7 +22,8 @@ std::optional<Measure> read_measure(const YAML::Node& node, const std::string& w
   return std::nullopt;
 }
 
-/// The value that counts: that of the file, or one from outside, which must be of the same dimension.
+/// The value that counts: that of the file, or one from outside, which must be of the same
+/// dimension.
 Measure chosen_value(const std::string& name, const Measure& own, Reading& reading) {
   for (const OutsideParameter& outside : reading.outside_parameters()) {
     if (outside.name != name) continue;

@@ -69,7 +69,8 @@ const DimensionEntry& entry_of(Dimension dimension) {
   return entries.at(dimension);
 }
 
-/// The noun for exponents that a file has where others are due; empty if nobody has a name for them.
+/// The noun for exponents that a file has where others are due; empty if nobody has a name for
+/// them.
 std::string noun_of(const Exponents& exponents) {
   for (int i = 0; i <= static_cast<int>(Dimension::quadratic_rotational_damping); ++i) {
     const DimensionEntry& entry = entry_of(static_cast<Dimension>(i));
@@ -78,7 +79,8 @@ std::string noun_of(const Exponents& exponents) {
   return {};
 }
 
-// UDUNITS takes a unit apart by calling back with what it is made of; these gather scale and exponents.
+// UDUNITS takes a unit apart by calling back with what it is made of; these gather scale and
+// exponents.
 
 ut_status visit_basic(const ut_unit* unit, void* meaning);
 ut_status visit_product(const ut_unit* unit, int count, const ut_unit* const* basic_units,

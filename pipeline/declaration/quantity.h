@@ -14,8 +14,8 @@ inline constexpr double newton_per_tonne = 9806.65;
 
 /// What a number in an input file measures.
 ///
-/// The file writes a number with a unit ("860 t", "12 m", "3 m/min"); the program keeps the value in
-/// coherent SI units. `ratio` is a plain number or a percentage.
+/// The file writes a number with a unit ("860 t", "12 m", "3 m/min"); the program keeps the value
+/// in coherent SI units. `ratio` is a plain number or a percentage.
 enum class Dimension {
   ratio,
   length,
@@ -48,7 +48,8 @@ enum class Dimension {
   quadratic_rotational_damping,
 };
 
-/// Exponents of metre, kilogram, second and radian: what a unit or the result of an expression measures.
+/// Exponents of metre, kilogram, second and radian: what a unit or the result of an expression
+/// measures.
 struct Exponents {
   int metre = 0;
   int kilogram = 0;
@@ -87,13 +88,13 @@ class QuantityError : public std::runtime_error {
 
 /// Reads a number with its unit and converts it to SI.
 ///
-/// Units are those of UDUNITS-2 (`t` is the tonne, `h` the hour, `rad` is no plain number) and, added
-/// here, `deg`, `rev`, `Nm` and `tf`, with decimal prefixes where they make sense (`kNm`).
+/// Units are those of UDUNITS-2 (`t` is the tonne, `h` the hour, `rad` is no plain number) and,
+/// added here, `deg`, `rev`, `Nm` and `tf`, with decimal prefixes where they make sense (`kNm`).
 ///
 /// @param text the number and the unit, the blank between them may be missing: "860 t", "45deg".
 /// @param allowed dimensions of which one is due; the first that fits is returned.
-/// @throws QuantityError if the text is no finite number, has no unit where one is due, an unknown or
-///   ambiguous unit ("ton" is 907 kg to UDUNITS, 1000 kg to a shipyard), or another dimension.
+/// @throws QuantityError if the text is no finite number, has no unit where one is due, an unknown
+///   or ambiguous unit ("ton" is 907 kg to UDUNITS, 1000 kg to a shipyard), or another dimension.
 /// @throws std::runtime_error if the unit database of UDUNITS-2 is not installed.
 Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& allowed);
 
@@ -106,8 +107,8 @@ Measure parse_measure(std::string_view text);
 /// The SI value and the exponents of one of a unit ("kN", "min"); none if nobody knows it.
 std::optional<Measure> find_unit(const std::string& unit);
 
-/// A measure as the first of the allowed dimensions that it has (a mass where a load is due becomes its
-/// weight). None if it has none of them.
+/// A measure as the first of the allowed dimensions that it has (a mass where a load is due becomes
+/// its weight). None if it has none of them.
 std::optional<Quantity> as_quantity(const Measure& measure, const std::vector<Dimension>& allowed);
 
 /// "a length", or "of the unit kg m^2/s" where nobody has a name for it.
@@ -119,7 +120,8 @@ std::string what_is_due(const std::vector<Dimension>& allowed);
 /// Reads a plain finite number; the whole text must be the number. @throws QuantityError.
 double parse_number(std::string_view text);
 
-/// A value in SI units as a reader of messages likes it: "12 m", "3 m/min", "45 deg"; six digits at most.
+/// A value in SI units as a reader of messages likes it: "12 m", "3 m/min", "45 deg"; six digits at
+/// most.
 std::string format_quantity(double in_si, Dimension dimension);
 
 /// "a length", "a length or an angle", "a length, an angle or a force".

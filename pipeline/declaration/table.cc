@@ -8,7 +8,8 @@ namespace blocklift::pipeline::table_detail {
 
 namespace {
 
-/// Parses a default as if it stood in the file. @throws std::logic_error if the declaration is wrong.
+/// Parses a default as if it stood in the file. @throws std::logic_error if the declaration is
+/// wrong.
 YAML::Node parse_default(const std::string& text) {
   try {
     return YAML::Load(text);

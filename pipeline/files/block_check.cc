@@ -39,8 +39,8 @@ std::string positions_text(const PlateModel& plate) {
   return list_of_names(positions);
 }
 
-// The largest floating structures are some 500 m long, the thickest steel plates 0.3 m thick: what is
-// far beyond was written in another unit.
+// The largest floating structures are some 500 m long, the thickest steel plates 0.3 m thick: what
+// is far beyond was written in another unit.
 void doubt_units(const PlateModel& plate, Reading& reading) {
   constexpr double longest = 1000, thickest = 1;  // m
   for (const auto& extent : plate.extent) {

@@ -31,8 +31,8 @@ struct MeshModel {
 
 Format<MeshModel> mesh_model_format();
 
-/// Reads the deck of a block that names one, puts the block's lugs on it, and looks it over. All that
-/// is wrong is said by the deck's own files and lines, or by the block's.
+/// Reads the deck of a block that names one, puts the block's lugs on it, and looks it over. All
+/// that is wrong is said by the deck's own files and lines, or by the block's.
 /// @param folder of the block's file.
 void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
                      Diagnostics& diagnostics);
@@ -40,8 +40,8 @@ void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
 /// The deck's cards that are not, or not all, in the block; its loads and supports are among them.
 std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh);
 
-/// What was found in the deck and what became of it, as lines of text: cards that are not or not all
-/// used, remarks of the reader, and what the look-over saw.
+/// What was found in the deck and what became of it, as lines of text: cards that are not or not
+/// all used, remarks of the reader, and what the look-over saw.
 std::string describe_block_mesh(const MeshModel& mesh);
 
 }  // namespace blocklift::pipeline

@@ -31,7 +31,8 @@ struct Rectangle {
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
 };
 
-/// Stiffeners that a plate carries and its model does not: they divide its panels in the check of buckling.
+/// Stiffeners that a plate carries and its model does not: they divide its panels in the check of
+/// buckling.
 struct StiffenersModel {
   std::size_t along = 0;                                      ///< axis
   double spacing = std::numeric_limits<double>::quiet_NaN();  ///< m
@@ -63,7 +64,8 @@ struct PadModel : Rectangle {
   Located<std::string> material;                                ///< empty: that of the plate
 };
 
-/// Lug plate with the pin at which a rope pulls; on a mesh, a place of it and what carries the rope.
+/// Lug plate with the pin at which a rope pulls; on a mesh, a place of it and what carries the
+/// rope.
 struct LugModel : Rectangle {
   Located<std::string> name;
   Located<std::string> pad;
@@ -81,8 +83,8 @@ struct LugModel : Rectangle {
   bool is_place = false;  ///< on a mesh, by these keys, rather than a plate of its own
 };
 
-/// Stiffened block of flat plates, or the mesh of one, in its own frame: x along, y across, z up. SI
-/// units.
+/// Stiffened block of flat plates, or the mesh of one, in its own frame: x along, y across, z up.
+/// SI units.
 struct BlockModel {
   std::string kind;
   std::string title;

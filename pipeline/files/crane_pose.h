@@ -13,11 +13,12 @@ struct CranePose {
   Eigen::VectorXd q;              ///< nq
 };
 
-/// The pose in which a crane is put together: its joints as its file's `pose` says, or at zero, then
-/// those that no drive moves brought the shortest way to where all loops close. Lengths and offsets of
-/// loops that the file leaves open are those of this pose, whatever a case does with the crane.
-/// @throws dynamics::ModelError if the parts do not make a crane, dynamics::SimulationError if its loops
-///   cannot be closed, saying which and by how much they miss.
+/// The pose in which a crane is put together: its joints as its file's `pose` says, or at zero,
+/// then those that no drive moves brought the shortest way to where all loops close. Lengths and
+/// offsets of loops that the file leaves open are those of this pose, whatever a case does with the
+/// crane.
+/// @throws dynamics::ModelError if the parts do not make a crane, dynamics::SimulationError if its
+///   loops cannot be closed, saying which and by how much they miss.
 CranePose put_together(const CraneModel& crane);
 
 /// The same crane with its drives where the case starts them. They go there from the first pose at

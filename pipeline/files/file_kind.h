@@ -7,9 +7,9 @@ namespace blocklift::pipeline {
 /// What an input file is, by what it begins with.
 enum class FileKind { lift_case, mechanism, robot, crane, block, rope, part, vessel, vessels };
 
-/// The kind of a file, or of the file in a folder: a robot description is XML or ends in .urdf, a mechanism
-/// has the key `mechanism`, a part the key `part`, a model says its kind. Everything else, unreadable files included, counts as a
-/// lift case, whose reader says what is wrong.
+/// The kind of a file, or of the file in a folder: a robot description is XML or ends in .urdf, a
+/// mechanism has the key `mechanism`, a part the key `part`, a model says its kind. Everything
+/// else, unreadable files included, counts as a lift case, whose reader says what is wrong.
 FileKind kind_of_file(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline

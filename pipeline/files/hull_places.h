@@ -16,8 +16,8 @@ struct PlacedHull {
   dynamics::Pose X_WB;
 };
 
-/// Complains, at the mark of the second, about each two hulls that cut each other, above or below the
-/// water, or of which one holds the other.
+/// Complains, at the mark of the second, about each two hulls that cut each other, above or below
+/// the water, or of which one holds the other.
 void check_hulls_apart(const std::vector<PlacedHull>& hulls, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

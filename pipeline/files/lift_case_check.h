@@ -12,8 +12,8 @@ void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics);
 /// not be read are passed over.
 void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics);
 
-/// Complains about cranes of a case without other mistakes whose loops are open where the case starts
-/// their drives.
+/// Complains about cranes of a case without other mistakes whose loops are open where the case
+/// starts their drives.
 void check_loops_at_start(const LiftCase& lift_case, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

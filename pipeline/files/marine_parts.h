@@ -179,19 +179,20 @@ class ModelLibrary;
 void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
                         ModelLibrary& library, Diagnostics& diagnostics);
 
-/// Complains about vessels without a sea, seas that cannot be (waves that break, or are too short for a
-/// hull's panels), vessels that do not float at their draught, and lines to bodies that do not exist.
+/// Complains about vessels without a sea, seas that cannot be (waves that break, or are too short
+/// for a hull's panels), vessels that do not float at their draught, and lines to bodies that do
+/// not exist.
 /// @param bodies names of all bodies besides the vessels; "world" exists always.
 void check_marine_parts(const MarineParts& parts, double gravity,
                         const std::vector<std::string>& bodies, Diagnostics& diagnostics);
 
-/// Complains about draughts (m, ascending, from the hull's lowest point) that the hull of `who` does not
-/// reach, or too many of them.
+/// Complains about draughts (m, ascending, from the hull's lowest point) that the hull of `who`
+/// does not reach, or too many of them.
 void check_draughts(const std::string& who, const Located<std::vector<double>>& draughts,
                     const Vessel& vessel, Diagnostics& diagnostics);
 
-/// The vessels' hulls where they lie at the start, upright, at their draught or by their own weight. The
-/// parts are sound.
+/// The vessels' hulls where they lie at the start, upright, at their draught or by their own
+/// weight. The parts are sound.
 std::vector<PlacedHull> place_hulls(const MarineParts& parts);
 
 /// The sea of the file; its waves at rest if `at_rest`. The parts are sound.

@@ -32,7 +32,8 @@ void put_before(std::vector<T> imported, std::vector<T>& own, const char* noun,
              std::make_move_iterator(imported.end()));
 }
 
-/// Adds the parts of a robot; its root stands fixed in the world unless a joint of the file carries it.
+/// Adds the parts of a robot; its root stands fixed in the world unless a joint of the file carries
+/// it.
 void add_robot(RobotImport robot, const Mark& mark, MechanismFile& mechanism,
                Diagnostics& diagnostics) {
   for (std::string& note : robot.notes) mechanism.notes.push_back(std::move(note));
@@ -59,8 +60,8 @@ void add_robot(RobotImport robot, const Mark& mark, MechanismFile& mechanism,
   }
 }
 
-/// Each vessel is a body that moves freely, on a joint of its own name; its initial position may be given
-/// like that of any joint.
+/// Each vessel is a body that moves freely, on a joint of its own name; its initial position may be
+/// given like that of any joint.
 void add_vessels(MechanismFile& mechanism, Diagnostics& diagnostics) {
   std::vector<BodyModel> bodies;
   std::vector<JointModel> joints;

@@ -108,12 +108,14 @@ void check_mechanism_file(const MechanismFile& file, Reading& reading);
 /// Quantities that may be asked of an output's subject ("joint"), the first being the one that is
 /// meant if none is given.
 const std::vector<std::string>& output_quantities(const std::string& subject);
-/// The subject of an output: "joint", "point", "spring", "rope", "loop", "energy"; empty if it has none.
+/// The subject of an output: "joint", "point", "spring", "rope", "loop", "energy"; empty if it has
+/// none.
 std::string output_subject(const OutputModel& output);
 
-/// Reads a mechanism file with all that it names, and checks it as far as that goes without building
-/// its dynamics; read_mechanism() (pipeline/build/build_mechanism.h) does that, too.
-/// @returns the mechanism only if nothing is wrong with it; else the complaints are in `diagnostics`.
+/// Reads a mechanism file with all that it names, and checks it as far as that goes without
+/// building its dynamics; read_mechanism() (pipeline/build/build_mechanism.h) does that, too.
+/// @returns the mechanism only if nothing is wrong with it; else the complaints are in
+/// `diagnostics`.
 std::optional<MechanismFile> read_mechanism_file(const std::filesystem::path& path,
                                                  ModelLibrary& library, Diagnostics& diagnostics);
 

@@ -32,8 +32,8 @@ class ModelLibrary {
   const std::vector<std::filesystem::path>& folders() const { return model_folders_; }
 
   /// Files of one name in the folders right below `group`, in the order of those folders' names:
-  /// benchmarks/bricard/reference.yaml of the group benchmarks. Of folders of the same name in several
-  /// folders of models the first counts.
+  /// benchmarks/bricard/reference.yaml of the group benchmarks. Of folders of the same name in
+  /// several folders of models the first counts.
   std::vector<std::filesystem::path> files_of(const std::string& group,
                                               const std::string& file_name) const;
 

@@ -53,10 +53,11 @@ struct PlacedPadeye {
 Format<PadeyeDesign> padeye_format();
 Format<PadeyePart> padeye_part_format();
 
-/// Places a padeye where its lug is: the base is the edge of the pad that the lug juts out from, as wide
-/// as the lug; the hole is about the pin.
+/// Places a padeye where its lug is: the base is the edge of the pad that the lug juts out from, as
+/// wide as the lug; the hole is about the pin.
 /// @param faults what does not fit, a sentence each; empty: nothing.
-/// @returns none where even the base is unknown: the lug lies within its pad, or juts out on two sides.
+/// @returns none where even the base is unknown: the lug lies within its pad, or juts out on two
+/// sides.
 std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const BlockModel& block,
                                          const LugModel& lug, std::vector<std::string>& faults);
 

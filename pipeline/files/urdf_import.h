@@ -17,9 +17,10 @@ struct RobotImport {
   std::vector<std::string> notes;  ///< what of the description plays no part, and what was assumed
 };
 
-/// Reads a robot description: links become bodies; revolute, continuous, prismatic, fixed, floating and
-/// planar joints become joints with their damping; joints that mimic another one become gears. A link
-/// named "world" is the world. Limits, friction, safety controllers and shapes are named in the notes.
+/// Reads a robot description: links become bodies; revolute, continuous, prismatic, fixed, floating
+/// and planar joints become joints with their damping; joints that mimic another one become gears.
+/// A link named "world" is the world. Limits, friction, safety controllers and shapes are named in
+/// the notes.
 ///
 /// @param mark where the file is named, for complaints about the file as a whole.
 /// @returns nothing after a complaint.

@@ -8,8 +8,9 @@
 namespace blocklift::pipeline {
 
 /// Fingerprint of what a computation depends on, to know its result again: two hashes of 64 bits by
-/// the method of Fowler, Noll and Vo (FNV-1a), the second of the bytes turned over. The same content
-/// in the same order gives the same text on every machine; it is no protection against forgery.
+/// the method of Fowler, Noll and Vo (FNV-1a), the second of the bytes turned over. The same
+/// content in the same order gives the same text on every machine; it is no protection against
+/// forgery.
 class ContentHash {
  public:
   /// Numbers by their bits; 0 and -0 are the same.

@@ -5,9 +5,9 @@
 
 #include "pipeline/formats/hydrodynamic_database_file.h"
 
-/// Hydrodynamic databases of other programs. All errors are HydrodynamicFileError and name the file.
-/// What is read is checked (dynamics::require_sound); retardation functions and the added mass at
-/// infinite frequency are computed where a file lacks them.
+/// Hydrodynamic databases of other programs. All errors are HydrodynamicFileError and name the
+/// file. What is read is checked (dynamics::require_sound); retardation functions and the added
+/// mass at infinite frequency are computed where a file lacks them.
 namespace blocklift::pipeline {
 
 /// In radians: other programs write angles in degrees.
@@ -25,10 +25,10 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path, const W
 /// BEMIO, the files of WEC-Sim. Bodies /body1, /body2 ...; C order (6, 6N, frequencies).
 ///   added mass / rho, damping / (rho w), K / rho, stiffness / (rho g), excitation / (rho g)
 /// unless `scaled` is set; headings in degrees; force Re X e^{+i w t} of the wave
-/// cos(w t - k.x). Rotations and moments about the centre of gravity cg, which is given from the water
-/// surface. Froude-Krylov and scattering forces are read where they are (else the whole excitation
-/// counts as diffraction).
-/// Source: WEC-Sim documentation, "BEMIO"; conventions of its radiation and excitation terms.
+/// cos(w t - k.x). Rotations and moments about the centre of gravity cg, which is given from the
+/// water surface. Froude-Krylov and scattering forces are read where they are (else the whole
+/// excitation counts as diffraction). Source: WEC-Sim documentation, "BEMIO"; conventions of its
+/// radiation and excitation terms.
 dynamics::HydrodynamicDatabase read_bemio(const std::filesystem::path& path);
 void write_bemio(const std::filesystem::path& path, const dynamics::HydrodynamicDatabase& database);
 
@@ -36,21 +36,21 @@ void write_bemio(const std::filesystem::path& path, const dynamics::Hydrodynamic
 ///   .1    PER I J A [B]                   A / (rho L^k), B / (rho L^k w)
 ///   .3    PER BETA I |X| phase Re Im      X / (rho g a L^m)
 ///   .hst  I J C                           C / (rho g L^(k-1))
-/// k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the period, s; 0: infinite frequency,
-/// negative: zero frequency (passed over). BETA in degrees, force Re X e^{+i w t} of the wave
-/// cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies' own origins, which the files do
-/// not tell: here the world's. Written with 17 digits.
-/// Source: WAMIT User Manual v7, sections 4.2, 4.3 and 4.5.
+/// k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the period, s; 0: infinite
+/// frequency, negative: zero frequency (passed over). BETA in degrees, force Re X e^{+i w t} of the
+/// wave cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies' own origins, which the
+/// files do not tell: here the world's. Written with 17 digits. Source: WAMIT User Manual v7,
+/// sections 4.2, 4.3 and 4.5.
 dynamics::HydrodynamicDatabase read_wamit(const std::filesystem::path& name,
                                           const WamitScales& scales);
 void write_wamit(const std::filesystem::path& name, const dynamics::HydrodynamicDatabase& database);
 
 /// Capytaine's NetCDF-4 (an HDF5 file; NetCDF-3 is refused with what to do): added_mass,
 /// radiation_damping (omega, radiating_dof, influenced_dof), Froude_Krylov_force, diffraction_force
-/// (complex, omega, wave_direction, influenced_dof), dimensions in whatever order the file names; degrees
-/// of freedom "Heave" or "body__Heave". SI, headings in rad. Its time factor is e^{-i w t}: forces are
-/// conjugated. Rotations about rotation_center, else center_of_mass, else the world's origin.
-/// Source: Capytaine documentation, "Conventions" and "Export outputs".
+/// (complex, omega, wave_direction, influenced_dof), dimensions in whatever order the file names;
+/// degrees of freedom "Heave" or "body__Heave". SI, headings in rad. Its time factor is e^{-i w t}:
+/// forces are conjugated. Rotations about rotation_center, else center_of_mass, else the world's
+/// origin. Source: Capytaine documentation, "Conventions" and "Export outputs".
 dynamics::HydrodynamicDatabase read_capytaine(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline

@@ -26,7 +26,8 @@ struct HullReading {
 
 /// Reads a hull, by the ending of the file's name:
 ///
-///   .msh, .stl   surface elements that Gmsh reads: triangles and quadrangles, of any order by their
+///   .msh, .stl   surface elements that Gmsh reads: triangles and quadrangles, of any order by
+///     their
 ///                corners; the order of the vertices is kept, so diagnose() tells inverted hulls;
 ///   .geo         a geometry in Gmsh's language: meshed here, panels turned outwards;
 ///   .gdf         WAMIT's panels: title; ULEN GRAV; ISX ISY; NPAN; four vertices a panel. Symmetry

@@ -40,13 +40,13 @@ struct HydrodynamicFile {
 };
 
 /// Writes a file, whole or not at all.
-/// @throws HydrodynamicFileError if a database is unsound (dynamics::require_sound) or the file cannot
-///   be written.
+/// @throws HydrodynamicFileError if a database is unsound (dynamics::require_sound) or the file
+///   cannot be written.
 void write_hydrodynamic_file(const std::filesystem::path& path, const HydrodynamicFile& file);
 
-/// @throws HydrodynamicFileError if the file cannot be read, is of another format or a newer version,
-///   lacks something, has wrong shapes or numbers that are not finite: which dataset, what was found
-///   and what is due.
+/// @throws HydrodynamicFileError if the file cannot be read, is of another format or a newer
+///   version, lacks something, has wrong shapes or numbers that are not finite: which dataset, what
+///   was found and what is due.
 HydrodynamicFile read_hydrodynamic_file(const std::filesystem::path& path);
 
 /// A single database, its draught not told.
@@ -58,8 +58,8 @@ void write_hydrodynamic_database(const std::filesystem::path& path,
 /// @throws HydrodynamicFileError as above, or if the file holds several draughts.
 dynamics::HydrodynamicDatabase read_hydrodynamic_database(const std::filesystem::path& path);
 
-/// The identity of a file without reading the rest; none if there is no such file or it is not one of
-/// ours.
+/// The identity of a file without reading the rest; none if there is no such file or it is not one
+/// of ours.
 std::optional<std::string> read_identity(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline

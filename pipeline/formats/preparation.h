@@ -5,8 +5,8 @@
 
 namespace blocklift::pipeline {
 
-/// A folder within that of the results in which they are prepared; gone with everything in it unless
-/// moved, and so are the folders that were made for it.
+/// A folder within that of the results in which they are prepared; gone with everything in it
+/// unless moved, and so are the folders that were made for it.
 class Preparation {
  public:
   /// @throws std::filesystem::filesystem_error if a folder cannot be made.

@@ -6,10 +6,10 @@
 /// Where everything lies in results.h5 and summary.json: the one place that names it.
 ///
 /// The report is made from these two files alone. Parts marked (o) are optional: a case with a load
-/// table has no /static, /dynamic, /operation, /modes and /scene; a run without structure has no /structure;
-/// a mechanism has no /static, and /outputs besides.
-/// Sizes: n samples of the stage, b boxes, k rope points, N surface points, M surface quadrangles.
-/// Frames: W world, B a body, all SI. Poses are x y z, then the unit quaternion w x y z.
+/// table has no /static, /dynamic, /operation, /modes and /scene; a run without structure has no
+/// /structure; a mechanism has no /static, and /outputs besides. Sizes: n samples of the stage, b
+/// boxes, k rope points, N surface points, M surface quadrangles. Frames: W world, B a body, all
+/// SI. Poses are x y z, then the unit quaternion w x y z.
 ///
 /// results.h5
 ///   /                                  attributes format = "blocklift results", format_version = 1
@@ -68,8 +68,8 @@
 ///     von_mises                        Pa [c], of the mean stress   force   N [3], of the pin
 ///   /structure/history/points/<name>   point m [3]; <state>/von_mises, <state>/normal_stress   Pa [n]
 ///
-/// summary.json, one object; everything but case may be missing, null stands for "not known"; what is simulated
-/// and not assessed has no verdict
+/// summary.json, one object; everything but case may be missing, null stands for "not known"; what
+/// is simulated and not assessed has no verdict
 ///   case, title, program_version, created
 ///   verdict            "pass" | "fail";   verdict_reasons   list of text
 ///   checks             [{name, demand, limit, unit, utilisation, pass, time_s (o), note (o)}]

@@ -23,10 +23,10 @@ class SeriesFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads rows of numbers set apart by commas or semicolons; a first line that is no row of numbers is the
-/// header. Empty lines and lines that begin with # are passed over.
-/// @throws SeriesFileError if the file cannot be read, has no rows, rows of different length, or a value
-///   that is not a finite number.
+/// Reads rows of numbers set apart by commas or semicolons; a first line that is no row of numbers
+/// is the header. Empty lines and lines that begin with # are passed over.
+/// @throws SeriesFileError if the file cannot be read, has no rows, rows of different length, or a
+///   value that is not a finite number.
 SeriesFile read_series_file(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline

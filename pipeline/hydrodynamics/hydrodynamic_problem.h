@@ -45,8 +45,8 @@ struct HydrodynamicProblem {
   std::size_t state_count() const;
 };
 
-/// Reads a vessel file, or one of several vessels. Complains about everything that is wrong with it:
-/// keys and values, hulls that are open, inverted or out of the water. Null after a complaint.
+/// Reads a vessel file, or one of several vessels. Complains about everything that is wrong with
+/// it: keys and values, hulls that are open, inverted or out of the water. Null after a complaint.
 std::optional<HydrodynamicProblem> read_hydrodynamic_problem(const std::filesystem::path& file,
                                                              const ModelLibrary& library,
                                                              Diagnostics& diagnostics);
@@ -62,9 +62,10 @@ struct HydrodynamicState {
 };
 
 /// Finds the position of rest, cuts the hulls at the water, meshes the surface.
-/// @throws InputError, with the place in the file, if bodies intersect or a wave is too short for the
-///   panels; dynamics::ModelError if a body cannot float or is wholly above the water, or the surface
-///   cannot be meshed; dynamics::SimulationError if the memory does not suffice, with the figures.
+/// @throws InputError, with the place in the file, if bodies intersect or a wave is too short for
+///   the panels; dynamics::ModelError if a body cannot float or is wholly above the water, or the
+///   surface cannot be meshed; dynamics::SimulationError if the memory does not suffice, with the
+///   figures.
 HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t index);
 
 /// Fingerprint of a problem: equal if and only if nothing that the database follows from differs.

@@ -9,13 +9,13 @@ namespace blocklift::pipeline {
 
 /// A database for people: tables of its main figures as text, all of its curves as a page.
 ///
-/// `masses` are the bodies' mass matrices, 6N x 6N about the reference points, one for each draught: with
-/// them the responses of the free bodies are shown; empty: without.
+/// `masses` are the bodies' mass matrices, 6N x 6N about the reference points, one for each
+/// draught: with them the responses of the free bodies are shown; empty: without.
 std::string hydrodynamic_table(const HydrodynamicFile& file,
                                const std::vector<Eigen::MatrixXd>& masses);
 
-/// A page of HTML that needs nothing else: added mass, damping, retardation functions, excitation and
-/// response of each body and mode.
+/// A page of HTML that needs nothing else: added mass, damping, retardation functions, excitation
+/// and response of each body and mode.
 std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& title,
                               const std::vector<Eigen::MatrixXd>& masses);
 

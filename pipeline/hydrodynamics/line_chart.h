@@ -22,7 +22,8 @@ struct LineChart {
 /// Numbers that are not finite leave a gap.
 std::string to_svg(const LineChart& chart);
 
-/// Round figures (1, 2 or 5 times a power of ten apart) that span the values, about `count` of them.
+/// Round figures (1, 2 or 5 times a power of ten apart) that span the values, about `count` of
+/// them.
 std::vector<double> round_figures(double lowest, double highest, int count);
 
 }  // namespace blocklift::pipeline

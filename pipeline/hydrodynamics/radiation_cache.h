@@ -9,21 +9,24 @@
 
 namespace blocklift::pipeline {
 
-/// Where computed databases are kept: the folder that BLOCKLIFT_CACHE names, or `blocklift` in that of
-/// XDG_CACHE_HOME, or `.cache/blocklift` in the user's home. Empty if none of these is set: nothing is
-/// kept then.
+/// Where computed databases are kept: the folder that BLOCKLIFT_CACHE names, or `blocklift` in that
+/// of XDG_CACHE_HOME, or `.cache/blocklift` in the user's home. Empty if none of these is set:
+/// nothing is kept then.
 std::filesystem::path cache_folder();
 
-/// What tells databases apart: a hash of hulls, poses, water, frequencies and headings. Of bodies that stay.
+/// What tells databases apart: a hash of hulls, poses, water, frequencies and headings. Of bodies
+/// that stay.
 std::string identity_of(const RadiationProblem& problem);
 
-/// The database of a problem, or, where a body is lowered, one for each of its draughts after that of the
-/// others alone (dynamics::with_dry_body): from the cache if they lie there, else computed and put there. A
-/// cache that cannot be written is no error: databases are computed again next time.
+/// The database of a problem, or, where a body is lowered, one for each of its draughts after that
+/// of the others alone (dynamics::with_dry_body): from the cache if they lie there, else computed
+/// and put there. A cache that cannot be written is no error: databases are computed again next
+/// time.
 /// @param report called with a sentence about what is done; may be empty.
 /// @returns null for a problem without bodies, or one whose surface is marched directly.
-/// @throws InputError if the panel method refuses the problem (a wave too short for the panels, hulls
-///   in each other's way, a surface that cannot be meshed), dynamics::SimulationError as compute_radiation.
+/// @throws InputError if the panel method refuses the problem (a wave too short for the panels,
+///   hulls in each other's way, a surface that cannot be meshed), dynamics::SimulationError as
+///   compute_radiation.
 std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
     const RadiationProblem& problem, const std::function<void(const std::string&)>& report);
 

@@ -65,8 +65,8 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
                              const BlockAttachment& attachment, const BlockHistory& static_history,
                              const BlockHistory& dynamic_history);
 
-/// The same for a load table: one static and one dynamic set of forces (N, in B, one a lug) that act
-/// at once, balanced by inertia. All ways of combining them are this one.
+/// The same for a load table: one static and one dynamic set of forces (N, in B, one a lug) that
+/// act at once, balanced by inertia. All ways of combining them are this one.
 BlockAssessment assess_load_table(const structure::UnitResponses& responses,
                                   const structure::StressRecovery& recovery,
                                   const std::vector<structure::Vector3>& static_forces_B,

@@ -11,8 +11,8 @@ namespace blocklift::pipeline {
 /// Mesh, mass and load vectors of a block model.
 ///
 /// What the mesh generator and the spreading of outfitting refuse (parts that run into one another,
-/// that nothing joins or that carry a mass they cannot have; elements that no memory holds) is wrong
-/// in the input: it is said as a complaint about the block's file.
+/// that nothing joins or that carry a mass they cannot have; elements that no memory holds) is
+/// wrong in the input: it is said as a complaint about the block's file.
 /// @param name of the block, for messages.
 /// @returns null after a complaint.
 std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
@@ -20,7 +20,8 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
                                                           const StructureSettings& settings,
                                                           Diagnostics& diagnostics);
 
-/// The same complaints at little cost: the block in coarse elements of degree 1, made and forgotten.
+/// The same complaints at little cost: the block in coarse elements of degree 1, made and
+/// forgotten.
 void check_block_model(const BlockModel& block, const std::string& name, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

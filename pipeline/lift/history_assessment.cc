@@ -179,8 +179,8 @@ Vector3 principal_direction(const structure::Stress& s) {
       std::abs(solver.eigenvalues()[2]) >= std::abs(solver.eigenvalues()[0]) ? 2 : 0);
 }
 
-// Stress in time of one place, by its unit responses (6 x unit loads, Pa); cycles are counted of the part
-// along `normal`, or along the largest principal stress where none is given.
+// Stress in time of one place, by its unit responses (6 x unit loads, Pa); cycles are counted of
+// the part along `normal`, or along the largest principal stress where none is given.
 void fill_in(const Eigen::MatrixXd& unit, const Vector3* normal, const HistoryAssessment& history,
              double concentration, const structure::FatigueCurve& curve, StressHistory& result) {
   const auto von_mises = [&](const Eigen::MatrixXd& stress) {

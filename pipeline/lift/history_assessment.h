@@ -61,8 +61,8 @@ struct StressHistory {
   structure::Vector3 point_B = structure::Vector3::Zero();  ///< the square's centre, m
   std::string part;
   Eigen::VectorXd static_von_mises, dynamic_von_mises;  ///< of the membrane stress, Pa
-  /// Normal stress across the plane of the largest principal stress (in magnitude) at the instant of
-  /// the largest dynamic von Mises stress, Pa. It is what cycles are counted of.
+  /// Normal stress across the plane of the largest principal stress (in magnitude) at the instant
+  /// of the largest dynamic von Mises stress, Pa. It is what cycles are counted of.
   Eigen::VectorXd static_normal, dynamic_normal;
   std::vector<structure::Cycles> cycles;  ///< of the dynamic history, repeated lift after lift
   double damage_per_lift = 0;             ///< Miner's sum
@@ -79,8 +79,8 @@ struct HistoryAssessment {
   PracticeComparison rope_instants;  ///< only the instants of each rope's largest dynamic load
   std::vector<StressHistory> points;
   structure::FatigueCurve curve;
-  /// Structural stress at weld toes (structure::hot_spot_stress): von Mises of it, and the part of it
-  /// across the weld as normal stress; damage by their own curve.
+  /// Structural stress at weld toes (structure::hot_spot_stress): von Mises of it, and the part of
+  /// it across the weld as normal stress; damage by their own curve.
   std::vector<StressHistory> hot_spots;
   structure::FatigueCurve hot_spot_curve;
   double stress_concentration = 1;

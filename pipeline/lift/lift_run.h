@@ -36,12 +36,15 @@ struct LiftRun {
   double simulated_s() const { return model.system.operation().duration(); }
 };
 
-/// Sweeps the operation at rest, finds the natural modes on the way, then integrates it in time from the first equilibrium.
+/// Sweeps the operation at rest, finds the natural modes on the way, then integrates it in time
+/// from the first equilibrium.
 /// @throws dynamics::SimulationError when an equilibrium or the integration fails.
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
 
-/// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the rest.
-/// @throws InputError, dynamics::ModelError, dynamics::SimulationError as find_radiation and build_lift.
+/// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the
+/// rest.
+/// @throws InputError, dynamics::ModelError, dynamics::SimulationError as find_radiation and
+/// build_lift.
 /// @param flexibility of the load; null: it is rigid.
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
                        const LoadFlexibility* flexibility = nullptr);

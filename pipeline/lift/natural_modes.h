@@ -17,8 +17,9 @@ struct NaturalModes {
   dynamics::Linearisation linearisation;
 };
 
-/// Natural modes at the start, at the end of each stage, and at the instant at which a rope or tackle
-/// stands nearest to its breaking load at rest; drives and winches stand still there. Ascending in time.
+/// Natural modes at the start, at the end of each stage, and at the instant at which a rope or
+/// tackle stands nearest to its breaking load at rest; drives and winches stand still there.
+/// Ascending in time.
 /// @param static_history the operation at rest.
 /// @param q_start the equilibrium at the start (nq).
 /// @param interval in which the equilibrium is followed, s.
@@ -27,7 +28,8 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
                                              const dynamics::History& static_history,
                                              const Eigen::VectorXd& q_start, double interval);
 
-/// "natural periods at the start: load: pendulum along x 16.2 s, ...": the slowest three, for the terminal.
+/// "natural periods at the start: load: pendulum along x 16.2 s, ...": the slowest three, for the
+/// terminal.
 std::string describe_natural_periods(const NaturalModes& modes);
 
 /// The table "natural_periods" of summary.json (pipeline/formats/results_layout.h).

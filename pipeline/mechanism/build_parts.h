@@ -25,8 +25,9 @@ struct BaseGround {
 
 /// Makes bodies, loops and springs of the dynamics from the parts of one file.
 ///
-/// Names get the prefix ("C1."), and what the parts call the world is a base that stands in the world, or
-/// on a body that is there already (a vessel), at X_WBase. The parts must outlive the builder.
+/// Names get the prefix ("C1."), and what the parts call the world is a base that stands in the
+/// world, or on a body that is there already (a vessel), at X_WBase. The parts must outlive the
+/// builder.
 class PartsBuilder {
  public:
   /// @param X_WBase pose of the base in the world, or in the frame of the ground's body.
@@ -39,8 +40,8 @@ class PartsBuilder {
   /// @throws dynamics::ModelError if joints form a ring, or a body or joint is impossible.
   void add_bodies(dynamics::MechanismBuilder& builder, const std::vector<std::string>& held = {});
   /// Adds all loops; the bodies come first.
-  /// @param known the parts by themselves, whose loops have the lengths and offsets that the file leaves
-  ///   open; null: they stay open.
+  /// @param known the parts by themselves, whose loops have the lengths and offsets that the file
+  ///   leaves open; null: they stay open.
   /// @throws dynamics::ModelError as the builder does.
   void add_loops(dynamics::MechanismBuilder& builder,
                  const dynamics::Mechanism* known = nullptr) const;

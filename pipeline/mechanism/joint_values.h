@@ -16,12 +16,12 @@ struct JointVector {
   std::string complaint;   ///< completes "the position of joint O"; empty if all is well
 };
 
-/// Coordinates of a joint: one quantity for each; of a spherical joint roll, pitch and yaw or a quaternion
-/// (w, x, y, z), of a free one a position and then the same.
+/// Coordinates of a joint: one quantity for each; of a spherical joint roll, pitch and yaw or a
+/// quaternion (w, x, y, z), of a free one a position and then the same.
 JointVector joint_position(dynamics::JointKind kind, const std::vector<Quantity>& values);
 
-/// Velocities of a joint: one quantity for each; of a spherical joint angular speeds about the body's axes,
-/// of a free one speeds and then angular speeds along them.
+/// Velocities of a joint: one quantity for each; of a spherical joint angular speeds about the
+/// body's axes, of a free one speeds and then angular speeds along them.
 JointVector joint_velocity(dynamics::JointKind kind, const std::vector<Quantity>& values);
 
 }  // namespace blocklift::pipeline

@@ -74,8 +74,8 @@ struct DriveLimits {
 /// Points of a coordinate over time.
 using TimeTable = std::vector<std::array<Quantity, 2>>;
 
-/// Drive that prescribes a joint's motion: moved by an operation within its limits, at constant speed,
-/// or along a table. The latter two are for mechanism files alone.
+/// Drive that prescribes a joint's motion: moved by an operation within its limits, at constant
+/// speed, or along a table. The latter two are for mechanism files alone.
 struct DriveModel : DriveLimits {
   Located<std::string> name;
   Located<std::string> joint;
@@ -123,8 +123,8 @@ struct LoopModel {
 
 enum class SpringKind { point, joint, torsional };
 
-/// Spring and damper between two points, at a degree of freedom of a joint, or between the orientations of
-/// two bodies.
+/// Spring and damper between two points, at a degree of freedom of a joint, or between the
+/// orientations of two bodies.
 struct SpringModel {
   Located<std::string> name;
   SpringKind kind = SpringKind::point;

@@ -11,8 +11,9 @@ void check_loop_side(const LoopSide& side, Reading& reading, const Mark& mark);
 void check_loop(const LoopModel& loop, Reading& reading, const Mark& mark);
 void check_spring(const SpringModel& spring, Reading& reading, const Mark& mark);
 
-/// Complains about ends of joints, drives, loops and springs that do not exist or do not fit, bodies
-/// without joint or with several, and joints in a ring. reading.owner() is whose parts they are.
+/// Complains about ends of joints, drives, loops and springs that do not exist or do not fit,
+/// bodies without joint or with several, and joints in a ring. reading.owner() is whose parts they
+/// are.
 void check_parts(const MechanismParts& parts, Reading& reading);
 /// The part of check_parts that concerns loops and springs.
 void check_loops_and_springs(const MechanismParts& parts, Reading& reading);
@@ -36,7 +37,8 @@ bool is_angular(Dimension dimension);
 bool check_point(const MechanismParts& parts, const PointModel& point, const std::string& user,
                  Reading& reading);
 
-/// Looks up a joint for `user` ("force motor"). @returns null, after a complaint unless the name is empty.
+/// Looks up a joint for `user` ("force motor"). @returns null, after a complaint unless the name is
+/// empty.
 const JointModel* look_up_joint(const MechanismParts& parts, const Located<std::string>& name,
                                 const std::string& user, Reading& reading);
 

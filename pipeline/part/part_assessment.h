@@ -76,9 +76,9 @@ double figure_of(const PartAssessment& assessment, const PartReference& referenc
 /// What a figure is called: "yy at D", "mode 7".
 std::string name_of(const PartReference& reference);
 
-/// Writes summary.json, results.h5, part.vtu (or part.pvtu and the pieces of a team), modes.vtu (if there
-/// are modes) and, if asked for, part.inp (CalculiX) into a folder; all of them appear when all are
-/// written.
+/// Writes summary.json, results.h5, part.vtu (or part.pvtu and the pieces of a team), modes.vtu (if
+/// there are modes) and, if asked for, part.inp (CalculiX) into a folder; all of them appear when
+/// all are written.
 void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
                         bool calculix, const structure::PartTeam* team = nullptr);
 

@@ -11,7 +11,8 @@ namespace blocklift::pipeline {
 
 struct PartAssessment;
 
-/// A part that is a padeye: what the hand formulae and the finite elements say of it, without factors.
+/// A part that is a padeye: what the hand formulae and the finite elements say of it, without
+/// factors.
 struct PartPadeye {
   structure::PadeyeFormulaInput input;
   structure::Vector3 force_P = structure::Vector3::Zero();  ///< of all pins on the hole, N
@@ -19,8 +20,8 @@ struct PartPadeye {
   structure::PadeyeStress stress;
 };
 
-/// The mesh of a part's padeye, refinements included. @throws structure::ModelError if it would have more
-/// than 256 elements around its hole.
+/// The mesh of a part's padeye, refinements included. @throws structure::ModelError if it would
+/// have more than 256 elements around its hole.
 structure::PadeyeMesh part_padeye_mesh(const PartFile& file);
 
 /// Looks at the padeye of a solved part.

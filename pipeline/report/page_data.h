@@ -9,7 +9,8 @@
 
 namespace blocklift::pipeline {
 
-/// What the page of the report draws, as one JSON object (its twin is pipeline/report/web/src/data.ts):
+/// What the page of the report draws, as one JSON object (its twin is
+/// pipeline/report/web/src/data.ts):
 ///
 ///   summary     summary.json as it stands
 ///   case        {name, title, created, program_version, yaml}
@@ -18,12 +19,14 @@ namespace blocklift::pipeline {
 ///               {name, quantity, units, description, time, values}, thinned by indices_to_draw
 ///   motion      {static, dynamic}: {time, bodies: {name: poses}}, some hundred instants
 ///   outputs     list of series like those of the histories, what a mechanism file asks for
-///   modes       [{time, bodies: {name: amplitudes}}], in the order of the summary's natural_periods
+///   modes       [{time, bodies: {name: amplitudes}}], in the order of the summary's
+///     natural_periods
 ///   scene       {load, bodies: [{name, kind, boxes}], ropes: [{name, kind, bodies, points}], lugs}
 ///   surface     {points, quads, quad_group, groups, fields: {way: {state: {...}}}, note}
 ///
-/// Arrays are base64 of little-endian numbers: {"type": "f32" | "u16" | "i16" | "u32", "scale", "data"}.
-/// Field values are stored as 16-bit shares of their largest value, which is finer than any screen.
+/// Arrays are base64 of little-endian numbers: {"type": "f32" | "u16" | "i16" | "u32", "scale",
+/// "data"}. Field values are stored as 16-bit shares of their largest value, which is finer than
+/// any screen.
 ///
 /// Parts that the results do not have are null.
 /// @throws ResultsError if the file lacks what it must have or its parts do not fit together.

@@ -38,8 +38,8 @@ nlohmann::ordered_json radiation_json(const RadiationRecord& record);
 /// Puts "radiation" and what straying_warnings says into a summary; nothing without radiation.
 void add_radiation(const RadiationRecord& record, nlohmann::ordered_json& summary);
 
-/// How far the vessels came from the places for which their water was computed, for people; empty where one
-/// vessel alone makes waves, or none.
+/// How far the vessels came from the places for which their water was computed, for people; empty
+/// where one vessel alone makes waves, or none.
 std::string straying_sentence(const RadiationRecord& record);
 
 /// A sentence for each pair of vessels that came further than what holds good.

@@ -15,12 +15,14 @@ struct LiftSimulation {
   LiftRun run;
 };
 
-/// Static sweep and time integration of a lift case. The load's mass is that of its mesh, as for `assess`.
+/// Static sweep and time integration of a lift case. The load's mass is that of its mesh, as for
+/// `assess`.
 /// @throws InputError if the block cannot be meshed, dynamics::SimulationError as the stages do.
 LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress);
 
-/// Writes results.h5, summary.json and report.html into a folder (made if missing), with the parts that
-/// `assess` writes of the motion, and, if asked, results.csv: time, tension of each rope, position of each drive, load of each loop.
+/// Writes results.h5, summary.json and report.html into a folder (made if missing), with the parts
+/// that `assess` writes of the motion, and, if asked, results.csv: time, tension of each rope,
+/// position of each drive, load of each loop.
 /// @throws ResultsError, std::runtime_error if they cannot be written.
 void write_lift_simulation(const LiftSimulation& simulation, const std::filesystem::path& folder,
                            bool with_csv);

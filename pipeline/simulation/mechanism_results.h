@@ -7,7 +7,8 @@
 namespace blocklift::pipeline {
 
 /// Writes results.h5, summary.json and report.html into a folder (made if missing) and, if asked,
-/// results.csv: columns of time and outputs, units in the header. Each file appears whole or not at all.
+/// results.csv: columns of time and outputs, units in the header. Each file appears whole or not at
+/// all.
 /// @throws ResultsError, std::runtime_error if they cannot be written.
 void write_mechanism_results(const MechanismFile& file, const MechanismRun& run,
                              const std::filesystem::path& folder, bool with_csv);

@@ -24,11 +24,13 @@ struct MechanismRun {
 
 /// Simulates a mechanism file over its duration.
 /// @param progress called with the fraction done and the time; may be empty.
-/// @throws dynamics::ModelError, dynamics::SimulationError as the build, equilibrium and integration do.
+/// @throws dynamics::ModelError, dynamics::SimulationError as the build, equilibrium and
+/// integration do.
 MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress);
 
-/// Text of a CSV file: header "time [s],tip.x [m],...", then a line a sample, numbers with all digits.
+/// Text of a CSV file: header "time [s],tip.x [m],...", then a line a sample, numbers with all
+/// digits.
 std::string csv_text(const Eigen::VectorXd& time, const std::vector<OutputSeries>& outputs);
 
 /// A table of the smallest and largest value of each column with their times, for the terminal.

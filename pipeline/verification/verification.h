@@ -29,9 +29,9 @@ VerificationRow compare(std::string quantity, std::string unit, double reference
 VerificationRow bound(std::string quantity, std::string unit, double computed, double largest,
                       std::string source = {});
 
-/// One entry of the verification suite: what the program computes in a few seconds and holds against
-/// references. A stage of the program makes a list of these (see suite.h); nothing else is needed to
-/// take part.
+/// One entry of the verification suite: what the program computes in a few seconds and holds
+/// against references. A stage of the program makes a list of these (see suite.h); nothing else is
+/// needed to take part.
 struct VerificationCase {
   std::string name;    ///< "heavy-top": lower case, words joined by hyphens, unique in the suite
   std::string stage;   ///< "dynamics", "structure", ...
@@ -43,8 +43,8 @@ struct VerificationCase {
 /// The rows of a case, each with its source. What is thrown becomes a row that fails and says why.
 std::vector<VerificationRow> run(const VerificationCase& verification);
 
-/// Does the case match the pattern: a part of `stage/name`, or a glob (* ? [...]) of the whole name or
-/// of the whole `stage/name`?
+/// Does the case match the pattern: a part of `stage/name`, or a glob (* ? [...]) of the whole name
+/// or of the whole `stage/name`?
 bool matches(const VerificationCase& verification, const std::string& pattern);
 
 }  // namespace blocklift::pipeline

@@ -55,8 +55,8 @@ std::vector<HolePoint> find_points(const PartMesh& mesh, const SurfaceLoad& load
   return points;
 }
 
-/// Pressure at a point of the hole: the positive part of g . x with g = (n, s n), s = along / half the
-/// hole's length.
+/// Pressure at a point of the hole: the positive part of g . x with g = (n, s n), s = along / half
+/// the hole's length.
 class Pressure {
  public:
   Pressure(const std::vector<HolePoint>& points, const Vector2& force) : points_(points) {
@@ -76,8 +76,8 @@ class Pressure {
     return g;
   }
 
-  // sum area max(0, g . x) g = (force, 0): Newton's method on the gradient of a convex function that is
-  // quadratic between the places where points come to bear or cease to.
+  // sum area max(0, g . x) g = (force, 0): Newton's method on the gradient of a convex function
+  // that is quadratic between the places where points come to bear or cease to.
   void find(const Vector2& force) {
     Vector4 due = Vector4::Zero();
     due.head<2>() = force;

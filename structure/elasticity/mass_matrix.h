@@ -8,8 +8,8 @@
 
 namespace blocklift::structure {
 
-/// Consistent mass by nodes, m_ij = int rho N_i N_j dV, kg: the lower triangle. The mass matrix of the
-/// unknowns 3 n + a is this one for each axis a.
+/// Consistent mass by nodes, m_ij = int rho N_i N_j dV, kg: the lower triangle. The mass matrix of
+/// the unknowns 3 n + a is this one for each axis a.
 using NodalMass = SparseLower;
 
 /// Consistent mass of a part, by the elements' own rules (exact for straight elements).

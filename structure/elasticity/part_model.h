@@ -62,8 +62,8 @@ struct PartModel {
 };
 
 /// Stiffness of a part, N/m. Unknowns of nodes that are on no solid have 1 on the diagonal.
-/// @throws ModelError if the stiffness alone would not fit into the memory that is free; the message
-///   has the figures.
+/// @throws ModelError if the stiffness alone would not fit into the memory that is free; the
+///   message has the figures.
 SparseLower assemble_part_stiffness(const PartModel& model, int threads = 0);
 
 /// Stiffness of one solid, N/m: unknown 3 i + a of its node i along axis a.
@@ -71,7 +71,8 @@ Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid);
 
 PartMass find_part_mass(const PartModel& model);
 
-/// Load vector of all loads, N. @throws ModelError if a pressure acts on faces that are on no solid.
+/// Load vector of all loads, N. @throws ModelError if a pressure acts on faces that are on no
+/// solid.
 Eigen::VectorXd part_load(const PartModel& model);
 
 /// Held unknowns of all supports; where two hold the same unknown, their displacements must agree.
@@ -79,7 +80,8 @@ Eigen::VectorXd part_load(const PartModel& model);
 /// @throws ModelError if they do not.
 std::vector<FixedUnknown> part_supports(const PartModel& model, std::vector<int>& support_of);
 
-/// `fixed` and, behind it, the unknowns of nodes that are on no solid (middles of circles and the like).
+/// `fixed` and, behind it, the unknowns of nodes that are on no solid (middles of circles and the
+/// like).
 std::vector<FixedUnknown> with_idle_nodes(const PartModel& model, std::vector<FixedUnknown> fixed);
 
 }  // namespace blocklift::structure

@@ -166,7 +166,8 @@ class Body {
     return sum / static_cast<double>(piece.solids.size());
   }
 
-  // The displacement of a node along an axis with one piece, less that with another (if any), is zero.
+  // The displacement of a node along an axis with one piece, less that with another (if any), is
+  // zero.
   void add(int node, int axis, int piece, int other) {
     Twist row;
     row.head<3>() = (mesh_.nodes.col(node) - centre_).cross(Vector3::Unit(axis)) / length_;

@@ -10,14 +10,14 @@ namespace blocklift::structure {
 /// What supports leave of the rigid motions of a mesh.
 struct RigidFreedom {
   int count = 0;  ///< independent motions
-  /// In words: "translation along x", "rotation about the axis along (0, 0, 1) through (1, 2, 0) m"; of
-  /// which body where there are several that do not touch, of which elements where they hang on the
-  /// others by an edge or a point.
+  /// In words: "translation along x", "rotation about the axis along (0, 0, 1) through (1, 2, 0)
+  /// m"; of which body where there are several that do not touch, of which elements where they hang
+  /// on the others by an edge or a point.
   std::vector<std::string> motions;
 };
 
-/// Elements that share a face move as one; where such pieces share an edge or a point only, they are
-/// hinged there, which no stiffness resists.
+/// Elements that share a face move as one; where such pieces share an edge or a point only, they
+/// are hinged there, which no stiffness resists.
 RigidFreedom find_rigid_freedom(const PartModel& model, const std::vector<FixedUnknown>& fixed);
 
 }  // namespace blocklift::structure

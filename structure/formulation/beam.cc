@@ -83,14 +83,16 @@ Eigen::MatrixXd released_motions(const Space& space, int cell) {
   return directions;
 }
 
-/// @throws ModelError if the releases of both ends leave the beam between them a rigid motion of its own.
+/// @throws ModelError if the releases of both ends leave the beam between them a rigid motion of
+/// its own.
 void require_held(const Mesh& mesh, const Beam& beam) {
   const Eigen::Matrix3d axes = beam_axes(mesh, beam);
   const Vector3 ends[2] = {mesh.vertices[at(beam.vertices[0])] + beam.offset[0],
                            mesh.vertices[at(beam.vertices[1])] + beam.offset[1]};
   const Vector3 middle = (ends[0] + ends[1]) / 2;
   const double length = (ends[1] - ends[0]).norm();
-  // What held components of the centroid's ends do in the six rigid motions, rotations times half the length.
+  // What held components of the centroid's ends do in the six rigid motions, rotations times half
+  // the length.
   Eigen::MatrixXd held(0, 6);
   for (std::size_t end = 0; end < 2; ++end)
     for (int c = 0; c < 6; ++c) {
@@ -108,8 +110,8 @@ void require_held(const Mesh& mesh, const Beam& beam) {
     throw ModelError(fmt::format("beam {}: its releases leave it loose", beam.label));
 }
 
-/// What released ends do of themselves for motions of the nodes: no force acts along their directions D,
-/// D' K (u + D a) = 0.
+/// What released ends do of themselves for motions of the nodes: no force acts along their
+/// directions D, D' K (u + D a) = 0.
 Eigen::MatrixXd motion_with_releases(const Eigen::MatrixXd& stiffness,
                                      const Eigen::MatrixXd& directions, const Mesh& mesh,
                                      const Beam& beam) {

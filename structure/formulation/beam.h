@@ -19,23 +19,25 @@ struct BeamPoint {
 
 /// Strains of a beam's cell at a point of its unit length, for the freedoms of its nodes.
 ///
-/// Timoshenko: with the centroid's displacement u_c = u + theta x r, r its offset from the nodes' line,
+/// Timoshenko: with the centroid's displacement u_c = u + theta x r, r its offset from the nodes'
+/// line,
 ///   (stretch, shears) = d u_c / ds + t x theta,  (twist, curvatures) = d theta / ds
 /// in the beam's axes, t being its unit tangent.
 BeamPoint beam_point(const Space& space, int cell, double xi);
 
-/// Section forces for strains: diag(EA, G A_2, G A_3, G J, E I_2, E I_3) with E I_23 between the last two.
-/// An infinite shear area is taken as 1e4 times the section's.
+/// Section forces for strains: diag(EA, G A_2, G A_3, G J, E I_2, E I_3) with E I_23 between the
+/// last two. An infinite shear area is taken as 1e4 times the section's.
 Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
                                                const BeamSection& section);
 
-/// Stiffness of a beam's cell, freedoms in the order of Space::element_freedoms: as many Gauss points as
-/// the degree, which keeps thin beams from locking. Released ends are eliminated where they lie in the cell.
+/// Stiffness of a beam's cell, freedoms in the order of Space::element_freedoms: as many Gauss
+/// points as the degree, which keeps thin beams from locking. Released ends are eliminated where
+/// they lie in the cell.
 /// @throws ModelError if the releases leave the beam loose.
 Eigen::MatrixXd beam_stiffness(const Space& space, int cell);
 
-/// The motion of a cell's own ends for that of its nodes: they differ where the beam's ends are released.
-/// Its strains are those of this motion. @throws ModelError as beam_stiffness does.
+/// The motion of a cell's own ends for that of its nodes: they differ where the beam's ends are
+/// released. Its strains are those of this motion. @throws ModelError as beam_stiffness does.
 Eigen::MatrixXd beam_motion(const Space& space, int cell);
 
 }  // namespace blocklift::structure

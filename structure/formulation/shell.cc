@@ -127,8 +127,8 @@ void add_curvature(const Surface& s, const Shapes& shape, ShellStrain strain, do
   }
 }
 
-/// Adds to the drilling what a height makes of it: to its first power the turn of u + height theta x n along
-/// the surface there, which is n_1 x g_2 + g_1 x n_2 larger.
+/// Adds to the drilling what a height makes of it: to its first power the turn of u + height theta
+/// x n along the surface there, which is n_1 x g_2 + g_1 x n_2 larger.
 template <typename Row>
 void add_drilling_of_height(const Surface& s, const Shapes& shape, double height, Row&& row) {
   const double share = height / (2 * s.area);
@@ -140,8 +140,8 @@ void add_drilling_of_height(const Surface& s, const Shapes& shape, double height
   add(row, shape.d_2, share * s.dn_1, u);
 }
 
-/// A strain by the unit coordinates (a covariant component) of the mid-surface, which lies at an offset from
-/// the nodes' surface.
+/// A strain by the unit coordinates (a covariant component) of the mid-surface, which lies at an
+/// offset from the nodes' surface.
 template <typename Row>
 void covariant_strain(const Surface& s, const Shapes& shape, ShellStrain strain, double offset,
                       Row&& row) {
@@ -224,7 +224,8 @@ const auto tangents_flags = dealii::update_jacobians;
 const auto curved_flags = dealii::update_jacobians | dealii::update_jacobian_grads;
 const auto surface_flags = curved_flags | dealii::update_quadrature_points;
 
-/// What the geometry at points of tied or mean strains has to tell: with offsets the curvature, too.
+/// What the geometry at points of tied or mean strains has to tell: with offsets the curvature,
+/// too.
 dealii::UpdateFlags flags_of_strains(const Mesh& mesh) {
   const auto has_offset = [](const ShellSection& section) { return section.offset != 0; };
   return std::any_of(mesh.shell_sections.begin(), mesh.shell_sections.end(), has_offset)

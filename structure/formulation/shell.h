@@ -41,22 +41,24 @@ struct ShellPoint {
 ///   curvature k_ab = sym(g_a . d_b (theta x n) + d_a n . d_b u)
 ///   shear     g_a3 = n . d_a u + g_a . (theta x n)
 ///   drilling  d    = theta . n - (g_2 . d_1 u - g_1 . d_2 u) / (2 |g_1 x g_2|)
-/// which no rigid motion strains, whatever the curvature. The strain at the height z above the mid-surface
-/// is e + z k; a section's offset moves the mid-surface away from the nodes.
+/// which no rigid motion strains, whatever the curvature. The strain at the height z above the
+/// mid-surface is e + z k; a section's offset moves the mid-surface away from the nodes.
 ///
-/// So that thin shells do not lock, shear strains of degree 1 are those of the middles of the edges (Bathe
-/// and Dvorkin 1985), and its membrane shear is the mean of the cell; of a degree p above it e_11 and g_13
-/// are taken at p x (p + 1) Gauss points, e_22 and g_23 at (p + 1) x p, e_12 at p x p (Bucalem and Bathe 1993
-/// for p = 2). What that takes from the mean membrane strain of a cell which is no parallelogram is given back
-/// evenly, so that constant stress does the same work on tied strains as on those of the displacements: without
-/// it distorted cells fail the patch test (for the mean of assumed strains see Simo and Hughes 1986).
-/// Source of the drilling term: Hughes and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121,
-/// with a hundredth of their stiffness G t: where plates meet, the slope of one is the drilling of another.
+/// So that thin shells do not lock, shear strains of degree 1 are those of the middles of the edges
+/// (Bathe and Dvorkin 1985), and its membrane shear is the mean of the cell; of a degree p above it
+/// e_11 and g_13 are taken at p x (p + 1) Gauss points, e_22 and g_23 at (p + 1) x p, e_12 at p x p
+/// (Bucalem and Bathe 1993 for p = 2). What that takes from the mean membrane strain of a cell
+/// which is no parallelogram is given back evenly, so that constant stress does the same work on
+/// tied strains as on those of the displacements: without it distorted cells fail the patch test
+/// (for the mean of assumed strains see Simo and Hughes 1986). Source of the drilling term: Hughes
+/// and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121, with a hundredth of their
+/// stiffness G t: where plates meet, the slope of one is the drilling of another.
 ///
 /// One object serves one thread.
 class ShellOperator {
  public:
-  /// @param points of the unit square, 2 x m, at which strains are wanted; the space must outlive this.
+  /// @param points of the unit square, 2 x m, at which strains are wanted; the space must outlive
+  /// this.
   ShellOperator(const Space& space, const Eigen::Matrix2Xd& points);
   ~ShellOperator();
 
@@ -79,20 +81,21 @@ class ShellOperator {
   std::unique_ptr<Mean> mean_;
 };
 
-/// Stress resultants of a section for generalised strains: membrane forces (N/m), moments (N m/m), shear
-/// forces (N/m), drilling; the plane-stress Hooke's law, shear factor 5/6.
+/// Stress resultants of a section for generalised strains: membrane forces (N/m), moments (N m/m),
+/// shear forces (N/m), drilling; the plane-stress Hooke's law, shear factor 5/6.
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
                                                                         double thickness);
 
-/// The same of a shell as it is, layered or not, for strains along unit tangents e_1 and e_2 and the shell's
-/// own normal: A, B, D and S of a laminate turned into them, with the drilling stiffness of its nearest plate.
+/// The same of a shell as it is, layered or not, for strains along unit tangents e_1 and e_2 and
+/// the shell's own normal: A, B, D and S of a laminate turned into them, with the drilling
+/// stiffness of its nearest plate.
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Mesh& mesh,
                                                                         const Shell& shell,
                                                                         const Vector3& e_1,
                                                                         const Vector3& e_2);
 
-/// Stiffness of shells, N/m, N, N m: freedoms in the order of Space::element_freedoms. One object serves
-/// one thread.
+/// Stiffness of shells, N/m, N, N m: freedoms in the order of Space::element_freedoms. One object
+/// serves one thread.
 class ShellStiffness {
  public:
   explicit ShellStiffness(const Space& space);
@@ -105,7 +108,8 @@ class ShellStiffness {
   Eigen::MatrixXd rooted_, stiffness_;
 };
 
-/// Gauss points and weights of the unit square, `count` along each side: 3 x count^2 (xi, eta, weight).
+/// Gauss points and weights of the unit square, `count` along each side: 3 x count^2 (xi, eta,
+/// weight).
 Eigen::Matrix3Xd square_rule(int count);
 
 }  // namespace blocklift::structure

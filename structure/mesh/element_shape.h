@@ -6,9 +6,9 @@
 
 namespace blocklift::structure {
 
-/// Shape functions of an element kind at any place, through its nodes: polynomials of the space that
-/// the kind spans (complete for tetrahedra, products for hexahedra and wedges, serendipity where the
-/// inner nodes are missing). Source: Zienkiewicz, Taylor, Zhu (2013), chapter 6.
+/// Shape functions of an element kind at any place, through its nodes: polynomials of the space
+/// that the kind spans (complete for tetrahedra, products for hexahedra and wedges, serendipity
+/// where the inner nodes are missing). Source: Zienkiewicz, Taylor, Zhu (2013), chapter 6.
 class ElementShape {
  public:
   /// @throws ModelError if the kind is no solid that is known.

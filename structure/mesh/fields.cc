@@ -78,8 +78,8 @@ bool same_section(const Mesh& mesh, int a, int b) {
          std::abs(of_a.thickness - of_b.thickness) < 1e-6 * of_a.thickness;
 }
 
-/// Two shells that go on into one another across an edge. The normals are those in the edge's middle, since
-/// curved shells are smooth where they meet and not in their middles.
+/// Two shells that go on into one another across an edge. The normals are those in the edge's
+/// middle, since curved shells are smooth where they meet and not in their middles.
 bool is_smooth(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b, double kink) {
   const auto middle = [](const EdgeOfShell& e) -> Eigen::Vector2d {
     const Eigen::Vector2d on_edge =
@@ -325,7 +325,8 @@ std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPla
       here.xi = here.xi.cwiseMax(-2.0).cwiseMin(3.0);
       if (change.cwiseAbs().maxCoeff() < 1e-10) break;
     }
-    // How far the point lies outside, by the edges in their order: eta < 0, xi > 1, eta > 1, xi < 0.
+    // How far the point lies outside, by the edges in their order: eta < 0, xi > 1, eta > 1, xi <
+    // 0.
     const std::array<double, 4> outside{-here.xi.y(), here.xi.x() - 1, here.xi.y() - 1,
                                         -here.xi.x()};
     const double worst = *std::max_element(outside.begin(), outside.end());

@@ -27,28 +27,28 @@ struct FieldEdge {
   double angle_at_end = 0;  ///< of the field's material at the vertex where the edge ends, rad
 };
 
-/// Plating that goes on smoothly with one section: bounded by joints with other plates, by kinks, changes of
-/// thickness and free edges. How shells or regions divide it does not matter.
+/// Plating that goes on smoothly with one section: bounded by joints with other plates, by kinks,
+/// changes of thickness and free edges. How shells or regions divide it does not matter.
 struct PlateField {
   std::vector<int> shells;
   std::vector<bool> is_flipped;  ///< of each shell: its normal is against the field's
   int region = 0;                ///< that has most of the shells
-  /// Outlines, each running round with the field on its left, seen against its normal; the first one found
-  /// may be a hole's.
+  /// Outlines, each running round with the field on its left, seen against its normal; the first
+  /// one found may be a hole's.
   std::vector<std::vector<FieldEdge>> outlines;
 };
 
-/// The fields of a mesh, and the vertices where linear elasticity knows no limit of the stress in a field's
-/// plane: where an outline turns away from the material (openings' corners, ends of brackets) or a joint on
-/// it begins or ends (lugs' toes).
+/// The fields of a mesh, and the vertices where linear elasticity knows no limit of the stress in a
+/// field's plane: where an outline turns away from the material (openings' corners, ends of
+/// brackets) or a joint on it begins or ends (lugs' toes).
 struct PlateFields {
   std::vector<PlateField> fields;
   std::vector<int> field_of_shell;
   std::vector<int> singular_vertices;
 };
 
-/// Is a field to go on from one of two shells into the other, which meet nothing else at the edge between
-/// the two vertices?
+/// Is a field to go on from one of two shells into the other, which meet nothing else at the edge
+/// between the two vertices?
 using GoesOn = std::function<bool(int shell, int other, int vertex_1, int vertex_2)>;
 
 /// @param kink angle between two shells' normals from which on a field ends, rad.
@@ -66,8 +66,8 @@ class FieldWalker {
  public:
   /// The mesh must outlive this object.
   FieldWalker(const Mesh& mesh, const PlateFields& fields);
-  /// The point of the start's field that lies nearest to a place, if the place lies over it (to 1e-6 of a
-  /// shell's size).
+  /// The point of the start's field that lies nearest to a place, if the place lies over it (to
+  /// 1e-6 of a shell's size).
   std::optional<ShellPlace> find(const Vector3& place, const ShellPlace& start) const;
 
  private:

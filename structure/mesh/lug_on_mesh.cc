@@ -134,8 +134,8 @@ class LugMaker {
     return found;
   }
 
-  /// Distance from the pin within which the neighbourhood of the lug lies: what carries it, and of a
-  /// vertex the plates that its links reach.
+  /// Distance from the pin within which the neighbourhood of the lug lies: what carries it, and of
+  /// a vertex the plates that its links reach.
   double reach() const {
     std::set<int> vertices = vertices_of(point_.shells);
     if (point_.shells.empty()) {

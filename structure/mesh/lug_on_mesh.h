@@ -20,9 +20,9 @@ struct LugOnMesh {
 
 /// Adds a lifting point to a mesh.
 ///
-/// Shells that are named, lie with a corner within the radius of the pin or meet in the vertex carry
-/// the force, spread over them as over a lug plate. A vertex where no shells meet (of a beam, a
-/// link) takes the force as it is, and a set without shells takes it by its vertices, through a
+/// Shells that are named, lie with a corner within the radius of the pin or meet in the vertex
+/// carry the force, spread over them as over a lug plate. A vertex where no shells meet (of a beam,
+/// a link) takes the force as it is, and a set without shells takes it by its vertices, through a
 /// distributing link of equal weights whose reference is a new vertex at the pin.
 ///
 /// @throws ModelError if the pin is farther than 1 m from all plates and no radius is given, no

@@ -36,8 +36,8 @@ struct ShellSection {
 
 /// Quadrangle or triangle of plating. Its normal is d/dxi x d/deta.
 struct Shell {
-  /// Vertices at the unit square's corners (0, 0), (1, 0), (0, 1), (1, 1). The last two of a triangle
-  /// are one.
+  /// Vertices at the unit square's corners (0, 0), (1, 0), (0, 1), (1, 1). The last two of a
+  /// triangle are one.
   std::array<int, 4> vertices{};
   int section = 0;     ///< place in Mesh::shell_sections
   int region = 0;      ///< place in Mesh::regions
@@ -67,8 +67,8 @@ struct BeamSection {
   long label = 0;                                          ///< the property's number in its file
 };
 
-/// Which of the six freedoms (displacements, rotations along the beam's own axes 1, 2, 3) one end of a
-/// beam does not pass on.
+/// Which of the six freedoms (displacements, rotations along the beam's own axes 1, 2, 3) one end
+/// of a beam does not pass on.
 using BeamRelease = std::array<bool, 6>;
 
 /// Beam between two vertices.
@@ -94,8 +94,8 @@ struct PointMass {
   long label = 0;
 };
 
-/// Vertices that move as one rigid body with another: u_i = u + theta x (x_i - x), theta_i = theta, for
-/// the components that are bound.
+/// Vertices that move as one rigid body with another: u_i = u + theta x (x_i - x), theta_i = theta,
+/// for the components that are bound.
 struct RigidLink {
   int master = 0;
   std::vector<int> slaves;
@@ -104,8 +104,8 @@ struct RigidLink {
   long label = 0;
 };
 
-/// A vertex that follows others without stiffening them: its motion is the rigid motion that fits theirs
-/// best by least squares, so that forces on it are spread as a bolt pattern does.
+/// A vertex that follows others without stiffening them: its motion is the rigid motion that fits
+/// theirs best by least squares, so that forces on it are spread as a bolt pattern does.
 struct DistributingLink {
   int reference = 0;
   std::vector<int> vertices;
@@ -115,16 +115,16 @@ struct DistributingLink {
   long label = 0;
 };
 
-/// Vertex that lies on a shell without being a corner of it (the middle of a quadratic element's edge,
-/// where something else is fastened) and moves with it.
+/// Vertex that lies on a shell without being a corner of it (the middle of a quadratic element's
+/// edge, where something else is fastened) and moves with it.
 struct SurfacePoint {
   int vertex = 0;
   int shell = 0;
   Eigen::Vector2d xi = Eigen::Vector2d::Zero();  ///< on the unit square
 };
 
-/// Spring between two freedoms, or one and the ground: its force is k (u_1 - u_2), each u the motion of
-/// a point fixed to its vertex.
+/// Spring between two freedoms, or one and the ground: its force is k (u_1 - u_2), each u the
+/// motion of a point fixed to its vertex.
 struct Spring {
   std::array<int, 2> vertices{-1, -1};  ///< -1: the ground
   std::array<int, 2> components{0, 0};  ///< 0 .. 2 displacement, 3 .. 5 rotation along `axes`
@@ -163,8 +163,8 @@ struct LiftingPoint {
 
 /// Conforming mesh of a structure: shells, beams, masses, links and springs on common vertices.
 ///
-/// Cells are joined where they share vertices: shells along edges, beams along shells' edges, and what
-/// else meets in a vertex. Any number of shells may meet along an edge.
+/// Cells are joined where they share vertices: shells along edges, beams along shells' edges, and
+/// what else meets in a vertex. Any number of shells may meet along an edge.
 struct Mesh {
   std::vector<Vector3> vertices;    ///< m
   std::vector<long> vertex_labels;  ///< their numbers in the file; empty: none
@@ -172,7 +172,8 @@ struct Mesh {
   std::vector<ShellSection> shell_sections;
   std::vector<Laminate> laminates;
   std::vector<Shell> shells;
-  /// Points of curved shells: (order + 1)^2 columns on the unit square, equally spaced, xi fastest, m.
+  /// Points of curved shells: (order + 1)^2 columns on the unit square, equally spaced, xi fastest,
+  /// m.
   std::vector<Eigen::Matrix3Xd> curved_shells;
   std::vector<BeamSection> beam_sections;
   std::vector<Beam> beams;
@@ -205,13 +206,13 @@ Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi
 /// Longest edge of a shell between its vertices, m.
 double longest_edge(const Mesh& mesh, const Shell& shell);
 
-/// Numbers of the connected parts (through vertices and links) of the vertices, from 0; -1 for vertices
-/// that nothing uses.
+/// Numbers of the connected parts (through vertices and links) of the vertices, from 0; -1 for
+/// vertices that nothing uses.
 std::vector<int> connected_parts(const Mesh& mesh);
 
-/// @throws ModelError naming cells with vertices, sections or regions that are not there, shells without
-///   area, thickness that is not positive, beams without length, links and masses of vertices that are
-///   not there.
+/// @throws ModelError naming cells with vertices, sections or regions that are not there, shells
+///   without area, thickness that is not positive, beams without length, links and masses of
+///   vertices that are not there.
 void check_mesh(const Mesh& mesh);
 
 }  // namespace blocklift::structure

@@ -143,7 +143,8 @@ bool ShellTree::is_hit(const Vector3& origin, const Vector3& direction, double f
   return false;
 }
 
-// The nearest point's region of the plane: Ericson (2005), Real-Time Collision Detection, section 5.1.5.
+// The nearest point's region of the plane: Ericson (2005), Real-Time Collision Detection, section
+// 5.1.5.
 double squared_distance(const Vector3& place, const Vector3& a, const Vector3& side_1,
                         const Vector3& side_2) {
   const Vector3 arm = place - a;

@@ -18,13 +18,13 @@ void write_part_vtu(const std::string& path, const PartModel& model, const PartS
 /// write_part_vtu and in the same folder. @throws ModelError if the file cannot be written.
 void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces);
 
-/// Writes the shapes of natural modes for ParaView (`.vtu`): point data `mode_1`, `mode_2` and so on
-/// (m/sqrt(kg)); cell data as above. @throws ModelError if the file cannot be written.
+/// Writes the shapes of natural modes for ParaView (`.vtu`): point data `mode_1`, `mode_2` and so
+/// on (m/sqrt(kg)); cell data as above. @throws ModelError if the file cannot be written.
 void write_part_modes_vtu(const std::string& path, const PartModel& model,
                           const NaturalModes& modes);
 
-/// Writes mesh, materials, supports and loads as input of CalculiX (`.inp`), in m, kg, s, N, Pa; the
-/// loads as nodal forces, just as they are solved here, so that a comparison compares elements.
+/// Writes mesh, materials, supports and loads as input of CalculiX (`.inp`), in m, kg, s, N, Pa;
+/// the loads as nodal forces, just as they are solved here, so that a comparison compares elements.
 /// Elements become C3D4, C3D10, C3D6, C3D15, C3D8 and C3D20.
 /// @throws ModelError if the mesh holds elements with nodes inside faces, which CalculiX lacks, or
 ///   the file cannot be written.

@@ -23,7 +23,8 @@ namespace blocklift::structure {
 
 namespace {
 
-/// The edges of a beam's strip from its centroid: along the section axis in which it reaches farthest.
+/// The edges of a beam's strip from its centroid: along the section axis in which it reaches
+/// farthest.
 std::array<Vector3, 2> strip_of(const Mesh& mesh, const Beam& beam) {
   Eigen::Vector2d lower = Eigen::Vector2d::Zero(), upper = lower;
   for (const Eigen::Vector2d& point : stress_points(mesh.section_of(beam))) {

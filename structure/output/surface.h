@@ -15,16 +15,17 @@ struct SurfaceField {
   std::vector<double> von_mises;      ///< Pa, averaged over the cells of one plate at a point
 };
 
-/// A block's plates as quadrangles on their mid-surfaces, for pictures; beams as strips along their centroid
-/// lines, as high as their sections. Of triangles two corners are one.
+/// A block's plates as quadrangles on their mid-surfaces, for pictures; beams as strips along their
+/// centroid lines, as high as their sections. Of triangles two corners are one.
 ///
-/// The stress of a point is the larger von Mises stress of the plate's two surfaces (which the membrane's
-/// never exceeds), of a beam the largest magnitude of the normal stress over its section. Points are shared
-/// within one plate only, so that edges stay sharp and stresses of different plates are not mixed.
+/// The stress of a point is the larger von Mises stress of the plate's two surfaces (which the
+/// membrane's never exceeds), of a beam the largest magnitude of the normal stress over its
+/// section. Points are shared within one plate only, so that edges stay sharp and stresses of
+/// different plates are not mixed.
 class Surface {
  public:
-  /// @param largest_point_count cells are divided along their edges as often as the degree, but less if
-  ///   more points than this would result (then at least once).
+  /// @param largest_point_count cells are divided along their edges as often as the degree, but
+  ///   less if more points than this would result (then at least once).
   explicit Surface(const ElasticModel& model, int largest_point_count = 60000);
 
   const std::vector<Vector3>& points() const { return points_; }  ///< in the block frame, m
@@ -34,8 +35,8 @@ class Surface {
   const std::vector<int>& quad_groups() const { return quad_groups_; }
   const std::vector<std::string>& group_names() const { return group_names_; }
 
-  /// Stress of each point, the largest over a history (of factors of the responses), Pa: the largest of
-  /// the cells of one plate at a point, nothing averaged.
+  /// Stress of each point, the largest over a history (of factors of the responses), Pa: the
+  /// largest of the cells of one plate at a point, nothing averaged.
   std::vector<double> envelope(const UnitResponses& responses, const LoadHistory& history) const;
   /// Values of a load case at the points; the responses must be of the same model.
   SurfaceField evaluate(const UnitResponses& responses, const LoadCase& load_case) const;

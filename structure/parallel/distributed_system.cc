@@ -83,7 +83,8 @@ class System {
  private:
   bool owns(int row) const { return row >= share_.first_row && row < share_.end_row; }
 
-  // Rows of three that share a solid with each own row, itself included: on this process, elsewhere.
+  // Rows of three that share a solid with each own row, itself included: on this process,
+  // elsewhere.
   void create_matrix(int rows) {
     const PartMesh& mesh = share_.model.mesh;
     std::vector<std::vector<int>> solids(at(share_.end_row - share_.first_row));

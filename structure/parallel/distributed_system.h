@@ -18,9 +18,10 @@ struct ShareSolution {
 
 /// Solves K u = f, each process holding a share of the rows; all processes of the group call this.
 ///
-/// Direct: Cholesky factorisation by MUMPS. Iterative: conjugate gradients with smoothed aggregation,
-/// an algebraic multigrid method which is given the six rigid motions (Vanek, Mandel, Brezina, 1996),
-/// by PETSc. Left to choose, it takes the direct way if MUMPS' own estimate of its memory fits.
+/// Direct: Cholesky factorisation by MUMPS. Iterative: conjugate gradients with smoothed
+/// aggregation, an algebraic multigrid method which is given the six rigid motions (Vanek, Mandel,
+/// Brezina, 1996), by PETSc. Left to choose, it takes the direct way if MUMPS' own estimate of its
+/// memory fits.
 /// @throws ModelError on all processes alike: the memory does not suffice, the stiffness is not
 ///   positive definite, the iteration does not converge.
 ShareSolution solve_share(const ProcessGroup& group, const PartShare& share,

@@ -55,8 +55,8 @@ std::string outcome(const ProcessGroup& group, const std::string& complaint) {
   return first;
 }
 
-// A ModelError stops all processes at the same place; after another error this one is alone with it,
-// and the rest would wait for it.
+// A ModelError stops all processes at the same place; after another error this one is alone with
+// it, and the rest would wait for it.
 template <typename Step>
 std::string complaint_of(const Step& step) {
   try {

@@ -25,8 +25,9 @@ class PartTeam {
   PartDisplacement solve(const PartModel& model, const std::vector<FixedUnknown>& fixed,
                          const Eigen::VectorXd& load, const SolverChoice& choice);
 
-  /// Each process writes the solids of its share with the last solution, `STEM_0.vtu` and so on; the
-  /// leader writes STEM.pvtu, which ParaView opens. @throws ModelError if a file cannot be written.
+  /// Each process writes the solids of its share with the last solution, `STEM_0.vtu` and so on;
+  /// the leader writes STEM.pvtu, which ParaView opens. @throws ModelError if a file cannot be
+  /// written.
   void write_pieces(const std::string& stem) const;
 
  private:

@@ -27,7 +27,8 @@ std::vector<double> reversals(const Eigen::VectorXd& history) {
 
 Cycles cycle(double a, double b, double count) { return {std::abs(a - b), (a + b) / 2, count}; }
 
-// DNV-RP-C203 (2011), table 2-1, S-N curves in air: log10 of the constants a of N = a S^-m, S in MPa.
+// DNV-RP-C203 (2011), table 2-1, S-N curves in air: log10 of the constants a of N = a S^-m, S in
+// MPa.
 struct Tabulated {
   const char* name;
   double slope, log_constant, log_constant_beyond;

@@ -18,10 +18,10 @@ struct HotSpot {
   }
 };
 
-/// Structural stress at a weld toe, extrapolated linearly: 1.67 sigma(0.4 t) - 0.67 sigma(1.0 t), each
-/// component. Source: Hobbacher (2016), Recommendations for fatigue design of welded joints and components,
-/// IIW-2259-15, section 2.2.3.4, type a, fine mesh (there written with these rounded factors; exact ones,
-/// 5/3 and 2/3, are taken, so that a linear stress is met exactly).
+/// Structural stress at a weld toe, extrapolated linearly: 1.67 sigma(0.4 t) - 0.67 sigma(1.0 t),
+/// each component. Source: Hobbacher (2016), Recommendations for fatigue design of welded joints
+/// and components, IIW-2259-15, section 2.2.3.4, type a, fine mesh (there written with these
+/// rounded factors; exact ones, 5/3 and 2/3, are taken, so that a linear stress is met exactly).
 template <class Stresses>
 auto hot_spot_stress(const Stresses& at_04_t, const Stresses& at_10_t) {
   return (5.0 / 3 * at_04_t - 2.0 / 3 * at_10_t).eval();
@@ -32,7 +32,8 @@ struct HotSpotStress {
   double normal = 0;     ///< across the weld: d . sigma d, Pa
   double principal = 0;  ///< of largest magnitude, Pa
   double angle = 0;      ///< between its direction and d, rad, 0 to pi/2
-  /// The principal stress if it acts within 60 degrees of d, else the one across the weld (IIW, 2.2.3).
+  /// The principal stress if it acts within 60 degrees of d, else the one across the weld (IIW,
+  /// 2.2.3).
   double governing = 0;
 };
 

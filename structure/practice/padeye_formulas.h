@@ -33,23 +33,27 @@ struct PadeyeFormula {
 ///   bearing pressure            F / (D_p T) <= 0.9 F_y
 ///   tear-out, two shear planes  F / (2 sum t (R - D_H/2)) <= 0.4 F_y
 ///   net section                 F / sum t (2 R - D_H) <= 0.6 F_y
-///   base                        |N|/A / 0.6 F_y + M_in/W_in / 0.66 F_y + M_out/W_out / 0.75 F_y <= 1
+///   base                        |N|/A / 0.6 F_y + M_in/W_in / 0.66 F_y + M_out/W_out / 0.75 F_y <=
+///     1
 ///   shear in the base           V/A <= 0.4 F_y
 ///   cheek welds                 F t_c / T on half a circle's throat <= 0.4 F_y
-/// (allowables of working-stress design; sums over the plates, T their sum, R their radii), with the part
-/// along the pin taken as `side_load` of F at least (API RP 2A);
-///   DNV 2.7-3: bearing (Hertz) 0.045 sqrt(F E / (D_H T)), or 0.18 sqrt(F (1/D_p - 1/D_H) E / T) with
+/// (allowables of working-stress design; sums over the plates, T their sum, R their radii), with
+/// the part along the pin taken as `side_load` of F at least (API RP 2A);
+///   DNV 2.7-3: bearing (Hertz) 0.045 sqrt(F E / (D_H T)), or 0.18 sqrt(F (1/D_p - 1/D_H) E / T)
+///     with
 ///   D_p < 0.94 D_H; tear-out 2 F / sum t (2 R - D_H); both against the yield stress;
 ///   ASME BTH-1 (3-3.3): see asme_pin_plate.
 std::vector<PadeyeFormula> padeye_strength(const PadeyeFormulaInput& input, const Vector3& force_P);
 
-/// Rules of practice for a padeye's measures (GL Noble Denton 0027/ND rev. 11.2, section 12): main plate's
-/// radius >= D_H; hole larger than the pin by 2 mm or 3 %, at most by 6 mm; cheek plate no thicker than
-/// the main plate; plates fill the shackle's jaw to 75 % and enter it.
+/// Rules of practice for a padeye's measures (GL Noble Denton 0027/ND rev. 11.2, section 12): main
+/// plate's radius >= D_H; hole larger than the pin by 2 mm or 3 %, at most by 6 mm; cheek plate no
+/// thicker than the main plate; plates fill the shackle's jaw to 75 % and enter it.
 std::vector<PadeyeFormula> padeye_rules(const PadeyeFormulaInput& input);
 
-/// Allowable loads of a pin-connected plate by ASME BTH-1 (2014), section 3-3.3, N, summed over plates:
-///   P_t = C_r F_u / (1.2 N_d) 2 t b_eff,  b_eff = min(b_e, 4 t, 0.6 b_e F_u / F_y sqrt(D_h / b_e)),
+/// Allowable loads of a pin-connected plate by ASME BTH-1 (2014), section 3-3.3, N, summed over
+/// plates:
+///   P_t = C_r F_u / (1.2 N_d) 2 t b_eff,  b_eff = min(b_e, 4 t, 0.6 b_e F_u / F_y sqrt(D_h /
+///     b_e)),
 ///   P_b = C_r F_u / (1.2 N_d) (1.13 (R - D_h/2) + 0.92 b_e / (1 + b_e / D_h)) t,
 ///   P_v = 0.7 F_u / (1.2 N_d) 2 (a + D_p/2 (1 - cos phi)) t,  phi = 55 D_p / D_h degrees,
 ///   P_p = 1.25 F_y / N_d D_p t,  C_r = 1 - 0.275 sqrt(1 - D_p^2 / D_h^2),  a = b_e = R - D_h/2.

@@ -67,8 +67,8 @@ ShellShare share_of_shell(const Mesh& mesh, int number, bool is_flipped) {
   return share;
 }
 
-/// The direction in which most of a field's outline runs, in the plane across a normal; of two alike the one
-/// nearer to x, then y, so that square panels of a plate lie the same way.
+/// The direction in which most of a field's outline runs, in the plane across a normal; of two
+/// alike the one nearer to x, then y, so that square panels of a plate lie the same way.
 Vector3 main_direction(const Mesh& mesh, const PlateField& field, const Vector3& normal) {
   constexpr double parallel = 0.995;  // cosine
   std::vector<Vector3> chords;
@@ -129,8 +129,8 @@ Bounds bounds_of(const Mesh& mesh, const PlateField& field, const Panel& panel) 
   return bounds;
 }
 
-/// A panel but for its edges: named after the region that has most of its volume, as thick as the thinnest
-/// plate that has a tenth of its area.
+/// A panel but for its edges: named after the region that has most of its volume, as thick as the
+/// thinnest plate that has a tenth of its area.
 void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Panel& panel) {
   double volume = 0, area = 0;
   std::map<int, double> of_region;        // volume
@@ -160,7 +160,8 @@ void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Pa
       panel.material = mesh.section_of(mesh.shells[at(shell)]).material;
 }
 
-/// Edges of the bounding rectangle near which no other plate or beam holds the panel over half of their length.
+/// Edges of the bounding rectangle near which no other plate or beam holds the panel over half of
+/// their length.
 FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const Bounds& bounds,
                           const std::set<Edge>& beams, const Panel& panel) {
   constexpr double near_edge = 0.05;  // of the panel's side

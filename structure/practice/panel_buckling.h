@@ -32,18 +32,21 @@ struct PanelStress {
   double s22_gradient = 0;  ///< of s22 across a
 };
 
-/// Buckling coefficient k of a panel under compression along its side `length`, spread over the side
-/// `width`, the stress falling linearly from 1 at one end of the width to psi at the other;
+/// Buckling coefficient k of a panel under compression along its side `length`, spread over the
+/// side `width`, the stress falling linearly from 1 at one end of the width to psi at the other;
 /// sigma_E = k pi^2 E / (12 (1 - nu^2)) (t / width)^2. By the edges of `length` that lie free:
 ///   none: min over m of (m width / length + length / (m width))^2 (Bryan 1891), times
-///     2.1 / (psi + 1.1) for psi >= 0 and (7.6 - 6.4 psi + 10 psi^2) / 4 for -1 <= psi < 0 (DNV Rules for
-///     ships, part 3 chapter 1 section 13); the latter for length >= width only, else that of psi = 0;
+///     2.1 / (psi + 1.1) for psi >= 0 and (7.6 - 6.4 psi + 10 psi^2) / 4 for -1 <= psi < 0 (DNV
+///       Rules for
+///     ships, part 3 chapter 1 section 13); the latter for length >= width only, else that of psi =
+///       0;
 ///   one: 0.425 + (width / length)^2; both: (width / length)^2, a wide column
 ///     (Timoshenko and Gere, 1961, sections 9.4 and 9.2); the larger stress all over the width.
 double compression_coefficient(double length, double width, double psi, int free_edges);
 
-/// k of a simply supported panel in shear, the shorter side being the width: 5.34 + 4 (short / long)^2
-/// (Timoshenko and Gere, 1961, section 9.7); half of it where an edge lies free, an estimate.
+/// k of a simply supported panel in shear, the shorter side being the width: 5.34 + 4 (short /
+/// long)^2 (Timoshenko and Gere, 1961, section 9.7); half of it where an edge lies free, an
+/// estimate.
 double shear_coefficient(double a, double b, bool free_edge);
 
 /// pi^2 E / (12 (1 - nu^2)) (t / width)^2, Pa.
@@ -64,8 +67,8 @@ struct BucklingUtilisation {
 BucklingUtilisation buckling_utilisation(const PanelSize& size, const FreeEdges& free,
                                          const Material& material, const PanelStress& stress);
 
-/// Panel of a block: a field of plate between its neighbours, its kinks and beams, of whatever direction.
-/// Changes of thickness within it do not hold it; lugs are none.
+/// Panel of a block: a field of plate between its neighbours, its kinks and beams, of whatever
+/// direction. Changes of thickness within it do not hold it; lugs are none.
 struct Panel {
   std::string plate;  ///< name of the region that has most of it, "web_frames at x = 4 m"
   std::string group;  ///< name of that region's group

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double looked_at = 0.6;   // of the largest stress: squares that later steps look at
 constexpr double refined_at = 0.8;  // likewise: about which cells are divided
-// A first mesh shows little of what gathers in a corner: there squares of less stress are followed too.
+// A first mesh shows little of what gathers in a corner: there squares of less stress are followed
+// too.
 constexpr double looked_at_in_corners = 0.4;
 constexpr double growth = 0.8;      // of cells with the distance from a square
 constexpr double first_edge = 0.1;  // m
@@ -76,8 +77,8 @@ std::vector<Square> candidates(const Evaluation& found) {
   return result;
 }
 
-/// Places about which cells are divided: the squares of the largest stress, the largest first, one of those
-/// that lie together.
+/// Places about which cells are divided: the squares of the largest stress, the largest first, one
+/// of those that lie together.
 /// @param corners the share of the largest stress from which on those in corners are taken.
 std::vector<Vector3> centres_of(const Evaluation& found, double corners) {
   const Eigen::VectorXd share = found.share();

@@ -35,7 +35,8 @@ struct CheckedAccuracy {
   std::vector<AccuracyStep> steps;
   bool is_reached = false;
 
-  /// Change of the stress in the last step, the larger of at rest and in motion, share; 0 for one step.
+  /// Change of the stress in the last step, the larger of at rest and in motion, share; 0 for one
+  /// step.
   double stress_change() const;
   /// Change of the increase by motion in the last step, in shares of the stress at rest.
   double increase_change() const;
@@ -53,13 +54,15 @@ struct RefinedBlock {
   CheckedAccuracy accuracy;
 };
 
-/// Divides a block's shells about the squares with the largest checked stress, again and again, until the
-/// largest stress at rest and in motion and the increase from one to the other change by less than the goal.
+/// Divides a block's shells about the squares with the largest checked stress, again and again,
+/// until the largest stress at rest and in motion and the increase from one to the other change by
+/// less than the goal.
 ///
-/// Each step solves anew and looks at the squares that had at least six tenths of the largest stress before.
-/// Cells about the largest of them are divided to 0.1 m, then 0.05 m and so on, growing with the distance.
-/// The loads are those of the rigid block, whatever its mesh.
-/// @param factors_of the factors of a model's responses; it may add to them loads of its own before.
+/// Each step solves anew and looks at the squares that had at least six tenths of the largest
+/// stress before. Cells about the largest of them are divided to 0.1 m, then 0.05 m and so on,
+/// growing with the distance. The loads are those of the rigid block, whatever its mesh.
+/// @param factors_of the factors of a model's responses; it may add to them loads of its own
+/// before.
 RefinedBlock refine_checked_stress(
     std::unique_ptr<ElasticModel> model, std::unique_ptr<UnitResponses> responses,
     const std::function<LoadFactors(const ElasticModel&, UnitResponses&)>& factors_of,

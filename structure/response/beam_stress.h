@@ -8,14 +8,14 @@
 
 namespace blocklift::structure {
 
-/// Points (x_2, x_3) of a beam's section at which its stress is looked at, m: BeamSection::stress_points; of
-/// a section that has none the corners of the rectangle with its area's radii of gyration,
-/// x_2 = +-sqrt(3 I_3 / A), x_3 = +-sqrt(3 I_2 / A).
+/// Points (x_2, x_3) of a beam's section at which its stress is looked at, m:
+/// BeamSection::stress_points; of a section that has none the corners of the rectangle with its
+/// area's radii of gyration, x_2 = +-sqrt(3 I_3 / A), x_3 = +-sqrt(3 I_2 / A).
 std::vector<Eigen::Vector2d> stress_points(const BeamSection& section);
 
-/// Normal stress along a beam at the points of its section, Pa: a row a point of stress_points(), a column a
-/// motion (freedoms x k), s = E (stretch + x_3 k_2 - x_2 k_3); of a rod the stretch alone. Ends that are
-/// released turn and move as the release lets them.
+/// Normal stress along a beam at the points of its section, Pa: a row a point of stress_points(), a
+/// column a motion (freedoms x k), s = E (stretch + x_3 k_2 - x_2 k_3); of a rod the stretch alone.
+/// Ends that are released turn and move as the release lets them.
 /// @param cell place in Space::beams(); @param xi on its unit length.
 Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
                               const Eigen::Ref<const Eigen::MatrixXd>& motions);

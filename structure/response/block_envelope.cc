@@ -22,7 +22,8 @@ struct Running {
   }
 };
 
-// Largest membrane stresses: of all squares, away from corners, of each group and lug's neighbourhood.
+// Largest membrane stresses: of all squares, away from corners, of each group and lug's
+// neighbourhood.
 struct SquareMaxima {
   Running all, field;
   std::vector<Running> groups, lugs;

@@ -59,8 +59,8 @@ Eigen::VectorXd response_weights(const CheckedStress& checked);
 /// stand, the rest zero), 6 x unit loads, Pa.
 Eigen::MatrixXd unit_stress_of_square(const CheckedStress& checked, int square);
 
-/// How much each part of a load has in a stress: with s_i the deviator of part i's stress and s that
-/// of the whole, (s_i : s) / (s : s), which sum to 1 over parts that make up the whole.
+/// How much each part of a load has in a stress: with s_i the deviator of part i's stress and s
+/// that of the whole, (s_i : s) / (s : s), which sum to 1 over parts that make up the whole.
 /// @param unit_stress 6 x unit loads; @param parts factors of the unit loads, a column a part;
 /// @param whole factors of all loads together.
 Eigen::VectorXd stress_shares(const Eigen::MatrixXd& unit_stress, const Eigen::MatrixXd& parts,

@@ -19,8 +19,8 @@ namespace {
 using Resultants = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // membrane forces, moments
 using Law = Eigen::Matrix<double, 6, 6>;
 
-/// Turns (11, 22, 12) of forces and moments from axes at an angle `a` to the field's into the field's; of a
-/// cell whose normal is against the field's moments change their sign.
+/// Turns (11, 22, 12) of forces and moments from axes at an angle `a` to the field's into the
+/// field's; of a cell whose normal is against the field's moments change their sign.
 Law turn_to_field(double a, bool is_flipped) {
   const double c = std::cos(a), s = std::sin(a);
   Eigen::Matrix3d turn;

@@ -11,12 +11,12 @@ namespace blocklift::structure {
 
 /// Stress error of a block's motion by recovery, in the energy norm of membrane and bending.
 ///
-/// Membrane forces and moments of each shell cell at its p x p Gauss points, where elements of degree p are
-/// most accurate (Barlow 1976), are carried to its nodes by the polynomials through these points and averaged
-/// there over the cells of one field of plating: the recovered resultants, as smooth as the motion. With e
-/// the difference to the elements' own resultants, |e|^2 = int e : law^-1 : e dA.
-/// Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng. 24, 337-357, with the local smoothing of
-/// Hinton and Campbell (1974).
+/// Membrane forces and moments of each shell cell at its p x p Gauss points, where elements of
+/// degree p are most accurate (Barlow 1976), are carried to its nodes by the polynomials through
+/// these points and averaged there over the cells of one field of plating: the recovered
+/// resultants, as smooth as the motion. With e the difference to the elements' own resultants,
+/// |e|^2 = int e : law^-1 : e dA. Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng.
+/// 24, 337-357, with the local smoothing of Hinton and Campbell (1974).
 struct BlockError {
   double relative = 0;  ///< |e| over the square root of |e|^2 + |s_h|^2, of the whole block
   /// The same of each group of cells, in the order of Mesh::groups.

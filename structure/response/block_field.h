@@ -20,7 +20,8 @@ class SteelFinder {
   explicit SteelFinder(const Space& space);
 
   /// The place within a plate, to a thousandth of its thickness and 1e-6 of its shells' sizes.
-  /// @param normal where several plates meet, the one whose normal is nearest to this direction or its
+  /// @param normal where several plates meet, the one whose normal is nearest to this direction or
+  /// its
   ///   opposite; zero: the one whose mid-surface is nearest, counted in thicknesses.
   SteelPlace find(const Vector3& place, const Vector3& normal = Vector3::Zero()) const;
 
@@ -43,8 +44,9 @@ Eigen::MatrixXd displacements_at(const ElasticModel& model,
                                  const Eigen::Matrix3Xd& places,
                                  const Vector3& normal = Vector3::Zero());
 
-/// Stresses at a place, row a component (xx, yy, zz, xy, yz, zx) in the block's axes, a column for each of
-/// `motions`, Pa. At the height z: membrane + 2 z / t bending, and 3/2 (1 - (2 z / t)^2) of the mean shear.
+/// Stresses at a place, row a component (xx, yy, zz, xy, yz, zx) in the block's axes, a column for
+/// each of `motions`, Pa. At the height z: membrane + 2 z / t bending, and 3/2 (1 - (2 z / t)^2) of
+/// the mean shear.
 Eigen::MatrixXd stresses_at(const ElasticModel& model,
                             const Eigen::Ref<const Eigen::MatrixXd>& motions,
                             const SteelPlace& place);

@@ -15,8 +15,9 @@ namespace blocklift::structure {
 
 namespace {
 
-// The stiffness alone, from below: a cell brings 6 p^2 unknowns, each coupled with half a cell's on one side
-// of the diagonal, 16 bytes an entry. Asked before any of it is made; the factor, known later, is larger.
+// The stiffness alone, from below: a cell brings 6 p^2 unknowns, each coupled with half a cell's on
+// one side of the diagonal, 16 bytes an entry. Asked before any of it is made; the factor, known
+// later, is larger.
 void require_memory(const Mesh& mesh, const Resolution& resolution) {
   double cells = 0;
   for (const Shell& shell : mesh.shells) {

@@ -15,8 +15,8 @@ namespace blocklift::structure {
 /// A block ready for loads: mesh, finite elements, mass, and the load vectors of the unit loads.
 /// Immutable; cheap to make beside the factorisation (nothing is assembled here).
 ///
-/// Load vectors and motions have six rows a node: forces (N) and moments (N m), displacements (m) and
-/// rotations (rad).
+/// Load vectors and motions have six rows a node: forces (N) and moments (N m), displacements (m)
+/// and rotations (rad).
 class ElasticModel {
  public:
   /// @param total_mass (kg) and centre_of_mass_B (m) as stated, outfitting included; absent:

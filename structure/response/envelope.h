@@ -27,16 +27,17 @@ struct StressEnvelope {
 /// several threads at once.
 using UnitResponsesAt = std::function<Eigen::MatrixXd(int first, int count)>;
 
-/// The exact extremes of stress at `points` points over all instants of a history, by superposition.
+/// The exact extremes of stress at `points` points over all instants of a history, by
+/// superposition.
 ///
-/// Von Mises stress and largest principal stress are convex functions of the loads, and over a cluster
-/// of instants they are bounded by their values and slopes in its middle (the bounds stand in
-/// envelope_kernel.inc). Clusters whose bound does not reach what has been found already are passed
-/// over. The instants of the others are screened in single precision, with a margin larger than all of
-/// its rounding, and those that reach what has been found are computed in double precision, principal
-/// stresses by a symmetric eigenvalue solver. So the result is that of evaluating every instant in
-/// double precision, at a fraction of the work. Where loads never come back to nearly the same values
-/// (noise) all clusters are screened.
+/// Von Mises stress and largest principal stress are convex functions of the loads, and over a
+/// cluster of instants they are bounded by their values and slopes in its middle (the bounds stand
+/// in envelope_kernel.inc). Clusters whose bound does not reach what has been found already are
+/// passed over. The instants of the others are screened in single precision, with a margin larger
+/// than all of its rounding, and those that reach what has been found are computed in double
+/// precision, principal stresses by a symmetric eigenvalue solver. So the result is that of
+/// evaluating every instant in double precision, at a fraction of the work. Where loads never come
+/// back to nearly the same values (noise) all clusters are screened.
 ///
 /// @param threads 0: as many as the machine has.
 /// @throws ModelError if a unit response is not a number.
@@ -61,8 +62,8 @@ struct LargestStresses {
   LargestStress smallest_principal;      ///< of all points
 };
 
-/// The extremes of find_stress_envelope over sets of points, without those of each point: points that
-/// nowhere reach what has been found already are passed over as a whole.
+/// The extremes of find_stress_envelope over sets of points, without those of each point: points
+/// that nowhere reach what has been found already are passed over as a whole.
 /// @param set_of the set of a point, 0 .. sets - 1; called from several threads at once.
 LargestStresses find_largest_stresses(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int sets,

@@ -10,11 +10,11 @@ namespace blocklift::structure {
 /// Loads at many instants as factors of unit responses, made ready for the search of extremes.
 ///
 /// The factors f_t (m numbers an instant, in the units of the unit loads) are turned into
-/// coordinates y_t in an orthogonal basis, f_t = modes y_t, after each factor is weighed by how much
-/// its unit response matters, so that all coordinates have the unit of the response. Directions in
-/// which no instant goes further than 1e-15 of the largest are left out: in a history of balanced
-/// loads the six plain accelerations, for example. No other direction is, so that nothing is
-/// approximated.
+/// coordinates y_t in an orthogonal basis, f_t = modes y_t, after each factor is weighed by how
+/// much its unit response matters, so that all coordinates have the unit of the response.
+/// Directions in which no instant goes further than 1e-15 of the largest are left out: in a history
+/// of balanced loads the six plain accelerations, for example. No other direction is, so that
+/// nothing is approximated.
 ///
 /// Instants that lie near one another are put into clusters of `cluster_size`, each with the box
 /// that holds it: the loads of a lift come back to nearly the same values again and again.

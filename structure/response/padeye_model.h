@@ -29,8 +29,8 @@ struct PadeyeResult : PadeyeStress {
   double moment_residual = 0;    ///< likewise, over that sum times the padeye's height
 };
 
-/// A padeye meshed finely, cut from the block along its base: a sub-model that is driven by the block's
-/// displacement there, or held. Factorised once for any number of loads.
+/// A padeye meshed finely, cut from the block along its base: a sub-model that is driven by the
+/// block's displacement there, or held. Factorised once for any number of loads.
 class PadeyeModel {
  public:
   /// @param divisions elements around the hole. @throws ModelError as make_padeye_mesh does.

@@ -27,10 +27,11 @@ struct PadeyeStress {
 std::vector<std::vector<int>> solids_of_columns(const PartMesh& mesh,
                                                 const std::vector<PadeyeMesh::Column>& columns);
 
-/// The checked stress is the membrane von Mises stress averaged over 50 x 50 mm (a disc of that area, or
-/// of half the hole's radius if that is less), as IACS CSR (part 1, chapter 7) has it, of each plate for
-/// itself. What is nearer to the base than the main plate's thickness is left out: there a sub-model shows
-/// the coarse model's displacement, or its clamp, not stress (Saint-Venant).
+/// The checked stress is the membrane von Mises stress averaged over 50 x 50 mm (a disc of that
+/// area, or of half the hole's radius if that is less), as IACS CSR (part 1, chapter 7) has it, of
+/// each plate for itself. What is nearer to the base than the main plate's thickness is left out:
+/// there a sub-model shows the coarse model's displacement, or its clamp, not stress
+/// (Saint-Venant).
 /// @param solids_of_column as solids_of_columns. @param displacement 3 a node, m.
 PadeyeStress find_padeye_stress(const PadeyeGeometry& padeye,
                                 const std::vector<PadeyeMesh::Column>& columns,

@@ -73,8 +73,8 @@ Sampling tabulate(const ElementKind& kind) {
   return sampling;
 }
 
-// Scaled down by their degree: where samples do not tell terms apart (one layer of elements across),
-// the solution of least norm takes the lower ones.
+// Scaled down by their degree: where samples do not tell terms apart (one layer of elements
+// across), the solution of least norm takes the lower ones.
 Eigen::RowVectorXd monomials(const Vector3& x, int order) {
   constexpr double scale = 1e-3;
   const Vector3 s = scale * x;

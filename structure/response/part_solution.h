@@ -31,9 +31,9 @@ struct PartGroupResult {
   double displacement = 0;  ///< m
   /// By superconvergent patch recovery, in the energy norm, as a share of the norm (see PartError).
   double estimated_error = 0;
-  /// Of the largest averaged stress: by how much (as a von Mises stress) the stresses of the solids that
-  /// meet there differ from the recovered one, Pa. It falls as the mesh gets finer, unless the stress is
-  /// singular.
+  /// Of the largest averaged stress: by how much (as a von Mises stress) the stresses of the solids
+  /// that meet there differ from the recovered one, Pa. It falls as the mesh gets finer, unless the
+  /// stress is singular.
   double von_mises_error = 0;
 };
 
@@ -101,12 +101,12 @@ PartSolution solve_part(const PartModel& model, const PartSolver& solver = solve
 /// Stresses at the nodes from the displacement, averaged over the solids of one material.
 PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement);
 
-/// Nodal forces of the stresses: int B^T sigma dV, 3 a node, N. In equilibrium they are the loads and
-/// the reactions.
+/// Nodal forces of the stresses: int B^T sigma dV, 3 a node, N. In equilibrium they are the loads
+/// and the reactions.
 Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement);
 
-/// Stresses of one solid (6 x points, Pa) at points whose gradients by the local coordinates are given:
-/// row 3 q + a holds d/dxi_a of the shape functions at point q.
+/// Stresses of one solid (6 x points, Pa) at points whose gradients by the local coordinates are
+/// given: row 3 q + a holds d/dxi_a of the shape functions at point q.
 Eigen::Matrix<double, 6, Eigen::Dynamic> part_stresses(const PartModel& model, int solid,
                                                        const Eigen::MatrixXd& gradients,
                                                        const Eigen::VectorXd& displacement);

@@ -18,25 +18,25 @@ struct ShellRegion {
 
 /// Outer shell of a block, which takes the pressure of water, divided into pieces.
 ///
-/// A plate belongs to the shell where nothing of the block stands before it, looking from the middle of each
-/// cell along its normal; lugs are neither shell nor cover it. Each region takes a force and a moment spread
-/// over its plate such that the resultant is exact (add_spread_wrenches): pressure that is linear over a flat
-/// region, as that of still water is, comes out as it is; where the water line crosses a region its resultant
-/// and its centre do, at any attitude.
+/// A plate belongs to the shell where nothing of the block stands before it, looking from the
+/// middle of each cell along its normal; lugs are neither shell nor cover it. Each region takes a
+/// force and a moment spread over its plate such that the resultant is exact (add_spread_wrenches):
+/// pressure that is linear over a flat region, as that of still water is, comes out as it is; where
+/// the water line crosses a region its resultant and its centre do, at any attitude.
 class ShellRegions {
  public:
   /// The model must outlive this object.
-  /// @param size of a region, m: the bands that divide a plate run along the two axes of B that lie most
-  ///   nearly in it.
+  /// @param size of a region, m: the bands that divide a plate run along the two axes of B that lie
+  ///   most nearly in it.
   /// @throws ModelError if the size is not positive or no plate looks outwards.
   ShellRegions(const ElasticModel& model, double size);
 
   const std::vector<ShellRegion>& regions() const { return regions_; }
-  /// The region with the plate nearest to a place, m, of those that look outwards as `outward_B` (a unit
-  /// vector) does, within 70 degrees; of all if none does.
+  /// The region with the plate nearest to a place, m, of those that look outwards as `outward_B` (a
+  /// unit vector) does, within 70 degrees; of all if none does.
   int nearest(const Vector3& place_B, const Vector3& outward_B) const;
-  /// Load vectors (six rows a node, a column each) of wrenches: rows 6 region + i, force (N) and moment about
-  /// the region's centre (N m) in B.
+  /// Load vectors (six rows a node, a column each) of wrenches: rows 6 region + i, force (N) and
+  /// moment about the region's centre (N m) in B.
   Eigen::MatrixXd loads(const Eigen::MatrixXd& wrenches) const;
 
  private:

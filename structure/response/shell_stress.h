@@ -25,9 +25,9 @@ enum ShellStressRow {
 
 /// Stresses of motions at fixed unit points of any shell cell.
 ///
-/// At the height z above the mid-surface of a plate of thickness t the stress is membrane + 2 z / t bending,
-/// and across the plate 3/2 (1 - (2 z / t)^2) of the mean shear. Where an edge of a triangle is a point no
-/// strain is defined there; it is taken a hundredth of the cell away.
+/// At the height z above the mid-surface of a plate of thickness t the stress is membrane + 2 z / t
+/// bending, and across the plate 3/2 (1 - (2 z / t)^2) of the mean shear. Where an edge of a
+/// triangle is a point no strain is defined there; it is taken a hundredth of the cell away.
 ///
 /// One object serves one thread.
 class ShellStress {
@@ -35,7 +35,8 @@ class ShellStress {
   /// @param points of the unit square, 2 x m. The space must outlive this object.
   ShellStress(const Space& space, const Eigen::Matrix2Xd& points);
 
-  /// Stresses in a cell of Space::shells() for motions (freedoms x k): rows shell_stress_rows point + row.
+  /// Stresses in a cell of Space::shells() for motions (freedoms x k): rows shell_stress_rows point
+  /// + row.
   Eigen::MatrixXd of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions);
   /// Places and axes at the points of the cell last looked at.
   const std::vector<ShellPoint>& points() const { return current_->points(); }
@@ -51,8 +52,8 @@ class ShellStress {
 Eigen::MatrixXd motions_of_cell(const Space& space, int cell,
                                 const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
-/// Stresses (rows 6 point + component of Stress, along e_1, e_2 and the normal) at one height for the rows of
-/// ShellStress::of_all, without shear across the plate.
+/// Stresses (rows 6 point + component of Stress, along e_1, e_2 and the normal) at one height for
+/// the rows of ShellStress::of_all, without shear across the plate.
 /// @param side 1: the surface on the normal's side, -1: the other one, 0: the membrane stress.
 Eigen::MatrixXd stresses_at_side(const Eigen::MatrixXd& rows, double side);
 

@@ -69,8 +69,8 @@ Vector3 normal_of(const Mesh& mesh, const ShellPlace& place) {
   return g_1.cross(g_2).normalized();
 }
 
-/// Distances from both ends of an edge at which squares begin: one behind the other at the ends, ever
-/// farther apart towards the middle.
+/// Distances from both ends of an edge at which squares begin: one behind the other at the ends,
+/// ever farther apart towards the middle.
 std::vector<double> starts_along(double length, double size) {
   std::vector<double> starts;
   const double room = length - size;

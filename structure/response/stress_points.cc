@@ -13,7 +13,8 @@ namespace blocklift::structure {
 
 namespace {
 
-// The nodes' places, a little inside: at the edge of a triangle that is a point there are no tangents.
+// The nodes' places, a little inside: at the edge of a triangle that is a point there are no
+// tangents.
 Eigen::Matrix2Xd points_of_cell(int degree) {
   const std::vector<double> line = lagrange_places(degree);
   Eigen::Matrix2Xd points(2, (degree + 1) * (degree + 1));

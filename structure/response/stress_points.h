@@ -10,11 +10,12 @@
 
 namespace blocklift::structure {
 
-/// Where the stress of a block is looked at: the nodes of its shells' cells on both surfaces, as each cell
-/// sees them (a hundredth of the cell inside it), and the ends of its beams at their sections' outer points.
+/// Where the stress of a block is looked at: the nodes of its shells' cells on both surfaces, as
+/// each cell sees them (a hundredth of the cell inside it), and the ends of its beams at their
+/// sections' outer points.
 ///
-/// Stresses are (11, 22, 0, 12, 0, 0) along directions of each cell's own, Pa: invariants can be compared,
-/// components of different cells cannot. A beam has (11, 0, 0, 0, 0, 0).
+/// Stresses are (11, 22, 0, 12, 0, 0) along directions of each cell's own, Pa: invariants can be
+/// compared, components of different cells cannot. A beam has (11, 0, 0, 0, 0, 0).
 class StressPoints {
  public:
   /// The space must outlive this object.

@@ -176,8 +176,8 @@ LoadBalance UnitResponses::balance(const LoadCase& load_case) const {
   LoadBalance result;
   result.resultant = resultant(model_.space(), load_vector(load_case));
   result.resultant.moment -= mass.centre_of_mass_B.cross(result.resultant.force);
-  // A block that stands still on the ground has neither lug forces nor a field: its weight, which is
-  // what cancels there, is the least that residuals are compared with.
+  // A block that stands still on the ground has neither lug forces nor a field: its weight, which
+  // is what cancels there, is the least that residuals are compared with.
   const double field = load_case.field.acceleration_less_gravity.norm();
   const double weight = mass.mass * std::max(field, standard_gravity);
   double load = 0;

@@ -39,10 +39,11 @@ struct SolutionTiming {
 
 /// Linear response of the free block to its unit loads, one factorisation for all.
 ///
-/// The basis is 3 unit forces a lug, 12 unit inertia fields and what is added. Each lug force, added load
-/// and product of angular velocities is solved together with the rigid acceleration that balances it, so that
-/// the block floats freely on its 3-2-1 support and nothing large cancels on superposition; six
-/// plain acceleration fields complete the span and carry what a load case lacks in balance.
+/// The basis is 3 unit forces a lug, 12 unit inertia fields and what is added. Each lug force,
+/// added load and product of angular velocities is solved together with the rigid acceleration that
+/// balances it, so that the block floats freely on its 3-2-1 support and nothing large cancels on
+/// superposition; six plain acceleration fields complete the span and carry what a load case lacks
+/// in balance.
 class UnitResponses {
  public:
   /// Assembles, factorises and solves. The model must outlive this object.
@@ -62,9 +63,10 @@ class UnitResponses {
   /// Motions of the basis, freedoms x count, m and rad.
   const Eigen::MatrixXd& displacements() const { return displacements_; }
   /// Factors of the basis that make up a load case.
-  /// In the order: lug forces, products of angular velocities, added loads, the six plain accelerations.
-  /// @throws ModelError if the number of lug forces is not that of the lugs, or factors are given for
-  ///   other than the added loads.
+  /// In the order: lug forces, products of angular velocities, added loads, the six plain
+  /// accelerations.
+  /// @throws ModelError if the number of lug forces is not that of the lugs, or factors are given
+  ///   for other than the added loads.
   Eigen::VectorXd coefficients(const LoadCase& load_case) const;
 
   /// Load vector of a load case, N.

@@ -22,7 +22,8 @@ struct HashOfList {
   }
 };
 
-/// Groups in the order in which they occur; `group_of` tells the group of each unknown, -1 for none.
+/// Groups in the order in which they occur; `group_of` tells the group of each unknown, -1 for
+/// none.
 std::vector<UnknownGroup> find_groups(int unknowns, const std::vector<std::vector<int>>& elements,
                                       std::vector<int>& group_of) {
   std::vector<std::vector<int>> elements_of(at(unknowns));
@@ -45,8 +46,8 @@ std::vector<UnknownGroup> find_groups(int unknowns, const std::vector<std::vecto
   return groups;
 }
 
-/// Nested dissection of the groups' graph (two are joined when an element holds both), each weighing as
-/// many unknowns as it has. Returns the groups in elimination order.
+/// Nested dissection of the groups' graph (two are joined when an element holds both), each
+/// weighing as many unknowns as it has. Returns the groups in elimination order.
 std::vector<int> dissection_order(const std::vector<UnknownGroup>& groups,
                                   const std::vector<std::vector<int>>& groups_of_elements) {
   std::vector<int> order(groups.size());

@@ -46,7 +46,8 @@ std::vector<const EdgeTrace*> find_masters(std::vector<const EdgeTrace*> traces)
   return masters;
 }
 
-/// Visits the nodes of the traces that lie on each master: visit(master, node, place on the master).
+/// Visits the nodes of the traces that lie on each master: visit(master, node, place on the
+/// master).
 template <typename Visit>
 void for_each_follower(const std::vector<const EdgeTrace*>& traces, const Visit& visit) {
   for (const EdgeTrace* master : find_masters(traces))

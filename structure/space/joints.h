@@ -20,12 +20,12 @@ struct NodeTie {
 
 /// What ties the nodes of cells that meet along edges, whatever their number and sizes.
 ///
-/// Nodes at one place of an edge are one. Of each stretch of an edge the longest cell that lies there is
-/// the master: the nodes of shorter cells follow its polynomial, so that displacements are continuous
-/// across the joint.
+/// Nodes at one place of an edge are one. Of each stretch of an edge the longest cell that lies
+/// there is the master: the nodes of shorter cells follow its polynomial, so that displacements are
+/// continuous across the joint.
 /// @param traces of all cells that have an edge.
-/// @param vertex_node by vertex of the mesh: its node, or -1; nodes at the vertex are joined with it.
-///   Entries of -1 are filled with a node of a trace.
+/// @param vertex_node by vertex of the mesh: its node, or -1; nodes at the vertex are joined with
+///   it. Entries of -1 are filled with a node of a trace.
 /// @returns each tied node once; masters are never tied themselves.
 std::vector<NodeTie> find_joint_ties(int nodes, const std::vector<EdgeTrace>& traces,
                                      std::vector<int>& vertex_node);

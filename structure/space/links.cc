@@ -42,8 +42,9 @@ void append(Motion& motion, int node, const Eigen::RowVector3d& a, const Eigen::
   }
 }
 
-/// Ties three freedoms of a node along those of `axes` that are bound. One bound along no axis of the
-/// world's is solved for the component that it holds best; the node's others stand beside the masters.
+/// Ties three freedoms of a node along those of `axes` that are bound. One bound along no axis of
+/// the world's is solved for the component that it holds best; the node's others stand beside the
+/// masters.
 /// @param first freedom of the three; @param wanted motion of each, along the world's axes.
 void tie_along(const Matrix3& axes, const bool* bound, int first,
                const std::array<Motion, 3>& wanted, std::vector<FreedomTie>& ties) {

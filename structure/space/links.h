@@ -15,13 +15,14 @@ struct FreedomTie {
 
 /// The ties of a mesh's rigid and distributing links.
 ///
-/// Slave of a rigid link: u_i = u + theta x (x_i - x), theta_i = theta. Reference of a distributing link:
-/// with weights w_i, their centre c = sum w_i x_i / sum w_i and T = sum w_i (r^2 1 - r r'), r = x_i - c,
+/// Slave of a rigid link: u_i = u + theta x (x_i - x), theta_i = theta. Reference of a distributing
+/// link: with weights w_i, their centre c = sum w_i x_i / sum w_i and T = sum w_i (r^2 1 - r r'), r
+/// = x_i - c,
 ///   theta = T^-1 sum w_i r_i x u_i,   u = sum w_i u_i / sum w_i + theta x (x - c);
-/// about an axis that the vertices' places leave open (all on a line, or one) theta is the mean of their
-/// rotations. A part of the components counts along the link's axes. Forces on the reference spread over
-/// the vertices with the same resultant.
-/// Source: the principle of virtual work on the least-squares rigid motion; MSC Nastran, RBE3.
+/// about an axis that the vertices' places leave open (all on a line, or one) theta is the mean of
+/// their rotations. A part of the components counts along the link's axes. Forces on the reference
+/// spread over the vertices with the same resultant. Source: the principle of virtual work on the
+/// least-squares rigid motion; MSC Nastran, RBE3.
 /// @param node_of_vertex nodes of the mesh's vertices; @param nodes their places, m.
 /// @throws ModelError if a freedom follows two links.
 std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>& node_of_vertex,

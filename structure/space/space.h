@@ -19,12 +19,13 @@ namespace blocklift::structure {
 /// Degree of the elements and size of the cells that a mesh is computed with.
 struct Resolution {
   int degree = 3;  ///< of displacements and rotations, 1 to 4
-  /// Largest edge of a shell at a place, m: cells that are longer are divided into four, again and again.
-  /// Empty: the mesh is taken as it is.
+  /// Largest edge of a shell at a place, m: cells that are longer are divided into four, again and
+  /// again. Empty: the mesh is taken as it is.
   std::function<double(const Vector3&)> largest_edge;
 };
 
-/// A shell of the mesh or what division made of it: xi of the shell = origin + size * (own unit square).
+/// A shell of the mesh or what division made of it: xi of the shell = origin + size * (own unit
+/// square).
 struct ShellCell {
   int shell = 0;  ///< place in Mesh::shells
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
@@ -40,22 +41,26 @@ struct BeamCell {
   std::vector<int> nodes;  ///< degree + 1, from end to end
 };
 
-/// Finite elements on a mesh: nodes of Lagrange elements, what ties them, and the unknowns that remain.
+/// Finite elements on a mesh: nodes of Lagrange elements, what ties them, and the unknowns that
+/// remain.
 ///
 /// Each node has six freedoms along the world's axes, displacement (m) and rotation (rad): freedom
-/// 6 n + c. Every shell and beam of the mesh is a part of deal.II's triangulation for itself, so that any
-/// number of them may meet along an edge; what lies on one another is tied:
+/// 6 n + c. Every shell and beam of the mesh is a part of deal.II's triangulation for itself, so
+/// that any number of them may meet along an edge; what lies on one another is tied:
 /// - nodes of one place along an edge are one;
-/// - where cells of different sizes or degrees meet, the finer side follows the polynomial of the coarser
+/// - where cells of different sizes or degrees meet, the finer side follows the polynomial of the
+///   coarser
 ///   one, so that displacements are continuous;
 /// - vertices that lie on a shell between its corners follow its shape;
 /// - slaves of rigid links and references of distributing links follow their masters.
-/// The unknowns are what is left; they are numbered by nested dissection for the Cholesky factorisation.
+/// The unknowns are what is left; they are numbered by nested dissection for the Cholesky
+/// factorisation.
 ///
 /// Immutable. The mesh must outlive it.
 class Space {
  public:
-  /// @throws ModelError if the degree is not 1 to 4, the cells would be more than memory holds, or a
+  /// @throws ModelError if the degree is not 1 to 4, the cells would be more than memory holds, or
+  /// a
   ///   vertex follows two links.
   Space(const Mesh& mesh, const Resolution& resolution);
   ~Space();
@@ -100,7 +105,8 @@ class Space {
   /// Forces on the unknowns for forces on the freedoms: the transpose of expand().
   Eigen::MatrixXd reduce(const Eigen::MatrixXd& forces) const;
 
-  /// Groups of unknowns in order of elimination. Elements are shells(), then beams(), then Mesh::springs.
+  /// Groups of unknowns in order of elimination. Elements are shells(), then beams(), then
+  /// Mesh::springs.
   const Elimination& elimination() const { return elimination_; }
   int element_count() const {
     return static_cast<int>(shells_.size() + beams_.size() + mesh_->springs.size());
@@ -108,7 +114,8 @@ class Space {
   /// Freedoms of an element, in the order of its stiffness: six a node.
   std::vector<int> element_freedoms(int element) const;
 
-  /// deal.II's triangulations, elements and mappings, for the sources of this folder and of formulation.
+  /// deal.II's triangulations, elements and mappings, for the sources of this folder and of
+  /// formulation.
   struct Implementation;
   const Implementation& implementation() const { return *implementation_; }
 

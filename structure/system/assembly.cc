@@ -21,7 +21,8 @@ namespace blocklift::structure {
 
 namespace {
 
-/// Later group in the columns of a group, with the place of its first row below the group's own rows.
+/// Later group in the columns of a group, with the place of its first row below the group's own
+/// rows.
 struct Neighbour {
   int group;
   long offset;
@@ -201,8 +202,8 @@ class ElementStiffness {
   Eigen::MatrixXd own_;
 };
 
-/// Where rods and released beams alone meet, nothing may stiffen a rotation about some axis, which need not
-/// be one of the world's: along it the node gets a stiffness of its own and stays at rest.
+/// Where rods and released beams alone meet, nothing may stiffen a rotation about some axis, which
+/// need not be one of the world's: along it the node gets a stiffness of its own and stays at rest.
 void hold_loose_rotations(const Space& space, SparseLower& stiffness) {
   for (const BeamCell& cell : space.beams()) {
     const Beam& beam = space.mesh().beams[at(cell.beam)];

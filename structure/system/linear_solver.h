@@ -20,8 +20,8 @@ enum class EliminationOrder { given, found };
 
 /// K u = f with some displacements given, factorised once for any number of load vectors.
 ///
-/// Sparse supernodal Cholesky (CHOLMOD through Eigen), by default in the order of the unknowns, which
-/// the Discretisation has chosen by nested dissection.
+/// Sparse supernodal Cholesky (CHOLMOD through Eigen), by default in the order of the unknowns,
+/// which the Discretisation has chosen by nested dissection.
 class ConstrainedSystem {
  public:
   /// Takes the stiffness over and analyses it; nothing is factorised yet.
@@ -37,8 +37,8 @@ class ConstrainedSystem {
   void factorise();
   /// Displacements for load vectors (one a column; entries at fixed unknowns do not matter).
   Eigen::MatrixXd solve(Eigen::MatrixXd loads) const;
-  /// The same with displacements of the fixed unknowns that are given here, not by FixedUnknown::value:
-  /// a row a fixed unknown, a column a load vector, m.
+  /// The same with displacements of the fixed unknowns that are given here, not by
+  /// FixedUnknown::value: a row a fixed unknown, a column a load vector, m.
   Eigen::MatrixXd solve(Eigen::MatrixXd loads, const Eigen::MatrixXd& given) const;
   /// Forces that the supports exert, one row a fixed unknown: (K u - f) there, N.
   Eigen::MatrixXd reactions(const Eigen::MatrixXd& displacements,

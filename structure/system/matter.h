@@ -24,16 +24,17 @@ struct MatterPoint {
 
 using VisitMatter = std::function<void(const MatterPoint&)>;
 
-/// Visits the matter of some shell cells: Gauss points of the degree plus one, at two heights +-t / sqrt(12)
-/// about the mid-surface, which carry the section's first and second moments exactly.
+/// Visits the matter of some shell cells: Gauss points of the degree plus one, at two heights +-t /
+/// sqrt(12) about the mid-surface, which carry the section's first and second moments exactly.
 void for_each_shell_point(const Space& space, const std::vector<int>& cells,
                           const VisitMatter& visit);
 
-/// Visits all matter: shells, beams (four points a section, which carry its moments of inertia) and point
-/// masses (six points, likewise).
+/// Visits all matter: shells, beams (four points a section, which carry its moments of inertia) and
+/// point masses (six points, likewise).
 void for_each_matter_point(const Space& space, const VisitMatter& visit);
 
-/// Adds to load vectors (a column each, six rows a node) forces at a point of matter: 3 x columns, N.
+/// Adds to load vectors (a column each, six rows a node) forces at a point of matter: 3 x columns,
+/// N.
 template <typename Loads, typename Forces>
 void add_forces(const MatterPoint& point, const Forces& forces, Loads& loads) {
   const bool has_arm = !point.arm.isZero(0);
@@ -50,19 +51,20 @@ void add_forces(const MatterPoint& point, const Forces& forces, Loads& loads) {
 /// Force and moment about B's origin of a load vector (six rows a node).
 Wrench resultant(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& load);
 
-/// Integrates the mass; with a stated mass (kg) and centre (m), spreads the difference as a density that is
-/// linear in place: see MassProperties.
+/// Integrates the mass; with a stated mass (kg) and centre (m), spreads the difference as a density
+/// that is linear in place: see MassProperties.
 /// @throws ModelError if the density would be negative somewhere, the message naming the mass and
 ///   the centre of the steel, or there is no mass.
 MassProperties find_mass_properties(const Space& space, const double* stated_mass,
                                     const Vector3* stated_centre);
 
-/// Load vectors of the twelve unit inertia fields (columns, in the order of InertiaField::coefficients), N.
+/// Load vectors of the twelve unit inertia fields (columns, in the order of
+/// InertiaField::coefficients), N.
 Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass);
 
-/// Load vectors of wrenches about a point (force, moment; a column each), spread over some shell cells as a
-/// body force b(x) = c + d x (x - point) with c and d such that the resultant is the wrench. Over a flat
-/// plate a force across it is a pressure linear in place.
+/// Load vectors of wrenches about a point (force, moment; a column each), spread over some shell
+/// cells as a body force b(x) = c + d x (x - point) with c and d such that the resultant is the
+/// wrench. Over a flat plate a force across it is a pressure linear in place.
 /// @throws ModelError if the cells have no volume.
 Eigen::MatrixXd spread_wrenches(const Space& space, const std::vector<int>& cells,
                                 const Vector3& point, const Eigen::MatrixXd& wrenches);

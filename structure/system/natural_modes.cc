@@ -228,7 +228,8 @@ Eigen::MatrixXd times(const SparseLower& matrix, const Eigen::MatrixXd& columns)
   return matrix.selfadjointView<Eigen::Lower>() * columns;
 }
 
-// Rayleigh and Ritz: the first elastic omega^2 of the free body among the trial shapes, an upper bound.
+// Rayleigh and Ritz: the first elastic omega^2 of the free body among the trial shapes, an upper
+// bound.
 double estimate_first_elastic(const SparseLower& stiffness, const SparseLower& mass,
                               Eigen::MatrixXd shapes) {
   const Eigen::VectorXd sizes =
@@ -247,7 +248,8 @@ double estimate_first_elastic(const SparseLower& stiffness, const SparseLower& m
   return ritz.eigenvalues()[std::min<Eigen::Index>(6, independent - 1)];
 }
 
-// Rigid motions of the whole body that nothing holds: those of its six along which no stiffness acts.
+// Rigid motions of the whole body that nothing holds: those of its six along which no stiffness
+// acts.
 NaturalModes find_rigid_motions(const SparseLower& stiffness, const SparseLower& mass,
                                 Eigen::MatrixXd motions, const std::vector<FixedUnknown>& fixed,
                                 double first_elastic) {
@@ -268,9 +270,9 @@ NaturalModes find_rigid_motions(const SparseLower& stiffness, const SparseLower&
   return rigid;
 }
 
-// A search begins with one vector, which holds one mode of a repeated frequency, as the parts of a body
-// that hang together loosely have it; others come by rounding, or not. So it is repeated beside what is
-// known until nothing lower comes.
+// A search begins with one vector, which holds one mode of a repeated frequency, as the parts of a
+// body that hang together loosely have it; others come by rounding, or not. So it is repeated
+// beside what is known until nothing lower comes.
 NaturalModes search_all(Search& search, const Pencil& pencil, NaturalModes modes, int count,
                         long free, double shift) {
   constexpr int beside = 3;
@@ -404,8 +406,8 @@ NaturalModes find_natural_modes(const Space& space, const MassProperties& mass,
     const Space::Term *begin = space.begin_of(f), *end = space.end_of(f);
     if (end - begin == 1 && begin->weight == 1) trial.row(begin->unknown) = shapes.row(f);
   }
-  // Of fixed unknowns none or enough to leave no rigid motion is what the search is told; partly held bodies
-  // show their rigid motions by frequencies of zero.
+  // Of fixed unknowns none or enough to leave no rigid motion is what the search is told; partly
+  // held bodies show their rigid motions by frequencies of zero.
   return find_natural_modes(assemble_stiffness(space), mass_of_unknowns(space, mass), trial, fixed,
                             fixed.empty() ? 6 : 0, count, EliminationOrder::given);
 }

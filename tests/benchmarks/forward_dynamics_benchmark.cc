@@ -1,7 +1,8 @@
-// Forward dynamics, kinematics included: one evaluation of the accelerations from q, v and tau, beside Simbody,
-// MuJoCo, DART and Orocos KDL where they are installed. Chains of 10 to 100 revolute joints and a floating base
-// with five arms of six. All must give the same accelerations before anything is timed. Each evaluation is of
-// another state than the one before, so that none can live on what it has kept.
+// Forward dynamics, kinematics included: one evaluation of the accelerations from q, v and tau,
+// beside Simbody, MuJoCo, DART and Orocos KDL where they are installed. Chains of 10 to 100
+// revolute joints and a floating base with five arms of six. All must give the same accelerations
+// before anything is timed. Each evaluation is of another state than the one before, so that none
+// can live on what it has kept.
 #include <algorithm>
 #include <array>
 #include <cmath>

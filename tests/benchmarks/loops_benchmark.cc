@@ -9,8 +9,8 @@
 namespace blocklift::dynamics {
 namespace {
 
-// A chain of n revolute joints about z and y in turn, its end held by a spherical loop: n velocities,
-// three rows.
+// A chain of n revolute joints about z and y in turn, its end held by a spherical loop: n
+// velocities, three rows.
 Mechanism closed_chain(int n) {
   MechanismBuilder builder;
   std::string parent(world_name);

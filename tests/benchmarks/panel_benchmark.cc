@@ -1,6 +1,7 @@
 // The panel method on a hemisphere without planes of symmetry: influence matrices, factorisations,
-// reduction and a step of the march by the number of unknowns; then a whole database with and without
-// symmetry. Seconds of the stages as counters. Run alone on the machine; OpenBLAS takes all cores.
+// reduction and a step of the march by the number of unknowns; then a whole database with and
+// without symmetry. Seconds of the stages as counters. Run alone on the machine; OpenBLAS takes all
+// cores.
 #include <cmath>
 
 #include <benchmark/benchmark.h>
@@ -96,7 +97,8 @@ void database(benchmark::State& state) {
 }
 BENCHMARK(database)->Arg(0)->Arg(1)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
 
-/// The surface marched with a barge of 110 x 46 x 5 m, no symmetry: how many times faster than the water.
+/// The surface marched with a barge of 110 x 46 x 5 m, no symmetry: how many times faster than the
+/// water.
 void direct_marching(benchmark::State& state) {
   const std::vector<WettedBody> bodies{
       {"barge", make_box_hull(110, 46, 5, {24, 12, 3, 3.0}), Vector3::Zero()}};

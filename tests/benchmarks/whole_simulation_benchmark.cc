@@ -1,7 +1,8 @@
-// Whole simulations at equal accuracy: the 860 t block hoisted on six ropes for 120 s to 1e-6 m, and Andrews' squeezer
-// over 0.03 s to 1e-8 rad, beside the libraries that simulate them (Simbody, Runge-Kutta-Merson). What counts is the
-// error reached, not the tolerance asked: each takes the loosest of its tolerances, from 1e-3 to 1e-14 by factors of
-// the fourth root of 10, that reaches the error as the next tighter one does. Set-up of the model is part of neither time.
+// Whole simulations at equal accuracy: the 860 t block hoisted on six ropes for 120 s to 1e-6 m,
+// and Andrews' squeezer over 0.03 s to 1e-8 rad, beside the libraries that simulate them (Simbody,
+// Runge-Kutta-Merson). What counts is the error reached, not the tolerance asked: each takes the
+// loosest of its tolerances, from 1e-3 to 1e-14 by factors of the fourth root of 10, that reaches
+// the error as the next tighter one does. Set-up of the model is part of neither time.
 #include <algorithm>
 #include <cmath>
 #include <iostream>

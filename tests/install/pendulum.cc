@@ -1,6 +1,6 @@
 // A load on one rope swings by its installed kernel alone. Its period, counted over ten swings, is
-// 2 pi sqrt(r/g), r the rope with its stretch; a swing of 0.01 rad is longer by theta^2/16 = 6e-6 of it, what a
-// sample of 1/100 s leaves of a straight line between samples is less.
+// 2 pi sqrt(r/g), r the rope with its stretch; a swing of 0.01 rad is longer by theta^2/16 = 6e-6
+// of it, what a sample of 1/100 s leaves of a straight line between samples is less.
 #include <cmath>
 #include <cstdio>
 #include <numbers>

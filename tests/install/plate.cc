@@ -1,5 +1,5 @@
-// Fatigue by an installed structure library: the range after which a detail category is named is borne two million
-// times, so that a million such cycles do half of the damage.
+// Fatigue by an installed structure library: the range after which a detail category is named is
+// borne two million times, so that a million such cycles do half of the damage.
 #include <cmath>
 #include <cstdio>
 

@@ -15,7 +15,8 @@ BlockDescription hull_block();
 /// enough for unit tests (about 10,000 unknowns with cubic elements).
 BlockDescription small_block();
 
-/// Flat plate (z = 0) of 2 x 1 m and 20 mm with an upright one (x = 1 m) of 1 x 1 m and 10 mm through it.
+/// Flat plate (z = 0) of 2 x 1 m and 20 mm with an upright one (x = 1 m) of 1 x 1 m and 10 mm
+/// through it.
 BlockDescription cross_of_plates();
 
 }  // namespace blocklift::structure::testing

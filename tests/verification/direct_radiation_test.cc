@@ -1,5 +1,5 @@
-// A barge of a mechanism file, its waves by the two ways that there are: from a database, with a memory
-// fitted to it, and with the surface of the water marched beside.
+// A barge of a mechanism file, its waves by the two ways that there are: from a database, with a
+// memory fitted to it, and with the surface of the water marched beside.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -119,8 +119,8 @@ double difference(const Heave& a, const Heave& b, std::size_t from = 0) {
   return largest / (0.5 * (*high - *low));
 }
 
-// The surface's step halved: the differences of successive histories fall to a quarter (second order).
-// What is left between the two ways is the fit of the memory, 0.5 % of its peak.
+// The surface's step halved: the differences of successive histories fall to a quarter (second
+// order). What is left between the two ways is the fit of the memory, 0.5 % of its peak.
 TEST(DirectRadiation, AgreesWithTheDatabaseOnAFreeDecay) {
   TwoWays barge("", 0.5);
   const Heave coarse = barge.march("direct");
@@ -136,8 +136,9 @@ TEST(DirectRadiation, AgreesWithTheDatabaseOnAFreeDecay) {
   EXPECT_LE(difference(finest, database), difference(coarse, database) + 1e-3);
 }
 
-// Pushed off in still water she drifts by 15 and by 10 m on both ways: neither the fitted memory nor the surface
-// brakes a steady motion. With a memory that did, by 0.4 kN s/m, they came 0.13 m apart.
+// Pushed off in still water she drifts by 15 and by 10 m on both ways: neither the fitted memory
+// nor the surface brakes a steady motion. With a memory that did, by 0.4 kN s/m, they came 0.13 m
+// apart.
 TEST(DirectRadiation, AgreesWithTheDatabaseOnAFreeDrift) {
   TwoWays barge("", 0.0);
   barge.let_go(0.3);
@@ -148,9 +149,9 @@ TEST(DirectRadiation, AgreesWithTheDatabaseOnAFreeDrift) {
   EXPECT_LT((direct - database).head<2>().norm(), 0.02);
 }
 
-// Besides, the waves that she scatters. Diffraction comes from the scattered wave itself on the one way, by
-// Haskind's relation from the radiated ones on the other: they are the same but for the panels, and what is
-// left between the two ways falls with their size.
+// Besides, the waves that she scatters. Diffraction comes from the scattered wave itself on the one
+// way, by Haskind's relation from the radiated ones on the other: they are the same but for the
+// panels, and what is left between the two ways falls with their size.
 TEST(DirectRadiation, AgreesWithTheDatabaseInWavesAsPanelsGrowSmaller) {
   const std::string waves =
       "  waves: {regular: {amplitude: 0.5 m, frequency: 0.9 rad/s, heading: 40 deg}, "

@@ -1,5 +1,5 @@
-// Hydrodynamics of a box between two draughts, as a body that is lowered feels it, against those computed at the
-// draught itself.
+// Hydrodynamics of a box between two draughts, as a body that is lowered feels it, against those
+// computed at the draught itself.
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
@@ -15,7 +15,8 @@ namespace {
 
 const Water water{1025.0, 9.81};
 
-/// A box of 20 x 8 m at a draught (m), by panels that go with it, so that their error changes smoothly as well.
+/// A box of 20 x 8 m at a draught (m), by panels that go with it, so that their error changes
+/// smoothly as well.
 HydrodynamicDatabase at_draught(double draught) {
   std::vector<WettedBody> bodies{
       {"box", make_box_hull(20, 8, draught, {12, 6, 2, 2.0}), Vector3::Zero()}};
@@ -30,8 +31,8 @@ HydrodynamicDatabase at_draught(double draught) {
   return compute_database(PanelModel(std::move(bodies), surface, water, symmetry), settings);
 }
 
-/// Largest errors over frequencies, modes and headings: of added mass and damping over the roots of what both modes
-/// have on the diagonal at most, of the excitation over the mode's largest.
+/// Largest errors over frequencies, modes and headings: of added mass and damping over the roots of
+/// what both modes have on the diagonal at most, of the excitation over the mode's largest.
 struct Errors {
   double added_mass = 0, damping = 0, excitation = 0;
 };
@@ -84,7 +85,8 @@ TEST(DraughtInterpolation, ConvergesToTheDatabaseOfTheDraughtItself) {
   EXPECT_LT(fine.added_mass, 0.3 * coarse.added_mass);
   EXPECT_LT(fine.damping, 0.3 * coarse.damping);
   EXPECT_LT(fine.excitation, 0.3 * coarse.excitation);
-  // Half a metre between draughts of about 1.5 m: 2.4, 8.2 and 2.6 %, the worst mode at the worst frequency.
+  // Half a metre between draughts of about 1.5 m: 2.4, 8.2 and 2.6 %, the worst mode at the worst
+  // frequency.
   EXPECT_LT(fine.added_mass, 0.03);
   EXPECT_LT(fine.damping, 0.1);
   EXPECT_LT(fine.excitation, 0.03);

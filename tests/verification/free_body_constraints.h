@@ -6,9 +6,9 @@
 
 #include "dynamics/multibody/mechanism.h"
 
-/// Second formulation of multibody dynamics, for verification: every body is free, every joint and loop
-/// is a set of algebraic equations. It takes a mechanism's data (bodies, joints, loops) and none of the
-/// kernel's algorithms.
+/// Second formulation of multibody dynamics, for verification: every body is free, every joint and
+/// loop is a set of algebraic equations. It takes a mechanism's data (bodies, joints, loops) and
+/// none of the kernel's algorithms.
 namespace blocklift::free_bodies {
 
 using dynamics::Matrix3;

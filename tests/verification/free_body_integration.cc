@@ -59,11 +59,13 @@ class System {
   /// Unknowns at the start and their rates, the multipliers lambda from the accelerations.
   void set_start(const State& start, VectorMap y, VectorMap rates) const;
   void calc_residual(const ConstVectorMap& y, const ConstVectorMap& rates, VectorMap r) const;
-  /// dF/dy + c dF/d(dy/dt), by central differences of increments that suit the unknowns' size of one.
+  /// dF/dy + c dF/d(dy/dt), by central differences of increments that suit the unknowns' size of
+  /// one.
   void calc_newton_matrix(const VectorXd& y, const VectorXd& rates, double c,
                           Eigen::Ref<Eigen::MatrixXd> jacobian) const;
-  /// Absolute tolerances: those of the motion as given. Multipliers follow from the motion, one or two
-  /// orders less accurate the smaller the step, and would stop Newton's method if they were held to it.
+  /// Absolute tolerances: those of the motion as given. Multipliers follow from the motion, one or
+  /// two orders less accurate the smaller the step, and would stop Newton's method if they were
+  /// held to it.
   void set_tolerances(double tolerance, VectorMap tolerances) const {
     tolerances.setConstant(tolerance);
     tolerances.segment(13 * n_, m_).setConstant(1e-2);
@@ -232,11 +234,12 @@ std::vector<State> integrate(const dynamics::Mechanism& mechanism,
   check(IDASVtolerances(ida.get(), tolerance, tolerances.get()), "IDASVtolerances");
   check(IDASetUserData(ida.get(), &system), "IDASetUserData");
   check(IDASetId(ida.get(), id.get()), "IDASetId");
-  // Multipliers are one order less accurate and would only shorten the steps (Hairer and Wanner 1996,
-  // section VII.2).
+  // Multipliers are one order less accurate and would only shorten the steps (Hairer and Wanner
+  // 1996, section VII.2).
   check(IDASetSuppressAlg(ida.get(), true), "IDASetSuppressAlg");
-  // First-order steps of the accuracy asked; IDA's own guess, made for stiff transients, is so short that
-  // rounding of the constraints, divided by its square, is all that is left of the multipliers.
+  // First-order steps of the accuracy asked; IDA's own guess, made for stiff transients, is so
+  // short that rounding of the constraints, divided by its square, is all that is left of the
+  // multipliers.
   check(IDASetInitStep(ida.get(), 0.3 * std::sqrt(tolerance)), "IDASetInitStep");
   check(IDASetMaxNumSteps(ida.get(), -1), "IDASetMaxNumSteps");
   check(IDASetLinearSolver(ida.get(), solver.get(), matrix.get()), "IDASetLinearSolver");

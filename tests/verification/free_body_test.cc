@@ -1,4 +1,5 @@
-// The recursive kernel against an independent formulation: free bodies, all joints and loops as equations
+// The recursive kernel against an independent formulation: free bodies, all joints and loops as
+// equations
 // (Gear, Gupta and Leimkuhler 1985), IDA. Both share the mechanism's data and no algorithm.
 #include <cmath>
 #include <numbers>
@@ -84,8 +85,8 @@ Difference compare(const Mechanism& mechanism, const std::vector<LoopDefinition>
           .history;
 
   const free_bodies::State start = state_of(mechanism, kernel, 0);
-  // The start that the kernel found fulfils the other formulation's equations: poses and velocities of
-  // the joints, and the assembly of the loops, agree.
+  // The start that the kernel found fulfils the other formulation's equations: poses and velocities
+  // of the joints, and the assembly of the loops, agree.
   const auto rows = free_bodies::make_rows(mechanism, loops);
   EXPECT_LT(free_bodies::calc_residual(rows, start).lpNorm<Eigen::Infinity>(), 1e-11);
 
@@ -108,9 +109,9 @@ void expect_agreement(const Difference& difference, double tolerance) {
   EXPECT_LT(difference.velocity, 10 * tolerance);
 }
 
-// The paper's first test mechanism (Ku, Ha, Roh, Fig. 3): crank, rod and a body led square to x by a
-// cylindrical joint; the paper gives no dimensions. Two of the loop's equations repeat others: all
-// motion is in the plane of y and z.
+// The paper's first test mechanism (Ku, Ha, Roh, Fig. 3): crank, rod and a body led square to x by
+// a cylindrical joint; the paper gives no dimensions. Two of the loop's equations repeat others:
+// all motion is in the plane of y and z.
 TEST(FreeBodies, ThreeBodiesWithRevoluteJointsAndACylindricalLoop) {
   MechanismBuilder builder;
   const dynamics::Joint hinge{JointKind::revolute, Vector3::UnitX()};
@@ -155,8 +156,8 @@ TEST(FreeBodies, TreeOfAllJointKinds) {
   expect_agreement(compare(mechanism, {}, q, random.values(mechanism.nv(), 0.5), 1), 1e-8);
 }
 
-// Rods hung up in every way that is no joint: a rigid rod, a point on a line, a rope of given length over
-// three points.
+// Rods hung up in every way that is no joint: a rigid rod, a point on a line, a rope of given
+// length over three points.
 TEST(FreeBodies, RodPointOnLineAndRope) {
   MechanismBuilder builder;
   const std::vector<std::string> names = {"a", "b", "c"};

@@ -1,5 +1,5 @@
-// A floating hemisphere beyond what `blocklift verify` computes: finite depth against WAMIT's figures in
-// 50 m, the state space, the direct march and the database in a regular wave.
+// A floating hemisphere beyond what `blocklift verify` computes: finite depth against WAMIT's
+// figures in 50 m, the state space, the direct march and the database in a regular wave.
 #include <cmath>
 #include <cstdio>
 #include <numbers>

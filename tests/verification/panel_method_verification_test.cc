@@ -15,8 +15,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Lamb, Hydrodynamics, art. 114: added mass of an ellipsoid along the axis i over the displaced mass:
-// k_i = alpha_i/(2 - alpha_i), alpha_i = a b c int_0^inf d lambda/((a_i^2 + lambda) Delta),
+// Lamb, Hydrodynamics, art. 114: added mass of an ellipsoid along the axis i over the displaced
+// mass: k_i = alpha_i/(2 - alpha_i), alpha_i = a b c int_0^inf d lambda/((a_i^2 + lambda) Delta),
 // Delta^2 = (a^2 + lambda)(b^2 + lambda)(c^2 + lambda).
 double lamb(const Vector3& axes, int i) {
   // lambda = s/(1 - s) on 0 < s < 1, midpoint rule refined at the end by s = u^2 (3 - 2 u).

@@ -1,6 +1,7 @@
-// A free body that spins 100 000 times: quaternions stay on the unit sphere, and the phase is off by what the tolerance
-// allows. Reference: the torque-free top with an axis of symmetry turns about its constant angular momentum L at
-// the rate |L| / A and about its own axis at (1 - C / A) w_z (Landau and Lifshitz, Mechanics, section 33).
+// A free body that spins 100 000 times: quaternions stay on the unit sphere, and the phase is off
+// by what the tolerance allows. Reference: the torque-free top with an axis of symmetry turns about
+// its constant angular momentum L at the rate |L| / A and about its own axis at (1 - C / A) w_z
+// (Landau and Lifshitz, Mechanics, section 33).
 #include <gtest/gtest.h>
 
 #include "dynamics/simulation/time_integration.h"
@@ -56,9 +57,9 @@ Spin spin(double turns, double tolerance) {
           std::abs(quaternion.norm() - 1.0), std::abs(energy / start - 1.0)};
 }
 
-// Local errors of the tolerance add up from step to step: the phase error is in proportion to the tolerance, but for
-// the changes of order and step that the integrator makes, and grows with the number of turns; twice as
-// fast where the rate of precession itself drifts.
+// Local errors of the tolerance add up from step to step: the phase error is in proportion to the
+// tolerance, but for the changes of order and step that the integrator makes, and grows with the
+// number of turns; twice as fast where the rate of precession itself drifts.
 TEST(SpinningBody, PhaseErrorFollowsTheTolerance) {
   const Spin loose = spin(300, 1e-6);
   const Spin tight = spin(300, 1e-9);
@@ -75,9 +76,10 @@ TEST(SpinningBody, AHundredThousandTurns) {
   std::cout << "after " << turns << " turns: phase " << result.phase_error << " rad, length "
             << result.length_error << ", energy " << result.energy_error << "\n";
   EXPECT_LT(result.length_error, 1e-12);
-  // The rate drifts with the energy, in proportion to the turns, and the phase with their square: after so many
-  // it is off by whole turns, and the energy is the figure to hold. A local error of 1e-9 that had one sign in
-  // each of some 60 steps a turn would come to 6e-3; most of it averages out.
+  // The rate drifts with the energy, in proportion to the turns, and the phase with their square:
+  // after so many it is off by whole turns, and the energy is the figure to hold. A local error of
+  // 1e-9 that had one sign in each of some 60 steps a turn would come to 6e-3; most of it averages
+  // out.
   EXPECT_LT(result.energy_error, 1e-3);
 }
 

@@ -1,5 +1,5 @@
-// The structural stage at the size of a shipped block; against references it is held by the verification
-// suite.
+// The structural stage at the size of a shipped block; against references it is held by the
+// verification suite.
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 

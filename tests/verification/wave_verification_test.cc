@@ -81,8 +81,9 @@ TEST(ShortCrestedSea, SpreadsAsTheCosineSays) {
   EXPECT_NEAR(square / count, std::numbers::pi * std::numbers::pi / 12 - 0.5, 0.02);
 }
 
-// Linear waves: kinetic energy in a column equals potential energy, and the power through a vertical
-// plane is their sum times the group velocity. Averaged over a period, by the midpoint rule in depth
+// Linear waves: kinetic energy in a column equals potential energy, and the power through a
+// vertical plane is their sum times the group velocity. Averaged over a period, by the midpoint
+// rule in depth
 // (second order) for an amplitude so small that what lies above z = 0 does not count.
 TEST(RegularWave, CarriesItsEnergyAtTheGroupVelocity) {
   for (const double depth : {6.0, 20.0, 400.0}) {

@@ -78,13 +78,13 @@ Hull merge_vertices(const Hull& hull, double tolerance);
 /// All panels turned round: an inward hull becomes an outward one.
 Hull reverse(const Hull& hull);
 
-/// The hull with its panels turned so that neighbours agree along their edges and each connected part
-/// encloses a positive volume: for surfaces whose program leaves the sense open. Panels that share an
-/// edge with several others are passed over; diagnose() then says so.
+/// The hull with its panels turned so that neighbours agree along their edges and each connected
+/// part encloses a positive volume: for surfaces whose program leaves the sense open. Panels that
+/// share an edge with several others are passed over; diagnose() then says so.
 Hull turned_outwards(const Hull& hull);
 
-/// The hull with its mirror image in the plane through Bo square to `axis` (0: x, 1: y), vertices on
-/// the plane joined. For meshes that hold one half only.
+/// The hull with its mirror image in the plane through Bo square to `axis` (0: x, 1: y), vertices
+/// on the plane joined. For meshes that hold one half only.
 Hull with_mirror_image(const Hull& hull, int axis, double tolerance);
 
 /// Closes each opening whose rim lies in one plane by a lid: triangles between the rim and its mean

@@ -56,7 +56,8 @@ void check_vertices(const Hull& hull, Findings& findings) {
   }
 }
 
-// Rounding leaves an area of about 1e-16 of the squared diameter: 1e-10 tells a sliver from nothing.
+// Rounding leaves an area of about 1e-16 of the squared diameter: 1e-10 tells a sliver from
+// nothing.
 bool is_degenerate(const Hull& hull, int panel) {
   constexpr double least_area = 1e-10;
   const std::span<const int> corners = hull.panel(panel);

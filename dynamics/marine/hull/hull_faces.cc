@@ -44,8 +44,8 @@ bool lies_in_plane(const Hull& hull, const Face& face, const std::vector<int>& o
   });
 }
 
-/// Both faces as one, b having the edge that follows a's corner `from` the other way round; none if they
-/// do not lie in one plane or are not convex together.
+/// Both faces as one, b having the edge that follows a's corner `from` the other way round; none if
+/// they do not lie in one plane or are not convex together.
 std::optional<Face> joined(const Hull& hull, const Face& a, const Face& b, std::size_t from) {
   if (a.normal.dot(b.normal) <= 0.0 || !lies_in_plane(hull, a, b.corners) ||
       !lies_in_plane(hull, b, a.corners)) {

@@ -11,9 +11,9 @@ namespace blocklift::dynamics {
 
 namespace {
 
-// A hull is the skin of a bent box of nx x ny x nz cells: point (i, j, k) lies at the station i, the
-// fraction j / ny of the breadth from starboard to port, and the row k from the bottom to the deck.
-// A row gives x, the half-breadth (in y) and z.
+// A hull is the skin of a bent box of nx x ny x nz cells: point (i, j, k) lies at the station i,
+// the fraction j / ny of the breadth from starboard to port, and the row k from the bottom to the
+// deck. A row gives x, the half-breadth (in y) and z.
 using RowPoint = std::function<Vector3(int station, int row)>;
 
 class BoxSkin {

@@ -16,8 +16,8 @@ struct PanelDivision {
   static PanelDivision of_size(double size, double length, double breadth, double depth);
 };
 
-/// Pontoon with a flat bottom, flat sides and flat ends. Frame: origin on the base line amidships in
-/// the centre plane, x forward, y to port, z up.
+/// Pontoon with a flat bottom, flat sides and flat ends. Frame: origin on the base line amidships
+/// in the centre plane, x forward, y to port, z up.
 struct BargeShape {
   double length = not_a_number;   ///< over all, x from -length/2 to length/2, m
   double breadth = not_a_number;  ///< m
@@ -32,8 +32,8 @@ struct BargeShape {
 };
 
 /// Closed hull of a barge, deck included.
-/// @throws ModelError if a dimension is not positive or the rakes, bilges or corners do not fit; the
-///   message says which and what the limit is.
+/// @throws ModelError if a dimension is not positive or the rakes, bilges or corners do not fit;
+///   the message says which and what the limit is.
 Hull make_barge(const BargeShape& shape, const PanelDivision& division, std::string name = "barge");
 
 /// Ship-shaped hull: a parallel middle body with flat sides between two ends that taper to a stem
@@ -42,7 +42,8 @@ Hull make_barge(const BargeShape& shape, const PanelDivision& division, std::str
 ///
 ///   half-breadth  y = B/2 w(xi) s(zeta),   w = 1 - (1 - t) xi^n,
 ///   section       s = (1 - (1 - zeta)^m)^(1/m) below the draught, 1 above it (flat of side),
-///   fullness      m = m_midship + (m_end - m_midship) xi   (2: an ellipse, 10: nearly a rectangle).
+///   fullness      m = m_midship + (m_end - m_midship) xi   (2: an ellipse, 10: nearly a
+///     rectangle).
 ///
 /// t is the breadth of the transom over B (0 at the bow). The frame is that of the barge.
 struct ShipShape {

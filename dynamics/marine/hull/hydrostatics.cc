@@ -41,8 +41,8 @@ void add_wet_part(const TriangleTree& tree, const TriangleTree::Node& leaf, doub
   }
 }
 
-// Calls `whole(index)` for each box that is under water and `cut(leaf)` for each leaf that the surface
-// cuts: z0 is the height of Bo, u the vertical in B.
+// Calls `whole(index)` for each box that is under water and `cut(leaf)` for each leaf that the
+// surface cuts: z0 is the height of Bo, u the vertical in B.
 template <class Whole, class Cut>
 void visit_wetted(const TriangleTree& tree, double z0, const Vector3& u, Whole&& whole, Cut&& cut) {
   const Vector3 magnitude = u.cwiseAbs();
@@ -68,8 +68,9 @@ SurfaceMoments calc_wetted_moments(const HullClusters& hull, double z0, const Ve
   return moments;
 }
 
-// Mean over a triangle of its height where that is negative, zero elsewhere; linear between the corners'
-// heights. A corner alone on its side cuts off the share h_i^2 / ((h_i - h_j)(h_i - h_k)) of the area.
+// Mean over a triangle of its height where that is negative, zero elsewhere; linear between the
+// corners' heights. A corner alone on its side cuts off the share h_i^2 / ((h_i - h_j)(h_i - h_k))
+// of the area.
 double wet_height(const std::array<double, 3>& h) {
   const int wet = (h[0] < 0.0 ? 1 : 0) + (h[1] < 0.0 ? 1 : 0) + (h[2] < 0.0 ? 1 : 0);
   const double mean = (h[0] + h[1] + h[2]) / 3.0;
@@ -161,8 +162,8 @@ Eigen::Matrix<double, 6, 6> calc_stiffness_over_rho_g(const Hydrostatics& h) {
   const double Axx = h.water_plane_second_moment[0];
   const double Axy = h.water_plane_second_moment[1];
   const double Ayy = h.water_plane_second_moment[2];
-  // A point of the water plane rises by dz + rx y - ry x; what rises is lost to the volume, the rest
-  // of the volume turns with the body.
+  // A point of the water plane rises by dz + rx y - ry x; what rises is lost to the volume, the
+  // rest of the volume turns with the body.
   Eigen::Matrix<double, 6, 6> K = Eigen::Matrix<double, 6, 6>::Zero();
   K.row(0) << Ayy + S.z(), -Axy, -S.x(), 0.0, 0.0, Ay;
   K.row(1) << -Axy, Axx + S.z(), -S.y(), 0.0, 0.0, -Ax;

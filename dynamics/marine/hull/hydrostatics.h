@@ -27,7 +27,8 @@ struct Hydrostatics {
   /// int xx dA, int xy dA, int yy dA over the water plane, about Bo, m4.
   Vector3 water_plane_second_moment = Vector3::Constant(not_a_number);
 
-  /// Buoyancy about Bo in W over rho g: force (0, 0, V), moment (S_y, -S_x, 0), S = volume_moment_W.
+  /// Buoyancy about Bo in W over rho g: force (0, 0, V), moment (S_y, -S_x, 0), S =
+  /// volume_moment_W.
   ForceVector force_over_rho_g() const {
     return {{volume_moment_W.y(), -volume_moment_W.x(), 0.0}, {0.0, 0.0, volume}};
   }
@@ -49,9 +50,9 @@ Buoyancy calc_buoyancy(const HullClusters& hull, const Pose& X_WB);
 /// Displaced volume alone, m3: cheaper still. Does not allocate.
 double calc_displaced_volume(const HullClusters& hull, const Pose& X_WB);
 
-/// Exact derivative of the buoyancy about Bo: dF_Bo_W = -rho g K dX where dX = (rotation; displacement
-/// of Bo), both small and in W, and dF = (moment; force). K in m3, m2 and m4; it is symmetric but for
-/// the columns of yaw, since a moment that turns with the body has no potential.
+/// Exact derivative of the buoyancy about Bo: dF_Bo_W = -rho g K dX where dX = (rotation;
+/// displacement of Bo), both small and in W, and dF = (moment; force). K in m3, m2 and m4; it is
+/// symmetric but for the columns of yaw, since a moment that turns with the body has no potential.
 Eigen::Matrix<double, 6, 6> calc_stiffness_over_rho_g(const Hydrostatics& hydrostatics);
 
 /// Metacentric properties of an attitude, about the horizontal axes of W.

@@ -15,7 +15,8 @@ struct Bounds {
     low = low.cwiseMin(other.low);
     high = high.cwiseMax(other.high);
   }
-  /// In proportion to how often the water's surface crosses the box, upright or heeled by a few degrees.
+  /// In proportion to how often the water's surface crosses the box, upright or heeled by a few
+  /// degrees.
   double crossing() const {
     constexpr double heel = 0.05;  // rad
     const Vector3 extent = high - low;
@@ -36,8 +37,8 @@ struct TriangleTree::Item {
   }
 };
 
-// Sorts the items such that those before the number returned make one box and the others a second, both
-// opened as seldom as can be. Neither holds less than a quarter.
+// Sorts the items such that those before the number returned make one box and the others a second,
+// both opened as seldom as can be. Neither holds less than a quarter.
 std::size_t TriangleTree::split(std::span<Item> items) {
   const std::size_t count = items.size();
   const auto sort_along = [&](Eigen::Index axis) {

@@ -10,8 +10,8 @@
 
 namespace blocklift::dynamics {
 
-/// The triangles of a hull in a tree of boxes, each box with the moments of what it holds, so that only
-/// boxes that the water surface crosses are opened. Immutable; may be shared by threads.
+/// The triangles of a hull in a tree of boxes, each box with the moments of what it holds, so that
+/// only boxes that the water surface crosses are opened. Immutable; may be shared by threads.
 class TriangleTree {
  public:
   static constexpr std::size_t most_triangles = 24;               ///< in a leaf, at most
@@ -51,8 +51,8 @@ class TriangleTree {
     return {points_.data() + leaf.first_point, static_cast<std::size_t>(leaf.point_count)};
   }
 
-  /// Calls `leaf(node)` for each leaf below `start` and, before, `open(node, index)` for each box on the
-  /// way to it; a box for which `open` returns false stays closed. Does not allocate.
+  /// Calls `leaf(node)` for each leaf below `start` and, before, `open(node, index)` for each box
+  /// on the way to it; a box for which `open` returns false stays closed. Does not allocate.
   template <class Open, class Leaf>
   void visit(Open&& open, Leaf&& leaf, int start = root) const {
     std::array<int, most_depth> stack;
@@ -72,7 +72,8 @@ class TriangleTree {
   }
 
  private:
-  // A box holds three quarters of the triangles of its parent at most: 2^26 would be needed to overflow.
+  // A box holds three quarters of the triangles of its parent at most: 2^26 would be needed to
+  // overflow.
   static constexpr std::size_t most_depth = 64;
   struct Item;
   int build(std::span<Item> items, std::size_t leaf_size);

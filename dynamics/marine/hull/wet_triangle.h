@@ -8,8 +8,9 @@
 
 namespace blocklift::dynamics {
 
-/// Adds -int q dA n and -int p x n q dA of a wet triangle, the pressure q over rho g (m) being linear between
-/// its corners p (m, from the origin that moments are about). `area`: n times its area, m2.
+/// Adds -int q dA n and -int p x n q dA of a wet triangle, the pressure q over rho g (m) being
+/// linear between its corners p (m, from the origin that moments are about). `area`: n times its
+/// area, m2.
 inline void add_wet_triangle(const std::array<const Vector3*, 3>& p, const std::array<double, 3>& q,
                              const Vector3& area, ForceVector& F) {
   const double sum = q[0] + q[1] + q[2];
@@ -18,8 +19,8 @@ inline void add_wet_triangle(const std::array<const Vector3*, 3>& p, const std::
   F.moment -= (arm / 12.0).cross(area);
 }
 
-/// A triangle that the surface cuts. The corner that is alone on its side comes first; the order round the
-/// triangle is kept.
+/// A triangle that the surface cuts. The corner that is alone on its side comes first; the order
+/// round the triangle is kept.
 struct TriangleCut {
   std::size_t i, j, k;  ///< corners
   double to_j, to_k;    ///< how far from i the surface is met, as shares of the edges
@@ -43,8 +44,9 @@ inline int count_wet(const std::array<double, 3>& h) {
   return (h[0] < 0.0 ? 1 : 0) + (h[1] < 0.0 ? 1 : 0) + (h[2] < 0.0 ? 1 : 0);
 }
 
-/// The same of what is wet of a triangle that the surface cuts, h being the heights of its corners above the
-/// water (m) and `wet` the number of those below; q falls to zero at the surface. Does not allocate.
+/// The same of what is wet of a triangle that the surface cuts, h being the heights of its corners
+/// above the water (m) and `wet` the number of those below; q falls to zero at the surface. Does
+/// not allocate.
 inline void add_cut_triangle(const std::array<const Vector3*, 3>& p, const std::array<double, 3>& h,
                              const std::array<double, 3>& q, int wet, const Vector3& area,
                              ForceVector& F) {
@@ -78,8 +80,9 @@ inline void add_wet_part(const std::array<const Vector3*, 3>& p, const std::arra
   }
 }
 
-/// Points at which a pressure that is not linear is to be known, to be integrated over what is wet of triangles:
-/// three inside each wet piece, exact to the second degree (Strang and Fix 1973). Does not allocate.
+/// Points at which a pressure that is not linear is to be known, to be integrated over what is wet
+/// of triangles: three inside each wet piece, exact to the second degree (Strang and Fix 1973).
+/// Does not allocate.
 template <std::size_t most_pieces>
 class WetTrianglePoints {
  public:

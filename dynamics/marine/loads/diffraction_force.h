@@ -10,17 +10,18 @@
 
 namespace blocklift::dynamics {
 
-/// Force of the waves that a floating body scatters, from a database: linear in each component of the
-/// sea,
+/// Force of the waves that a floating body scatters, from a database: linear in each component of
+/// the sea,
 ///
 ///   F = Re sum_c X(w_c, theta_c - psi) a_c exp(i (w_c t - phase_c - k_c.(p_WR - p_0)))
 ///
-/// in the axes of the frame H (RadiatedWater) about its origin R, psi being the yaw of H and p_0 the
-/// reference point of the database, both level: a vessel that drifts or turns meets the wave elsewhere and
-/// under another heading. X is linear between the database's frequencies and headings, its phase taken
-/// at R. With `with_froude_krylov` the force of the incident wave comes from the database as well, on the
-/// mean wetted surface; else it is left to HullForce. The waves' ramp acts on it.
-/// While a body is lowered X is interpolated between its draughts (DraughtInterpolation).
+/// in the axes of the frame H (RadiatedWater) about its origin R, psi being the yaw of H and p_0
+/// the reference point of the database, both level: a vessel that drifts or turns meets the wave
+/// elsewhere and under another heading. X is linear between the database's frequencies and
+/// headings, its phase taken at R. With `with_froude_krylov` the force of the incident wave comes
+/// from the database as well, on the mean wetted surface; else it is left to HullForce. The waves'
+/// ramp acts on it. While a body is lowered X is interpolated between its draughts
+/// (DraughtInterpolation).
 class DiffractionForce {
  public:
   struct Definition {
@@ -35,8 +36,8 @@ class DiffractionForce {
     DraughtMark mark = {};  ///< where the draught of the series' lowered body is read
   };
 
-  /// @throws ModelError if something is missing, a wave is outside the database's frequencies, or its
-  ///   headings lie more than 45 degrees apart.
+  /// @throws ModelError if something is missing, a wave is outside the database's frequencies, or
+  ///   its headings lie more than 45 degrees apart.
   explicit DiffractionForce(Definition definition);
 
   const std::string& name() const { return definition_.name; }
@@ -45,7 +46,8 @@ class DiffractionForce {
   /// Force on the body about R in W.
   ForceVector calc_force(const MotionState& state) const;
   void add_forces(const MotionState& state, Loads& loads) const;
-  /// How the wave differs where the vessel goes is left out: its length is far beyond a step's travel.
+  /// How the wave differs where the vessel goes is left out: its length is far beyond a step's
+  /// travel.
   void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
   /// All power is supplied by the waves.
   EnergyAccount calc_energy(const MotionState& state) const;

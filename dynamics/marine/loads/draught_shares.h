@@ -9,8 +9,8 @@ namespace blocklift::dynamics {
 /// States of the water that a series may have, the dry one among them.
 inline constexpr int most_draughts = 32;
 
-/// Where the draught of a body that is lowered into the water is read: the depth of its point K, of the
-/// keel below amidships, under the calm surface z = 0, m.
+/// Where the draught of a body that is lowered into the water is read: the depth of its point K, of
+/// the keel below amidships, under the calm surface z = 0, m.
 struct DraughtMark {
   BodyIndex body = -1;
   Vector3 p_BoK_B = Vector3::Constant(not_a_number);
@@ -36,10 +36,11 @@ struct DraughtShares {
 
 /// Interpolation between states of the water at several draughts, the first of which is dry (0 m).
 ///
-/// Linear between the draughts, with corners rounded by parabolas over a tenth of the lesser step on
-/// either side, so that what is interpolated has a continuous derivative: weights are not negative, and a linear
-/// function is met exactly outside of the corners. At and above the surface all is that of the dry state; the
-/// first corner lies between 0 and a tenth of the first draught. Beyond the greatest draught nothing changes.
+/// Linear between the draughts, with corners rounded by parabolas over a tenth of the lesser step
+/// on either side, so that what is interpolated has a continuous derivative: weights are not
+/// negative, and a linear function is met exactly outside of the corners. At and above the surface
+/// all is that of the dry state; the first corner lies between 0 and a tenth of the first draught.
+/// Beyond the greatest draught nothing changes.
 class DraughtInterpolation {
  public:
   /// A single state at whatever draught.

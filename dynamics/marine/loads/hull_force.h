@@ -15,22 +15,23 @@ enum class WaveLoading {
   froude_krylov,  ///< the pressure of the undisturbed wave, on the surface that the wave wets
 };
 
-/// Buoyancy of a hull, and the Froude-Krylov force of the waves, on the instantaneous wetted surface.
+/// Buoyancy of a hull, and the Froude-Krylov force of the waves, on the instantaneous wetted
+/// surface.
 ///
 /// In still water: the exact force of hydrostatics.h (paper eq. 19). In waves: the surface is where
 /// the incident wave stands, and the pressure is
 ///
 ///   p = rho g (p_d/(rho g) - z),   p = 0 at the surface (waves.h, Wheeler's stretching).
 ///
-/// The hull is taken in two parts (WaveSurface). Over small and curved panels the height of the surface,
-/// and p, are linear between the vertices and the points where the edges leave the water, and are
-/// integrated exactly: for a panel of size d in a wave of number k the error is of the order (k d)^2/8 of
-/// the dynamic part. Flat faces to the scale of the waves are cut along the chord of the surface, and p is
-/// integrated over what is wet by three points a triangle, exact to the second degree (Strang and Fix
-/// 1973). In both the hydrostatic part is exact for the hull so cut. Boxes of either that lie below the
-/// deepest trough are taken whole (PressureBoxes): there the hydrostatic part is exact, and p_d right to a
-/// share of WaveSurface::box_tolerance.
-/// Energy: rho g times the energy of hydrostatics.h is stored; what waves add is supplied.
+/// The hull is taken in two parts (WaveSurface). Over small and curved panels the height of the
+/// surface, and p, are linear between the vertices and the points where the edges leave the water,
+/// and are integrated exactly: for a panel of size d in a wave of number k the error is of the
+/// order (k d)^2/8 of the dynamic part. Flat faces to the scale of the waves are cut along the
+/// chord of the surface, and p is integrated over what is wet by three points a triangle, exact to
+/// the second degree (Strang and Fix 1973). In both the hydrostatic part is exact for the hull so
+/// cut. Boxes of either that lie below the deepest trough are taken whole (PressureBoxes): there
+/// the hydrostatic part is exact, and p_d right to a share of WaveSurface::box_tolerance. Energy:
+/// rho g times the energy of hydrostatics.h is stored; what waves add is supplied.
 class HullForce {
  public:
   struct Definition {

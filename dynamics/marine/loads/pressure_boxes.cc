@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t most_on_a_side = 16;
 
-/// What is left of each component of a sea at a depth below the surface, by its amplitude, over the root
-/// of the sum of all amplitudes' squares.
+/// What is left of each component of a sea at a depth below the surface, by its amplitude, over the
+/// root of the sum of all amplitudes' squares.
 std::vector<double> find_shares(const WaveField& waves, double depth) {
   const double bottom = waves.water().depth;
   std::vector<double> shares;
@@ -67,8 +67,8 @@ class Side {
   std::vector<double> points_;
 };
 
-// Points of a triangle by their barycentric coordinates (a, b, b) and its turns, with weights: exact to the
-// fifth degree (Radon 1948).
+// Points of a triangle by their barycentric coordinates (a, b, b) and its turns, with weights:
+// exact to the fifth degree (Radon 1948).
 struct TrianglePoint {
   std::array<double, 3> share;
   double weight;

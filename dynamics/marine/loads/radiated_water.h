@@ -15,31 +15,32 @@ namespace blocklift::dynamics {
 ///
 ///   F = -A_inf du/dt - int K(tau) u(t - tau) d tau,
 ///
-/// u being the spatial velocities of the frames H in their own axes (AddedInertia). H coincides, when
-/// its body lies as the database has it, with the reference point and the axes of the database's
-/// world, and moves with the body: what the database holds for small motions about a rest is so carried
-/// along by a vessel that is towed or turned. Bodies of one database influence each other as if their
-/// distance had not changed.
+/// u being the spatial velocities of the frames H in their own axes (AddedInertia). H coincides,
+/// when its body lies as the database has it, with the reference point and the axes of the
+/// database's world, and moves with the body: what the database holds for small motions about a
+/// rest is so carried along by a vessel that is towed or turned. Bodies of one database influence
+/// each other as if their distance had not changed.
 ///
 /// A_inf acts implicitly, on the left-hand side; the memory is a linear system of states x with
-/// F = -C x and x' = A x + B u (MemoryStateSpace), its states scaled so that each is of the order of
-/// the velocity that drives it. It needs no history and takes any step.
+/// F = -C x and x' = A x + B u (MemoryStateSpace), its states scaled so that each is of the order
+/// of the velocity that drives it. It needs no history and takes any step.
 ///
-/// **A body that is lowered** has a database for each of several draughts, the first dry; at its draught d the
-/// weights w_k(d) of DraughtInterpolation hold. Added mass is A(d) = sum w_k A_k, and the water's momentum
-/// A(d) u: to what is gained in entering it has to be given, F = -d(A u)/dt (von Karman 1929, the impact
-/// force V^2 dA/dd), while water that is left behind keeps its velocity and gives no force,
-/// F = -A du/dt (Kaplan 1992: no impact on leaving). Half of the work of the former goes into spray, and the
-/// latter's energy stays in the water (Molin, Cointe and Fontaine 2004): with dA/dd = S+ - S-, both
-/// positive semidefinite, and whatever the sign of dd/dt,
+/// **A body that is lowered** has a database for each of several draughts, the first dry; at its
+/// draught d the weights w_k(d) of DraughtInterpolation hold. Added mass is A(d) = sum w_k A_k, and
+/// the water's momentum A(d) u: to what is gained in entering it has to be given, F = -d(A u)/dt
+/// (von Karman 1929, the impact force V^2 dA/dd), while water that is left behind keeps its
+/// velocity and gives no force, F = -A du/dt (Kaplan 1992: no impact on leaving). Half of the work
+/// of the former goes into spray, and the latter's energy stays in the water (Molin, Cointe and
+/// Fontaine 2004): with dA/dd = S+ - S-, both positive semidefinite, and whatever the sign of
+/// dd/dt,
 ///
 ///   F = -A du/dt - |dd/dt| S u,    S = S+ in sinking, S- in rising,
 ///   energy lost: |dd/dt| u (S+ + S-) u / 2  >= 0.
 ///
-/// The memory is one system for each draught beside the others, driven by sqrt(w_k) u and felt by sqrt(w_k)
-/// F_k:  K(t, tau) = sum sqrt(w_k(t)) K_k(t - tau) sqrt(w_k(tau)). It is sum w_k K_k at any draught that
-/// stays, and gives back no more than each of its parts was given, however the draught changes: as
-/// passive as they are. Immutable.
+/// The memory is one system for each draught beside the others, driven by sqrt(w_k) u and felt by
+/// sqrt(w_k) F_k:  K(t, tau) = sum sqrt(w_k(t)) K_k(t - tau) sqrt(w_k(tau)). It is sum w_k K_k at
+/// any draught that stays, and gives back no more than each of its parts was given, however the
+/// draught changes: as passive as they are. Immutable.
 class RadiatedWater {
  public:
   struct Definition {
@@ -62,8 +63,8 @@ class RadiatedWater {
   ///   DraughtInterpolation and MemoryStateSpace.
   explicit RadiatedWater(const Definition& definition);
 
-  /// Water whose memory is marched beside the integration (IntegrationSettings::surface): no states.
-  /// `infinite_added_mass` is 6N x 6N in the order of the modes (DegreeOfFreedom).
+  /// Water whose memory is marched beside the integration (IntegrationSettings::surface): no
+  /// states. `infinite_added_mass` is 6N x 6N in the order of the modes (DegreeOfFreedom).
   /// @throws ModelError as AddedInertia.
   RadiatedWater(std::vector<BodyFrame> frames, const Eigen::MatrixXd& infinite_added_mass);
 
@@ -79,8 +80,8 @@ class RadiatedWater {
   bool varies() const { return !steps_.empty(); }
   /// Shares at the bodies' places, with the rate of the draught. Does not allocate.
   DraughtShares find_shares(const Kinematics& kinematics) const;
-  /// A(d), 6N x 6N in the order (angular; linear); the frame's own matrix where nothing varies. Does not
-  /// allocate.
+  /// A(d), 6N x 6N in the order (angular; linear); the frame's own matrix where nothing varies.
+  /// Does not allocate.
   void calc_added_mass(const DraughtShares& shares, Eigen::MatrixXd& matrix) const;
   /// Adds the force of the water that is taken up at velocities u. Does not allocate.
   void add_entry_force(const DraughtShares& shares, ConstVectorRef u, VectorRef force) const;
@@ -98,7 +99,8 @@ class RadiatedWater {
     Eigen::Index first = 0, count = 0;
   };
   const std::vector<Section>& sections() const { return sections_; }
-  /// (1 - gamma A)^-1 as it stands: on each state its own, and of a pair what the one adds to the other.
+  /// (1 - gamma A)^-1 as it stands: on each state its own, and of a pair what the one adds to the
+  /// other.
   struct Resolvent {
     Eigen::VectorXd straight, across;
   };

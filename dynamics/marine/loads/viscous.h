@@ -40,8 +40,8 @@ class MorisonMember {
   /// Force on the body about Bo in W.
   ForceVector calc_force(const MotionState& state) const;
   void add_forces(const MotionState& state, Loads& loads) const;
-  /// By the velocity and the turning of the member; how water velocities and the wetted length change
-  /// with its place is left out.
+  /// By the velocity and the turning of the member; how water velocities and the wetted length
+  /// change with its place is left out.
   void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
   /// The supplied power is that of the force on the moving body: negative where the water brakes.
   EnergyAccount calc_energy(const MotionState& state) const;

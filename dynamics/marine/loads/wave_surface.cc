@@ -10,8 +10,8 @@
 namespace blocklift::dynamics {
 namespace {
 
-// Three points on each of two triangles against about one point for each panel of the same area: faces
-// pay from here on.
+// Three points on each of two triangles against about one point for each panel of the same area:
+// faces pay from here on.
 constexpr double least_face_length = 3.0;  // diameters of a panel
 // A polygon that is longer was joined of several panels.
 constexpr double longest_panel = 1.5;  // diameters of a panel in the mean

@@ -24,7 +24,8 @@ class LuFactorisation {
   std::vector<int> pivots_;
 };
 
-/// Eigenvalues, ascending, of a symmetric matrix, whose place its eigenvectors take as columns; by LAPACK.
+/// Eigenvalues, ascending, of a symmetric matrix, whose place its eigenvectors take as columns; by
+/// LAPACK.
 /// @throws SimulationError if the iteration does not converge.
 Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix);
 

@@ -101,8 +101,8 @@ template <std::size_t count>
 }
 
 /// Angle (rad) of the point (x, y) without branches: an octant's arctangent with the argument
-/// reduced to |t| <= tan(pi/8); polynomial as above, relative error 4e-17. At the origin, where a rectangle's
-/// centroid lies exactly on its diagonal, any angle would do: zero.
+/// reduced to |t| <= tan(pi/8); polynomial as above, relative error 4e-17. At the origin, where a
+/// rectangle's centroid lies exactly on its diagonal, any angle would do: zero.
 [[gnu::always_inline]] inline double angle_of(double y, double x) {
   constexpr std::array<double, 11> arctangent = {
       1.0,

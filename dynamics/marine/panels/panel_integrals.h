@@ -22,9 +22,9 @@ struct PanelPotentials {
 ///   source = sum over edges Y ln((r1 + r2 + d)/(r1 + r2 - d)) - h Omega,
 ///
 /// h the height of P above the panel's plane, A the triangle's area. In the plane of the panel the
-/// dipole has two limits, +2 pi and -2 pi inside and 0 outside; zero, their mean, is returned at the
-/// panel's centroid. Sources: Hess and Smith (1964), Newman (1986) for the source; Van Oosterom and
-/// Strackee (1983) for the solid angle.
+/// dipole has two limits, +2 pi and -2 pi inside and 0 outside; zero, their mean, is returned at
+/// the panel's centroid. Sources: Hess and Smith (1964), Newman (1986) for the source; Van Oosterom
+/// and Strackee (1983) for the solid angle.
 PanelPotentials calc_panel_potentials(const Panel& panel, const Vector3& point_W);
 
 /// Coordinates of many points, a column each (m): what the integrals are vectorised over.

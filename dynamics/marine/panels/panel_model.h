@@ -14,12 +14,14 @@ namespace blocklift::dynamics {
 /// Is the bottom too far down to be felt at any frequency?
 inline bool is_deep(const Water& water) { return std::isinf(water.depth); }
 
-/// Degrees of freedom of a floating body, in the order of the hydrodynamic literature: displacements
-/// along the world's axes, then rotations about them through the body's reference point.
+/// Degrees of freedom of a floating body, in the order of the hydrodynamic literature:
+/// displacements along the world's axes, then rotations about them through the body's reference
+/// point.
 enum DegreeOfFreedom { surge = 0, sway, heave, roll, pitch, yaw };
 inline constexpr int modes_per_body = 6;
 
-/// Wetted surface of a body at rest, with the point about which its rotations and moments are taken.
+/// Wetted surface of a body at rest, with the point about which its rotations and moments are
+/// taken.
 struct WettedBody {
   std::string name;
   PanelMesh hull;                             ///< below z = 0, normals into the water; m, in W
@@ -36,9 +38,9 @@ struct Parity {
 
 /// All that the panels of a problem are: bodies, surface, and what symmetry makes of them.
 ///
-/// With planes of symmetry each quantity is the sum of parts that are even or odd in each plane; the
-/// parts do not interact, and each is computed on a half or a quarter of the panels. A body may be
-/// its own mirror image or that of another.
+/// With planes of symmetry each quantity is the sum of parts that are even or odd in each plane;
+/// the parts do not interact, and each is computed on a half or a quarter of the panels. A body may
+/// be its own mirror image or that of another.
 class PanelModel {
  public:
   /// The bodies' hulls may be whole or hold their half already; with `symmetry` the bodies together

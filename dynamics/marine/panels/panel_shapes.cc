@@ -35,7 +35,8 @@ std::vector<double> graded_to_end(int intervals, double ratio) {
   return points;
 }
 
-/// Points -1/2 .. 1/2, symmetric, finer towards both ends; the middle interval is longer by a ratio.
+/// Points -1/2 .. 1/2, symmetric, finer towards both ends; the middle interval is longer by a
+/// ratio.
 std::vector<double> graded_to_both_ends(int intervals, double ratio) {
   std::vector<double> sizes(static_cast<std::size_t>(intervals));
   double sum = 0.0;

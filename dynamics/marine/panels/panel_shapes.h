@@ -14,8 +14,8 @@ struct RoundDivision {
   bool exact_volume = true;
 };
 
-/// Lower half of an ellipsoid with the semi-axes a, b, c (m) along x, y, z, its centre at the world's
-/// origin: a hemisphere for a = b = c. The volume is 2/3 pi a b c.
+/// Lower half of an ellipsoid with the semi-axes a, b, c (m) along x, y, z, its centre at the
+/// world's origin: a hemisphere for a = b = c. The volume is 2/3 pi a b c.
 PanelMesh make_half_ellipsoid(const Vector3& semi_axes, const RoundDivision& division = {});
 
 /// The whole ellipsoid about a centre (m) below the surface.
@@ -36,7 +36,8 @@ struct BoxDivision {
   double grading = 3.0;
 };
 
-/// Wetted surface of a barge: length (m) along x, breadth along y, draught, about the world's origin.
+/// Wetted surface of a barge: length (m) along x, breadth along y, draught, about the world's
+/// origin.
 PanelMesh make_box_hull(double length, double breadth, double draught,
                         const BoxDivision& division = {});
 

@@ -41,8 +41,8 @@ PointColumns image_of(const PanelMesh& mesh, const Symmetry& symmetry, int image
   return points;
 }
 
-/// Adds the panels' potentials at all image points: a column of the matrices for each panel. An empty
-/// matrix is not due.
+/// Adds the panels' potentials at all image points: a column of the matrices for each panel. An
+/// empty matrix is not due.
 void add_influence(const PanelMesh& panels, const std::vector<ImagePoints>& images, int threads,
                    MatrixXd& source, MatrixXd& dipole) {
   parallel_for(panels.size(), threads, [&](int j) {
@@ -131,7 +131,8 @@ RankinePart::Influence RankinePart::compute_influence(const PanelModel& model, i
     };
     at_bodies_of_bodies.push_back({body_points(0, 1), s, s, g == 0});
     at_bodies_of_bodies.push_back({body_points(0, -1), -s, -s});
-    // The dipoles of the surface are odd in z, its sources even: 1/r - 1/r' doubles or cancels them.
+    // The dipoles of the surface are odd in z, its sources even: 1/r - 1/r' doubles or cancels
+    // them.
     at_bodies_of_surface.push_back({body_points(0, 1), 0.0, 2.0 * s});
     at_surface_of_bodies.push_back({surface_points(0, 1), s, s});
     at_surface_of_surface.push_back({surface_points(0, 1), s, 0.0, g == 0, true});
@@ -250,8 +251,8 @@ void RankinePart::solve(const MatrixXd& normal_velocities, MatrixXd& body_potent
 
 double rankine_part_bytes(int body_panels, int surface_panels, bool finite_depth) {
   const double nb = body_panels, nf = surface_panels;
-  // On the surface S_FF, the reduced operator in double precision and for the march in single; D_FB,
-  // S_FB, P and its scaled copy; two matrices of the bodies. In finite depth S_BF besides.
+  // On the surface S_FF, the reduced operator in double precision and for the march in single;
+  // D_FB, S_FB, P and its scaled copy; two matrices of the bodies. In finite depth S_BF besides.
   const double numbers =
       2.5 * nf * nf + 4.0 * nb * nf + 2.0 * nb * nb + (finite_depth ? nb * nf : 0.0);
   return numbers * sizeof(double);

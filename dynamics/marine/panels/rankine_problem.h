@@ -38,20 +38,21 @@ struct RankineTiming {
 ///   2 pi phi = D phi - S dphi/dn,   S = integral of 1/r, D = integral of d(1/r)/dn.
 ///
 /// On the bodies dphi/dn = n.u is known and phi sought; on the surface phi is known and w = dphi/dz
-/// sought. At the bodies 1/r is replaced by 1/r - 1/r', r' from the image of the collocation point in
-/// z = 0, where the same identity has no left-hand side: in deep water the surface's w drops out of
-/// the bodies' equations, which are then solved by themselves. The bottom enters as an image. With
-/// both factorised once,
+/// sought. At the bodies 1/r is replaced by 1/r - 1/r', r' from the image of the collocation point
+/// in z = 0, where the same identity has no left-hand side: in deep water the surface's w drops out
+/// of the bodies' equations, which are then solved by themselves. The bottom enters as an image.
+/// With both factorised once,
 ///
 ///   phi_B = P phi_F + sum over modes Phi_m v_m,    w = M phi_F + sum over modes q_m v_m,
 ///   F_m = -rho A_mn dv_n/dt + rho c_m . dphi_F/dt,         c_m = W q_m by reciprocity.
 ///
 /// All surface quantities are held multiplied by the square root W^1/2 of the panels' areas. M is
-/// then symmetric and positive, and W^1/2 q_m equal to W^-1/2 c_m, but for the discretisation error.
-/// The symmetric part of M and the mean of the two columns are taken: waves can then but carry energy
-/// away, whatever the mesh, and the error of the mean is an order smaller than that of either (that
-/// of the damping of a hemisphere at k a = 4: 1.8 % against 4.8 % with 1,800 unknowns).
-/// Sources: Kring (1994); Hess and Smith (1964); Newman (1977), section 4.8, for the reciprocity.
+/// then symmetric and positive, and W^1/2 q_m equal to W^-1/2 c_m, but for the discretisation
+/// error. The symmetric part of M and the mean of the two columns are taken: waves can then but
+/// carry energy away, whatever the mesh, and the error of the mean is an order smaller than that of
+/// either (that of the damping of a hemisphere at k a = 4: 1.8 % against 4.8 % with 1,800
+/// unknowns). Sources: Kring (1994); Hess and Smith (1964); Newman (1977), section 4.8, for the
+/// reciprocity.
 class RankinePart {
  public:
   /// @throws SimulationError if it does not fit into the memory allowed (with the figures) or a

@@ -36,8 +36,8 @@ bool is_flat(const Polygon& polygon, double share) {
   });
 }
 
-/// The hull's vertices in the world. One nearer to the surface than a thousandth of the smallest panel
-/// that it belongs to lies on it, for all of its panels alike.
+/// The hull's vertices in the world. One nearer to the surface than a thousandth of the smallest
+/// panel that it belongs to lies on it, for all of its panels alike.
 Polygon vertices_in_world(const Hull& hull, const Pose& X_WB) {
   std::vector<double> size(hull.vertices().size(), std::numeric_limits<double>::infinity());
   for (int k = 0; k < hull.panel_count(); ++k) {

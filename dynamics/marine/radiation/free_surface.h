@@ -14,18 +14,19 @@ struct DampingZone {
   Eigen::VectorXd rates(const SurfaceMesh& surface) const;
 };
 
-/// Damping zone for waves down to a frequency (rad/s): 1.1 times that frequency at the edge. Stronger
-/// damping reflects the waves it should take in.
+/// Damping zone for waves down to a frequency (rad/s): 1.1 times that frequency at the edge.
+/// Stronger damping reflects the waves it should take in.
 DampingZone damping_zone(double lowest_frequency);
 
 /// Free surface of one part, marched in time (the paper's equations 26 and 27):
 ///
 ///   d eta/dt = M phi + q v - 2 nu eta + (nu^2/g) phi,      d phi/dt = -g eta,
 ///
-/// eta at t, phi half a step later (leapfrog, second order, no damping of its own); the damping term
-/// 2 nu eta by Crank and Nicolson's rule. All quantities carry the factor W^1/2 of RankinePart, the
-/// operator is held in single precision: that is what a step has to read. Several histories (columns)
-/// are marched at once at little more than the cost of one. No allocation in a step.
+/// eta at t, phi half a step later (leapfrog, second order, no damping of its own); the damping
+/// term 2 nu eta by Crank and Nicolson's rule. All quantities carry the factor W^1/2 of
+/// RankinePart, the operator is held in single precision: that is what a step has to read. Several
+/// histories (columns) are marched at once at little more than the cost of one. No allocation in a
+/// step.
 class FreeSurfaceMarch {
  public:
   /// `damping` is nu for each panel (rad/s), `columns` the number of histories.

@@ -8,7 +8,8 @@ namespace blocklift::dynamics {
 
 /// Flow of one part in steady oscillation, with the very matrices that are marched in time:
 ///
-///   (g M + (i w + nu)^2) phi_F = -g q v,    phi_B = Phi v + P phi_F,    F_m = i w rho sum n_m W phi_B.
+///   (g M + (i w + nu)^2) phi_F = -g q v,    phi_B = Phi v + P phi_F,    F_m = i w rho sum n_m W
+///     phi_B.
 ///
 /// A dense complex system for each frequency: the instrument that tells the errors of the
 /// discretisation, of the damping zone and of the time step from each other, and solves diffraction

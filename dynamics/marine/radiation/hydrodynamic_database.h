@@ -9,9 +9,9 @@ namespace blocklift::dynamics {
 
 /// Linear hydrodynamics of bodies floating at rest, computed once: immutable, SI throughout.
 ///
-/// The 6N modes are those of DegreeOfFreedom, body after body, each about its body's reference point
-/// and along the world's axes. A body's motion xi (m, rad) and the force F (N, N m) of the water that
-/// answers it are related by (Cummins 1962, Ogilvie 1964)
+/// The 6N modes are those of DegreeOfFreedom, body after body, each about its body's reference
+/// point and along the world's axes. A body's motion xi (m, rad) and the force F (N, N m) of the
+/// water that answers it are related by (Cummins 1962, Ogilvie 1964)
 ///
 ///   F(t) = -A_inf xi'' - integral over tau from 0 of K(tau) xi'(t - tau),
 ///   A(w) = A_inf - (1/w) int K sin(w t) dt,    B(w) = int K cos(w t) dt.
@@ -61,17 +61,18 @@ struct DatabaseSettings {
   std::function<void(double, const char*)> progress;
 };
 
-/// @throws ModelError unless at least three panels go into the wave of a frequency (rad/s) wherever it
-/// reaches them, a quarter of its length down; the message has the widest panel's place and size.
+/// @throws ModelError unless at least three panels go into the wave of a frequency (rad/s) wherever
+/// it reaches them, a quarter of its length down; the message has the widest panel's place and
+/// size.
 void require_panels_for_waves(const PanelModel& model, double frequency);
 
 /// Memory (bytes) that compute_database takes at its peak, at most.
 double database_bytes(const PanelModel& model, const DatabaseSettings& settings);
 
-/// @throws ModelError naming everything that makes the database unusable, a line each: a number that
-/// is not finite (with body, mode and frequency), a size that does not fit the bodies, frequencies,
-/// or headings, no frequencies or frequencies that do not ascend, no retardation functions, bodies
-/// of the same name, a constant of the water out of range.
+/// @throws ModelError naming everything that makes the database unusable, a line each: a number
+/// that is not finite (with body, mode and frequency), a size that does not fit the bodies,
+/// frequencies, or headings, no frequencies or frequencies that do not ascend, no retardation
+/// functions, bodies of the same name, a constant of the water out of range.
 void require_sound(const HydrodynamicDatabase& database);
 
 /// What a computation of a database came to.
@@ -88,11 +89,11 @@ struct DatabaseReport {
   double asymmetry = 0.0;          ///< of A_inf before it is made symmetric, relative
 };
 
-/// Computes the database by the time-domain Rankine panel method: for each part one impulse run with
-/// all its modes at once, K(t) = rho g q . eta(t), and its Fourier integrals. These take the leapfrog
-/// march's own dispersion into account, w_d = (2/dt) asin(w dt/2), so that A, B and X carry no error
-/// of the time step but in the damping zone. Diffraction by Haskind's relation from the radiation
-/// potentials, so that any number of headings costs next to nothing.
+/// Computes the database by the time-domain Rankine panel method: for each part one impulse run
+/// with all its modes at once, K(t) = rho g q . eta(t), and its Fourier integrals. These take the
+/// leapfrog march's own dispersion into account, w_d = (2/dt) asin(w dt/2), so that A, B and X
+/// carry no error of the time step but in the damping zone. Diffraction by Haskind's relation from
+/// the radiation potentials, so that any number of headings costs next to nothing.
 /// @throws ModelError if a frequency is not positive, or its wave shorter than three panels;
 /// SimulationError if the memory does not suffice.
 HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSettings& settings,

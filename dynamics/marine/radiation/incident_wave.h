@@ -6,9 +6,9 @@
 
 namespace blocklift::dynamics {
 
-/// Complex amplitudes of a regular wave of unit amplitude: each quantity is Re(amplitude e^{i w t}),
-/// with the elevation eta = Re exp(i (w t - k (x cos theta + y sin theta))). The paper's equation
-/// (28), with cosh(k (z + h))/cosh(k h) for exp(k z) in water of finite depth.
+/// Complex amplitudes of a regular wave of unit amplitude: each quantity is Re(amplitude e^{i w
+/// t}), with the elevation eta = Re exp(i (w t - k (x cos theta + y sin theta))). The paper's
+/// equation (28), with cosh(k (z + h))/cosh(k h) for exp(k z) in water of finite depth.
 class IncidentWave {
  public:
   /// Frequency in rad/s, heading in rad (direction of travel, from +x towards +y).

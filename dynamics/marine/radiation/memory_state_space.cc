@@ -16,8 +16,8 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rows of the Hankel matrix at most, its eigenvectors cost the cube of them; but this many samples in any
-/// case, so that what swings fast is seen.
+/// Rows of the Hankel matrix at most, its eigenvectors cost the cube of them; but this many samples
+/// in any case, so that what swings fast is seen.
 constexpr Eigen::Index most_rows = 1200, least_samples = 130;
 
 /// Modes weaker than this share of the strongest of their kind are not measured by their own peak.
@@ -36,8 +36,8 @@ ScaledSamples scale_samples(const HydrodynamicDatabase& database) {
   const Eigen::Index modes = database.retardation[0].rows();
   VectorXd peak = VectorXd::Zero(modes);
   for (const MatrixXd& K : database.retardation) peak = peak.cwiseMax(K.diagonal().cwiseAbs());
-  // A mode that makes next to no waves (the yaw of a round body) is measured by the strongest mode of
-  // its kind: its memory is felt by nobody, and may be mere noise of the panels.
+  // A mode that makes next to no waves (the yaw of a round body) is measured by the strongest mode
+  // of its kind: its memory is felt by nobody, and may be mere noise of the panels.
   samples.scale.resize(modes);
   for (Eigen::Index i = 0; i < modes; ++i) {
     double strongest = 0.0;
@@ -54,8 +54,8 @@ ScaledSamples scale_samples(const HydrodynamicDatabase& database) {
   return samples;
 }
 
-/// Takes exp(A t) B from sample to sample. A is block-diagonal: its exponential over a step goes by blocks of one
-/// or two rows, [c, s; -s, c].
+/// Takes exp(A t) B from sample to sample. A is block-diagonal: its exponential over a step goes by
+/// blocks of one or two rows, [c, s; -s, c].
 class Stepping {
  public:
   Stepping(const MatrixXd& A, double step) : c_(A.rows()), s_(VectorXd::Zero(A.rows())) {
@@ -120,9 +120,10 @@ std::vector<Eigen::Index> moving_bodies(const std::vector<MatrixXd>& K) {
   return bodies;
 }
 
-/// Columns (u_1 + S u_2)/sqrt 2 and (u_1 - S u_2)/sqrt 2 of two bodies, the only ones that move, that are each
-/// other's mirror image in a plane x or y = constant, or turned by half a turn, S being the signs that their
-/// modes take by it: what both do alike does not couple with what they do against each other. Else the identity.
+/// Columns (u_1 + S u_2)/sqrt 2 and (u_1 - S u_2)/sqrt 2 of two bodies, the only ones that move,
+/// that are each other's mirror image in a plane x or y = constant, or turned by half a turn, S
+/// being the signs that their modes take by it: what both do alike does not couple with what they
+/// do against each other. Else the identity.
 MatrixXd pair_mirrored_bodies(const std::vector<MatrixXd>& K) {
   const Eigen::Index n = modes_per_body;
   MatrixXd pairs = MatrixXd::Identity(K[0].rows(), K[0].rows());
@@ -148,7 +149,8 @@ MatrixXd pair_mirrored_bodies(const std::vector<MatrixXd>& K) {
   return pairs;
 }
 
-/// Orthonormal combinations of modes in groups that do not couple: a matrix (modes x members) for each.
+/// Orthonormal combinations of modes in groups that do not couple: a matrix (modes x members) for
+/// each.
 std::vector<MatrixXd> find_groups(const std::vector<MatrixXd>& K) {
   const MatrixXd pairs = pair_mirrored_bodies(K);
   const Eigen::Index modes = pairs.rows();
@@ -192,8 +194,8 @@ struct Realisation {
 Realisation realise(const std::vector<MatrixXd>& K, double time_step, int most_states) {
   const Eigen::Index modes = K[0].rows();
   const auto count = static_cast<Eigen::Index>(K.size());
-  // Every stride-th sample. K is taken as zero behind its end: with all of it in the matrix the leading
-  // states of a finite response form a stable system, however few are taken (Kung 1978).
+  // Every stride-th sample. K is taken as zero behind its end: with all of it in the matrix the
+  // leading states of a finite response form a stable system, however few are taken (Kung 1978).
   const Eigen::Index allowed = std::max(most_rows, least_samples * modes);
   const Eigen::Index stride = std::max<Eigen::Index>(1, (count * modes + allowed - 1) / allowed);
   const Eigen::Index rows = (count + stride - 1) / stride;
@@ -281,9 +283,10 @@ System take_modal_form(const Realisation& realisation, Eigen::Index states) {
   return system;
 }
 
-/// The system with its output changed as little as can be, by the square of what K changes over the samples, so
-/// that the integral of K is that of the samples: the damping of a steady velocity, which drifts rest on, and which
-/// is nothing for bodies in open water. With G = (-A)^-1 B and P the sum of exp(A t) B B^T exp(A^T t),
+/// The system with its output changed as little as can be, by the square of what K changes over the
+/// samples, so that the integral of K is that of the samples: the damping of a steady velocity,
+/// which drifts rest on, and which is nothing for bodies in open water. With G = (-A)^-1 B and P
+/// the sum of exp(A t) B B^T exp(A^T t),
 ///   C + D,   D = (int K - C G) (G^T P^-1 G)^+ G^T P^-1.
 System with_steady_state(const ScaledSamples& samples, System system) {
   const Eigen::Index states = system.A.rows();

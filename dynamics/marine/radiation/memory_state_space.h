@@ -4,24 +4,27 @@
 
 namespace blocklift::dynamics {
 
-/// The memory of the water as a linear system with a few states, fitted to the retardation functions:
+/// The memory of the water as a linear system with a few states, fitted to the retardation
+/// functions:
 ///
 ///   x' = A x + B v,   F = -C x,      K(t) = C exp(A t) B,
 ///
-/// an ordinary differential equation that any integrator takes with any step. The poles are common to
-/// all modes that couple; each real pole has one state and each complex pair two, A being block-diagonal. All
-/// poles decay. Found from the samples of K by the eigensystem realisation algorithm: the block Hankel
-/// matrix of K(i + j) is symmetric, its leading eigenvectors are the states. Modes that do not couple, to
-/// a thousandth of their peaks, are fitted apart, and so are two bodies that mirror each other, by what
-/// they do alike and against each other. The number of states is the least that meets the tolerance. The integral
-/// of K, the damping of a steady velocity, is that of the samples (their trapezoidal sum) where the tolerance allows.
-/// Sources: Kung (1978); Kristiansen, Hjulstad and Egeland (2005), Ocean Engineering 32, for Cummins'
+/// an ordinary differential equation that any integrator takes with any step. The poles are common
+/// to all modes that couple; each real pole has one state and each complex pair two, A being
+/// block-diagonal. All poles decay. Found from the samples of K by the eigensystem realisation
+/// algorithm: the block Hankel matrix of K(i + j) is symmetric, its leading eigenvectors are the
+/// states. Modes that do not couple, to a thousandth of their peaks, are fitted apart, and so are
+/// two bodies that mirror each other, by what they do alike and against each other. The number of
+/// states is the least that meets the tolerance. The integral of K, the damping of a steady
+/// velocity, is that of the samples (their trapezoidal sum) where the tolerance allows. Sources:
+/// Kung (1978); Kristiansen, Hjulstad and Egeland (2005), Ocean Engineering 32, for Cummins'
 /// equation.
 class MemoryStateSpace {
  public:
   /// `tolerance`: largest error of any K_ij over the root of the peaks of K_ii and K_jj, each taken
   /// as at least a thousandth of the strongest displacement's (or rotation's).
-  /// `acceptable`: a larger error that is put up with where the states do not suffice for the tolerance.
+  /// `acceptable`: a larger error that is put up with where the states do not suffice for the
+  /// tolerance.
   /// @throws ModelError if the database holds fewer than 16 samples, or no number of states up to
   /// `most_states` meets either: what was reached.
   explicit MemoryStateSpace(const HydrodynamicDatabase& database, double tolerance = 0.01,

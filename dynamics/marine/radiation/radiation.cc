@@ -156,8 +156,8 @@ DirectRadiation::DirectRadiation(const PanelModel& model, const Settings& settin
   if (!waves_.empty()) prepare_grid(model);
 }
 
-// Over a step of the grid no wave changes its phase at any panel by more than a fifth of a radian, so that what is
-// linear between two turns is off by a two-hundredth.
+// Over a step of the grid no wave changes its phase at any panel by more than a fifth of a radian,
+// so that what is linear between two turns is off by a two-hundredth.
 void DirectRadiation::prepare_grid(const PanelModel& model) {
   constexpr double most_phase = 0.2;
   model_ = std::make_shared<const PanelModel>(model);

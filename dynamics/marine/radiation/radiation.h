@@ -10,12 +10,13 @@ namespace blocklift::dynamics {
 
 /// Memory force of Cummins' equation by convolution with the velocity's own history:
 ///
-///   F(t) = - integral over tau from 0 to t - t_start of K(tau) v(t - tau),    at rest before t_start.
+///   F(t) = - integral over tau from 0 to t - t_start of K(tau) v(t - tau),    at rest before
+///     t_start.
 ///
-/// The history is interpolated by cubic Hermite polynomials between whatever instants were recorded,
-/// K by cubic polynomials between its own; the integral is taken cell by cell of K (Gauss, three
-/// points). The result therefore does not depend on the simulation's step but by the fourth order of
-/// the interpolation. Source: Cummins (1962).
+/// The history is interpolated by cubic Hermite polynomials between whatever instants were
+/// recorded, K by cubic polynomials between its own; the integral is taken cell by cell of K
+/// (Gauss, three points). The result therefore does not depend on the simulation's step but by the
+/// fourth order of the interpolation. Source: Cummins (1962).
 class MemoryConvolution {
  public:
   explicit MemoryConvolution(const HydrodynamicDatabase& database);
@@ -58,13 +59,13 @@ struct RegularWave {
   std::complex<double> amplitude = {1.0};  ///< m
 };
 
-/// Radiation and diffraction without a database: the free surface is marched with the bodies, as the
-/// paper does (its equations 20-30). Steps of one fixed length; at each instant the force follows from
-/// the surface, the acceleration from the force (added mass on the left), and the velocity half a step
-/// on drives the surface.
+/// Radiation and diffraction without a database: the free surface is marched with the bodies, as
+/// the paper does (its equations 20-30). Steps of one fixed length; at each instant the force
+/// follows from the surface, the acceleration from the force (added mass on the left), and the
+/// velocity half a step on drives the surface.
 ///
-/// Waves are met where the bodies lie and as they are turned (carry): what they scatter is computed for turns of a
-/// fine grid, each when it is first come to, and is linear between two of them.
+/// Waves are met where the bodies lie and as they are turned (carry): what they scatter is computed
+/// for turns of a fine grid, each when it is first come to, and is linear between two of them.
 class DirectRadiation {
  public:
   struct Settings {
@@ -92,14 +93,15 @@ class DirectRadiation {
   Eigen::VectorXd calc_force() const;
   /// One step, with the bodies' velocity (6N) at its middle.
   void advance(const Eigen::VectorXd& velocity);
-  /// The bodies, and the surface with them, lie elsewhere now: the mean of their reference points at `place`
-  /// (m, in the mechanism's world), all of them turned by `turn` (rad, from +x towards +y) against the panels. They
-  /// meet the waves there. Velocities and forces are those in axes that are turned with the bodies.
+  /// The bodies, and the surface with them, lie elsewhere now: the mean of their reference points
+  /// at `place` (m, in the mechanism's world), all of them turned by `turn` (rad, from +x towards
+  /// +y) against the panels. They meet the waves there. Velocities and forces are those in axes
+  /// that are turned with the bodies.
   void carry(const Eigen::Vector2d& place, double turn);
 
  private:
-  /// What waves do to a part at one turn of the bodies: a column for each wave, of unit amplitude and no
-  /// phase at the mean of the reference points.
+  /// What waves do to a part at one turn of the bodies: a column for each wave, of unit amplitude
+  /// and no phase at the mean of the reference points.
   struct WaveColumns {
     Eigen::MatrixXcd supply;     ///< W^1/2 q of the wave's normal velocity
     Eigen::MatrixXcd force;      ///< Froude-Krylov

@@ -4,8 +4,8 @@
 
 namespace blocklift::dynamics {
 
-/// Retardation functions of a database that has A(w) and B(w) alone, as frequency-domain programs give
-/// them (Ogilvie 1964):
+/// Retardation functions of a database that has A(w) and B(w) alone, as frequency-domain programs
+/// give them (Ogilvie 1964):
 ///
 ///   K(t) = (2/pi) int B(w) cos(w t) dw,
 ///
@@ -16,8 +16,8 @@ namespace blocklift::dynamics {
 /// @throws ModelError if there are fewer than three frequencies.
 void add_retardation(HydrodynamicDatabase& database);
 
-/// A_inf = A(w) + (1/w) int K(t) sin(w t) dt, the mean over all frequencies: for databases without it.
-/// Retardation functions must be there.
+/// A_inf = A(w) + (1/w) int K(t) sin(w t) dt, the mean over all frequencies: for databases without
+/// it. Retardation functions must be there.
 void add_infinite_added_mass(HydrodynamicDatabase& database);
 
 }  // namespace blocklift::dynamics

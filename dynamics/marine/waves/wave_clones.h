@@ -1,7 +1,7 @@
 #pragma once
 
-// One version of a function for any x86-64, one for machines with AVX2 and FMA and one with AVX-512, chosen
-// when the program starts.
+// One version of a function for any x86-64, one for machines with AVX2 and FMA and one with
+// AVX-512, chosen when the program starts.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__AVX2__)
 #define BLOCKLIFT_CLONES \

@@ -77,8 +77,8 @@ constexpr double rounding = 0x1.8p52;
 
 namespace {
 
-// Phase of a component at the origin, within half a turn where it would grow large: the arguments of the
-// cosine stay small however long the simulation lasts.
+// Phase of a component at the origin, within half a turn where it would grow large: the arguments
+// of the cosine stay small however long the simulation lasts.
 double phase_at(const WaveTerms& waves, std::size_t c, double time) {
   const double phase = waves.phase[c] - waves.omega[c] * time;
   constexpr double large = 1e5;

@@ -6,9 +6,9 @@
 
 namespace blocklift::dynamics {
 
-/// Inner loops of a sea: sums over points, written so that the compiler vectorises them (the sine and
-/// exponential are polynomials of their own, within 4 units of the last place for the arguments that
-/// occur: |x| < 1e6 for the cosine, x <= 0 for the exponential).
+/// Inner loops of a sea: sums over points, written so that the compiler vectorises them (the sine
+/// and exponential are polynomials of their own, within 4 units of the last place for the arguments
+/// that occur: |x| < 1e6 for the cosine, x <= 0 for the exponential).
 
 /// The components of a sea, each array `count` long.
 struct WaveTerms {

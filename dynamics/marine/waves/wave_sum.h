@@ -13,16 +13,19 @@ struct WaveGroup {
 
 /// Elevation and dynamic head of many waves at many points, by one cosine for each wave and point.
 ///
-/// How a wave decays with depth, C(k, z) = cosh(k (z + h))/cosh(k h), is interpolated in ln k between a few
-/// wave numbers K_m, the carriers, four to an octave, by polynomials of the fifth degree:
+/// How a wave decays with depth, C(k, z) = cosh(k (z + h))/cosh(k h), is interpolated in ln k
+/// between a few wave numbers K_m, the carriers, four to an octave, by polynomials of the fifth
+/// degree:
 ///
-///   C(k, z) = sum_m L_m(ln k) C(K_m, z),   so   sum_c a_c C(k_c, z) cos theta_c = sum_m C(K_m, z) W_m,
+///   C(k, z) = sum_m L_m(ln k) C(K_m, z),   so   sum_c a_c C(k_c, z) cos theta_c = sum_m C(K_m, z)
+///     W_m,
 ///
-/// with W_m = sum_c a_c L_m(ln k_c) cos theta_c, sums in which the depth does not occur. The polynomials add up
-/// to 1: the elevation is the sum of all W_m, and pressure vanishes at it. C is one function of ln k + ln(-z) in
-/// deep water, so that the error of a component is the same at any depth and any wave number: at most
-/// `depth_error` of its amplitude, 1.2e-6 in deep water and 4.2e-6 in water of any depth; it falls with the
-/// sixth power of the carriers' distance. e^(K z) of a carrier an octave higher is the square of that below.
+/// with W_m = sum_c a_c L_m(ln k_c) cos theta_c, sums in which the depth does not occur. The
+/// polynomials add up to 1: the elevation is the sum of all W_m, and pressure vanishes at it. C is
+/// one function of ln k + ln(-z) in deep water, so that the error of a component is the same at any
+/// depth and any wave number: at most `depth_error` of its amplitude, 1.2e-6 in deep water and
+/// 4.2e-6 in water of any depth; it falls with the sixth power of the carriers' distance. e^(K z)
+/// of a carrier an octave higher is the square of that below.
 ///
 /// The cosine is a polynomial of the fraction of a turn, within 1e-14. Immutable.
 class WaveSum {

@@ -1,4 +1,5 @@
-// Inner loops of WaveSum, over lanes of eight points that the compiler turns into the machine's vectors.
+// Inner loops of WaveSum, over lanes of eight points that the compiler turns into the machine's
+// vectors.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +24,8 @@ constexpr double rounding = 0x1.8p52;
 [[gnu::always_inline]] inline void take_cosine(Lanes& turns) {
   const Lanes r = turns - ((turns + rounding) - rounding);
   const Lanes s = r * r;
-  // Interpolated in s = r^2 at eleven of Chebyshev's points between 0 and 1/4: within 4e-17 before rounding.
+  // Interpolated in s = r^2 at eleven of Chebyshev's points between 0 and 1/4: within 4e-17 before
+  // rounding.
   turns = 1.0 + s * (-19.739208802178685025 +
                      s * (64.939394022663135508 +
                           s * (-85.456817206371766042 +

@@ -50,9 +50,9 @@ struct WaveRamp {
 ///   eta = sum a cos(theta),   p_d = rho g sum a C(z') cos(theta),
 ///   C(z) = cosh(k (z + h)) / cosh(k h)   (exp(k z) in deep water).
 ///
-/// Wheeler (1970) stretching: z' = (z - eta) / (1 + eta/h), so that the kinematics of the calm water
-/// line are found at the wave's surface, and the whole pressure rho g (p_d/(rho g) - z) vanishes
-/// there exactly. Above the surface the values of the surface are returned.
+/// Wheeler (1970) stretching: z' = (z - eta) / (1 + eta/h), so that the kinematics of the calm
+/// water line are found at the wave's surface, and the whole pressure rho g (p_d/(rho g) - z)
+/// vanishes there exactly. Above the surface the values of the surface are returned.
 class WaveField {
  public:
   /// Still water.
@@ -80,8 +80,8 @@ class WaveField {
   Vector3 calc_acceleration(double time, const Vector3& p_W) const;
 
   /// Elevation and dynamic head of many points at once (at most `most_points`), the fast way: the
-  /// inner loop runs over points and is vectorised. Does not allocate. In a sea of many components the head
-  /// is within WaveSum::depth_error of each one's amplitude.
+  /// inner loop runs over points and is vectorised. Does not allocate. In a sea of many components
+  /// the head is within WaveSum::depth_error of each one's amplitude.
   static constexpr std::size_t most_points = 72;
   void calc_surface(double time, std::span<const Vector3> points_W, std::span<double> elevation,
                     std::span<double> dynamic_head) const;
@@ -119,7 +119,8 @@ class WaveField {
 /// Waves that break are no Airy waves.
 ///
 ///  - one component: height over length at most 0.142 tanh(k h) (Miche 1944);
-///  - many: the same for the significant height and the mean zero-crossing period, and the steepness
+///  - many: the same for the significant height and the mean zero-crossing period, and the
+///    steepness
 ///    2 pi Hs/(g Tz^2) at most 1/10 for Tz up to 6 s, 1/15 from 12 s, linear between
 ///    (DNV-RP-C205, 3.5.4).
 /// @throws ModelError with height, limit and what to do.

@@ -54,8 +54,8 @@ struct BenchmarkReference {
   std::filesystem::path mechanism() const { return file.parent_path() / "mechanism.yaml"; }
 };
 
-/// The format of a reference, with its checks: dimensions of tolerances, falling lists, and that what is
-/// said to converge has a reference.
+/// The format of a reference, with its checks: dimensions of tolerances, falling lists, and that
+/// what is said to converge has a reference.
 Format<BenchmarkReference> benchmark_reference_format();
 
 /// Reads a reference; complaints go to `diagnostics`, none is returned if there are any.

@@ -7,8 +7,8 @@
 
 namespace blocklift::pipeline {
 
-/// Cases of the dynamics. Those written in code are declared below; mechanisms with references, which
-/// are files, follow from the library's benchmarks.
+/// Cases of the dynamics. Those written in code are declared below; mechanisms with references,
+/// which are files, follow from the library's benchmarks.
 std::vector<VerificationCase> dynamics_cases(const ModelLibrary& library);
 
 /// Open chains of revolute joints let go at rest: accelerations.

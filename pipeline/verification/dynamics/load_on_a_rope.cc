@@ -98,8 +98,8 @@ VerificationRow hoist_that_grips_at_once() {
       integrate(lift, Vector3(0, 0, height_at_rest(model)), lift.v_start(),
                 {.relative_tolerance = 1e-9, .sample_interval = 0.001});
   const double factor = 1.0 + speed * std::sqrt(model.stiffness() / (model.mass * g * g));
-  // The first peak comes after a quarter of a period, 0.11 s, when the rope is 6 mm of 20 m shorter and
-  // by that much stiffer, which the closed form leaves out.
+  // The first peak comes after a quarter of a period, 0.11 s, when the rope is 6 mm of 20 m shorter
+  // and by that much stiffer, which the closed form leaves out.
   const double peak = run.history.ropes[0].tension.head(250).maxCoeff();
   return compare("dynamic factor of a hoist that grips at once", "1", factor,
                  peak / weight_of(model), 3e-4, "1 + v sqrt(k / (m g^2))");

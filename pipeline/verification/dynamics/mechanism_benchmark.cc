@@ -108,8 +108,8 @@ void add_convergence(MechanismFile file, const BenchmarkReference& reference,
                          c.order_within, "error proportional to tolerance (Soederlind 2002)"));
 }
 
-/// Largest disagreement of inverse dynamics with the joint forces that forward dynamics was given, over
-/// the samples of a run, relative to all joint forces.
+/// Largest disagreement of inverse dynamics with the joint forces that forward dynamics was given,
+/// over the samples of a run, relative to all joint forces.
 VerificationRow forward_against_inverse(const MechanismFile& file) {
   const BuiltMechanism built = build_mechanism(file);
   const dynamics::Mechanism& mechanism = built.system.mechanism();

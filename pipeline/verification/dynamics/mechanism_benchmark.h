@@ -5,8 +5,8 @@
 
 namespace blocklift::pipeline {
 
-/// A mechanism file with its reference as a case of the suite: figures, bounds, convergence, and forward
-/// against inverse dynamics along the motion.
+/// A mechanism file with its reference as a case of the suite: figures, bounds, convergence, and
+/// forward against inverse dynamics along the motion.
 VerificationCase mechanism_benchmark(BenchmarkReference reference);
 
 }  // namespace blocklift::pipeline

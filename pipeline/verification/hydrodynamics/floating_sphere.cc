@@ -50,8 +50,8 @@ double largest_error(const std::vector<VerificationRow>& rows) {
 }
 
 // Newman (1977), eq. 6.173: the power that damping takes is that of the waves far away, whose
-// amplitude follows from the excitation: B = k/(8 pi rho g V_g) int |X|^2 d theta. For heave of a round
-// body |X| is the same from all sides, for surge it goes with cos theta.
+// amplitude follows from the excitation: B = k/(8 pi rho g V_g) int |X|^2 d theta. For heave of a
+// round body |X| is the same from all sides, for surge it goes with cos theta.
 void add_energy(const HydrodynamicDatabase& database, std::vector<VerificationRow>& rows) {
   for (const std::size_t k : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
     const double w = database.frequencies[k], group_velocity = 0.5 / w;

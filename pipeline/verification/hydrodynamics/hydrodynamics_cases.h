@@ -19,7 +19,8 @@ VerificationCase closed_path_of_buoyancy();
 VerificationCase panel_integrals();
 /// Added mass of a sphere deep under the surface.
 VerificationCase deep_sphere();
-/// Added mass and damping of a hemisphere over frequency, with convergence; energy; Ogilvie's relations.
+/// Added mass and damping of a hemisphere over frequency, with convergence; energy; Ogilvie's
+/// relations.
 VerificationCase floating_hemisphere();
 /// Symmetry of two bodies' coefficients.
 VerificationCase two_hemispheres();

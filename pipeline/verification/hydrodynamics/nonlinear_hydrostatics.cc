@@ -16,8 +16,8 @@ using namespace dynamics;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Side 5 m, 95.906 t, rho 1023, g = 9.81, centre of mass at its centre. The figures are printed with 4
-// to 5 digits: half a unit of the last.
+// Side 5 m, 95.906 t, rho 1023, g = 9.81, centre of mass at its centre. The figures are printed
+// with 4 to 5 digits: half a unit of the last.
 void add_upright(const HullClusters& cube, std::vector<VerificationRow>& rows) {
   const double rho_g = 1023 * 9.81;
   const double height = find_floating_height(cube, Matrix3::Identity(), 95906.0 / 1023);
@@ -31,10 +31,10 @@ void add_upright(const HullClusters& cube, std::vector<VerificationRow>& rows) {
   rows.push_back(compare("upright: stiffness in roll", "N m", -6.5337e4, rho_g * K(0, 0), 3));
 }
 
-// The centre of mass at (.5, .5, -1.5). The problem is symmetric in x and y, so roll and pitch belong
-// to an axis (-1, 1, 0): R(2,0) = R(2,1). The published angles miss this by 0.0015 (0.09 deg) and the
-// published volume misses the weight by 1.5e-4 (its simulation had not quite come to rest), which
-// bounds what can be asked: 0.1 deg, and 2e-3 of the lengths and areas.
+// The centre of mass at (.5, .5, -1.5). The problem is symmetric in x and y, so roll and pitch
+// belong to an axis (-1, 1, 0): R(2,0) = R(2,1). The published angles miss this by 0.0015 (0.09
+// deg) and the published volume misses the weight by 1.5e-4 (its simulation had not quite come to
+// rest), which bounds what can be asked: 0.1 deg, and 2e-3 of the lengths and areas.
 void add_heeled(const HullClusters& cube, std::vector<VerificationRow>& rows) {
   const FloatingBody body = {.mass = 95906, .p_BoBcm_B = {0.5, 0.5, -1.5}, .water_density = 1023};
   const FloatingPosition position = find_floating_position(cube, body);
@@ -169,8 +169,8 @@ VerificationCase righting_arms_of_a_box() {
 }
 
 // From dry to sunken and through every attitude. The midpoint rule's error falls with the square of
-// the step at least (edges that pass the surface leave kinks of higher order), so the limit is zero:
-// 64 times less is due of eight times finer steps, a half of that is asked.
+// the step at least (edges that pass the surface leave kinks of higher order), so the limit is
+// zero: 64 times less is due of eight times finer steps, a half of that is asked.
 VerificationCase closed_path_of_buoyancy() {
   return {.name = "closed-path-of-buoyancy",
           .stage = "hydrodynamics",

@@ -111,7 +111,8 @@ std::vector<VerificationRow> symmetry_rows() {
       compute_database(PanelModel(bodies, surface, {1.0, 1.0}, {true, true}), settings, &report);
   std::vector<VerificationRow> rows = {
       bound("A_inf(i, j) - A_inf(j, i), over their size, as solved", "1", report.asymmetry, 3e-3)};
-  // Mirror images: heave on heave of both bodies, the coupling of left with right and right with left.
+  // Mirror images: heave on heave of both bodies, the coupling of left with right and right with
+  // left.
   const Eigen::MatrixXd& A = database.infinite_added_mass;
   rows.push_back(compare("heave of the right body, A_inf", "kg", A(heave, heave),
                          A(6 + heave, 6 + heave), 1e-9 * A(heave, heave), "mirror image"));

@@ -31,8 +31,8 @@ Hemisphere make_hemisphere(double radius, const HemisphereDivision& division, co
 struct HemisphereRow {
   double ka, heave_A, heave_B, surge_A, surge_B;
 };
-/// Heave: Hulme (1982), J. Fluid Mech. 121. Surge: multipole expansion about the centre, converged to
-/// the digits given.
+/// Heave: Hulme (1982), J. Fluid Mech. 121. Surge: multipole expansion about the centre, converged
+/// to the digits given.
 inline constexpr std::array<HemisphereRow, 6> hulme = {{{0.2, .7938, .2793, .5515, .0082},
                                                         {0.5, .5861, .3391, .6439, .0987},
                                                         {1.0, .4284, .2484, .5740, .3535},
@@ -40,11 +40,12 @@ inline constexpr std::array<HemisphereRow, 6> hulme = {{{0.2, .7938, .2793, .551
                                                         {3.0, .4111, .0452, .1720, .2237},
                                                         {5.0, .4471, .0116, .1679, .1073}}};
 
-/// The database of a hemisphere of unit radius, density and gravity at the frequencies of the table,
-/// headings 0 and 60 degrees.
+/// The database of a hemisphere of unit radius, density and gravity at the frequencies of the
+/// table, headings 0 and 60 degrees.
 HydrodynamicDatabase compute_unit_database(const PanelModel& model);
 
-/// IEA OES Task 10 (Wendt et al. 2019): sphere of 5 m radius, half immersed, 261.8 t, released 1 m up.
+/// IEA OES Task 10 (Wendt et al. 2019): sphere of 5 m radius, half immersed, 261.8 t, released 1 m
+/// up.
 LinearFloatation task_10();
 
 }  // namespace blocklift::dynamics::testing

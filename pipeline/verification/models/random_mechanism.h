@@ -38,8 +38,8 @@ class Random {
 BodyDefinition random_body(Random& random, JointKind kind, const std::string& name,
                            const std::string& parent);
 
-/// Tree of `count` bodies, all joint kinds in turn, each on a body drawn at random; about a quarter of
-/// the joints driven if asked for; damping on half of them.
+/// Tree of `count` bodies, all joint kinds in turn, each on a body drawn at random; about a quarter
+/// of the joints driven if asked for; damping on half of them.
 Mechanism random_tree(Random& random, int count, bool with_drives);
 
 /// Configuration with unit quaternions.

@@ -50,7 +50,8 @@ double roof(int degree, int cells) {
   return -testing::displacement_at(space, motion, edge).z();
 }
 
-// The published 0.3024 is that of shallow shells' theory; finer meshes of all degrees tend to 0.3012.
+// The published 0.3024 is that of shallow shells' theory; finer meshes of all degrees tend to
+// 0.3012.
 VerificationCase scordelis_lo() {
   return {.name = "scordelis-lo-roof",
           .stage = "structure",
@@ -95,8 +96,8 @@ double cylinder(int degree, int cells) {
   return -testing::solve(space, load, fixed)[6 * node + 2];
 }
 
-// Shear deformation under the point load, which the published thin shell has not, adds 1 % and, with ever
-// smaller cells, more without a limit.
+// Shear deformation under the point load, which the published thin shell has not, adds 1 % and,
+// with ever smaller cells, more without a limit.
 VerificationCase pinched_cylinder() {
   return {.name = "pinched-cylinder",
           .stage = "structure",
@@ -114,8 +115,8 @@ VerificationCase pinched_cylinder() {
           }};
 }
 
-// An octant of a sphere as three patches about its middle; a quarter of the hemisphere. Unit loads outward
-// along x and inward along y at the rim.
+// An octant of a sphere as three patches about its middle; a quarter of the hemisphere. Unit loads
+// outward along x and inward along y at the rim.
 double closed_hemisphere(int degree, int cells) {
   constexpr double radius = 10;
   Mesh mesh = testing::empty_mesh({"unit", 68.25e9, 0.3, 0, 1}, 0.04);
@@ -197,8 +198,9 @@ VerificationCase hemisphere_with_hole() {
       }};
 }
 
-// Two arcs of a strip 20 wide and 2 thick, of radii 14 over 60 degrees and 46 over 150, that bend opposite
-// ways; clamped at the first's end, a unit shear force along the strip's width at the other's.
+// Two arcs of a strip 20 wide and 2 thick, of radii 14 over 60 degrees and 46 over 150, that bend
+// opposite ways; clamped at the first's end, a unit shear force along the strip's width at the
+// other's.
 double hook(int degree, int cells) {
   constexpr double width = 20;
   Mesh mesh = testing::empty_mesh({"unit", 3300, 0.35, 0, 1}, 2);

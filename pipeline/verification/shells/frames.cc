@@ -122,8 +122,8 @@ VerificationCase truss() {
           }};
 }
 
-// Four springs as bolts in a rectangle of 0.6 x 0.4; a hub above them spreads an eccentric force as a bolt
-// pattern does: F / 4 and the moment by r / sum r^2.
+// Four springs as bolts in a rectangle of 0.6 x 0.4; a hub above them spreads an eccentric force as
+// a bolt pattern does: F / 4 and the moment by r / sum r^2.
 VerificationCase bolt_pattern() {
   return {.name = "distributing-link",
           .stage = "structure",
@@ -195,8 +195,8 @@ VerificationCase rigid_arm() {
           }};
 }
 
-// A mass on a light cantilever: f = sqrt(k / m) / 2 pi, with its distance and inertia as Rayleigh's two
-// freedoms, exactly.
+// A mass on a light cantilever: f = sqrt(k / m) / 2 pi, with its distance and inertia as Rayleigh's
+// two freedoms, exactly.
 VerificationCase mass_on_a_beam() {
   return {.name = "mass-on-a-beam",
           .stage = "structure",

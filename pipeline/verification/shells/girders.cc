@@ -86,8 +86,8 @@ BeamSection flat_bar(double height, double thickness) {
   return bar;
 }
 
-// --- A tee: plate of 0.3 x 0.01 with a web of 0.2 x 0.012 below its mid-surface, 3 m, clamped, loaded at its
-// end. The web is a sheet, or a beam beside the plate.
+// --- A tee: plate of 0.3 x 0.01 with a web of 0.2 x 0.012 below its mid-surface, 3 m, clamped,
+// loaded at its end. The web is a sheet, or a beam beside the plate.
 struct Tee {
   static constexpr double length = 3, width = 0.3, t = 0.01, height = 0.2, web = 0.012;
   static double deflection(bool as_beam, int degree) {
@@ -129,7 +129,8 @@ VerificationCase tee_beam() {
         std::vector<VerificationRow> rows;
         const double theory = Tee::theory();
         for (const int degree : {2, 3}) {
-          // The web bears shear as some 1 % of the deflection, known to a fifth; the flange lags by as little.
+          // The web bears shear as some 1 % of the deflection, known to a fifth; the flange lags by
+          // as little.
           const double beam = Tee::deflection(true, degree), sheet = Tee::deflection(false, degree);
           rows.push_back(compare(fmt::format("deflection, web as a beam, degree {}", degree), "m",
                                  theory, beam, 5e-3 * theory));
@@ -142,7 +143,8 @@ VerificationCase tee_beam() {
       }};
 }
 
-// --- A square plate of 2 m, simply supported, with a stiffener of 0.1 x 0.01 across its middle, pressure.
+// --- A square plate of 2 m, simply supported, with a stiffener of 0.1 x 0.01 across its middle,
+// pressure.
 double stiffened_plate(bool as_beam, int degree, int cells) {
   constexpr double side = 2, t = 0.01, height = 0.1;
   Mesh mesh = testing::empty_mesh(testing::plain_steel(), t);
@@ -194,9 +196,10 @@ VerificationCase eccentric_stiffener() {
           }};
 }
 
-// --- Shear lag: a stiffener under a wide plate, q sin(pi x / L) on it, diaphragms at x = 0 and L. The plate's
-// effective breadth under a sinusoidal moment is 4 L / (pi (3 + 2 nu - nu^2)) (Timoshenko and Goodier, Theory of
-// elasticity, article 29, by von Karman 1924); its bending adds a reaction 4 D alpha^3 w. A half of it.
+// --- Shear lag: a stiffener under a wide plate, q sin(pi x / L) on it, diaphragms at x = 0 and L.
+// The plate's effective breadth under a sinusoidal moment is 4 L / (pi (3 + 2 nu - nu^2))
+// (Timoshenko and Goodier, Theory of elasticity, article 29, by von Karman 1924); its bending adds
+// a reaction 4 D alpha^3 w. A half of it.
 double lagging_stiffener(int degree, int along) {
   constexpr double length = 3, t = 0.01, height = 0.3;
   Mesh mesh = testing::empty_mesh(testing::plain_steel(), t);
@@ -342,9 +345,10 @@ VerificationCase i_beam_sideways() {
           }};
 }
 
-// What the choice of the drilling stiffness does: figures with a hundredth and a hundred times of it, which is
-// the full G t of Hughes and Brezzi (1989). Along the edges of a box in torsion the slope of one plate is the
-// drilling of the next, twice what its own displacements make of it: a layer of one cell, stiff by its drilling.
+// What the choice of the drilling stiffness does: figures with a hundredth and a hundred times of
+// it, which is the full G t of Hughes and Brezzi (1989). Along the edges of a box in torsion the
+// slope of one plate is the drilling of the next, twice what its own displacements make of it: a
+// layer of one cell, stiff by its drilling.
 VerificationCase drilling_stiffness() {
   return {.name = "drilling-stiffness",
           .stage = "structure",

@@ -40,8 +40,8 @@ double elliptic_membrane(int degree, int cells) {
   return testing::stress_at(space, testing::solve(space, load, fixed), {2, 0, 0}, 0)(1, 1) / 1e6;
 }
 
-// D lies in a corner of stretched cells: coarse meshes are within per cents there, and the finer ones show where
-// they go.
+// D lies in a corner of stretched cells: coarse meshes are within per cents there, and the finer
+// ones show where they go.
 VerificationCase nafems_le1() {
   return {
       .name = "nafems-le1-shell",

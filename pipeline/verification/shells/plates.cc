@@ -48,9 +48,9 @@ double square_plate(bool clamped, int degree, int cells, double thickness) {
          bending_stiffness(material, thickness);
 }
 
-// Reissner and Mindlin's plate, simply supported on straight edges (hard): w = w_K + M_K / (5/6 G t) with
-// Kirchhoff's moment sum M_K = (M_x + M_y) / (1 + nu) at the centre: exact.
-// Source: Wang, Reddy, Lee (2000), Shear deformable beams and plates, section 7.2.
+// Reissner and Mindlin's plate, simply supported on straight edges (hard): w = w_K + M_K / (5/6 G
+// t) with Kirchhoff's moment sum M_K = (M_x + M_y) / (1 + nu) at the centre: exact. Source: Wang,
+// Reddy, Lee (2000), Shear deformable beams and plates, section 7.2.
 double thick_supported_plate(double thickness) {
   const Material material = testing::plain_steel();
   return 0.00406235 + 0.0736713 * bending_stiffness(material, thickness) /
@@ -69,7 +69,8 @@ VerificationCase square_plates() {
         for (const double slenderness : {10.0, 100.0, 1000.0, 10000.0}) {
           const double t = 1 / slenderness;
           for (const auto& [degree, cells] : {std::pair{1, 16}, {2, 4}, {3, 2}, {3, 4}, {4, 2}}) {
-            // Meshes that coarse come within half a percent (degree 3, 2 cells: 0.1), whatever the thickness.
+            // Meshes that coarse come within half a percent (degree 3, 2 cells: 0.1), whatever the
+            // thickness.
             const double tolerance = cells * degree >= 12 ? 2e-3 : 5e-3;
             const double supported = thick_supported_plate(t);
             rows.push_back(compare(
@@ -77,8 +78,9 @@ VerificationCase square_plates() {
                             slenderness, degree, cells),
                 "q a^4/D", supported, square_plate(false, degree, cells, t),
                 tolerance * supported));
-            // Clamped there is no closed form for shear deformation, which adds 19 % at a/t = 10 and 0.2 % at
-            // 100 (its share is some 0.24 (t / a)^-2 ... so thick plates are left out).
+            // Clamped there is no closed form for shear deformation, which adds 19 % at a/t = 10
+            // and 0.2 % at 100 (its share is some 0.24 (t / a)^-2 ... so thick plates are left
+            // out).
             if (slenderness < 1000) continue;
             rows.push_back(
                 compare(fmt::format("clamped, a/t {:.0f}, degree {}, {} cells in half a side",
@@ -136,8 +138,8 @@ struct Rhombus {
   }
 };
 
-// The obtuse corners' singularity slows every mesh; at a/t = 1000 shear deformation by the soft support adds
-// some 0.6 % to Kirchhoff's plate.
+// The obtuse corners' singularity slows every mesh; at a/t = 1000 shear deformation by the soft
+// support adds some 0.6 % to Kirchhoff's plate.
 VerificationCase morleys_plate() {
   return {
       .name = "morley-skew-plate",

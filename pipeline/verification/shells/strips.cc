@@ -27,7 +27,8 @@ double end_deflection(const Mesh& mesh, int degree, const Vector3& root, const V
   return testing::solve(space, load, fixed).dot(load);
 }
 
-// Six elements of 6 x 0.2 x 0.1; their sides lean by 45 degrees, alternately (trapezoids) or all alike.
+// Six elements of 6 x 0.2 x 0.1; their sides lean by 45 degrees, alternately (trapezoids) or all
+// alike.
 Mesh straight_strip(double lean, bool alternate) {
   return testing::sheet_mesh(
       [=](double x, double y) -> Vector3 {
@@ -60,7 +61,8 @@ VerificationCase straight_beam() {
                   mesh, degree, Vector3::Zero(), Vector3::UnitX(),
                   [](const Vector3& p) { return p.x() > 6 - 1e-9; }, 0.2, direction);
             };
-            // MacNeal and Harder grade A: within 2 %. The clamped end's hindered contraction is 0.5 %.
+            // MacNeal and Harder grade A: within 2 %. The clamped end's hindered contraction is 0.5
+            // %.
             const auto row = [&, shape = shape](const char* what, double reference,
                                                 const Vector3& direction) {
               rows.push_back(compare(fmt::format("{}, six {} of degree {}", what, shape, degree),

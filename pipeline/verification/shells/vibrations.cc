@@ -45,8 +45,8 @@ NaturalModes plate_modes(double thickness, double angle, Hold hold, int degree, 
 
 using Frequencies = std::array<double, 6>;
 
-// Of the published values that are no closed form (FV12's fourth and fifth, 4.233, where Leissa 1973 has 4.190;
-// FV22's sixth) finer meshes differ by 1 to 2 %.
+// Of the published values that are no closed form (FV12's fourth and fifth, 4.233, where Leissa
+// 1973 has 4.190; FV22's sixth) finer meshes differ by 1 to 2 %.
 VerificationCase nafems_plates() {
   return {
       .name = "nafems-plate-modes",
@@ -93,8 +93,8 @@ VerificationCase nafems_plates() {
       }};
 }
 
-// A free closed box of 2 x 1 x 0.8 m, 10 mm thick, with flat bars of 100 x 10 mm inside along the middles of
-// bottom and top, as sheets or as beams beside the plates.
+// A free closed box of 2 x 1 x 0.8 m, 10 mm thick, with flat bars of 100 x 10 mm inside along the
+// middles of bottom and top, as sheets or as beams beside the plates.
 NaturalModes box_modes(bool as_beams, int degree, int refinement) {
   constexpr double length = 2, breadth = 1, height = 0.8, bar = 0.1, t = 0.01;
   Mesh mesh = testing::empty_mesh({"steel", 210e9, 0.3, 7850, 355e6}, t);

@@ -90,9 +90,9 @@ std::vector<VerificationRow> compute() {
     superposition = std::max(superposition, (sum - direct).norm() / direct.norm());
   }
   const BlockEnvelope envelope = find_block_envelope(responses, recovery, factors);
-  // Two ways of summing some 30 products of like size differ by roundings of the largest of them; the
-  // peak of one instant comes from its displacement's gradients, which lose the digits by which an
-  // element is smaller than the displaced block.
+  // Two ways of summing some 30 products of like size differ by roundings of the largest of them;
+  // the peak of one instant comes from its displacement's gradients, which lose the digits by which
+  // an element is smaller than the displaced block.
   constexpr double sums = 1e-12, gradients = 1e-9;
   const auto envelope_row = [&](const char* of, const char* unit, double one, double all,
                                 double rounding) {

@@ -27,9 +27,9 @@ const char* unit_of(const PartReference& figure) {
   }
 }
 
-// What holds without a reference: forces in balance, no reaction to loads in balance, rigid modes at
-// frequency zero (but for the root of a rounding of the largest eigenvalue, some 1e10 times the first
-// elastic one for a thin plate).
+// What holds without a reference: forces in balance, no reaction to loads in balance, rigid modes
+// at frequency zero (but for the root of a rounding of the largest eigenvalue, some 1e10 times the
+// first elastic one for a thin plate).
 void add_properties(const PartAssessment& assessment, std::vector<VerificationRow>& rows) {
   const structure::PartSolution& solution = assessment.solution;
   if (!assessment.file.loads.empty())

@@ -12,7 +12,8 @@ namespace blocklift::pipeline {
 /// @throws InputError if one of them cannot be read.
 std::vector<VerificationCase> structure_cases(const ModelLibrary& library);
 
-/// One case for each parts/<name>/part.yaml and lugs/<name>/part.yaml of the models that has references.
+/// One case for each parts/<name>/part.yaml and lugs/<name>/part.yaml of the models that has
+/// references.
 std::vector<VerificationCase> part_cases(const ModelLibrary& library);
 
 /// Superposition, balance and envelope of a small block on four lugs.

@@ -10,8 +10,9 @@
 
 namespace blocklift::structure {
 
-/// Solid elements of Abaqus and CalculiX that are known, by their numbers of nodes: C3D4, C3D6, C3D8,
-/// C3D10, C3D15, C3D20, also with the endings R, I, H, M, S and T, which name formulations, not shapes.
+/// Solid elements of Abaqus and CalculiX that are known, by their numbers of nodes: C3D4, C3D6,
+/// C3D8, C3D10, C3D15, C3D20, also with the endings R, I, H, M, S and T, which name formulations,
+/// not shapes.
 struct AbaqusElement {
   std::size_t tag = 0;
   std::vector<std::size_t> nodes;  ///< tags, in Abaqus' order
@@ -32,15 +33,16 @@ struct AbaqusMesh {
 };
 
 /// Reads the mesh of an input file of Abaqus or CalculiX: *NODE, *ELEMENT, *NSET and *ELSET (with
-/// GENERATE, with names of other sets), *SURFACE of element faces or nodes, *INCLUDE. Other keywords
-/// are passed over with their lines. Names are as they are written first; as in Abaqus, capitals do
-/// not matter for finding them again.
-/// @throws ModelError with file and line: what is no number, element types that are not known, nodes,
-///   elements and sets that do not exist, tags that are used twice, more than one part or an instance
-///   that is moved.
+/// GENERATE, with names of other sets), *SURFACE of element faces or nodes, *INCLUDE. Other
+/// keywords are passed over with their lines. Names are as they are written first; as in Abaqus,
+/// capitals do not matter for finding them again.
+/// @throws ModelError with file and line: what is no number, element types that are not known,
+///   nodes, elements and sets that do not exist, tags that are used twice, more than one part or an
+///   instance that is moved.
 AbaqusMesh read_abaqus(const std::string& path);
 
-/// Corner numbers (from 0) of an element's faces in Abaqus' order, by the element's number of nodes.
+/// Corner numbers (from 0) of an element's faces in Abaqus' order, by the element's number of
+/// nodes.
 const std::vector<std::vector<int>>& abaqus_faces(std::size_t nodes);
 
 /// The nodes of a face: its corners in turn, then, of a quadratic element, the middles of the edges

@@ -18,7 +18,8 @@ namespace {
 
 using Tags = std::vector<std::size_t>;
 
-// Gmsh's element type, and where it has each of Abaqus' nodes. Source: Gmsh's manual, node ordering.
+// Gmsh's element type, and where it has each of Abaqus' nodes. Source: Gmsh's manual, node
+// ordering.
 struct GmshOrder {
   int type = 0;
   std::vector<std::size_t> place;

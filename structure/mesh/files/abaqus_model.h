@@ -8,12 +8,12 @@
 
 namespace blocklift::structure {
 
-/// Puts a mesh into Gmsh's current model: elements and faces that are in the same sets are one discrete
-/// volume or surface, and each set is a physical group of its name.
+/// Puts a mesh into Gmsh's current model: elements and faces that are in the same sets are one
+/// discrete volume or surface, and each set is a physical group of its name.
 ///
-/// A node set becomes the group of the outer faces all of whose nodes it names, if these faces have all
-/// of its nodes; else it is returned, as a set of points. A node set of the name of an element set is
-/// called "NAME nodes", a surface of the name of either "NAME surface".
+/// A node set becomes the group of the outer faces all of whose nodes it names, if these faces have
+/// all of its nodes; else it is returned, as a set of points. A node set of the name of an element
+/// set is called "NAME nodes", a surface of the name of either "NAME surface".
 std::map<std::string, std::vector<std::size_t>> add_to_gmsh(const AbaqusMesh& mesh);
 
 }  // namespace blocklift::structure

@@ -4,8 +4,9 @@
 
 namespace blocklift::structure {
 
-/// Gmsh keeps one global session; this opens it for a scope, quietly and without what an earlier one left:
-/// its count of errors outlives a session, and as long as it is not zero no elements are raised.
+/// Gmsh keeps one global session; this opens it for a scope, quietly and without what an earlier
+/// one left: its count of errors outlives a session, and as long as it is not zero no elements are
+/// raised.
 class GmshSession {
  public:
   GmshSession() {

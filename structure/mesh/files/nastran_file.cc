@@ -34,7 +34,8 @@ std::string without_spaces(std::string_view text) {
   return std::string(text);
 }
 
-/// The first field of a line and the fields of data: free (commas), small (8 columns) or large (16).
+/// The first field of a line and the fields of data: free (commas), small (8 columns) or large
+/// (16).
 std::pair<std::string, std::vector<std::string>> fields_of(const std::string& line) {
   std::vector<std::string> fields;
   if (line.find(',') != std::string::npos) {

@@ -18,8 +18,8 @@ class PartCollector {
   explicit PartCollector(double length_unit) : length_unit_(length_unit) {}
 
   /// @param point_sets nodes that become groups of points.
-  /// @throws ModelError if there are no solids, some of an unknown kind, nodes that do not exist, or a
-  ///   chosen group has the name of another.
+  /// @throws ModelError if there are no solids, some of an unknown kind, nodes that do not exist,
+  ///   or a chosen group has the name of another.
   PartMesh collect(const std::map<std::string, std::vector<std::size_t>>& point_sets,
                    const std::vector<FaceChoice>& faces, const std::vector<PointChoice>& points);
 

@@ -38,7 +38,8 @@ int largest_order() {
   return largest;
 }
 
-// Quadratic tetrahedra, the lightest elements, have some 4 unknowns each, coupled with half of 80 others.
+// Quadratic tetrahedra, the lightest elements, have some 4 unknowns each, coupled with half of 80
+// others.
 void require_memory(double elements, double memory, const std::string& cause) {
   const double bytes = 2e3 * elements;
   if (memory <= 0 || bytes <= memory) return;

@@ -142,8 +142,8 @@ class Thickening {
            std::sin(angle);
   }
 
-  // Cuts go on straight through the plates' mesh, to the plate's edge or to another cut, and into the
-  // plates that stand across their way.
+  // Cuts go on straight through the plates' mesh, to the plate's edge or to another cut, and into
+  // the plates that stand across their way.
   void run_cuts_on() {
     std::map<int, std::vector<Edge>> edges_of;
     std::vector<Edge> waiting;

@@ -58,7 +58,8 @@ class Outline {
  private:
   static double angle(const Vector2d& p) { return std::atan2(p.y(), p.x()); }
 
-  // Where the tangent from a point touches the arc, turned from the point's direction by +-acos(R / d).
+  // Where the tangent from a point touches the arc, turned from the point's direction by +-acos(R /
+  // d).
   Vector2d touching_point(const Vector2d& from, int away_from_base) const {
     const double turn = -away_from_base * std::acos(padeye_.radius / from.norm());
     const double direction = angle(from) + turn;
@@ -81,8 +82,9 @@ struct Ray {
   Vector2d end = Vector2d::Zero();  ///< on the outline
 };
 
-/// Where lines at equal angles end on a side, from its first corner to its last. On a straight side, which a
-/// slender plate shows to the hole at a small angle, they are moved half-way to equal distances.
+/// Where lines at equal angles end on a side, from its first corner to its last. On a straight
+/// side, which a slender plate shows to the hole at a small angle, they are moved half-way to equal
+/// distances.
 std::vector<Vector2d> side_ends(const Outline& outline, int side, double from, double to,
                                 int count) {
   std::vector<Vector2d> ends;
@@ -96,8 +98,8 @@ std::vector<Vector2d> side_ends(const Outline& outline, int side, double from, d
   return ends;
 }
 
-/// Rays at whole numbers bound elements, those between at mid-edges: 2 x elements around. Mid-edges lie in
-/// the middle, so that elements however long stay regular.
+/// Rays at whole numbers bound elements, those between at mid-edges: 2 x elements around. Mid-edges
+/// lie in the middle, so that elements however long stay regular.
 std::vector<Ray> make_rays(const Outline& outline, int divisions, int& base_elements) {
   const std::array<double, 5> corners = outline.corners();
   std::vector<Ray> rays;
@@ -120,8 +122,8 @@ std::vector<Ray> make_rays(const Outline& outline, int divisions, int& base_elem
   return rays;
 }
 
-/// Number of steps from 0 to 1 and their growth, so that the first is about `first` and each is up to
-/// 1.25 times the last.
+/// Number of steps from 0 to 1 and their growth, so that the first is about `first` and each is up
+/// to 1.25 times the last.
 std::vector<double> graded(double length, double first) {
   constexpr double growth = 1.25;
   std::vector<double> steps{first};
@@ -140,7 +142,8 @@ std::vector<double> graded(double length, double first) {
   return places;
 }
 
-/// One circle-like line of the plane mesh, as a share of the way from a circle to what lies outside it.
+/// One circle-like line of the plane mesh, as a share of the way from a circle to what lies outside
+/// it.
 struct Ring {
   bool within_inner =
       true;  ///< between hole and transition circle, else between it and the outline
@@ -225,9 +228,9 @@ class Mesher {
     return found->second;
   }
 
-  // Abaqus' C3D20: corners of the lower face, of the upper one, middles of the lower face's edges, of
-  // the upper one's, of the upright edges. First local axis along the rings, second along the ray is
-  // left-handed with z, so rays come first.
+  // Abaqus' C3D20: corners of the lower face, of the upper one, middles of the lower face's edges,
+  // of the upper one's, of the upright edges. First local axis along the rings, second along the
+  // ray is left-handed with z, so rays come first.
   std::size_t add_element(int ring, int ray, int layer) {
     static constexpr std::array<std::array<int, 3>, 20> steps = {
         {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2},
@@ -236,7 +239,8 @@ class Mesher {
     AbaqusElement element{result_.mesh.elements.size() + 1, {}};
     for (const auto& [r, t, z] : steps)
       element.nodes.push_back(node(2 * ring + r, 2 * ray + t, 2 * layer + z));
-    // Faces by Abaqus' numbers: 3 lies at 0-1, 4 at 1-2 (outer ring), 5 at 2-3, 6 at 3-0 (inner ring).
+    // Faces by Abaqus' numbers: 3 lies at 0-1, 4 at 1-2 (outer ring), 5 at 2-3, 6 at 3-0 (inner
+    // ring).
     constexpr int outer_face = 4, inner_face = 6;
     if (ring == 0) result_.mesh.surfaces["hole"].push_back({element.tag, inner_face});
     if (ring + 2 == static_cast<int>(rings_.size()) && ray < base_elements_)

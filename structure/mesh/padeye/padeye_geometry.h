@@ -5,11 +5,12 @@
 
 namespace blocklift::structure {
 
-/// Padeye: a main plate with a hole for a shackle's pin, and a cheek plate on each side of it or none.
+/// Padeye: a main plate with a hole for a shackle's pin, and a cheek plate on each side of it or
+/// none.
 ///
-/// In its frame P the origin is the middle of the hole, x runs along the base, y away from it, z along
-/// the pin. The main plate ends in an arc about the hole; straight edges touch the arc and run down to
-/// the ends of the base y = -height. All lengths in m.
+/// In its frame P the origin is the middle of the hole, x runs along the base, y away from it, z
+/// along the pin. The main plate ends in an arc about the hole; straight edges touch the arc and
+/// run down to the ends of the base y = -height. All lengths in m.
 struct PadeyeGeometry {
   double radius = 0;           ///< of the main plate about the hole
   double thickness = 0;        ///< of the main plate
@@ -27,7 +28,8 @@ struct PadeyeGeometry {
 };
 
 /// What is wrong with a padeye's measures, a sentence each with the figures; empty: nothing.
-/// Circles lie within one another (hole, cheek plate, main plate, base), and the pin within its hole.
+/// Circles lie within one another (hole, cheek plate, main plate, base), and the pin within its
+/// hole.
 std::vector<std::string> padeye_faults(const PadeyeGeometry& padeye);
 
 }  // namespace blocklift::structure

@@ -37,8 +37,9 @@ struct Plate {
   std::string material;            ///< name of one of BlockDescription::materials
 };
 
-/// Hole through plates: a rectangle, whose corners may be rounded, or a polygon. It cuts the named plates
-/// only: what crosses a rectangle stays; other shapes lie between what joins or divides their plate.
+/// Hole through plates: a rectangle, whose corners may be rounded, or a polygon. It cuts the named
+/// plates only: what crosses a rectangle stays; other shapes lie between what joins or divides
+/// their plate.
 struct Opening {
   std::string name;
   std::string plate;              ///< name of the plates that it cuts
@@ -48,9 +49,9 @@ struct Opening {
   std::vector<Vector3> corners = {};  ///< of a polygon, in order, instead of the extent, m
 };
 
-/// Equal stiffeners on plates, in a row: beams that stand on one side and run along an axis, from edge to
-/// edge of the plate. None stands on its edges; openings cut them, and they are left out where another
-/// plate stands in their place.
+/// Equal stiffeners on plates, in a row: beams that stand on one side and run along an axis, from
+/// edge to edge of the plate. None stands on its edges; openings cut them, and they are left out
+/// where another plate stands in their place.
 struct Stiffeners {
   std::string name;
   std::string plate;              ///< name of the plates that carry them

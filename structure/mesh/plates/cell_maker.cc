@@ -86,8 +86,8 @@ void CellMaker::check_size(const std::vector<SheetPanel>& panels, double largest
                     largest_element, shells, most_shells));
 }
 
-// Each side of a frame gets parts enough for the opening's pieces: its longest part is divided once more,
-// until there are.
+// Each side of a frame gets parts enough for the opening's pieces: its longest part is divided once
+// more, until there are.
 void CellMaker::divide_frame(const HoleFrame& frame) {
   struct Side {
     int axis, lower, upper;
@@ -185,7 +185,8 @@ std::vector<int> CellMaker::vertices_around(const HoleFrame& frame) {
   return vertices;
 }
 
-/// What lies between the outline of a frame and its opening: sectors one after another, anticlockwise.
+/// What lies between the outline of a frame and its opening: sectors one after another,
+/// anticlockwise.
 struct CellMaker::Ring {
   struct Sector {
     int piece = 0;  ///< of the outline

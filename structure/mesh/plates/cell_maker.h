@@ -10,8 +10,8 @@
 
 namespace blocklift::structure {
 
-/// Division of what lies between two planes of a grid into equal parts, the same wherever it occurs, so that
-/// neighbours conform.
+/// Division of what lies between two planes of a grid into equal parts, the same wherever it
+/// occurs, so that neighbours conform.
 class Divisions {
  public:
   /// @throws ModelError if the largest element is not positive.
@@ -33,11 +33,12 @@ class Divisions {
   std::map<std::tuple<int, int, int, int>, int> numbers_;
 };
 
-/// Makes the shells of panels and of frames of openings and the beams of stiffeners on common vertices, with
-/// labels that count from 1.
+/// Makes the shells of panels and of frames of openings and the beams of stiffeners on common
+/// vertices, with labels that count from 1.
 class CellMaker {
  public:
-  /// @throws ModelError if the largest element is not positive, or makes more shells than any memory holds.
+  /// @throws ModelError if the largest element is not positive, or makes more shells than any
+  /// memory holds.
   CellMaker(const SheetGrid& grid, const std::vector<SheetPanel>& panels, double largest_element,
             Mesh& mesh);
 

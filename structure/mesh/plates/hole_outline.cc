@@ -104,8 +104,8 @@ std::vector<int> match_corners(const HoleOutline& outline, const std::vector<Vec
     const double miss = angle_between(here[at(corner)], there[at(point % count)]);
     return miss * miss;
   };
-  // For each point that the first corner may have: the least sum of squares of the misses of those up to
-  // each corner, the last of them at each point.
+  // For each point that the first corner may have: the least sum of squares of the misses of those
+  // up to each corner, the last of them at each point.
   std::vector<int> best;
   double least = std::numeric_limits<double>::infinity();
   for (int first = 0; first < count; ++first) {

@@ -9,14 +9,14 @@ namespace blocklift::structure {
 /// Closed curve of straight pieces and arcs in a plane, anticlockwise, m.
 class HoleOutline {
  public:
-  /// Rectangle whose corners are rounded by a radius: a circle or a slot where the radius is half of the
-  /// sides or of the shorter one.
+  /// Rectangle whose corners are rounded by a radius: a circle or a slot where the radius is half
+  /// of the sides or of the shorter one.
   /// @throws ModelError if the radius does not fit into the rectangle.
   static HoleOutline rounded(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper,
                              double radius);
   /// @param corners in order, either way round.
-  /// @throws ModelError if there are fewer than three, two are one, or not all sides can be seen from the
-  ///   polygon's centre.
+  /// @throws ModelError if there are fewer than three, two are one, or not all sides can be seen
+  ///   from the polygon's centre.
   static HoleOutline polygon(std::vector<Eigen::Vector2d> corners);
 
   int pieces() const { return static_cast<int>(pieces_.size()); }
@@ -44,8 +44,8 @@ class HoleOutline {
   double area_ = 0;
 };
 
-/// Which of the points around a hole the start of each of its pieces belongs to: as near as possible by the
-/// directions from its centre, ascending round the hole, no two the same.
+/// Which of the points around a hole the start of each of its pieces belongs to: as near as
+/// possible by the directions from its centre, ascending round the hole, no two the same.
 /// @param around anticlockwise, at least as many as the outline has pieces.
 std::vector<int> match_corners(const HoleOutline& outline,
                                const std::vector<Eigen::Vector2d>& around);

@@ -77,8 +77,8 @@ bool SheetGrid::reaches(const Sheet& sheet, const Sheet& end, int axis) const {
   return true;
 }
 
-// Plates draw all edges near them, whether they touch or not, so that edges that are meant to lie in one
-// plane do; pads and lugs, which are thick, those that end on them.
+// Plates draw all edges near them, whether they touch or not, so that edges that are meant to lie
+// in one plane do; pads and lugs, which are thick, those that end on them.
 double SheetGrid::snapped(int axis, double coordinate, const Sheet* end) const {
   const Sheet* nearest = nullptr;
   for (const Sheet& sheet : sheets_) {
@@ -193,8 +193,8 @@ bool SheetGrid::has_sheet(int normal, const Place& place, int sheet) const {
   return std::find(here.begin(), here.end(), sheet) != here.end();
 }
 
-// Whether a stiffener stands on the line from a point of the grid upwards: there is plate beside it, and
-// no other plate on its side.
+// Whether a stiffener stands on the line from a point of the grid upwards: there is plate beside
+// it, and no other plate on its side.
 bool SheetGrid::bears(int sheet, const StiffenerLine& line, const Place& place) const {
   if (!(thickness_under(sheet, line, place) > 0)) return false;
   const int normal = sheets_[at(sheet)].normal, across = 3 - line.along - normal;
@@ -203,8 +203,8 @@ bool SheetGrid::bears(int sheet, const StiffenerLine& line, const Place& place) 
   return other[at(normal)] < 0 || face(across, other) == 0;
 }
 
-// Thickness beside a stiffener: the plate's own, or that of what covers it on both sides; 0 where there is
-// neither plate nor pad. Stiffeners end at the frames of openings.
+// Thickness beside a stiffener: the plate's own, or that of what covers it on both sides; 0 where
+// there is neither plate nor pad. Stiffeners end at the frames of openings.
 double SheetGrid::thickness_under(int sheet, const StiffenerLine& line, const Place& place) const {
   const int normal = sheets_[at(sheet)].normal, across = 3 - line.along - normal;
   double thinnest = 0;
@@ -282,9 +282,9 @@ bool SheetGrid::is_cut_at(int axis, const Place& point) const {
   return false;
 }
 
-// In each piece of steel that is connected along the plane, the cut is left out if both sides are the
-// same everywhere and no sheet lies in the plane. Pieces touch by points of the section, so a rectangle
-// that grows has neighbours that grow alike.
+// In each piece of steel that is connected along the plane, the cut is left out if both sides are
+// the same everywhere and no sheet lies in the plane. Pieces touch by points of the section, so a
+// rectangle that grows has neighbours that grow alike.
 void SheetGrid::find_cuts(int axis, int plane) {
   const int b = (axis + 1) % 3, c = (axis + 2) % 3;
   std::vector<char> is_seen(at(count(b)) * at(count(c)), 0);
@@ -314,7 +314,8 @@ void SheetGrid::find_cuts(int axis, int plane) {
             if (step < 0) above = end;
             Place below = above;
             below[at(axis)] -= 1;
-            // The section's line from here along b belongs to a sheet across c, and the other way round.
+            // The section's line from here along b belongs to a sheet across c, and the other way
+            // round.
             const int normal = b + c - along;
             const int upper = face(normal, above), lower = face(normal, below);
             if (upper == 0 && lower == 0) continue;

@@ -38,16 +38,16 @@ struct HoleFrame {
 
 /// Mid-planes of all sheets, cut into rectangles that meet along whole edges.
 ///
-/// Along each axis lie planes through the mid-planes and the edges of sheets and openings, and through
-/// stiffeners. An edge that
-/// ends within the thickness of another sheet is led to that sheet's mid-plane. Of each plane's cuts
-/// stay those that something needs: a piece of steel that is connected along the plane is cut throughout
-/// or not at all. About each opening that is no rectangle a rectangle of the sheet is set apart, between
-/// planes that are there if some lie well.
+/// Along each axis lie planes through the mid-planes and the edges of sheets and openings, and
+/// through stiffeners. An edge that ends within the thickness of another sheet is led to that
+/// sheet's mid-plane. Of each plane's cuts stay those that something needs: a piece of steel that
+/// is connected along the plane is cut throughout or not at all. About each opening that is no
+/// rectangle a rectangle of the sheet is set apart, between planes that are there if some lie well.
 class SheetGrid {
  public:
-  /// @throws ModelError if two parallel planes of sheets are nearer to one another than their thickness,
-  ///   a sheet lies within another's thickness, an opening that is no rectangle meets anything else, or the grid would not fit into any memory.
+  /// @throws ModelError if two parallel planes of sheets are nearer to one another than their
+  ///   thickness, a sheet lies within another's thickness, an opening that is no rectangle meets
+  ///   anything else, or the grid would not fit into any memory.
   explicit SheetGrid(std::vector<Sheet> sheets);
 
   const std::vector<Sheet>& sheets() const { return sheets_; }
@@ -58,8 +58,8 @@ class SheetGrid {
   /// Conforming: two of them share a whole edge, a corner or nothing.
   std::vector<SheetPanel> panels() const;
   const std::vector<HoleFrame>& frames() const { return frames_; }
-  /// Corners of panels on the outline of a frame, from the lower end of both axes anticlockwise about the
-  /// sheet's normal.
+  /// Corners of panels on the outline of a frame, from the lower end of both axes anticlockwise
+  /// about the sheet's normal.
   std::vector<std::array<int, 3>> points_around(const HoleFrame& frame) const;
   /// Each lies on an edge of panels and between two of its corners.
   std::vector<StiffenerSpan> stiffener_spans() const;

@@ -24,9 +24,9 @@ std::array<Interval, 2> area_of(const HoleOutline& outline) {
 
 }  // namespace
 
-// What a frame of an opening must not enter, as rectangles in the two axes that follow the sheet's normal:
-// lines where other sheets stand on this one, edges of all that lies in its plane, other openings with half
-// the way to them.
+// What a frame of an opening must not enter, as rectangles in the two axes that follow the sheet's
+// normal: lines where other sheets stand on this one, edges of all that lies in its plane, other
+// openings with half the way to them.
 std::vector<SheetGrid::Area> SheetGrid::obstacles_of(const Sheet& sheet,
                                                      const Cutout& cutout) const {
   const int u = (sheet.normal + 1) % 3, v = (sheet.normal + 2) % 3;
@@ -66,8 +66,8 @@ std::vector<SheetGrid::Area> SheetGrid::obstacles_of(const Sheet& sheet,
   return obstacles;
 }
 
-// How far a frame may go from the opening on its sides, of all that allow the most in the direction in which
-// an obstacle is farther off: (lower, upper) along either axis.
+// How far a frame may go from the opening on its sides, of all that allow the most in the direction
+// in which an obstacle is farther off: (lower, upper) along either axis.
 std::array<Interval, 2> SheetGrid::room_about(const Sheet& sheet, const Cutout& cutout,
                                               double most) const {
   std::array<Interval, 2> room{{{most, most}, {most, most}}};
@@ -90,8 +90,8 @@ std::array<Interval, 2> SheetGrid::room_about(const Sheet& sheet, const Cutout& 
   return room;
 }
 
-// The frame's sides lie a third of the opening's shorter side away from it, or in planes that are there
-// anyway between an eighth and five eighths of that side.
+// The frame's sides lie a third of the opening's shorter side away from it, or in planes that are
+// there anyway between an eighth and five eighths of that side.
 Interval SheetGrid::frame_side(int axis, const Interval& hole, const Interval& room,
                                double size) const {
   const auto distance_to = [&](double edge, int outward, double limit) {

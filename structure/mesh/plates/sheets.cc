@@ -220,7 +220,8 @@ void add_stiffeners(const BlockDescription& block, std::vector<Sheet>& sheets) {
   }
 }
 
-// A pad thickens what lies in its plane: plates with the name given, or any. Returns their material.
+// A pad thickens what lies in its plane: plates with the name given, or any. Returns their
+// material.
 int check_pad(const BlockDescription& block, const Pad& pad, const Sheet& sheet,
               const std::vector<Sheet>& plates) {
   if (!pad.plate.empty() &&

@@ -50,12 +50,12 @@ int place_of_material(const BlockDescription& block, const std::string& what,
 /// Spreads a description into sheets, in the order plates, pads, lugs.
 /// @throws ModelError naming what is wrong: names used twice, unknown materials, plates or pads,
 ///   empty extents, thickness not positive, overlapping plates of different thickness in one plane,
-///   openings or stiffeners of a plate that does not exist, stiffeners without spacing or section or along
-///   their plate's normal, a pad that lies on no plate or is thinner than it.
+///   openings or stiffeners of a plate that does not exist, stiffeners without spacing or section
+///   or along their plate's normal, a pad that lies on no plate or is thinner than it.
 std::vector<Sheet> spread_into_sheets(const BlockDescription& description);
 
-/// The sheet that a place belongs to of those that lie there: the highest rank, then the thickest, then
-/// the first.
+/// The sheet that a place belongs to of those that lie there: the highest rank, then the thickest,
+/// then the first.
 int owner(const std::vector<Sheet>& sheets, const std::vector<int>& candidates);
 
 /// True if two intervals have more than `tolerance` in common.

@@ -1,5 +1,6 @@
-// MuJoCo: joint-space inertia by composite bodies, sparse LTL factors. Contacts and constraints are off, and
-// of mj_forward only those stages are called without which there would be no accelerations.
+// MuJoCo: joint-space inertia by composite bodies, sparse LTL factors. Contacts and constraints are
+// off, and of mj_forward only those stages are called without which there would be no
+// accelerations.
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -42,8 +43,9 @@ std::string inertial(const TreeBody& body) {
          text(solver.eigenvalues().data(), 3) + "'/>";
 }
 
-// A model's text in files of a file system in memory: the reader of XML allows 100 elements within one another, which
-// a chain of 100 bodies exceeds, so that every 40 levels the rest goes into a file of its own.
+// A model's text in files of a file system in memory: the reader of XML allows 100 elements within
+// one another, which a chain of 100 bodies exceeds, so that every 40 levels the rest goes into a
+// file of its own.
 class ModelText {
  public:
   explicit ModelText(const TreeModel& model) : model_(model) {

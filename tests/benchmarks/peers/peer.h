@@ -48,8 +48,8 @@ struct TreeState {
   std::vector<double> q, v, tau;  ///< of the revolute joints: rad, rad/s, N m
 };
 
-/// Angular acceleration of a free base and acceleration of its origin, in W (zeros without one), then
-/// the joints': 6 + joint_count numbers.
+/// Angular acceleration of a free base and acceleration of its origin, in W (zeros without one),
+/// then the joints': 6 + joint_count numbers.
 using Accelerations = std::vector<double>;
 
 /// Forward dynamics of one tree in one library.
@@ -59,8 +59,9 @@ class TreeDynamics {
   /// Keeps the states in the library's own coordinates.
   virtual void set_states(const std::vector<TreeState>& states) = 0;
   /// From the kept state `which` to accelerations, kinematics included, as one evaluation of a
-  /// right-hand side asks for it. To be called with another state than the time before, as an integrator
-  /// does: a library may keep what it computed of a state that it is given again (DART does).
+  /// right-hand side asks for it. To be called with another state than the time before, as an
+  /// integrator does: a library may keep what it computed of a state that it is given again (DART
+  /// does).
   virtual void evaluate(std::size_t which) = 0;
   /// Of the last evaluation.
   virtual Accelerations accelerations() const = 0;
@@ -73,9 +74,10 @@ struct SimulationRun {
   long evaluations = 0;  ///< of the right-hand side
 };
 
-/// The 860 t block hoisted on six ropes for 120 s. Compared: the centre of mass at 10, 20, ... 120 s,
-/// x, y, z (m). The uniform block's origin is its centre; ropes stand upright at x = -10, 0, 10 and y = -6, 6 on
-/// its top face, with the static stretch at the start, and a damping of 1 % of critical in heave.
+/// The 860 t block hoisted on six ropes for 120 s. Compared: the centre of mass at 10, 20, ... 120
+/// s, x, y, z (m). The uniform block's origin is its centre; ropes stand upright at x = -10, 0, 10
+/// and y = -6, 6 on its top face, with the static stretch at the start, and a damping of 1 % of
+/// critical in heave.
 struct BlockOnSixRopes {
   static constexpr double mass = 860e3;
   static constexpr Triple size{24, 16, 10};
@@ -87,8 +89,9 @@ struct BlockOnSixRopes {
   static constexpr int samples = 12;
 };
 
-/// Andrews' squeezing mechanism (Schiehlen 1990; Test Set for IVP Solvers): seven bodies in a plane, three
-/// loops, no gravity. Compared: beta, Theta, gamma, Phi, delta, Omega, epsilon at 0.03 s (rad).
+/// Andrews' squeezing mechanism (Schiehlen 1990; Test Set for IVP Solvers): seven bodies in a
+/// plane, three loops, no gravity. Compared: beta, Theta, gamma, Phi, delta, Omega, epsilon at 0.03
+/// s (rad).
 struct Andrews {
   static constexpr double duration = 0.03;
   static constexpr double mass[] = {.04325, .00365, .02373, .00706, .07050, .00706, .05498};

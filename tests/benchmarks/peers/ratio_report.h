@@ -8,9 +8,9 @@
 
 namespace blocklift::peers {
 
-/// Collects benchmarks named "model/library" and prints, at the end, a table of the times and of the first
-/// library's over the best of the others: per model the fastest repetition counts, which other work
-/// on the machine disturbs least.
+/// Collects benchmarks named "model/library" and prints, at the end, a table of the times and of
+/// the first library's over the best of the others: per model the fastest repetition counts, which
+/// other work on the machine disturbs least.
 class RatioReport : public benchmark::BenchmarkReporter {
  public:
   /// @param libraries columns of the table, ours first.
@@ -29,8 +29,8 @@ class RatioReport : public benchmark::BenchmarkReporter {
   std::map<std::string, double> fastest_;
 };
 
-/// Runs what is registered, one thread, repetitions of all benchmarks shuffled so that changes of the
-/// machine's speed hit all alike. @returns the program's exit code.
+/// Runs what is registered, one thread, repetitions of all benchmarks shuffled so that changes of
+/// the machine's speed hit all alike. @returns the program's exit code.
 int run_side_by_side(int argc, char** argv, RatioReport& report);
 
 }  // namespace blocklift::peers

@@ -104,7 +104,8 @@ namespace {
 
 using A = Andrews;
 
-// Body `number` (1 to 7) with its centre of mass; in the plane only the inertia about the normal counts.
+// Body `number` (1 to 7) with its centre of mass; in the plane only the inertia about the normal
+// counts.
 Body planar_body(int number, const Vec3& p_BoBcm) {
   const auto i = static_cast<std::size_t>(number - 1);
   const Inertia central(A::inertia[i] / 2, A::inertia[i] / 2, A::inertia[i]);

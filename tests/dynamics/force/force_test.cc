@@ -75,7 +75,8 @@ TEST(JointSpring, TurnsBackAndBalances) {
   EXPECT_NEAR(account.dissipated_power, 18.0, 1e-14);
 }
 
-// Turned by an angle about any axis from the free orientation, the body is turned back about that axis.
+// Turned by an angle about any axis from the free orientation, the body is turned back about that
+// axis.
 TEST(TorsionalSpring, TurnsBackTheShorterWayAndBalances) {
   OneBody body;
   testing::Random random(5);

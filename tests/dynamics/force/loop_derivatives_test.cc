@@ -1,5 +1,5 @@
-// What the forces of loops do by the motion, against central differences of G^T lambda, for every kind of
-// loop between bodies of a random tree, on and off the constraint.
+// What the forces of loops do by the motion, against central differences of G^T lambda, for every
+// kind of loop between bodies of a random tree, on and off the constraint.
 #include "dynamics/force/loop_derivatives.h"
 
 #include <gtest/gtest.h>

@@ -41,8 +41,8 @@ TEST(WindField, GustSpectraByHand) {
               sigma * sigma * x / 0.01 / std::pow(1 + 1.5 * x, 5.0 / 3), 1e-9);
   EXPECT_NEAR(calc_gust_density(GustSpectrum::davenport, 0.01, 20, 10, 0.003),
               4 * 0.003 * 400 * 0.36 / 0.01 / std::pow(1.36, 4.0 / 3), 1e-9);
-  // Davenport's variance over all frequencies is 6 kappa U10^2 (int x/(1+x^2)^(4/3) dx = 3/2); API's
-  // is sigma^2 (int 1/(1 + 1.5 x)^(5/3) dx = 1).
+  // Davenport's variance over all frequencies is 6 kappa U10^2 (int x/(1+x^2)^(4/3) dx = 3/2);
+  // API's is sigma^2 (int 1/(1 + 1.5 x)^(5/3) dx = 1).
   WindField::Definition d = {.speed = 20, .heading = 0, .gusts = GustSpectrum::davenport};
   d.lowest_frequency = 1e-6, d.highest_frequency = 1e5, d.components = 400;
   EXPECT_NEAR(WindField(d).gust_deviation(), std::sqrt(6 * 0.003) * 20, 1e-3);
@@ -93,8 +93,8 @@ TEST(WindArea, FollowsTheField) {
   EXPECT_NEAR(area.calc_force(body.state()).x(), 0.5 * 1.25 * 1.2 * 10 * u * u, 1e-9);
 }
 
-// Coefficients 45 degrees apart: halfway between headings, mirrored on the other side, about a point
-// off the origin.
+// Coefficients 45 degrees apart: halfway between headings, mirrored on the other side, about a
+// point off the origin.
 TEST(WindLoad, FollowsItsCoefficients) {
   OneBody body;
   constexpr double pi = std::numbers::pi;

@@ -1,5 +1,5 @@
-// Inertia that ties bodies together, on the left-hand side: against the same inertia as a body's own,
-// against a dense solution, and by the energy that it keeps.
+// Inertia that ties bodies together, on the left-hand side: against the same inertia as a body's
+// own, against a dense solution, and by the energy that it keeps.
 #include "dynamics/multibody/added_inertia.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 using testing::Random;
 using ::testing::ThrowsMessage;
 
-/// 6 x 6 inertia about R in the axes of H of a rigid body (mass, centre of mass from R, inertia about it).
+/// 6 x 6 inertia about R in the axes of H of a rigid body (mass, centre of mass from R, inertia
+/// about it).
 Eigen::MatrixXd rigid(double mass, const Vector3& c, const Matrix3& I) {
   Eigen::MatrixXd A(6, 6);
   A << I - mass * skew(c) * skew(c), mass * skew(c), -mass * skew(c), mass * Matrix3::Identity();
@@ -49,8 +50,8 @@ struct State {
   Kinematics kinematics;
 };
 
-// A rigid body's inertia added to a weightless frame of a body is that body made heavier: Kirchhoff's
-// equations hold all terms of the velocity.
+// A rigid body's inertia added to a weightless frame of a body is that body made heavier:
+// Kirchhoff's equations hold all terms of the velocity.
 TEST(AddedInertia, OfARigidBodyIsItsOwn) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     Random random(seed);
@@ -132,8 +133,8 @@ TEST(AddedInertia, TiesBodiesAsADenseSolutionDoes) {
   }
 }
 
-// Two bodies afloat far from anything, tumbling: energy of bodies and water is kept. Fourth order of the
-// step, so that a step twice as long tells the error.
+// Two bodies afloat far from anything, tumbling: energy of bodies and water is kept. Fourth order
+// of the step, so that a step twice as long tells the error.
 TEST(AddedInertia, KeepsEnergy) {
   Random random(5);
   MechanismBuilder builder;

@@ -59,7 +59,8 @@ TEST(Assembly, TurnsAxesTheRightWayRound) {
 }
 
 // The closest point of a circle of 2 m about the origin to (3, 4) lies on the line to it; with a
-// coordinate that costs more to move, where the gradient of the weighted distance is along the radius.
+// coordinate that costs more to move, where the gradient of the weighted distance is along the
+// radius.
 TEST(Assembly, FindsTheClosestConfiguration) {
   MechanismBuilder builder;
   BodyDefinition body;

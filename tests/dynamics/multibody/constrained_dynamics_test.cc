@@ -32,8 +32,8 @@ struct Solution {
   Eigen::VectorXd tau, vdot;
 };
 
-// Chain arm1 - arm2 - B - tip, B on arm2 by a joint of the kind; and the same with B flying freely and a
-// loop in place of the joint, either way round.
+// Chain arm1 - arm2 - B - tip, B on arm2 by a joint of the kind; and the same with B flying freely
+// and a loop in place of the joint, either way round.
 struct CutJoint {
   CutJoint(JointKind kind, bool reversed, unsigned seed) : random(seed) {
     BodyDefinition arm1 = testing::random_body(random, JointKind::universal, "arm1", "world");
@@ -145,8 +145,8 @@ INSTANTIATE_TEST_SUITE_P(All, EveryJointKind,
                                            JointKind::planar, JointKind::translational),
                          [](const auto& info) { return std::string(joint_kind_name(info.param)); });
 
-// Test Set for IVP Solvers: at rest at t = 0, beta'' = 14222.4439199541, Theta'' = -10666.8329399656, the
-// others zero (to 11 digits).
+// Test Set for IVP Solvers: at rest at t = 0, beta'' = 14222.4439199541, Theta'' =
+// -10666.8329399656, the others zero (to 11 digits).
 class Andrews : public ::testing::TestWithParam<LoopKind> {};
 
 TEST_P(Andrews, AccelerationsAtTheStart) {
@@ -235,8 +235,8 @@ TEST(Gear, TwoWheels) {
   EXPECT_NEAR(found.w.lambda[0], 2.0 * rate - 7, 1e-13);
 }
 
-// A rod between a fixed point and a particle is a pendulum: angular acceleration -(g/L) sin, and its
-// tension m (g cos + L w^2).
+// A rod between a fixed point and a particle is a pendulum: angular acceleration -(g/L) sin, and
+// its tension m (g cos + L w^2).
 TEST(Distance, IsAPendulum) {
   constexpr double g = 9.80665, length = 2.5, angle = 0.7, w = 1.3, mass = 4;
   MechanismBuilder builder;
@@ -286,8 +286,8 @@ TEST(PointOnLine, IsABeadOnAWire) {
   EXPECT_LT((F.force - (weight - weight.dot(u) * u)).norm(), 1e-13);
 }
 
-// One equation of Bricard's loop repeats the others: accelerations are unique, and the multipliers are the
-// least of all that balance them.
+// One equation of Bricard's loop repeats the others: accelerations are unique, and the multipliers
+// are the least of all that balance them.
 TEST(Redundancy, BricardHasLeastMultipliers) {
   const Mechanism m = samples::bricard_linkage();
   Eigen::VectorXd q = m.zero_configuration();

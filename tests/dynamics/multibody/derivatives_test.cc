@@ -1,6 +1,7 @@
-// Analytical derivatives of the dynamics against central differences on random trees with every kind
-// of joint. Differences are of second order: halving the step divides the difference by four until
-// rounding takes over, which the step study shows, so that the agreement is not one of chance.
+// Analytical derivatives of the dynamics against central differences on random trees with every
+// kind of joint. Differences are of second order: halving the step divides the difference by four
+// until rounding takes over, which the step study shows, so that the agreement is not one of
+// chance.
 #include "dynamics/multibody/derivatives.h"
 
 #include <gtest/gtest.h>

@@ -75,7 +75,8 @@ TEST(ConservativeSystem, KeepsItsEnergy) {
   EXPECT_NEAR(energy(), start, 1e-8 * scale);
 }
 
-// A long spin about the axis of largest inertia returns to where it should be, and stays a rotation.
+// A long spin about the axis of largest inertia returns to where it should be, and stays a
+// rotation.
 TEST(FreeBody, SpinsForAHundredRevolutions) {
   MechanismBuilder builder;
   builder.set_gravity(Vector3::Zero());

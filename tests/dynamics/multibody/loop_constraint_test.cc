@@ -1,5 +1,5 @@
-// Definitions of loops and what is wrong with them; residuals, Jacobian and velocity terms against finite
-// differences, for every kind.
+// Definitions of loops and what is wrong with them; residuals, Jacobian and velocity terms against
+// finite differences, for every kind.
 #include "dynamics/multibody/loop_constraint.h"
 
 #include <gmock/gmock.h>
@@ -172,8 +172,8 @@ struct LoopOfKind {
 
 class EveryLoopKind : public ::testing::TestWithParam<LoopKind> {};
 
-// Central differences with the step h = 1e-5: error h^2 / 6 times third derivatives (of size 10 to 100 at
-// these velocities and distances) + rounding / h = 1e-9.
+// Central differences with the step h = 1e-5: error h^2 / 6 times third derivatives (of size 10 to
+// 100 at these velocities and distances) + rounding / h = 1e-9.
 constexpr double h = 1e-5;
 constexpr double difference_error = 1e-8;
 

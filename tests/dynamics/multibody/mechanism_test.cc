@@ -159,7 +159,8 @@ TEST(JointKind, NamesAndKindsAreOneToOne) {
   EXPECT_FALSE(joint_kind("hinge"));
 }
 
-// A point mass on the axis of its own revolute joint: sound to the builder, singular to the dynamics.
+// A point mass on the axis of its own revolute joint: sound to the builder, singular to the
+// dynamics.
 TEST(ForwardDynamics, NamesTheBodyThatNothingResists) {
   MechanismBuilder builder;
   BodyDefinition hook = trolley();

@@ -1,5 +1,5 @@
-// The recursive algorithms check one another on random trees with every kind of joint, and kinematics
-// are checked against finite differences, so that no shared formula can hide an error.
+// The recursive algorithms check one another on random trees with every kind of joint, and
+// kinematics are checked against finite differences, so that no shared formula can hide an error.
 #include <gtest/gtest.h>
 
 #include "dynamics/multibody/energy.h"

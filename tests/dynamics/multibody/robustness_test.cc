@@ -1,5 +1,5 @@
-// Links without mass, poses in which a motion meets no resistance, states that are not finite, quaternions of any
-// length: a right answer, or an error that names the body.
+// Links without mass, poses in which a motion meets no resistance, states that are not finite,
+// quaternions of any length: a right answer, or an error that names the body.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -79,7 +79,8 @@ TEST(LinkWithoutMass, RingsOfAGimbalAgainstASphericalJoint) {
   EXPECT_LT((Aa[3].angular - Ab[1].angular).norm(), 1e-12 * Ab[1].angular.norm());
 }
 
-// In gimbal lock the outer ring turns about the load's own axis: one of the two meets no resistance.
+// In gimbal lock the outer ring turns about the load's own axis: one of the two meets no
+// resistance.
 TEST(SingularPose, GimbalLockNamesTheRing) {
   MechanismBuilder builder;
   builder.add_body(massless("outer", "world", Vector3::UnitX()));

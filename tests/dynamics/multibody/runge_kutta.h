@@ -4,8 +4,8 @@
 
 namespace blocklift::dynamics::testing {
 
-/// Classical Runge-Kutta integration of a mechanism without drives and external forces, with a fixed
-/// step: for tests only, so that the kernel is seen without the library's own integrator.
+/// Classical Runge-Kutta integration of a mechanism without drives and external forces, with a
+/// fixed step: for tests only, so that the kernel is seen without the library's own integrator.
 class RungeKutta {
  public:
   RungeKutta(const Mechanism& mechanism, Eigen::VectorXd q, Eigen::VectorXd v)

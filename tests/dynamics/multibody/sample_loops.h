@@ -5,8 +5,8 @@
 /// Mechanisms with loops that several tests and benchmarks share.
 namespace blocklift::dynamics::samples {
 
-/// Andrews' squeezer (Schiehlen 1990; Test Set for IVP Solvers, "andrews"): seven bodies in the plane
-/// z = 0 without gravity, three loops through the point at which bodies 2, 3, 4 and 6 meet.
+/// Andrews' squeezer (Schiehlen 1990; Test Set for IVP Solvers, "andrews"): seven bodies in the
+/// plane z = 0 without gravity, three loops through the point at which bodies 2, 3, 4 and 6 meet.
 ///
 /// Bodies K1 .. K7 with their centres of mass as given; coordinates in the order of the tree: beta,
 /// Theta, gamma, delta, Phi, epsilon, Omega.
@@ -26,14 +26,15 @@ struct AndrewsSqueezer {
   static Eigen::VectorXd q_start();
 };
 
-/// Bricard's linkage of the IFToMM library (A04): five rods of 1 m, 1 kg and square section 0.1 m, six
-/// revolute joints of which the last closes the loop; gravity 9.81 m/s2 along -y. One of the loop's five
-/// equations repeats the others; one degree of freedom is left.
+/// Bricard's linkage of the IFToMM library (A04): five rods of 1 m, 1 kg and square section 0.1 m,
+/// six revolute joints of which the last closes the loop; gravity 9.81 m/s2 along -y. One of the
+/// loop's five equations repeats the others; one degree of freedom is left.
 Mechanism bricard_linkage();
 
-/// Plane four-bar linkage with bars of `crank`, `coupler`, `rocker` (m, 1 kg each, uniform) over a base of
-/// `base` m along x; z is the axis of all joints, gravity along -y. The loop "D" is at (base, 0, 0) on
-/// the rocker's end. Zero coordinates: all bars along x. Bars have a square section of the side `side` (m).
+/// Plane four-bar linkage with bars of `crank`, `coupler`, `rocker` (m, 1 kg each, uniform) over a
+/// base of `base` m along x; z is the axis of all joints, gravity along -y. The loop "D" is at
+/// (base, 0, 0) on the rocker's end. Zero coordinates: all bars along x. Bars have a square section
+/// of the side `side` (m).
 Mechanism four_bar(double crank, double coupler, double rocker, double base,
                    bool driven_crank = false, double side = 0.01);
 

@@ -1,5 +1,6 @@
-// Bodies that give way where ropes pull: springs in series by hand, the rigid limit, conservation of
-// energy, derivatives against differences, and modes against the static compliance that they make up.
+// Bodies that give way where ropes pull: springs in series by hand, the rigid limit, conservation
+// of energy, derivatives against differences, and modes against the static compliance that they
+// make up.
 #include "dynamics/rope/elastic_body.h"
 
 #include <cmath>
@@ -124,8 +125,8 @@ TEST(ElasticBody, RopeAndLugAreSpringsInSeries) {
   EXPECT_NEAR(rigid_q[2] - elastic_q[2], mass * gravity * c, 1e-7);
 }
 
-// A stiff beam level on three upright ropes: with a lug in the middle that gives way, loads share by
-// the compliances 1/k, 1/k + c, 1/k. Level by symmetry, T_i (1/k + c_i) is equal.
+// A stiff beam level on three upright ropes: with a lug in the middle that gives way, loads share
+// by the compliances 1/k, 1/k + c, 1/k. Level by symmetry, T_i (1/k + c_i) is equal.
 TEST(ElasticBody, LoadsShareByTheLugsCompliances) {
   const double c = 4e-6;
   Sample sample;
@@ -176,8 +177,9 @@ TEST(ElasticBody, EnergyIsKept) {
         energy.kinetic + energy.gravity + energy.elastic + energy.dissipated;
     const double exchanged = energy.elastic.maxCoeff() - energy.elastic.minCoeff();
     ASSERT_GT(exchanged, 100);
-    // Undamped what the steps lose (6e-7). A damped rope that went slack while it was stretched comes to
-    // rest within a step, where the damping of its neighbours jumps and the sum of the works with it.
+    // Undamped what the steps lose (6e-7). A damped rope that went slack while it was stretched
+    // comes to rest within a step, where the damping of its neighbours jumps and the sum of the
+    // works with it.
     EXPECT_LT((sum.array() - sum[0]).abs().maxCoeff(), (damping > 0 ? 1e-5 : 1e-6) * exchanged);
     EXPECT_GT(energy.elastic.minCoeff(), 0);
     if (damping > 0) {
@@ -238,7 +240,8 @@ Swing swing(const LiftSystem& system) {
   return result;
 }
 
-// The beam whose compliance is made up of two modes at omega, and that whose compliance follows at once.
+// The beam whose compliance is made up of two modes at omega, and that whose compliance follows at
+// once.
 double largest_difference(double omega, double damping_time, double* mean = nullptr) {
   Sample still{.damping_time = damping_time, .inclination = 1};
   Sample moving = still;
@@ -254,9 +257,10 @@ double largest_difference(double omega, double damping_time, double* mean = null
   return difference.maxCoeff();
 }
 
-// Modes whose sum is the compliance: the same at rest; the faster they are beside the motion, the less
-// they move by themselves. The inertia of a mode changes what it gives by (Omega / omega)^2, Omega being
-// the frequency of the motion: of second order, so that twice omega leaves about a quarter.
+// Modes whose sum is the compliance: the same at rest; the faster they are beside the motion, the
+// less they move by themselves. The inertia of a mode changes what it gives by (Omega / omega)^2,
+// Omega being the frequency of the motion: of second order, so that twice omega leaves about a
+// quarter.
 TEST(ElasticBody, ModesComeToTheStaticComplianceAsTheMotionSlows) {
   double coarse = 0, fine = 0;
   largest_difference(120, 0, &coarse);
@@ -264,8 +268,8 @@ TEST(ElasticBody, ModesComeToTheStaticComplianceAsTheMotionSlows) {
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.3);
 }
 
-// What remains with damped ropes and modes far above the motion is the condensed damping's error, of
-// second order in the damping time.
+// What remains with damped ropes and modes far above the motion is the condensed damping's error,
+// of second order in the damping time.
 TEST(ElasticBody, CondensedDampingIsExactToTheFirstOrder) {
   EXPECT_NEAR(std::log2(largest_difference(480, 0.01) / largest_difference(480, 0.005)), 2, 0.4);
 }
@@ -281,12 +285,12 @@ double free_beam_mode(double bL, double x_over_length) {
   return hyperbolic + std::cos(a) - (1 - rest) * std::sin(a);
 }
 
-// A uniform beam of its own weight on three upright ropes of stiffness k, at its ends and its middle, level
-// at first. From the deflection 5 W L^3 / 384 EI of the simply supported beam less R L^3 / 48 EI by the
-// middle rope, equal to what the ropes give, R / k - (W - R) / 2k:
+// A uniform beam of its own weight on three upright ropes of stiffness k, at its ends and its
+// middle, level at first. From the deflection 5 W L^3 / 384 EI of the simply supported beam less R
+// L^3 / 48 EI by the middle rope, equal to what the ropes give, R / k - (W - R) / 2k:
 //   R = W (5 L^3 / 384 EI + 1/2k) / (L^3 / 48 EI + 3/2k)
-// (Timoshenko, Strength of Materials I, 1955, beam on elastic supports.) The free beam's compliance is
-// the sum over its modes, phi_i phi_j L^3 / (EI (bL)^4), the sum of whose terms beyond the 18th
+// (Timoshenko, Strength of Materials I, 1955, beam on elastic supports.) The free beam's compliance
+// is the sum over its modes, phi_i phi_j L^3 / (EI (bL)^4), the sum of whose terms beyond the 18th
 // is below 2e-5.
 TEST(ElasticBody, AUniformBeamOnThreeRopesSharesItsWeight) {
   const double length = place(2), weight = mass * gravity;

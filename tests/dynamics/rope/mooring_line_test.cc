@@ -16,9 +16,9 @@ using ::testing::HasSubstr;
 using testing::OneBody;
 using ::testing::ThrowsMessage;
 
-// Irvine (1981), sec. 2.3: an elastic catenary between level supports under its own weight. With the
-// level force H given, the span is  H L0/EA + 2 H/w asinh(w L0/(2H)),  each end carries half the
-// weight, the sag at the middle is  w L0^2/(8 EA) + H/w (sqrt(1 + (w L0/2H)^2) - 1).
+// Irvine (1981), sec. 2.3: an elastic catenary between level supports under its own weight. With
+// the level force H given, the span is  H L0/EA + 2 H/w asinh(w L0/(2H)),  each end carries half
+// the weight, the sag at the middle is  w L0^2/(8 EA) + H/w (sqrt(1 + (w L0/2H)^2) - 1).
 TEST(Catenary, LevelSupports) {
   const double L0 = 200, w = 800, EA = 4e7;
   for (const double H : {2e3, 2e4, 2e5, 4e6}) {

@@ -25,7 +25,8 @@ RopeDefinition simple_rope() {
           .unstretched_length = 3.0};
 }
 
-// A right triangle 3-4-5 and a vertical part: from the world over a sheave on the world to the load.
+// A right triangle 3-4-5 and a vertical part: from the world over a sheave on the world to the
+// load.
 TEST(Rope, PathOverASheaveByHand) {
   const Mechanism mechanism = one_load();
   RopeDefinition definition = simple_rope();

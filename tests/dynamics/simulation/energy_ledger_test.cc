@@ -66,8 +66,8 @@ struct BoxAdrift {
   }
 };
 
-// The work of the waves is what they add to still water, though all of the pressure's is summed: against
-// Simpson's rule over the samples.
+// The work of the waves is what they add to still water, though all of the pressure's is summed:
+// against Simpson's rule over the samples.
 TEST(EnergyLedger, CountsWhatWavesAddToStillWater) {
   const LiftSystem system = BoxAdrift::build(12.0);
   const HullForce& hull = std::get<std::vector<HullForce>>(system.elements())[0];
@@ -93,8 +93,8 @@ TEST(EnergyLedger, CountsWhatWavesAddToStillWater) {
   EXPECT_LT(imbalance, 1e-5 * turnover);
 }
 
-// Steps take the hulls' forces from their last evaluation, which errs by what the step may: the balance improves
-// with the tolerance.
+// Steps take the hulls' forces from their last evaluation, which errs by what the step may: the
+// balance improves with the tolerance.
 TEST(EnergyLedger, ClosesTheBetterTheSmallerTheTolerance) {
   const LiftSystem system = BoxAdrift::build(12.0);
   std::vector<double> errors;

@@ -1,6 +1,6 @@
-// The Jacobian of the whole right-hand side against central differences: random trees with every kind
-// of joint, driven ones among them, ropes straight and over sheaves, springs, pads that stick and that
-// slide, wind on flat and on round areas, moving fast.
+// The Jacobian of the whole right-hand side against central differences: random trees with every
+// kind of joint, driven ones among them, ropes straight and over sheaves, springs, pads that stick
+// and that slide, wind on flat and on round areas, moving fast.
 #include "dynamics/simulation/jacobian.h"
 
 #include <cmath>
@@ -207,8 +207,8 @@ TEST_P(Jacobian, NewtonMatrixSolvesWithIt) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Jacobian, ::testing::Range(1u, 9u));
 
-// With loops of several kinds between two branches, off the constraint as trial states are: the structured
-// solution with multipliers is that of the whole matrix, here by central differences.
+// With loops of several kinds between two branches, off the constraint as trial states are: the
+// structured solution with multipliers is that of the whole matrix, here by central differences.
 TEST(NewtonMatrixOfLoops, SolvesWithTheJacobianOfTheConstrainedMotion) {
   for (const unsigned seed : {1u, 2u, 3u, 4u}) {
     Random random(seed);

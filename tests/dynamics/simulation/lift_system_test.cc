@@ -58,8 +58,9 @@ TEST(LiftSystem, IntegrationAllocatesNothingPerStep) {
   EXPECT_LE(fine.first, coarse.first + 8);
 }
 
-// From the first sample after the start to the last nothing is allocated at all, by SUNDIALS neither: the 860 t
-// block hoisted on six ropes, works included, over 1,000 steps and the breakpoints of its winches.
+// From the first sample after the start to the last nothing is allocated at all, by SUNDIALS
+// neither: the 860 t block hoisted on six ropes, works included, over 1,000 steps and the
+// breakpoints of its winches.
 TEST(LiftSystem, NothingIsAllocatedBetweenTheFirstSampleAndTheLast) {
   if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
   const LiftSystem lift = samples::block_on_six_ropes();

@@ -1,5 +1,5 @@
-// Natural modes against closed forms, against an independent eigen-solution by differences, and against
-// the free decay of a time integration.
+// Natural modes against closed forms, against an independent eigen-solution by differences, and
+// against the free decay of a time integration.
 #include "dynamics/simulation/linearisation.h"
 
 #include <cmath>
@@ -73,8 +73,8 @@ TEST(Linearisation, CompoundPendulum) {
   EXPECT_EQ(l.modes[0].elastic_share, 0.0);
 }
 
-// Two equal point masses on equal rods: omega^2 = (2 -+ sqrt 2) g / l (Landau and Lifshitz, Mechanics,
-// section 23, problem 2).
+// Two equal point masses on equal rods: omega^2 = (2 -+ sqrt 2) g / l (Landau and Lifshitz,
+// Mechanics, section 23, problem 2).
 TEST(Linearisation, DoublePendulum) {
   MechanismBuilder builder;
   builder.set_gravity({0, 0, -g});
@@ -96,8 +96,8 @@ TEST(Linearisation, DoublePendulum) {
               ElementsAre("load: pendulum along x", "hook: pendulum along x against load"));
 }
 
-// Bounce on a rope 2 pi sqrt(m/k), its damping ratio as prescribed, and the pendulum of its stretched
-// length to both sides, told apart although their periods are the same.
+// Bounce on a rope 2 pi sqrt(m/k), its damping ratio as prescribed, and the pendulum of its
+// stretched length to both sides, told apart although their periods are the same.
 TEST(Linearisation, LoadOnOneRope) {
   samples::SingleRopeLift lift;
   const double omega = std::sqrt(lift.stiffness() / lift.mass);
@@ -205,8 +205,8 @@ TEST(Linearisation, UnstableAndOverdamped) {
   EXPECT_NEAR(s.modes[1].eigenvalue.real(), -half - root, 1e-9);
 }
 
-// Block on six ropes: an undamped eigen-solution with mass matrix and a stiffness by central differences
-// of the forces, which share nothing with the derivatives.
+// Block on six ropes: an undamped eigen-solution with mass matrix and a stiffness by central
+// differences of the forces, which share nothing with the derivatives.
 TEST(Linearisation, BlockOnSixRopesAgainstDifferences) {
   const LiftSystem lift = samples::block_on_six_ropes();
   EquilibriumSolver solver(lift);
@@ -284,8 +284,9 @@ TEST(Linearisation, FreeDecayOfATimeIntegration) {
   EXPECT_NEAR(mode.damping_ratio(), 0.02, 1e-9);
 }
 
-// A platform on two parallel rods that are loops swings without turning: omega^2 = g / l, and the rods'
-// tension is all that brings it back. As a tree it has three degrees of freedom, with the rods one.
+// A platform on two parallel rods that are loops swings without turning: omega^2 = g / l, and the
+// rods' tension is all that brings it back. As a tree it has three degrees of freedom, with the
+// rods one.
 TEST(Linearisation, PlatformOnTwoRods) {
   constexpr double rod = 4.0;
   MechanismBuilder builder;

@@ -52,8 +52,8 @@ TEST(LoopSimulation, AndrewsSqueezerFollowsItsTolerance) {
   }
 }
 
-// Andrews' multipliers at the end: forces on the bodies' common point by K3, K4 and K6 (Test Set for IVP
-// Solvers, lambda(0.03), 1 to 6).
+// Andrews' multipliers at the end: forces on the bodies' common point by K3, K4 and K6 (Test Set
+// for IVP Solvers, lambda(0.03), 1 to 6).
 TEST(LoopSimulation, AndrewsSqueezersForces) {
   Eigen::VectorXd wanted(6);
   wanted << 199.1753333731910, -29.75531228015052, 23.06654119098399, 31.45271365475927,
@@ -90,8 +90,8 @@ TEST(LoopSimulation, BricardsLinkage) {
   EXPECT_LT((position(20) - Vector3(0.999999964, -1.000269013, 0.999730951)).norm(), 1e-6);
 }
 
-// IFToMM A02, one four-bar of rods of 1 m: it passes its flat position, where the loop loses a row, again
-// and again.
+// IFToMM A02, one four-bar of rods of 1 m: it passes its flat position, where the loop loses a row,
+// again and again.
 TEST(LoopSimulation, FourBarPassesItsTogglePosition) {
   Eigen::VectorXd q(3), v(3);
   q << M_PI / 2, -M_PI / 2, -M_PI / 2;

@@ -1,4 +1,5 @@
-// Independent coordinates of mechanisms with loops: closed, and with exact derivatives away from the reference.
+// Independent coordinates of mechanisms with loops: closed, and with exact derivatives away from
+// the reference.
 #include "dynamics/simulation/reduced_coordinates.h"
 
 #include <gmock/gmock.h>
@@ -79,8 +80,8 @@ LiftSystem random_system(unsigned seed, LoopKind kind) {
 
 class ReducedCoordinatesOf : public ::testing::TestWithParam<LoopKind> {};
 
-// Differences over 1e-5: central ones have relative errors of some 1e-9, the way that a step of 1e-5 goes
-// is that of the tangent but for its curvature, 1e-5 of it.
+// Differences over 1e-5: central ones have relative errors of some 1e-9, the way that a step of
+// 1e-5 goes is that of the tangent but for its curvature, 1e-5 of it.
 TEST_P(ReducedCoordinatesOf, HaveExactDerivativesAwayFromTheReference) {
   constexpr double h = 1e-5;
   for (const unsigned seed : {1U, 2U, 3U}) {

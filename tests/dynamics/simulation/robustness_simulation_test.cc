@@ -47,8 +47,9 @@ TEST(SingularPose, IntegrationThatStartsInItNamesTheBody) {
               AllOf(HasSubstr("\"outer\" (revolute)"), HasSubstr("nothing resists this motion")));
 }
 
-// Swinging about y alone the load runs right through the pose at 90 degrees. Where a step's end does not
-// happen to fall on it, the motion goes on as that of a pendulum; where it does, the body is named. Never NaN.
+// Swinging about y alone the load runs right through the pose at 90 degrees. Where a step's end
+// does not happen to fall on it, the motion goes on as that of a pendulum; where it does, the body
+// is named. Never NaN.
 TEST(SingularPose, IntegrationThroughItIsFiniteOrNamesTheBody) {
   const LiftSystem lift = gimbal({0, 1.2, 0}, {0, 5, 0}, 0.5);
   IntegrationResult run{History(lift, 0, false), {}, {}, {}, {}};

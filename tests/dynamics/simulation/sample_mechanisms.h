@@ -8,7 +8,8 @@ namespace blocklift::dynamics::samples {
 
 /// Andrews' squeezer with its spring and drive moment over 0.03 s, from rest.
 LiftSystem andrews(LoopKind kind);
-/// Its configuration at 0.03 s, extrapolated in quadruple precision, in the order of AndrewsSqueezer.
+/// Its configuration at 0.03 s, extrapolated in quadruple precision, in the order of
+/// AndrewsSqueezer.
 Eigen::VectorXd andrews_q_end();
 
 /// A mechanism alone, under gravity, over a duration (s).

@@ -1,4 +1,5 @@
-// How far vessels that share their water come from the places against each other that it was computed for.
+// How far vessels that share their water come from the places against each other that it was
+// computed for.
 #include "dynamics/simulation/straying.h"
 
 #include <numbers>
@@ -10,7 +11,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Two barges and a ship, free in a world without weight, and a history of three samples 10 s apart.
+/// Two barges and a ship, free in a world without weight, and a history of three samples 10 s
+/// apart.
 class StrayingTest : public ::testing::Test {
  protected:
   StrayingTest() {

@@ -41,9 +41,10 @@ TEST(BlockShells, HullOf860Tonnes) {
   const auto steel = structure::testing::measure(mesh);
   EXPECT_NEAR(steel.mass, 7850 * volume, 1e-6 * steel.mass);
 
-  // As solids of full thickness the plates weigh 645.6 t (rounded to 0.1 t). What crossings count twice is
-  // the difference, but for the ends of the joints, where three plates meet, and the lugs' feet, which stand
-  // on mid-planes here: six times up to 0.85 x 0.011 x 0.1 m of steel and what is inside of thick pads.
+  // As solids of full thickness the plates weigh 645.6 t (rounded to 0.1 t). What crossings count
+  // twice is the difference, but for the ends of the joints, where three plates meet, and the lugs'
+  // feet, which stand on mid-planes here: six times up to 0.85 x 0.011 x 0.1 m of steel and what is
+  // inside of thick pads.
   const double overlap = 7850 * structure::testing::joint_overlap(mesh);
   EXPECT_NEAR(steel.mass - overlap, 645.6e3, 0.3e3);
   EXPECT_GT(overlap, 2e3);

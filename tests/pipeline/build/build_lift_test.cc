@@ -64,9 +64,9 @@ TEST(BuildLiftTest, NamesAndPlacesTheParts) {
   EXPECT_EQ(drawn[0].centre, Vector3(2, 0, 0.5));
 }
 
-// Each sling carries half of the load but for a tilt: the crane gives way under the left tackle only,
-// by T/k, and the centre of mass hangs 0.7 m below the pins, so that the left sling carries
-// W 0.7 tilt / 4 m less.
+// Each sling carries half of the load but for a tilt: the crane gives way under the left tackle
+// only, by T/k, and the centre of mass hangs 0.7 m below the pins, so that the left sling carries W
+// 0.7 tilt / 4 m less.
 TEST(BuildLiftTest, HangsInEquilibrium) {
   const BuiltLift lift = build_sample();
   dynamics::EquilibriumSolver solver(lift.system);

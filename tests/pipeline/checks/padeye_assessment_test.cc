@@ -30,7 +30,8 @@ structure::PadeyeFormulaInput input_of(const structure::PadeyeGeometry& geometry
   return input;
 }
 
-// DNV 2.7-3 (2011), section 3.4: F 163138 N, D_H 30, t 42, R 45 mm, E 210 GPa give 234.65 and 129.47 MPa.
+// DNV 2.7-3 (2011), section 3.4: F 163138 N, D_H 30, t 42, R 45 mm, E 210 GPa give 234.65 and
+// 129.47 MPa.
 TEST(PadeyeFormulas, HaveTheExampleOfDnv) {
   structure::PadeyeFormulaInput input =
       input_of({0.045, 0.042, 0.030, 0.029, 0, 0, 0.06, 0.06, 0.06}, 210e9);
@@ -44,8 +45,9 @@ TEST(PadeyeFormulas, HaveTheExampleOfDnv) {
       0.18 * std::sqrt(163138 * (1 / 27.0 - 1 / 30.0) * 210e3 / 42), 0.01);
 }
 
-// ASME BTH-1, section 3-3.3, an example in inch and kip: N_d 2, t 1.25, a = b_e = 3, D_p 2.75, D_h 3, R 4.5,
-// F_y 36, F_u 58 ksi: P_t 175.2, P_b 144.1 (C_r taken as 1), P_v 148.0 kip. Units cancel: ksi for Pa.
+// ASME BTH-1, section 3-3.3, an example in inch and kip: N_d 2, t 1.25, a = b_e = 3, D_p 2.75, D_h
+// 3, R 4.5, F_y 36, F_u 58 ksi: P_t 175.2, P_b 144.1 (C_r taken as 1), P_v 148.0 kip. Units cancel:
+// ksi for Pa.
 TEST(PadeyeFormulas, HaveTheExampleOfAsme) {
   structure::PadeyeFormulaInput input = input_of({4.5, 1.25, 3, 2.75, 0, 0, 6, 6, 6}, 29e3);
   input.material.yield_stress = 36;

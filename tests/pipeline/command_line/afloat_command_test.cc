@@ -1,5 +1,5 @@
-// What floats: `blocklift validate` and `simulate` as a user meets them, of files with mistakes and of a boat that a
-// floating crane lowers into the water.
+// What floats: `blocklift validate` and `simulate` as a user meets them, of files with mistakes and
+// of a boat that a floating crane lowers into the water.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -141,8 +141,8 @@ radii_of_gyration: [6 m, 11 m, 11 m]
   std::string out_;
 };
 
-// One database of the pontoon alone and one for each draught, computed once. The boat is put into the water 4 m
-// from where they are for, which is said.
+// One database of the pontoon alone and one for each draught, computed once. The boat is put into
+// the water 4 m from where they are for, which is said.
 TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
   const nlohmann::json first = simulate(boat_lift);
   const auto files = kept();

@@ -1,5 +1,5 @@
-// Linked with the structural library, whose SuperLU_DIST keeps all memory that was ever allocated. For glibc's
-// allocator: not built with sanitizers, which bring their own.
+// Linked with the structural library, whose SuperLU_DIST keeps all memory that was ever allocated.
+// For glibc's allocator: not built with sanitizers, which bring their own.
 #include "pipeline/command_line/freed_memory.h"
 
 #include <unistd.h>

@@ -183,7 +183,8 @@ TEST_F(HydroCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run("--import pontoon/vessel.yaml -o x.h5").exit_code, 2);
 }
 
-/// Panels of a box of 4 m, its lowest point at z, in WAMIT's format; some left out, or turned round.
+/// Panels of a box of 4 m, its lowest point at z, in WAMIT's format; some left out, or turned
+/// round.
 std::string box_panels(double z, bool open, bool inward) {
   const std::string low = std::to_string(z), high = std::to_string(z + 4);
   const std::string corner[] = {"-2 -2 ", "2 -2 ", "2 2 ", "-2 2 "};

@@ -90,9 +90,9 @@ TEST_F(StressCommand, SolvesAndWritesResults) {
   EXPECT_LT(summary["force_residual"], 1e-8);
 }
 
-// Neither held nor loaded: six rigid motions, then f = 22.373 / (2 pi) sqrt(E I / (rho A L^4)) = 263 Hz for
-// bending of a slender bar about its weak axis; this one is 10 times as long as high, and shear softens
-// it by some per cent. Supports at the root raise no rigid motion.
+// Neither held nor loaded: six rigid motions, then f = 22.373 / (2 pi) sqrt(E I / (rho A L^4)) =
+// 263 Hz for bending of a slender bar about its weak axis; this one is 10 times as long as high,
+// and shear softens it by some per cent. Supports at the root raise no rigid motion.
 TEST_F(StressCommand, FindsNaturalModes) {
   std::string text = bar_part;
   text.erase(text.find("supports:"));
@@ -131,8 +131,9 @@ TEST_F(StressCommand, RefinesUntilTheAccuracyIsMet) {
   EXPECT_THAT(outcome.out, HasSubstr("elements"));
 }
 
-// A cantilever's stress falls linearly from its root: 6 F (L - x) / (b h^2) on its upper side, 30 MPa at the
-// toe that is 1.5 m before the force. Quadratic tetrahedra of half the bar's height bend within 5 %.
+// A cantilever's stress falls linearly from its root: 6 F (L - x) / (b h^2) on its upper side, 30
+// MPa at the toe that is 1.5 m before the force. Quadratic tetrahedra of half the bar's height bend
+// within 5 %.
 TEST_F(StressCommand, ExtrapolatesToAWeldToe) {
   std::string text = bar_part;
   text.replace(text.find("[600 kN, 0 kN, 0 kN]"), 20, "[0 kN, -60 kN, 0 kN]");
@@ -267,8 +268,8 @@ TEST_F(StressCommand, FacesAreChosenByBoxes) {
                                 HasSubstr("from (0, 0, 0) m to (2, 0.3, 0.2) m")));
 }
 
-// A bent bar's largest stress is at its root's corner, where it is singular: it never gets accurate. That in
-// its middle does.
+// A bent bar's largest stress is at its root's corner, where it is singular: it never gets
+// accurate. That in its middle does.
 TEST_F(StressCommand, RefinesWhereTheStressIsChecked) {
   change("[600 kN, 0 kN, 0 kN]", "[0 kN, -60 kN, 0 kN]");
   std::string text = text_of_file("bar.yaml");
@@ -296,7 +297,8 @@ loads:
   pin: {groups: [hole], bearing: {force: [0 kN, 100 kN, 0 kN], axis: [0, 0, 1], point: [0 m, 0 m, 0 m]}}
 )";
 
-// Bearing of the pin is F / (D_p T) = 100 kN / (50 x 40 mm) = 50 MPa; what reacts at the base is the force.
+// Bearing of the pin is F / (D_p T) = 100 kN / (50 x 40 mm) = 50 MPa; what reacts at the base is
+// the force.
 TEST_F(StressCommand, APadeyeHasItsHandFormulaeBesideIt) {
   folder_.write("eye.yaml", padeye_part);
   const Outcome outcome = run("stress eye.yaml");

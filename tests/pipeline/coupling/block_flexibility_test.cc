@@ -57,8 +57,9 @@ TEST(BlockFlexibility, AStifferBlockComesToTheRigidOne) {
   const auto difference = [&](double factor) {
     return (tensions(build(Flexibility::static_, factor)) - rigid).norm() / rigid.norm();
   };
-  // The difference is of the first order in the compliance; the tensions of four slings follow from statics
-  // but for small angles and one degree, so that of ten times the compliance is still small.
+  // The difference is of the first order in the compliance; the tensions of four slings follow from
+  // statics but for small angles and one degree, so that of ten times the compliance is still
+  // small.
   EXPECT_NEAR(difference(1) / difference(10), 0.1, 0.01);
   EXPECT_LT(difference(1e-3), 1e-6);
 }

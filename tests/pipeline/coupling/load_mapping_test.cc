@@ -126,8 +126,8 @@ TEST(LoadMapping, EveryInstantIsInBalanceAtRestAndInMotion) {
   EXPECT_GT(turning.field.angular_acceleration.norm(), 1e-3);
 }
 
-// As OpenFAST asks of its mesh mappings: about one common point, the resultant of the rope forces is
-// the same where they leave the dynamics and where they enter the finite elements.
+// As OpenFAST asks of its mesh mappings: about one common point, the resultant of the rope forces
+// is the same where they leave the dynamics and where they enter the finite elements.
 TEST(LoadMapping, ResultantOfTheLugForcesIsTheSameOnBothSides) {
   const SmallLift& lift = small_lift();
   const dynamics::History& history = lift.run.dynamic_history();

@@ -87,7 +87,8 @@ TEST(ShellPressure, RegionsTogetherFeelTheForceThatMovesTheHull) {
       const dynamics::ForceVector F = hull.calc_force(body.state());
       pressure.calc_wrenches(*hull.definition().sea, !waves.is_still(), body.time, X_WB, wrenches);
       const dynamics::ForceVector sum = sum_of(shell, wrenches, X_WB);
-      // In waves the hull's panels below the troughs are taken in boxes: a head of a (k d)^2/8 apart.
+      // In waves the hull's panels below the troughs are taken in boxes: a head of a (k d)^2/8
+      // apart.
       const double allowed = waves.is_still() ? 1e-12 : 1e-3;
       EXPECT_LT((sum.force - F.force).norm(), allowed * most) << X_WB.p.z();
       EXPECT_LT((sum.moment - F.moment).norm(), 10 * allowed * most) << X_WB.p.z();
@@ -107,8 +108,9 @@ TEST(ShellPressure, OuterPlatesAloneMakeTheShell) {
   EXPECT_THROW(structure::ShellRegions(model, 0), structure::ModelError);
 }
 
-/// Work of the pressure of still water on a box, heeled and half under, on a bulging of its shell that no
-/// region follows, u = n (n . r)(t . r)^2 with t along the plate, against the work on the faces themselves.
+/// Work of the pressure of still water on a box, heeled and half under, on a bulging of its shell
+/// that no region follows, u = n (n . r)(t . r)^2 with t along the plate, against the work on the
+/// faces themselves.
 double work_error(const structure::ElasticModel& model, double region_size) {
   const Pose X_WB = pose(0.05, 0.02, 0.1);
   const auto bulge = [](const Vector3& r) -> Vector3 {
@@ -142,8 +144,8 @@ double work_error(const structure::ElasticModel& model, double region_size) {
   return std::abs(work / exact - 1);
 }
 
-// Each region has the right force and moment: regions of a third of the box already give the work of a field
-// that no region follows.
+// Each region has the right force and moment: regions of a third of the box already give the work
+// of a field that no region follows.
 TEST(ShellPressure, PressureOfAHalfSubmergedBoxDoesTheWorkOfThatOnItsFaces) {
   const structure::ElasticModel model = box_model(1, 2);
   for (const double region_size : {4.0, 2.0, 1.0})

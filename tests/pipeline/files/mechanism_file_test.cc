@@ -124,9 +124,9 @@ TEST(MechanismFile, LoopsThatCannotCloseAreAnError) {
               HasSubstr("mechanism.yaml:1:1: error: "));
 }
 
-/// Potential energy of the sample at a crank angle a, by hand: x = cos a + sqrt(9 - sin^2 a), the rod
-/// turned by b = -asin(sin(a) / 3). The tie hangs slack; wind (1.25 / 2 kg/m^3, 4 m/s, 2 m^2, 1.2) and
-/// motor (4 N m) are constant.
+/// Potential energy of the sample at a crank angle a, by hand: x = cos a + sqrt(9 - sin^2 a), the
+/// rod turned by b = -asin(sin(a) / 3). The tie hangs slack; wind (1.25 / 2 kg/m^3, 4 m/s, 2 m^2,
+/// 1.2) and motor (4 N m) are constant.
 double potential_by_hand(double a) {
   const double b = -std::asin(std::sin(a) / 3);
   const double x = std::cos(a) + std::sqrt(9 - std::pow(std::sin(a), 2));
@@ -247,8 +247,8 @@ TEST(MechanismFile, ChecksDrives) {
               HasSubstr("goes from 0 s to 0.5 s, the simulation from 0 s to 1 s"));
 }
 
-// A torsion pendulum with three axes alike: a ball on a spherical joint, turned 40 degrees, swings with
-// sqrt(k/I) whatever the axis; its spring is free of moment at a yaw of 30 degrees.
+// A torsion pendulum with three axes alike: a ball on a spherical joint, turned 40 degrees, swings
+// with sqrt(k/I) whatever the axis; its spring is free of moment at a yaw of 30 degrees.
 TEST(MechanismFile, SimulatesATorsionalSpringAtASphericalJoint) {
   std::string complaints;
   const auto file = read(R"(mechanism: torsion

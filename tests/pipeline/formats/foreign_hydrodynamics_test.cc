@@ -234,8 +234,8 @@ void write_sample_of_capytaine(const std::string& path) {
   }
 }
 
-// Conventions by hand: degrees of freedom by name, frequencies brought into order, the force conjugated
-// from e^{-i w t} to e^{+i w t}, row: what is influenced, column: what moves.
+// Conventions by hand: degrees of freedom by name, frequencies brought into order, the force
+// conjugated from e^{-i w t} to e^{+i w t}, row: what is influenced, column: what moves.
 TEST(Capytaine, IsReadByTheNamesOfItsDimensions) {
   const test::TemporaryFolder folder;
   write_sample_of_capytaine("body.nc");
@@ -265,11 +265,11 @@ TEST(Capytaine, SaysWhatIsWrong) {
               HasSubstr("\"/radiation_damping\": is not in the file"));
 }
 
-// K(t) = (1 - a t) exp(-a t): B(w) = 2 a w^2/(a^2 + w^2)^2, which vanishes at the frequency 0 as that of
-// a floating body does, and A(w) = A_inf - (w^2 - a^2)/(a^2 + w^2)^2. What lies beyond the highest
-// frequency W is lost: 2/pi int 2 a/w^2 dw = 4 a/(pi W) = 0.064 of K(0), and less behind, where it is an
-// oscillation that dies like 1/t; of A_inf no more than 4 a/(3 pi W^3) = 5e-5. Of the step w of the
-// frequencies the rule's error is of the order w^2 = 0.0025.
+// K(t) = (1 - a t) exp(-a t): B(w) = 2 a w^2/(a^2 + w^2)^2, which vanishes at the frequency 0 as
+// that of a floating body does, and A(w) = A_inf - (w^2 - a^2)/(a^2 + w^2)^2. What lies beyond the
+// highest frequency W is lost: 2/pi int 2 a/w^2 dw = 4 a/(pi W) = 0.064 of K(0), and less behind,
+// where it is an oscillation that dies like 1/t; of A_inf no more than 4 a/(3 pi W^3) = 5e-5. Of
+// the step w of the frequencies the rule's error is of the order w^2 = 0.0025.
 TEST(Retardation, FollowsFromTheDamping) {
   HydrodynamicDatabase database;
   database.body_names = {"body"};

@@ -158,8 +158,8 @@ TEST(HydrodynamicSeries, IsLinearBetweenItsDraughts) {
   EXPECT_EQ(half.infinite_added_mass(9, 9), 0.5 * shallow.infinite_added_mass(9, 9));
 }
 
-// Samples of exp(-t) cos(3 t), whose fourth derivative is at most 10^2, at steps of h = 0.2: a cubic
-// polynomial is off by no more than h^4/24 times that, in the first and last cells.
+// Samples of exp(-t) cos(3 t), whose fourth derivative is at most 10^2, at steps of h = 0.2: a
+// cubic polynomial is off by no more than h^4/24 times that, in the first and last cells.
 TEST(HydrodynamicSeries, BringsRetardationFunctionsToOneStep) {
   HydrodynamicDatabase fine = make_sample_database(), coarse = fine;
   coarse.time_step = 0.2;

@@ -33,7 +33,8 @@ struct Placed {
   }
 };
 
-/// Makes one body unlike its image without changing its surface: a quadrangle becomes two triangles.
+/// Makes one body unlike its image without changing its surface: a quadrangle becomes two
+/// triangles.
 void divide_a_panel(WettedBody& body) {
   for (std::size_t k = 0; k < body.hull.panels.size(); ++k) {
     const Panel panel = body.hull.panels[k];

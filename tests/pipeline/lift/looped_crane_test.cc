@@ -25,8 +25,9 @@ LiftRun run_quietly(const LiftCase& lift_case, const LoadMass& load) {
                   [](const std::string&, double, const std::string&) {});
 }
 
-/// The four-bar of models/cranes/level-luffing-40t in the plane of its jib: x outwards, z up, from the
-/// platform's origin (m), at a luffing angle. The circles about head and tower meet in the tie's pin.
+/// The four-bar of models/cranes/level-luffing-40t in the plane of its jib: x outwards, z up, from
+/// the platform's origin (m), at a luffing angle. The circles about head and tower meet in the
+/// tie's pin.
 struct FourBar {
   explicit FourBar(double luff)
       : head(foot + 27.72 * Eigen::Vector2d(std::cos(luff), std::sin(luff))) {
@@ -77,8 +78,8 @@ class LevelLuffing : public ::testing::Test {
   }
 };
 
-// The sheave stands where two circles meet, at rest and in motion, and keeps its height within 0.6 m
-// while it comes in by more than 20 m: what a level-luffing crane is built for.
+// The sheave stands where two circles meet, at rest and in motion, and keeps its height within 0.6
+// m while it comes in by more than 20 m: what a level-luffing crane is built for.
 TEST_F(LevelLuffing, CarriesTheSheaveAsTheFourBarLeadsIt) {
   for (const dynamics::History* history : {&run().static_history, &run().dynamic_history()}) {
     double lowest = 1e9, highest = 0, nearest = 1e9, furthest = 0;
@@ -100,9 +101,9 @@ TEST_F(LevelLuffing, CarriesTheSheaveAsTheFourBarLeadsIt) {
   }
 }
 
-// Virtual work: the luffing moment at rest is what the potential energy gains over the angle. The pull
-// at the tip is that of the tackle, which hangs plumb. Central difference over 1e-4 rad: relative
-// error some 1e-8.
+// Virtual work: the luffing moment at rest is what the potential energy gains over the angle. The
+// pull at the tip is that of the tackle, which hangs plumb. Central difference over 1e-4 rad:
+// relative error some 1e-8.
 TEST_F(LevelLuffing, NeedsTheLuffingMomentOfVirtualWork) {
   const dynamics::History& rest = run().static_history;
   for (Eigen::Index i = 0; i < rest.sample_count(); ++i) {
@@ -115,8 +116,8 @@ TEST_F(LevelLuffing, NeedsTheLuffingMomentOfVirtualWork) {
   }
 }
 
-// The tie hangs between two pins: about the tower's, the moments of its weight and of the pin at the fly
-// jib vanish, and all of it is in the plane of the jib.
+// The tie hangs between two pins: about the tower's, the moments of its weight and of the pin at
+// the fly jib vanish, and all of it is in the plane of the jib.
 TEST_F(LevelLuffing, LoadsTheTieAsItsBalanceAsks) {
   const dynamics::History& rest = run().static_history;
   const dynamics::LoopHistory& pin = rest.loop("C1.tie_pin");
@@ -140,8 +141,9 @@ TEST_F(LevelLuffing, KeepsLoopsClosedAndEnergyInMotion) {
   EXPECT_LT(energy_imbalance(moving.energy).cwiseAbs().maxCoeff(), 1e-5 * turned_over);
 }
 
-// Of head, tower, hook (3) and load (6) the loop ties two together: nine motions, two eigenvalues each, but for
-// the load's yaw below its one hook, which is neutral and counts once. The slowest is the load's swing.
+// Of head, tower, hook (3) and load (6) the loop ties two together: nine motions, two eigenvalues
+// each, but for the load's yaw below its one hook, which is neutral and counts once. The slowest is
+// the load's swing.
 TEST_F(LevelLuffing, HasNaturalModesOfWhatTheLoopLeavesFree) {
   ASSERT_FALSE(run().natural_modes.empty());
   for (const NaturalModes& modes : run().natural_modes) {
@@ -210,8 +212,8 @@ test::SampleLift lift_with_equaliser() {
   return lift;
 }
 
-// The rope gives both sheaves the same pull, so that the load, whose mass is 50 mm off the middle of its
-// lugs and 0.7 m below them, hangs tilted with its mass plumb below their middle.
+// The rope gives both sheaves the same pull, so that the load, whose mass is 50 mm off the middle
+// of its lugs and 0.7 m below them, hangs tilted with its mass plumb below their middle.
 TEST(Equaliser, GivesBothTacklesTheSameLoad) {
   const TemporaryFolder folder;
   lift_with_equaliser().write(folder);

@@ -5,7 +5,8 @@
 #include "pipeline/report/report.h"
 #include "tests/pipeline/report/sample_result.h"
 
-/// Writes the sample reports that page_test.mjs opens in a browser: whole, loads and motion below a folder.
+/// Writes the sample reports that page_test.mjs opens in a browser: whole, loads and motion below a
+/// folder.
 int main(int argument_count, char** arguments) {
   using namespace blocklift::pipeline;
   try {

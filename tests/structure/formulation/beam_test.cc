@@ -65,8 +65,8 @@ Eigen::Matrix<double, 6, 1> unit(int c, double value) {
   return value * Eigen::Matrix<double, 6, 1>::Unit(c);
 }
 
-// Timoshenko: w = P l^3 / 3 E I + P l / G A_s, slope P l^2 / 2 E I; exact at the end for any degree, as the
-// reduced rule makes quadratic elements. Axis 1 = x, 2 = y, 3 = z.
+// Timoshenko: w = P l^3 / 3 E I + P l / G A_s, slope P l^2 / 2 E I; exact at the end for any
+// degree, as the reduced rule makes quadratic elements. Axis 1 = x, 2 = y, 3 = z.
 TEST(Beam, TimoshenkosCantilever) {
   const BeamSection s = sample_section();
   const Material m = testing::plain_steel();
@@ -101,7 +101,8 @@ TEST(Beam, SkewBendingOfAnUnsymmetricSection) {
   const auto motion = tip_motion(mesh, 2, unit(2, force));
   const double determinant = s.second_moment_2 * s.second_moment_3 - s.product_23 * s.product_23;
   const double factor = force * std::pow(length, 3) / (3 * e * determinant);
-  // Infinite shear areas are 1e4 times the section's: of the deflection 3 E I / (G A 1e4 l^2), below 1e-6.
+  // Infinite shear areas are 1e4 times the section's: of the deflection 3 E I / (G A 1e4 l^2),
+  // below 1e-6.
   EXPECT_NEAR(motion[2], factor * s.second_moment_3, 1e-6 * factor * s.second_moment_3);
   EXPECT_NEAR(motion[1], -factor * s.product_23, 1e-6 * factor * s.second_moment_3);
 }
@@ -134,7 +135,8 @@ TEST(Beam, OffsetIsARigidArm) {
   const Mesh plain = line_of_beams(sample_section(), {{0, 0, 0}, {1, 0, 0}, {length, 0, 0}});
   Eigen::Matrix<double, 6, 1> load;
   load << 1000, 200, 300, 40, 50, 60;
-  // At the centroid's end the force's moment is that about it; back at the node u = u_c - theta x offset.
+  // At the centroid's end the force's moment is that about it; back at the node u = u_c - theta x
+  // offset.
   Eigen::Matrix<double, 6, 1> moved = load;
   moved.tail<3>() -= offset.cross(Vector3(load.head<3>()));
   Eigen::Matrix<double, 6, 1> expected = tip_motion(plain, 2, moved);

@@ -15,8 +15,8 @@ namespace {
 using Motion6 = Eigen::Matrix<double, 6, 1>;
 using Strains = Eigen::Matrix<double, shell_strains, 1>;
 
-// MacNeal and Harder (1985), Finite Elem. Anal. Des. 1, 3-20, figure 2: a rectangle of 0.24 x 0.12 in five
-// distorted elements.
+// MacNeal and Harder (1985), Finite Elem. Anal. Des. 1, 3-20, figure 2: a rectangle of 0.24 x 0.12
+// in five distorted elements.
 Mesh macneal_patch(double thickness, const Material& material) {
   Mesh mesh = testing::empty_mesh(material, thickness);
   mesh.vertices = {{0, 0, 0},       {0.24, 0, 0},    {0.24, 0.12, 0}, {0, 0.12, 0},
@@ -186,8 +186,8 @@ TEST(ShellPatch, MembraneAndBendingPatchesAreExact) {
 }
 
 // The published load: u = 1e-3 (x + y / 2), v = 1e-3 (y + x / 2) gives 1333, 1333 and 400;
-// w = 1e-3 (x^2 + x y + y^2) / 2 gives moments of 1.111e-7, 1.111e-7 and 3.333e-8, that is 0.667, 0.667, 0.2
-// at the surfaces.
+// w = 1e-3 (x^2 + x y + y^2) / 2 gives moments of 1.111e-7, 1.111e-7 and 3.333e-8, that is 0.667,
+// 0.667, 0.2 at the surfaces.
 TEST(ShellPatch, PublishedStressesOfMacNealAndHarder) {
   const Mesh mesh = macneal_patch(0.001, {"patch", 1e6, 0.25, 0, 1});
   for (int degree = 1; degree <= 4; ++degree) {
@@ -221,8 +221,8 @@ TEST(ShellPatch, PublishedStressesOfMacNealAndHarder) {
   }
 }
 
-// A part of the patch is finer: hanging nodes within and across the joints of its shells. Of degree 1 the
-// deflection of a hanging node is the mean of its neighbours, which a parabola's is not.
+// A part of the patch is finer: hanging nodes within and across the joints of its shells. Of degree
+// 1 the deflection of a hanging node is the mean of its neighbours, which a parabola's is not.
 TEST(ShellPatch, HangingNodesKeepThePatchExact) {
   for (const Mesh& mesh : patches())
     for (int degree = 1; degree <= 4; ++degree) {

@@ -63,8 +63,8 @@ TEST(Shell, RigidMotionsStrainNothingAndNothingElseIsFree) {
       }
 }
 
-// An offset mid-surface is the same plate elsewhere: a mesh through the mid-surface itself is its measure.
-// Flat plates only: on curved ones the two mid-surfaces have different areas.
+// An offset mid-surface is the same plate elsewhere: a mesh through the mid-surface itself is its
+// measure. Flat plates only: on curved ones the two mid-surfaces have different areas.
 TEST(Shell, OffsetPlateIsThePlateThroughItsMidSurface) {
   const double offset = 0.3;
   const auto flat = [](double z) {
@@ -77,8 +77,8 @@ TEST(Shell, OffsetPlateIsThePlateThroughItsMidSurface) {
     const Space moved_space(moved, {degree, {}}), plain_space(plain, {degree, {}});
     ShellStiffness moved_stiffness(moved_space), plain_stiffness(plain_space);
     const Eigen::MatrixXd k = moved_stiffness(0), expected = plain_stiffness(0);
-    // u = u_0 + theta x d takes the motion of the nodes to that of the mid-surface. Drilling is measured
-    // where the nodes are, and a plate's bending makes no drilling.
+    // u = u_0 + theta x d takes the motion of the nodes to that of the mid-surface. Drilling is
+    // measured where the nodes are, and a plate's bending makes no drilling.
     Eigen::MatrixXd taken = Eigen::MatrixXd::Identity(k.rows(), k.cols());
     for (Eigen::Index i = 0; i < k.rows(); i += 6) {
       taken(i, i + 4) = offset;
@@ -132,8 +132,8 @@ testing::Chart uneven() {
   };
 }
 
-// Simply supported (hard) plate under q sin(pi x) sin(pi y), Reissner and Mindlin: with k^2 = 2 pi^2,
-// w = q / (D k^4) (1 + D k^2 / S) sin sin, rotations beta = q / (D k^4) grad(sin sin).
+// Simply supported (hard) plate under q sin(pi x) sin(pi y), Reissner and Mindlin: with k^2 = 2
+// pi^2, w = q / (D k^4) (1 + D k^2 / S) sin sin, rotations beta = q / (D k^4) grad(sin sin).
 Errors plate_errors(int degree, int cells) {
   const Material material = testing::plain_steel();
   const double t = 0.05, nu = material.poisson_ratio, e = material.youngs_modulus;
@@ -206,8 +206,8 @@ Errors membrane_errors(int degree, int cells) {
       0);
 }
 
-// Halving the cells divides the error of the displacement by 2^(p + 1), that of the stress by 2^p. Meshes as
-// coarse as these are not in the limit yet: a quarter of an order is left for that.
+// Halving the cells divides the error of the displacement by 2^(p + 1), that of the stress by 2^p.
+// Meshes as coarse as these are not in the limit yet: a quarter of an order is left for that.
 void expect_orders(Errors (*errors)(int, int)) {
   for (const auto& [degree, cells] : {std::pair{1, 16}, {2, 8}, {3, 8}, {4, 8}}) {
     const Errors coarse = errors(degree, cells), fine = errors(degree, 2 * cells);

@@ -134,8 +134,8 @@ TEST_F(SmallBlock, SurfaceCarriesTheMotionOfItsNodes) {
   EXPECT_GT(seen, static_cast<int>(model_->space().shells().size()));
 }
 
-// The envelope over instants is at each point the largest of the cells there: not below the mean of any
-// instant, and the same within cells, where there is one.
+// The envelope over instants is at each point the largest of the cells there: not below the mean of
+// any instant, and the same within cells, where there is one.
 TEST_F(SmallBlock, EnvelopeIsTheLargestOfAllInstants) {
   const Surface surface(*model_);
   std::vector<double> largest(surface.points().size(), 0);

@@ -9,8 +9,8 @@
 namespace blocklift::structure {
 namespace {
 
-// A stress that is linear towards the toe is met exactly; Hobbacher (2016), section 2.2.3.4, has the
-// factors as 1.67 and 0.67.
+// A stress that is linear towards the toe is met exactly; Hobbacher (2016), section 2.2.3.4, has
+// the factors as 1.67 and 0.67.
 TEST(HotSpot, LinearStressIsExtrapolatedExactly) {
   const HotSpot spot{{1, 2, 3}, Vector3::UnitY(), 0.02};
   EXPECT_LT((spot.places()[0] - Vector3(1, 2.008, 3)).norm(), 1e-15);

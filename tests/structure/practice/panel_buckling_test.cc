@@ -16,15 +16,15 @@ namespace {
 
 const Material steel{"AH36", 206e9, 0.3, 7850, 355e6};
 
-// Timoshenko and Gere (1961), Theory of Elastic Stability, table 9-1: k of a simply supported plate under
-// uniform compression by a/b.
+// Timoshenko and Gere (1961), Theory of Elastic Stability, table 9-1: k of a simply supported plate
+// under uniform compression by a/b.
 TEST(PanelBuckling, HasTheCoefficientsOfTimoshenkoAndGere) {
   const double table[][2] = {{0.4, 8.41}, {0.6, 5.14}, {0.8, 4.20}, {1.0, 4.00},
                              {1.2, 4.13}, {1.4, 4.47}, {1.6, 4.20}, {2.0, 4.00}};
   for (const auto& [ratio, k] : table)
     EXPECT_NEAR(compression_coefficient(ratio, 1, 1, 0), k, 0.006) << ratio;
-  // Table 9-6: bending alone (psi = -1) 23.9 at a/b = 1 and 2; linear to zero (psi = 0) 7.8 at a/b = 1. The
-  // rules' formulae are fits to it.
+  // Table 9-6: bending alone (psi = -1) 23.9 at a/b = 1 and 2; linear to zero (psi = 0) 7.8 at a/b
+  // = 1. The rules' formulae are fits to it.
   EXPECT_NEAR(compression_coefficient(2, 1, -1, 0), 23.9, 0.02 * 23.9);
   EXPECT_NEAR(compression_coefficient(1, 1, 0, 0), 7.8, 0.03 * 7.8);
   // Section 9.7, shear: 5.34 + 4 (b/a)^2, 9.34 of a square.
@@ -119,8 +119,8 @@ TEST(BlockPanels, AreTheFieldsBetweenCrossingPlates) {
   EXPECT_EQ(bottoms, 2);
 }
 
-// A step in thickness holds nothing: pads belong to their plate's panel. Lugs are none, and hold the edge that
-// they stand on as far as they reach.
+// A step in thickness holds nothing: pads belong to their plate's panel. Lugs are none, and hold
+// the edge that they stand on as far as they reach.
 TEST(BlockPanels, PadsDivideNoPanel) {
   const ElasticModel model(generate_shell_mesh(testing::small_block()), {1, {}});
   int sides = 0;
@@ -206,7 +206,8 @@ TEST(BlockPanels, MeanAndGradientOfALinearStressAreExact) {
   EXPECT_EQ(seen, 4);
 }
 
-// However the block lies, and whichever way its shells look, its panels and their stresses are the same.
+// However the block lies, and whichever way its shells look, its panels and their stresses are the
+// same.
 TEST(BlockPanels, DoNotDependOnTheBlocksDirection) {
   const Mesh mesh = generate_shell_mesh(box());
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();

@@ -18,8 +18,8 @@
 namespace blocklift::structure {
 namespace {
 
-// A plate of 3 x 2 m in cells of any number, moved by quadratic displacements: its strains are linear in place,
-// so that the mean over a square is the value in its middle.
+// A plate of 3 x 2 m in cells of any number, moved by quadratic displacements: its strains are
+// linear in place, so that the mean over a square is the value in its middle.
 struct MovedPlate {
   MovedPlate(int m, int n)
       : model(testing::sheet_mesh(

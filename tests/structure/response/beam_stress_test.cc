@@ -38,8 +38,8 @@ Mesh bar() {
   return mesh;
 }
 
-// Uniform bending about an axis off the nodes: u_z = k x^2 / 2, theta_y = -k x; the stress at the height z over
-// the nodes is E (s - k z).
+// Uniform bending about an axis off the nodes: u_z = k x^2 / 2, theta_y = -k x; the stress at the
+// height z over the nodes is E (s - k z).
 TEST(BeamStress, BendingAndStretchAreNaviers) {
   Mesh mesh = bar();
   const double offset = 0.07, stretch = 1e-4, curvature = 3e-3;
@@ -68,8 +68,8 @@ TEST(BeamStress, BendingAndStretchAreNaviers) {
             1e-14);
 }
 
-// One end sinks by d with its turning released: M = 3 E I d / L^2 at the other end, none at this one. (Stiff in
-// shear to 1e-4 of a bar's bending of this slenderness.)
+// One end sinks by d with its turning released: M = 3 E I d / L^2 at the other end, none at this
+// one. (Stiff in shear to 1e-4 of a bar's bending of this slenderness.)
 TEST(BeamStress, ReleasedEndBearsNoMoment) {
   Mesh mesh = bar();
   mesh.beams[0].release[1] = {false, false, false, false, true, true};

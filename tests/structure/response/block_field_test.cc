@@ -52,8 +52,8 @@ class TiltedPlate : public ::testing::TestWithParam<int> {
   Eigen::VectorXd motion_;
 };
 
-// Hooke's law in the plane: s_11 = E s - E / (1 - nu^2) k z, s_22 = -nu E / (1 - nu^2) k z; the uniform
-// bending has no shear, which elements of degree 2 and more hold exactly.
+// Hooke's law in the plane: s_11 = E s - E / (1 - nu^2) k z, s_22 = -nu E / (1 - nu^2) k z; the
+// uniform bending has no shear, which elements of degree 2 and more hold exactly.
 TEST_P(TiltedPlate, StressAtAHeightIsHookesLaw) {
   const Material steel = testing::plain_steel();
   const double e = steel.youngs_modulus, nu = steel.poisson_ratio;

@@ -106,10 +106,11 @@ BlockDescription make_girder() {
   return girder;
 }
 
-// A girder of depth h and thickness t with lugs at its ends and its middle, L apart: forces (-P/2, P, -P/2)
-// are in balance and do the work P^2 (L^3 / 48 EI + L / 4 kappa G A) (Timoshenko 1921, simply supported beam;
-// kappa = 10 (1 + nu) / (12 + 11 nu), Cowper 1966). The lug in the middle stiffens 0.1 m of 12 m, where
-// 2.5 % of the energy is; the lugs themselves stretch by less than 0.1 %.
+// A girder of depth h and thickness t with lugs at its ends and its middle, L apart: forces (-P/2,
+// P, -P/2) are in balance and do the work P^2 (L^3 / 48 EI + L / 4 kappa G A) (Timoshenko 1921,
+// simply supported beam; kappa = 10 (1 + nu) / (12 + 11 nu), Cowper 1966). The lug in the middle
+// stiffens 0.1 m of 12 m, where 2.5 % of the energy is; the lugs themselves stretch by less than
+// 0.1 %.
 TEST(GirderFlexibility, ComplianceIsThatOfABeam) {
   const BlockDescription girder = make_girder();
   const ElasticModel model = testing::make_elastic_model(girder, 3);

@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// An L of two squares of 1 m and a corner, 0.5 m thick, pulled apart at its arms: singular at the inner edge.
+// An L of two squares of 1 m and a corner, 0.5 m thick, pulled apart at its arms: singular at the
+// inner edge.
 class LShape : public ::testing::Test {
  protected:
   LShape()
@@ -44,8 +45,8 @@ Physical Surface("end") = Surface In BoundingBox{1.99, -0.01, -0.01, 2.01, 1.01,
   fs::path path_;
 };
 
-// The inner edge is singular, so that the sizes come in a few rounds; then the error is that of elements of half
-// the size all over with less than half as many of them.
+// The inner edge is singular, so that the sizes come in a few rounds; then the error is that of
+// elements of half the size all over with less than half as many of them.
 TEST_F(LShape, SizesMeetTheAimWithFewerElementsThanHalving) {
   PartReading reading;
   reading.element_size = 1;

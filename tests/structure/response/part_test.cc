@@ -26,8 +26,8 @@ using ::testing::HasSubstr;
 /// Kinds of elements that a box is meshed with.
 enum class Shape { hexahedra, wedges, tetrahedra };
 
-/// A box [0, a] x [0, b] x [0, c] meshed through a .geo file; its faces are named "x0", "x1", ..., the
-/// whole is "box". The circle's middle is a point that no element has.
+/// A box [0, a] x [0, b] x [0, c] meshed through a .geo file; its faces are named "x0", "x1", ...,
+/// the whole is "box". The circle's middle is a point that no element has.
 PartMesh box(Shape shape, int order, const Vector3& size, const std::array<int, 3>& counts,
              PartReading reading = {}) {
   const auto path = std::filesystem::temp_directory_path() /
@@ -77,8 +77,8 @@ void distort(PartMesh& mesh, const Vector3& size, double amount) {
 
 class Kinds : public ::testing::TestWithParam<std::tuple<Shape, int>> {};
 
-// The patch test: a linear displacement given on the boundary is found inside, to rounding, and with
-// it a constant stress. Isoparametric elements of any shape must pass it (Irons).
+// The patch test: a linear displacement given on the boundary is found inside, to rounding, and
+// with it a constant stress. Isoparametric elements of any shape must pass it (Irons).
 TEST_P(Kinds, PassThePatchTestWhenDistorted) {
   const Vector3 size(1, 0.8, 0.6);
   const auto [shape, order] = GetParam();
@@ -183,7 +183,8 @@ TEST_P(Kinds, PulledBarIsExact) {
   EXPECT_FALSE(probe_part(model, solution, Vector3(2.1, 0.1, 0.1)).inside);
 }
 
-// Each process fills whole rows of the stiffness from what it holds, and each solid is somebody's own.
+// Each process fills whole rows of the stiffness from what it holds, and each solid is somebody's
+// own.
 TEST_P(Kinds, SharesOfProcessesMakeUpTheWhole) {
   const auto [shape, order] = GetParam();
   PartModel model = part(box(shape, order, Vector3(2, 0.3, 0.2), {4, 2, 1}));
@@ -246,8 +247,8 @@ INSTANTIATE_TEST_SUITE_P(Part, Kinds,
                                                               Shape::tetrahedra),
                                             ::testing::Values(1, 2)));
 
-// A cantilever of quadratic hexahedra under an end load: Timoshenko's deflection within 0.5 %. Without
-// Poisson's effect, which the root would hinder and the beam's theory does not know.
+// A cantilever of quadratic hexahedra under an end load: Timoshenko's deflection within 0.5 %.
+// Without Poisson's effect, which the root would hinder and the beam's theory does not know.
 TEST(Part, CantileverBends) {
   PartModel model = part(box(Shape::hexahedra, 2, Vector3(2, 0.1, 0.2), {10, 1, 2}));
   model.materials[0].poisson_ratio = 0;

@@ -82,9 +82,10 @@ TEST_F(SmallBlock, UnbalancedLoadsAreSuperposedToo) {
   EXPECT_GT(responses_->balance(load_case).reaction_over_weight, 1e-3);
 }
 
-// What rounding may leave at supports that carry nothing: each product of the equations K u = f is rounded
-// by a share eps of its size, so a residual is at most eps sum |K| |u|, and the supports take the sum of
-// all residuals. Source: Higham (2002), Accuracy and stability of numerical algorithms, section 3.5.
+// What rounding may leave at supports that carry nothing: each product of the equations K u = f is
+// rounded by a share eps of its size, so a residual is at most eps sum |K| |u|, and the supports
+// take the sum of all residuals. Source: Higham (2002), Accuracy and stability of numerical
+// algorithms, section 3.5.
 double largest_reaction_of_rounding(const ElasticModel& model, const Eigen::VectorXd& motion) {
   const SparseLower stiffness = assemble_stiffness(model.space());
   Eigen::VectorXd u = Eigen::VectorXd::Zero(model.space().unknowns());
@@ -224,8 +225,8 @@ TEST(FreeBar, FirstElasticPeriodIsThatOfAFreeFreeBeam) {
   EXPECT_NEAR(modes.angular_frequencies[0] / (2 * M_PI * frequency), 1, 0.01);
 }
 
-// A plate in tension and bending: the membrane stress is the tension alone, to rounding, and the bending
-// stress E t curvature / 2 apart.
+// A plate in tension and bending: the membrane stress is the tension alone, to rounding, and the
+// bending stress E t curvature / 2 apart.
 TEST(CheckedStress, BendingDropsOut) {
   const Material material = testing::steel();
   const double thickness = 0.02, curvature = 1e-2;
@@ -292,8 +293,8 @@ TEST(BlockErrorEstimate, IsOfTheTrueErrorsSizeAndFallsWithTheDegree) {
   EXPECT_LT(estimate[1], estimate[0]);
 }
 
-// Pressure on the bottom joins the basis: superposed it is what a solution of its own gives, with or without
-// lug forces and a spin beside it, and nothing reacts.
+// Pressure on the bottom joins the basis: superposed it is what a solution of its own gives, with
+// or without lug forces and a spin beside it, and nothing reacts.
 TEST_F(SmallBlock, AddedLoadsAreSuperposedLikeAllOthers) {
   UnitResponses responses(*model_);
   const int before = responses.count();

@@ -88,7 +88,8 @@ TEST(ShellRegions, LoadsHaveTheWrenchesOfTheirRegions) {
   EXPECT_THROW(ShellRegions(model, 0), ModelError);
 }
 
-// A cylinder without ends: outside and inside of each cell look at nothing and at the opposite wall.
+// A cylinder without ends: outside and inside of each cell look at nothing and at the opposite
+// wall.
 TEST(ShellRegions, CurvedPlatingIsOutsideOnItsConvexSide) {
   const Mesh mesh = testing::sheet_mesh(
       [](double x, double y) {

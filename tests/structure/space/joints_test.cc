@@ -37,7 +37,8 @@ struct Edge {
 
 double power(double x, int degree) { return std::pow(x - 0.3, degree); }
 
-// Masters are free; what is tied takes the value of any polynomial of the lowest degree from its masters.
+// Masters are free; what is tied takes the value of any polynomial of the lowest degree from its
+// masters.
 void expect_conforming(Edge& edge, int degree) {
   const std::vector<NodeTie> ties = edge.ties();
   std::set<int> tied;
@@ -103,9 +104,9 @@ TEST(Joints, AnEdgeThatIsAPointHasOneNode) {
 }
 
 // Saint-Venant's bending of a T-section: u = k (-x z, nu y z, (x^2 + nu (z^2 - y^2)) / 2) with
-// theta = curl u / 2 is exact for flange, web and bulkhead-free joint alike, with no force or moment passed
-// between them; it lies in the space of degree 2 and above. The flange, the web and a second web are divided
-// differently along their joint.
+// theta = curl u / 2 is exact for flange, web and bulkhead-free joint alike, with no force or
+// moment passed between them; it lies in the space of degree 2 and above. The flange, the web and a
+// second web are divided differently along their joint.
 TEST(Joints, BendingOfASectionIsExactAcrossPlatesOfDifferentSizes) {
   constexpr double length = 2, nu = 0.3;
   const auto motion = [](const Vector3& p) -> Eigen::Matrix<double, 6, 1> {

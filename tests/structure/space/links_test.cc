@@ -51,8 +51,8 @@ DistributingLink spread(const std::vector<double>& weights) {
   return link;
 }
 
-// Lagrange by hand: the rigid motion (u, theta) of the reference that makes sum w |u + theta x r - u_i|^2
-// least solves A' W A (u; theta) = A' W u_i.
+// Lagrange by hand: the rigid motion (u, theta) of the reference that makes sum w |u + theta x r -
+// u_i|^2 least solves A' W A (u; theta) = A' W u_i.
 TEST(Links, DistributingLinkIsTheLeastSquaresMotion) {
   Nodes nodes({{0.3, -0.2, 1}, {1, 0, 0.1}, {-0.5, 1, 0}, {-1, -1, 0.4}, {0.2, 0.3, -0.6}});
   const std::vector<double> weights{1, 2, 0.5, 1.5};
@@ -71,8 +71,8 @@ TEST(Links, DistributingLinkIsTheLeastSquaresMotion) {
   }
 }
 
-// A force and a moment on the reference keep their resultant, wherever the vertices lie: in space, in a
-// plane, on a line (where rotations about it are the mean of the vertices') and at one point.
+// A force and a moment on the reference keep their resultant, wherever the vertices lie: in space,
+// in a plane, on a line (where rotations about it are the mean of the vertices') and at one point.
 TEST(Links, SpreadForcesKeepTheirResultant) {
   const std::vector<std::vector<Vector3>> places{
       {{0.3, -0.2, 1}, {1, 0, 0.1}, {-0.5, 1, 0}, {-1, -1, 0.4}, {0.2, 0.3, -0.6}},
@@ -121,8 +121,8 @@ TEST(Links, TwoLinksOfOneFreedomAreRefused) {
   EXPECT_THROW(find_link_ties(nodes.mesh, nodes.node_of_vertex, nodes.places), ModelError);
 }
 
-// A cantilever plate, a rigid arm from its end to a free vertex, a distributing link over that end and the
-// arm's slave: links follow one another.
+// A cantilever plate, a rigid arm from its end to a free vertex, a distributing link over that end
+// and the arm's slave: links follow one another.
 TEST(Links, LinksFollowOneAnother) {
   Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(x, 0.2 * y, 0); }, 4, 2,
                                   0.01, testing::plain_steel());

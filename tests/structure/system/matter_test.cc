@@ -79,9 +79,9 @@ TEST(Matter, PointMassCarriesItsInertia) {
   EXPECT_LT((found.inertia_BBcm_B - mass.inertia).norm(), 1e-8 * mass.inertia.norm());
 }
 
-// Half a cylinder's shell of radius r: area pi r l, centre at 2 r / pi, polar moment m (r^2 + t^2 / 4) (the
-// two heights carry t^2 / 12 across; its area's change through the thickness is not in a shell). By
-// isoparametric cells of degree 4 over 22.5 degrees the circle's error is 1e-7.
+// Half a cylinder's shell of radius r: area pi r l, centre at 2 r / pi, polar moment m (r^2 + t^2 /
+// 4) (the two heights carry t^2 / 12 across; its area's change through the thickness is not in a
+// shell). By isoparametric cells of degree 4 over 22.5 degrees the circle's error is 1e-7.
 TEST(Matter, HalfACylinder) {
   const double r = 2, l = 3, t = 0.1;
   const Mesh mesh = testing::sheet_mesh(
@@ -121,7 +121,8 @@ Mesh everything() {
 }
 
 // d'Alembert: the loads' resultant is that of the whole mass as one rigid body,
-// F = -m (a + alpha x c + omega x (omega x c)), and likewise the moment, for a stated mass and centre too.
+// F = -m (a + alpha x c + omega x (omega x c)), and likewise the moment, for a stated mass and
+// centre too.
 TEST(Matter, InertiaLoadsHaveTheRigidBodysResultant) {
   const Mesh mesh = everything();
   const Space space(mesh, {2, {}});
@@ -147,8 +148,8 @@ TEST(Matter, InertiaLoadsHaveTheRigidBodysResultant) {
   }
 }
 
-// M a for a rigid acceleration is minus the inertia load of it; the kinetic energy of a rigid motion is the
-// body's.
+// M a for a rigid acceleration is minus the inertia load of it; the kinetic energy of a rigid
+// motion is the body's.
 TEST(Matter, MassMatrixAgreesWithTheInertiaLoads) {
   const Mesh mesh = everything();
   const Space space(mesh, {3, {}});

@@ -24,8 +24,8 @@ NaturalModes modes_of(const Space& space, const std::vector<FixedUnknown>& fixed
   return find_natural_modes(space, find_mass_properties(space, nullptr, nullptr), fixed, count);
 }
 
-// Against LAPACK's dense solver on the same matrices, by 1 / omega^2, as rotations about the normal have no mass:
-// M phi = mu (K + s M) phi.
+// Against LAPACK's dense solver on the same matrices, by 1 / omega^2, as rotations about the normal
+// have no mass: M phi = mu (K + s M) phi.
 TEST(NaturalModes, AgreeWithADenseSolver) {
   const Mesh mesh = plate(3, 1, 2, 0.7);
   const Space space(mesh, {2, {}});
@@ -73,7 +73,8 @@ TEST(NaturalModes, CopiesOfARepeatedFrequencyAreFound) {
   for (const int pair : {0, 2})
     EXPECT_NEAR(modes.frequencies[pair + 1], modes.frequencies[pair],
                 1e-6 * modes.frequencies[pair]);
-  // Bernoulli's first, 1.8751^2 / (2 pi l^2) sqrt(E I / rho A), less shear and rotatory inertia of some
+  // Bernoulli's first, 1.8751^2 / (2 pi l^2) sqrt(E I / rho A), less shear and rotatory inertia of
+  // some
   // (r / l)^2 = 1e-4 times 10.
   const double bernoulli =
       1.87510 * 1.87510 / (2 * M_PI * 9) * std::sqrt(210e9 * 1e-5 / (7850 * 1e-2));

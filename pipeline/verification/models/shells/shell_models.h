@@ -21,8 +21,8 @@ Material plain_steel();
 /// A mesh with one material, one thickness and one region, and no shells yet.
 Mesh empty_mesh(const Material& material, double thickness);
 
-/// Adds `m` x `n` shells over a chart, curved of an order (1: bilinear) and of a section; vertices that lie
-/// where the mesh has one already are that one.
+/// Adds `m` x `n` shells over a chart, curved of an order (1: bilinear) and of a section; vertices
+/// that lie where the mesh has one already are that one.
 void add_sheet(Mesh& mesh, const Chart& chart, int m, int n, int order = 1, int section = 0);
 
 /// One sheet.
@@ -39,7 +39,8 @@ int vertex_at(Mesh& mesh, const Vector3& place);
 void add_beams(Mesh& mesh, const Vector3& a, const Vector3& b, int section, const Vector3& axis_2,
                const Vector3& offset = Vector3::Zero());
 
-/// Holds freedoms of all nodes that a place selects; those that are sums of others follow by themselves.
+/// Holds freedoms of all nodes that a place selects; those that are sums of others follow by
+/// themselves.
 void hold(const Space& space, const Selects& selects, const std::vector<int>& components,
           std::vector<FixedUnknown>& fixed);
 
@@ -66,8 +67,8 @@ int nearest_node(const Space& space, const Vector3& place);
 /// Displacement of that node, m.
 Vector3 displacement_at(const Space& space, const Eigen::VectorXd& motion, const Vector3& place);
 
-/// Stress along the world's axes at a point of a shell's cell, at a height z above its mid-surface, Pa:
-/// membrane and bending parts.
+/// Stress along the world's axes at a point of a shell's cell, at a height z above its mid-surface,
+/// Pa: membrane and bending parts.
 Eigen::Matrix3d shell_stress(const Space& space, int cell, const Eigen::Vector2d& xi, double z,
                              const Eigen::VectorXd& motion);
 

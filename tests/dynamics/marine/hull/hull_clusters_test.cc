@@ -173,7 +173,8 @@ TEST(PressureBoxes, AreNotHeldForShortWaves) {
   EXPECT_TRUE(boxes.find(TriangleTree::root, 0.0).points.empty());
 }
 
-// Short waves do not reach down: more boxes are held in the deep, and those held at both take no more points.
+// Short waves do not reach down: more boxes are held in the deep, and those held at both take no
+// more points.
 TEST(PressureBoxes, TakeFewerPointsInTheDeep) {
   const WaveField sea(Water{}, {{0.5, 0.7, 0.3, 0}, {0.1, 2.5, 0.8, 1}});
   const TriangleTree tree(sample_barge());

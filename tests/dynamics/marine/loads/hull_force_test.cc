@@ -113,16 +113,16 @@ class SmallBox : public ::testing::Test {
   OneBody body_;
 };
 
-// Few panels converge with order 2; of many the bottom becomes a box that is taken whole, to its tolerance,
-// as it is of faces whatever the panels that they were joined of.
+// Few panels converge with order 2; of many the bottom becomes a box that is taken whole, to its
+// tolerance, as it is of faces whatever the panels that they were joined of.
 TEST_F(SmallBox, MeetsTheClosedForm) {
   EXPECT_NEAR(std::log2(error_of(unevened(box(1))) / error_of(unevened(box(2)))), 2.0, 0.1);
   EXPECT_LT(error_of(unevened(box(4))), WaveSurface::box_tolerance);
   for (const int n : {2, 4}) EXPECT_LT(error_of(box(n)), WaveSurface::box_tolerance);
 }
 
-// A barge in waves: faces against ever finer panels, whose distance falls with the square of their size until
-// the faces' own error shows, below 1e-4 of the buoyancy.
+// A barge in waves: faces against ever finer panels, whose distance falls with the square of their
+// size until the faces' own error shows, below 1e-4 of the buoyancy.
 TEST(HullForce, FacesAreWherePanelsConvergeTo) {
   OneBody body;
   const auto sea = sea_of(WaveField(deep, {{0.8, 0.628, 0.785, 0}}));
@@ -193,8 +193,8 @@ class IrregularSea : public ::testing::Test {
   OneBody body_;
 };
 
-// Against the same sum with every panel taken for itself at its vertices by the exact functions: what
-// the boxes of deep panels and the carriers leave, far below what panels themselves leave.
+// Against the same sum with every panel taken for itself at its vertices by the exact functions:
+// what the boxes of deep panels and the carriers leave, far below what panels themselves leave.
 TEST_F(IrregularSea, BoxesAndPanelsConvergeTogether) {
   for (const double spreading : {0.0, 2.0}) {
     const auto water = sea(spreading, spreading > 0 ? 12 : 1e3);
@@ -213,7 +213,8 @@ TEST_F(IrregularSea, BoxesAndPanelsConvergeTogether) {
   }
 }
 
-// Boxes open and close as waves pass. What an integrator sees of it is a kink or step in second differences.
+// Boxes open and close as waves pass. What an integrator sees of it is a kink or step in second
+// differences.
 TEST_F(IrregularSea, ForceIsSmooth) {
   const auto water = sea(2.0, 1e3);
   const HullForce hull = force(unevened(barge(2)), water);

@@ -1,5 +1,5 @@
-// A body that is lowered into the water: what of each draught counts, the water that it takes up and leaves, and
-// the energy of both.
+// A body that is lowered into the water: what of each draught counts, the water that it takes up
+// and leaves, and the energy of both.
 #include <cmath>
 #include <numbers>
 
@@ -71,8 +71,8 @@ TEST(DraughtInterpolation, RefusesWhatDoesNotAscend) {
       ThrowsMessage<ModelError>(HasSubstr("ascend from zero")));
 }
 
-/// One body whose heave added mass grows with its draught as `mass_at` says, in steps of `step` (m) down to 2 m;
-/// its memory is `memory` times as much as there are tonnes of added mass.
+/// One body whose heave added mass grows with its draught as `mass_at` says, in steps of `step` (m)
+/// down to 2 m; its memory is `memory` times as much as there are tonnes of added mass.
 template <class MassAt>
 std::shared_ptr<const HydrodynamicSeries> series_of(const MassAt& mass_at, double step,
                                                     double memory = 0) {
@@ -106,7 +106,8 @@ RadiatedWater::Definition definition_of(std::shared_ptr<const HydrodynamicSeries
   return definition;
 }
 
-/// A body of 5 t that moves up and down, with a velocity (m/s) from a height (m), tied to a spring or not.
+/// A body of 5 t that moves up and down, with a velocity (m/s) from a height (m), tied to a spring
+/// or not.
 LiftSystem falling(const RadiatedWater::Definition& definition, double height, double velocity,
                    double stiffness, double duration) {
   MechanismBuilder builder;
@@ -137,9 +138,9 @@ double ledger_error(const History& history) {
   return (total.array() - total[0]).abs().maxCoeff() / e.kinetic.maxCoeff();
 }
 
-// Von Karman (1929), NACA TN 321: a wedge of half breadth c = d/tan(beta) takes up m = rho pi c^2/2 per length;
-// free of other forces it keeps its momentum, V = V0/(1 + m(d)/M). The steps between draughts are of second
-// order; the work that the water does not keep goes into the ledger as lost.
+// Von Karman (1929), NACA TN 321: a wedge of half breadth c = d/tan(beta) takes up m = rho pi c^2/2
+// per length; free of other forces it keeps its momentum, V = V0/(1 + m(d)/M). The steps between
+// draughts are of second order; the work that the water does not keep goes into the ledger as lost.
 TEST(LoweredBody, FollowsVonKarmansWedge) {
   const auto mass_at = [](double d) {
     const double c = d / std::tan(std::numbers::pi / 6);
@@ -168,8 +169,8 @@ TEST(LoweredBody, FollowsVonKarmansWedge) {
   EXPECT_LT(errors[1], 0.35 * errors[0]);
 }
 
-// What is recorded as the body's load, the water's inertia and impact with it, is its mass times its
-// acceleration: whoever puts the load on a structure finds it in balance.
+// What is recorded as the body's load, the water's inertia and impact with it, is its mass times
+// its acceleration: whoever puts the load on a structure finds it in balance.
 TEST(LoweredBody, BearsWhatAcceleratesIt) {
   const auto mass_at = [](double d) { return 8e3 * d; };
   const LiftSystem system = falling(definition_of(series_of(mass_at, 0.5, 2.0)), 0.2, -3.0, 0, 2.0);
@@ -186,8 +187,9 @@ TEST(LoweredBody, BearsWhatAcceleratesIt) {
   EXPECT_GT(largest, 1e4);
 }
 
-// Kaplan (1992): V^2 dA/dd in sinking, no impact on leaving: what is drawn out of the water leaves it behind with
-// its own velocity and keeps that itself. Either way V^3 dA/dd / 2 is lost to the water.
+// Kaplan (1992): V^2 dA/dd in sinking, no impact on leaving: what is drawn out of the water leaves
+// it behind with its own velocity and keeps that itself. Either way V^3 dA/dd / 2 is lost to the
+// water.
 TEST(LoweredBody, FeelsAnImpactOnEnteringAndNoneOnLeaving) {
   const auto mass_at = [](double d) { return 8e3 * d; };
   for (const double velocity : {1.0, -1.0}) {
@@ -203,8 +205,8 @@ TEST(LoweredBody, FeelsAnImpactOnEnteringAndNoneOnLeaving) {
   }
 }
 
-// On a spring through the surface, in and out again, with a memory: energy is lost at each instant, and never
-// won from a draught that changes.
+// On a spring through the surface, in and out again, with a memory: energy is lost at each instant,
+// and never won from a draught that changes.
 TEST(LoweredBody, GainsNoEnergyFromTheSurface) {
   const auto mass_at = [](double d) { return 6e3 * d / (1 + 0.3 * d); };
   const LiftSystem system =

@@ -107,8 +107,8 @@ LinearFloatation linear_boxes(const Eigen::VectorXd& heave) {
   return boxes;
 }
 
-// The lift against Cummins' equation of small motions, marched by itself, with an added mass of a half
-// and of 50 times the mass: implicit, it is stable at any ratio.
+// The lift against Cummins' equation of small motions, marched by itself, with an added mass of a
+// half and of 50 times the mass: implicit, it is stable at any ratio.
 TEST(RadiatedWater, MovesBodiesAsCumminsEquationDoes) {
   const Eigen::Vector2d heave(0.01, -0.004);
   for (const double ratio : {0.5, 50.0}) {
@@ -142,8 +142,8 @@ TEST(RadiatedWater, MovesBodiesAsCumminsEquationDoes) {
   }
 }
 
-// About the rest, where the terms that the Jacobian leaves out vanish, it is exact; and the structured
-// solution of Newton's equations is that of the whole matrix.
+// About the rest, where the terms that the Jacobian leaves out vanish, it is exact; and the
+// structured solution of Newton's equations is that of the whole matrix.
 TEST(RadiatedWater, JacobianAndNewtonMatrix) {
   const auto water = std::make_shared<const RadiatedWater>(
       RadiatedWater::Definition{frames(), made_up(3), 1e-3, 100});
@@ -251,8 +251,8 @@ DiffractionForce::Definition diffraction(const std::vector<WaveComponent>& waves
   return d;
 }
 
-// Where the database has the body, at its frequencies and between; displaced and turned, the wave is met
-// elsewhere and from another side.
+// Where the database has the body, at its frequencies and between; displaced and turned, the wave
+// is met elsewhere and from another side.
 TEST(DiffractionForce, FollowsTheBody) {
   constexpr double w = 0.8, theta = 0.6, amplitude = 1.5, wave_phase = 0.4;
   const DiffractionForce force(diffraction({{amplitude, w, theta, wave_phase}}));

@@ -34,8 +34,9 @@ TEST(PanelIntegrals, AgreeWithQuadrature) {
   }
 }
 
-// A rectangle whose numbers are exact: its centroid lies on its diagonal to the last digit, where the solid
-// angle of either half has no direction. Seen from there: 2 a arsinh(b/a) + 2 b arsinh(a/b).
+// A rectangle whose numbers are exact: its centroid lies on its diagonal to the last digit, where
+// the solid angle of either half has no direction. Seen from there: 2 a arsinh(b/a) + 2 b
+// arsinh(a/b).
 TEST(PanelIntegrals, ExactRectangleFromItsCentroid) {
   const Panel side = make_panel(
       std::array{Vector3(0, 10, -2), Vector3(0, 10, 0), Vector3(2.5, 10, 0), Vector3(2.5, 10, -2)});
@@ -61,8 +62,8 @@ TEST(PanelIntegrals, UnitSquareByHand) {
     const double angle = 4.0 * std::atan(1.0 / (4.0 * h * std::sqrt(h * h + 0.5)));
     const double above = calc_panel_potentials(square, Vector3(0, 0, -1 + h)).dipole;
     const double below = calc_panel_potentials(square, Vector3(0, 0, -1 - h)).dipole;
-    // The angle is that of a product of complex numbers with parts of the size h beside 1: rounding by some
-    // 1e-16 / h, and how much of it depends on the instructions that the compiler takes.
+    // The angle is that of a product of complex numbers with parts of the size h beside 1: rounding
+    // by some 1e-16 / h, and how much of it depends on the instructions that the compiler takes.
     const double tolerance = (1e-13 + 1e-15 / h) * angle;
     EXPECT_NEAR(above, angle, tolerance);
     EXPECT_NEAR(below, -angle, tolerance);

@@ -95,8 +95,8 @@ TEST(RankineProblem, OperatorIsSymmetricAndPositive) {
   }
 }
 
-// The march in time and the dense system in frequency hold the same matrices: they differ by the end
-// of the run and the damping zone's share in the time step alone.
+// The march in time and the dense system in frequency hold the same matrices: they differ by the
+// end of the run and the damping zone's share in the time step alone.
 TEST(RankineProblem, TimeAndFrequencyDomainAgree) {
   const PanelModel model = make_sphere_model({true, true});
   DatabaseSettings settings = short_settings();

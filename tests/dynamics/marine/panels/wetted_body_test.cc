@@ -41,8 +41,8 @@ TEST(WettedBody, BargeCutAtItsWaterLine) {
   EXPECT_EQ(model.body_mesh().size(), body.hull.size());
 }
 
-// Panels of a ship's ends are not flat, and are cut anywhere: the water line closes all the same. What
-// flat panels leave out of warped ones is second order in their size.
+// Panels of a ship's ends are not flat, and are cut anywhere: the water line closes all the same.
+// What flat panels leave out of warped ones is second order in their size.
 TEST(WettedBody, WaterLineOfAShipClosesAtAnyDraught) {
   const Hull hull = ship();
   for (const double draught : {0.5, 1.0, 2.15, 3.0, 4.0, 7.6, 9.0}) {

@@ -93,8 +93,8 @@ TEST(MemoryStateSpace, FindsASumOfExponentials) {
   EXPECT_LT(memory.A().eigenvalues().real().maxCoeff(), 0.0);
 }
 
-// A steady velocity meets the damping of the samples, however loosely K is fitted: here that of two modes with
-// hardly a sum, as those of bodies in open water have none.
+// A steady velocity meets the damping of the samples, however loosely K is fitted: here that of two
+// modes with hardly a sum, as those of bodies in open water have none.
 TEST(MemoryStateSpace, KeepsTheDampingOfASteadyVelocity) {
   HydrodynamicDatabase database;
   database.time_step = 0.1;
@@ -138,8 +138,8 @@ TEST(MemoryStateSpace, ForceAgreesWithTheConvolution) {
   EXPECT_NEAR(force[0], reference[0], 5e-3);
 }
 
-/// Two bodies that mirror each other in x = 0: surge couples with pitch, heave stands alone, and each body
-/// feels what the other does a while ago.
+/// Two bodies that mirror each other in x = 0: surge couples with pitch, heave stands alone, and
+/// each body feels what the other does a while ago.
 HydrodynamicDatabase mirrored_pair() {
   Eigen::Matrix<double, 6, 1> signs;
   signs << -1, 1, 1, 1, -1, -1;
@@ -163,7 +163,8 @@ HydrodynamicDatabase mirrored_pair() {
   return database;
 }
 
-// What does not couple is fitted apart, so that it stays apart; and the pair keeps its mirror image.
+// What does not couple is fitted apart, so that it stays apart; and the pair keeps its mirror
+// image.
 TEST(MemoryStateSpace, FitsMirroredBodiesByWhatTheyDoAlike) {
   const HydrodynamicDatabase database = mirrored_pair();
   const MemoryStateSpace memory(database, 0.005);

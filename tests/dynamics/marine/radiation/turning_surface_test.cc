@@ -1,4 +1,5 @@
-// The water's surface marched beside a barge that is carried along and turned: the waves it meets, and their force.
+// The water's surface marched beside a barge that is carried along and turned: the waves it meets,
+// and their force.
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +14,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 const Water water{1025.0, 9.81};
 
-/// A box of 20 x 8 x 2 m, its middle off the origin, and a surface that is wide enough for its waves.
+/// A box of 20 x 8 x 2 m, its middle off the origin, and a surface that is wide enough for its
+/// waves.
 PanelModel barge() {
   const Vector3 middle(3, -2, 0);
   std::vector<WettedBody> bodies{
@@ -45,7 +47,8 @@ RegularWave seen_from(const Eigen::Vector2d& place, double turn, RegularWave wav
 constexpr double step = 0.1;
 const RegularWave wave{1.3, 40 * degree, {0.3, 0.2}};
 
-/// Largest difference between the forces of two surfaces over the largest force of each mode, both marched at rest.
+/// Largest difference between the forces of two surfaces over the largest force of each mode, both
+/// marched at rest.
 double apart(DirectRadiation& a, DirectRadiation& b) {
   a.start(step);
   b.start(step);
@@ -60,8 +63,8 @@ double apart(DirectRadiation& a, DirectRadiation& b) {
   return difference.cwiseQuotient(largest).maxCoeff();
 }
 
-// What a turned barge elsewhere meets is what it meets at home from the heading against it: exactly at turns of
-// the grid, to 0.2^2/8 of a panel's share between them.
+// What a turned barge elsewhere meets is what it meets at home from the heading against it: exactly
+// at turns of the grid, to 0.2^2/8 of a panel's share between them.
 TEST(TurningSurface, MeetsWavesUnderTheHeadingAgainstIt) {
   const PanelModel model = barge();
   const Eigen::Vector2d origin(100, 50), home(3, -2), place(131, 20);
@@ -80,7 +83,8 @@ TEST(TurningSurface, MeetsWavesUnderTheHeadingAgainstIt) {
   }
 }
 
-// Turned by a quarter within half a minute its force neither jumps, nor remembers after a few periods that it turned.
+// Turned by a quarter within half a minute its force neither jumps, nor remembers after a few
+// periods that it turned.
 TEST(TurningSurface, TurnsWithoutAJump) {
   const PanelModel model = barge();
   const Eigen::Vector2d home(3, -2);
@@ -104,13 +108,15 @@ TEST(TurningSurface, TurnsWithoutAJump) {
     before[0] = now;
     if (n > 500) left = std::max(left, std::abs(now[heave] - turned.calc_force()[heave]));
   }
-  // A wave of this frequency and the turn's own change of phase, k L/2 times 3 degrees a second, bend it no more.
+  // A wave of this frequency and the turn's own change of phase, k L/2 times 3 degrees a second,
+  // bend it no more.
   const double rate = wave.frequency + 0.172 * 10 * 3 * degree;
   EXPECT_LT(sharpest, 1.2 * std::pow(rate * step, 2) * largest);
   EXPECT_LT(left, 0.02 * largest);  // short waves that this coarse surface keeps: 1.3 %
 }
 
-/// The force on a barge that heaves and surges along itself as it lies at a place under a heading, in its own axes.
+/// The force on a barge that heaves and surges along itself as it lies at a place under a heading,
+/// in its own axes.
 Eigen::MatrixXd march(const PanelModel& model, DirectRadiation radiation, const Pose& X_WB) {
   MechanismBuilder builder;
   builder.add_body({.name = "barge",

@@ -145,8 +145,8 @@ TEST(WaveSum, DepthIsWithinTheStatedError) {
   }
 }
 
-// Any number of points and of waves, long- and short-crested, from one direction or many; few waves are
-// summed one by one and many together, and both are the sea.
+// Any number of points and of waves, long- and short-crested, from one direction or many; few waves
+// are summed one by one and many together, and both are the sea.
 TEST(WaveSum, IsTheSeaForAnyNumber) {
   RandomSource random(6);
   for (const int components : {2, 7, 8, 9, 61, 500}) {
@@ -257,7 +257,8 @@ TEST(WaveSpectrum, FullyDevelopedAndJonswap) {
   const double ratio =
       jonswap.density(two_pi / 9) / WaveSpectrum::pierson_moskowitz(2.5, 9).density(two_pi / 9);
   EXPECT_NEAR(ratio, 3.3 * (1 - 0.287 * std::log(3.3)), 0.02);
-  // Tz/Tp of the DNV-RP-C205, 3.5.5.4, for gamma 3.3: 0.6673 + 0.05037 g - 0.006230 g^2 + 0.0003341 g^3.
+  // Tz/Tp of the DNV-RP-C205, 3.5.5.4, for gamma 3.3: 0.6673 + 0.05037 g - 0.006230 g^2 + 0.0003341
+  // g^3.
   const double Tz = two_pi * std::sqrt(jonswap.moment(0) / jonswap.moment(2));
   EXPECT_NEAR(Tz / 9, 0.6673 + 0.05037 * 3.3 - 0.00623 * 10.89 + 0.0003341 * 35.937, 2e-3);
   const auto range = jonswap.range(1e-3);

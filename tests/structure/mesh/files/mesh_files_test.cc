@@ -247,7 +247,8 @@ TEST_F(MeshFiles, NastranIsRead) {
   pull(std::move(mesh));
 }
 
-// A hexahedron and a wedge beside it, of all three kinds of fields, with middles, a coat, loads and constraints.
+// A hexahedron and a wedge beside it, of all three kinds of fields, with middles, a coat, loads and
+// constraints.
 const char* const bulk = R"(SOL 101
 CEND
 BEGIN BULK
@@ -305,8 +306,8 @@ TEST_F(MeshFiles, NastranMessagesNameFileAndLine) {
   EXPECT_THAT(changed("1.,,,,2,10", "1.,,,,1,10"), HasSubstr("name no face of element 8"));
 }
 
-// Every kind comes back from our own file for CalculiX node by node; the file holds 12 digits, so that a
-// coordinate of 1 to 2 m is off by 5e-12 m at most and the 60 of an element by 4e-11 m.
+// Every kind comes back from our own file for CalculiX node by node; the file holds 12 digits, so
+// that a coordinate of 1 to 2 m is off by 5e-12 m at most and the 60 of an element by 4e-11 m.
 TEST_F(MeshFiles, CalculixInputIsReadBack) {
   for (const char* kind : {"", "Recombine Surface{1};"})
     for (const char* layer : {"", "Recombine;"})

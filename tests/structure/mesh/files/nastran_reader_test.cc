@@ -247,8 +247,8 @@ TEST(NastranReader, QuadraticShellsAreCurved) {
   EXPECT_EQ(mesh.vertex_labels[static_cast<std::size_t>(mesh.surface_points[0].vertex)], 6);
   expect_near(mesh.surface_points[0].xi, Eigen::Vector2d(1, 0.5), 1e-15);
   // Its arc is the parabola through the three points: half chord a, height 1 - a, slope s at its
-  // ends, long a (sqrt(1 + s^2) + asinh(s) / s). Three Gauss points leave (b - a)^7 f^(6) / 2,016,000,
-  // f = sqrt(1 + s^2 x^2) on (-1, 1), f^(6) up to 45 s^6 = 14.6: 9.3e-4 of a.
+  // ends, long a (sqrt(1 + s^2) + asinh(s) / s). Three Gauss points leave (b - a)^7 f^(6) /
+  // 2,016,000, f = sqrt(1 + s^2 x^2) on (-1, 1), f^(6) up to 45 s^6 = 14.6: 9.3e-4 of a.
   const double slope = 2 * (1 - s) / s;
   const double arc = s * (std::sqrt(1 + slope * slope) + std::asinh(slope) / slope);
   EXPECT_NEAR(area(mesh, mesh.shells[0]), 2 * arc, 2 * s * 9.3e-4);

@@ -51,8 +51,8 @@ class Builder {
 
 const Vector3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
 
-/// Volume of the solids (each cut into tetrahedra about its centre), and the closedness of their outside:
-/// every face of one solid alone, seen with its outward normal, sums to zero area.
+/// Volume of the solids (each cut into tetrahedra about its centre), and the closedness of their
+/// outside: every face of one solid alone, seen with its outward normal, sums to zero area.
 struct Measured {
   double volume = 0;
   Vector3 outside = Vector3::Zero();

@@ -149,9 +149,10 @@ TEST(PadeyeModel, FollowsItsBase) {
   EXPECT_LT((padeye.solve(both).displacement - sum).norm(), 1e-10 * sum.norm());
 }
 
-// Far from the hole, the shank of a strip has the stress F / (D t) of a bar. What hole and clamped base disturb
-// dies away along the strip as exp(-2.1 y / c), c half its width (Fadle 1941): of a disturbance of the size of
-// the stress 0.5 % is left two and a half half-widths from the hole's edge, 1.5 % two from the base.
+// Far from the hole, the shank of a strip has the stress F / (D t) of a bar. What hole and clamped
+// base disturb dies away along the strip as exp(-2.1 y / c), c half its width (Fadle 1941): of a
+// disturbance of the size of the stress 0.5 % is left two and a half half-widths from the hole's
+// edge, 1.5 % two from the base.
 TEST(PadeyeModel, ShankOfAStripIsABar) {
   PadeyeGeometry g = strip();
   g.height = 1.5;
@@ -174,8 +175,9 @@ TEST(PadeyeModel, ShankOfAStripIsABar) {
 }
 
 // Pilkey (2005), Formulas for Stress, Strain, and Structural Matrices, has K = 2.51 on the net
-// section of a strip of D = 2 d with a closely fitting pin whose middle lies D or more from the end. Here
-// the end is round and lies at D / 2: it bends over the pin, and the hole's edge sees more.
+// section of a strip of D = 2 d with a closely fitting pin whose middle lies D or more from the
+// end. Here the end is round and lies at D / 2: it bends over the pin, and the hole's edge sees
+// more.
 TEST(PadeyeModel, RoundEndConcentratesMoreThanALongOne) {
   const PadeyeGeometry g = strip();
   double last = 0;

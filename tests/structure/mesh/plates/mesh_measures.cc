@@ -33,8 +33,8 @@ std::map<Edge, std::vector<int>> shells_of_edges(const Mesh& mesh) {
   return shells;
 }
 
-/// Gauss' three points a direction: visit(place, normal, area). Tangents are differences of polynomials of
-/// third degree over a small step: exact to the square of it.
+/// Gauss' three points a direction: visit(place, normal, area). Tangents are differences of
+/// polynomials of third degree over a small step: exact to the square of it.
 template <typename Visit>
 void for_each_point(const Mesh& mesh, const Shell& shell, const Visit& visit) {
   const double points[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};

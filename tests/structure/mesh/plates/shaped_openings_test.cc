@@ -44,13 +44,13 @@ Opening opening(Interval x, Interval y, double corner_radius) {
   return hole;
 }
 
-// Share of a disc's area that cubics through four points of arcs leave out: the error of the 3/8 rule, with
-// h a third of the arc, makes the mean radius h^4 / 80 smaller (3 h^5 / 80 of the integral over 3 h). A tenth
-// more is for the next order.
+// Share of a disc's area that cubics through four points of arcs leave out: the error of the 3/8
+// rule, with h a third of the arc, makes the mean radius h^4 / 80 smaller (3 h^5 / 80 of the
+// integral over 3 h). A tenth more is for the next order.
 double area_error(double arc) { return 1.1 * std::pow(arc / 3, 4) / 40; }
 
-// Arcs are followed by polynomials of third degree over an eighth of a circle: the area is off by less
-// than 1e-5 of the hole's.
+// Arcs are followed by polynomials of third degree over an eighth of a circle: the area is off by
+// less than 1e-5 of the hole's.
 TEST(ShapedOpenings, LeaveTheAreaThatIsNotCut) {
   struct Sample {
     Interval x, y;
@@ -142,8 +142,8 @@ TEST(ShapedOpenings, LieBetweenPlatesAndStiffeners) {
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], weight, 1e-6 * weight);
 }
 
-// Kirsch (1898): a hole of radius r adds 3 pi r^2 s^2 t / (2 E) to the strain energy of a wide plate under the
-// tension s, so the work of the forces at its ends rises by twice that.
+// Kirsch (1898): a hole of radius r adds 3 pi r^2 s^2 t / (2 E) to the strain energy of a wide
+// plate under the tension s, so the work of the forces at its ends rises by twice that.
 TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
   const double length = 8, breadth = 8, radius = 0.2, t = 0.012, stress = 100e6;
   double stretch[2];
@@ -160,8 +160,8 @@ TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
     testing::hold(space, at_place({0, 0, 0}), {0, 1, 2}, fixed);
     testing::hold(space, at_place({0, breadth, 0}), {0, 2}, fixed);
     testing::hold(space, at_place({length, 0, 0}), {2}, fixed);
-    // Tension as the work-equivalent forces of a linear field: the internal forces of uniform stress in the
-    // plate without its hole are those on its ends alone.
+    // Tension as the work-equivalent forces of a linear field: the internal forces of uniform
+    // stress in the plate without its hole are those on its ends alone.
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
     for (std::size_t cell = 0; cell < space.shells().size(); ++cell)
       for (const double end : {0.0, length})
@@ -187,8 +187,8 @@ TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
   }
   const double youngs = 206e9;
   EXPECT_NEAR(stretch[0], stress * stress * t * length * breadth / youngs, 1e-6 * stretch[0]);
-  // 2 % are for the finite plate: its edges add a share of the order of (diameter / breadth)^2, measured as
-  // 2.9 % where it is ten diameters wide.
+  // 2 % are for the finite plate: its edges add a share of the order of (diameter / breadth)^2,
+  // measured as 2.9 % where it is ten diameters wide.
   const double softening = 3 * pi * radius * radius * stress * stress * t / youngs;
   EXPECT_NEAR(stretch[1] - stretch[0], softening, 0.02 * softening);
 }

@@ -1,4 +1,5 @@
-// Shells of stiffened blocks: conforming, of the area and mass that hand sums give, with the right names.
+// Shells of stiffened blocks: conforming, of the area and mass that hand sums give, with the right
+// names.
 #include "structure/mesh/plates/shell_generator.h"
 
 #include <cmath>
@@ -162,8 +163,8 @@ TEST(ShellGenerator, PlatesOfOtherThicknessInOnePlaneMeet) {
 }
 
 TEST(ShellGenerator, CutsStayWhereTheyAreNeeded) {
-  // A bracket on the upright plate: its cuts divide that plate, and not the flat one, which it does not
-  // touch.
+  // A bracket on the upright plate: its cuts divide that plate, and not the flat one, which it does
+  // not touch.
   BlockDescription block = cross_of_plates();
   block.plates[0].extent[0] = {0, 10};
   block.largest_element = 1;
@@ -201,8 +202,8 @@ TEST(ShellGenerator, HullBlockIsConforming) {
   EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
 }
 
-// Positive definite with six freedoms held: one piece without mechanisms. The weight divides among the
-// supports as statics says, so the elements join where they should.
+// Positive definite with six freedoms held: one piece without mechanisms. The weight divides among
+// the supports as statics says, so the elements join where they should.
 TEST(ShellGenerator, SmallBlockBearsItsWeight) {
   const Mesh mesh = generate_shell_mesh(testing::small_block());
   const auto steel = measure(mesh);

@@ -125,7 +125,8 @@ TEST(Stiffeners, AreCutByOpeningsAndRunOverPads) {
 }
 
 TEST(Stiffeners, EndWithTheirPlateWithinAnother) {
-  // Two plates of a thickness lie over one another from x = 3 to 4 m; the stiffeners are those of one.
+  // Two plates of a thickness lie over one another from x = 3 to 4 m; the stiffeners are those of
+  // one.
   BlockDescription block = panel(4, 2, 0.012);
   block.plates.push_back({"strip", Axis::z, {0}, {{{3, 6}, {0, 2}, {}}}, 0.012, "AH36"});
   block.stiffeners = {flat_bars("strip", Axis::x, 0.5)};
@@ -151,9 +152,10 @@ TEST(Stiffeners, StandOnThePositionsThatTheyName) {
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], 9.81 * measure(mesh).mass, 0.1);
 }
 
-// Cantilever of a plate strip with a bar along its middle, loaded at its end: bends about the common
-// centroid of both. Euler and Bernoulli with Timoshenko's shear; 0.5 % are for the clamped end, where the
-// strip cannot contract, and for the shear lag across the strip of a twentieth of its length.
+// Cantilever of a plate strip with a bar along its middle, loaded at its end: bends about the
+// common centroid of both. Euler and Bernoulli with Timoshenko's shear; 0.5 % are for the clamped
+// end, where the strip cannot contract, and for the shear lag across the strip of a twentieth of
+// its length.
 TEST(Stiffeners, BendAboutTheCommonCentroid) {
   const double length = 4, breadth = 0.2, t = 0.012;
   for (const int side : {1, -1}) {
