@@ -87,7 +87,7 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
     values->resize(n);
   if (with_works) {
     for (auto* values :
-         {&energy.drive_work, &energy.winch_work, &energy.wind_work, &energy.dissipated}) {
+         {&energy.drive_work, &energy.winch_work, &energy.outside_work, &energy.dissipated}) {
       values->resize(n);
     }
   }
@@ -198,7 +198,7 @@ void History::record_works(Eigen::Index sample, const Eigen::Vector4d& works) {
   energy.winch_work[sample] = works[1];
   // All of the work of hulls in waves was summed; their buoyancy stored the part that still water
   // does.
-  energy.wind_work[sample] = works[2] + buoyancy_in_waves_[sample] - buoyancy_in_waves_[0];
+  energy.outside_work[sample] = works[2] + buoyancy_in_waves_[sample] - buoyancy_in_waves_[0];
   energy.dissipated[sample] = works[3];
 }
 

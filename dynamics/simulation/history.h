@@ -66,12 +66,13 @@ struct LoopHistory {
 };
 
 /// Energies at each sample. The works are sums since the start and exist for time integrations
-/// only; then  E(t) - E(0) = drive_work + winch_work + wind_work - dissipated,
+/// only; then  E(t) - E(0) = drive_work + winch_work + outside_work - dissipated,
 /// E = kinetic + gravity + elastic (J).
 struct EnergyHistory {
   Eigen::VectorXd kinetic, gravity, elastic;
-  Eigen::VectorXd drive_work, winch_work, wind_work,
-      dissipated;  ///< waves and radiation are in wind_work
+  Eigen::VectorXd drive_work, winch_work;
+  Eigen::VectorXd outside_work;  ///< of wind, waves and radiated waves
+  Eigen::VectorXd dissipated;
 };
 
 /// Record of an operation at samples in time: static (a sweep of equilibria, rates zero) or

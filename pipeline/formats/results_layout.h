@@ -12,7 +12,7 @@
 /// SI. Poses are x y z, then the unit quaternion w x y z.
 ///
 /// results.h5
-///   /                                  attributes format = "blocklift results", format_version = 1
+///   /                                  attributes format = "blocklift results", format_version = 2
 ///   /case                              attributes name, title, created (ISO 8601), program_version
 ///   /case/yaml                         text of the case file
 ///   /operation/stage_names         (o) texts [s]
@@ -136,7 +136,7 @@ inline constexpr std::string_view summary_file = "summary.json";
 inline constexpr std::string_view report_file = "report.html";
 
 inline constexpr std::string_view format_name = "blocklift results";
-inline constexpr double format_version = 1;
+inline constexpr double format_version = 2;
 
 inline constexpr std::string_view case_group = "/case";
 inline constexpr std::string_view case_yaml = "/case/yaml";

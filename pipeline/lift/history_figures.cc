@@ -20,7 +20,7 @@ Eigen::VectorXd energy_imbalance(const dynamics::EnergyHistory& energy) {
   if (energy.drive_work.size() == 0) return {};
   const Eigen::VectorXd stored = energy.kinetic + energy.gravity + energy.elastic;
   return stored.array() - stored(0) -
-         (energy.drive_work + energy.winch_work + energy.wind_work - energy.dissipated).array();
+         (energy.drive_work + energy.winch_work + energy.outside_work - energy.dissipated).array();
 }
 
 }  // namespace blocklift::pipeline

@@ -70,7 +70,8 @@ void write_energy(ResultsWriter& file, std::string_view group,
   write("elastic", energy.elastic, "energy stored in ropes, springs and supports");
   write("drive_work", energy.drive_work, "work of the drives since the start");
   write("winch_work", energy.winch_work, "work of the winches since the start");
-  write("wind_work", energy.wind_work, "work of the wind since the start");
+  write("outside_work", energy.outside_work,
+        "work of wind, waves and radiated waves since the start");
   write("dissipated", energy.dissipated, "energy lost to damping since the start");
   write("balance", energy_imbalance(energy), "what the other terms leave unexplained");
 }

@@ -82,10 +82,10 @@ Eigen::VectorXd energy_series(const std::string& kind, const dynamics::EnergyHis
   if (kind == "elastic") return e.elastic;
   if (kind == "drive_work") return e.drive_work;
   if (kind == "winch_work") return e.winch_work;
-  if (kind == "outside_work") return e.wind_work;
+  if (kind == "outside_work") return e.outside_work;
   if (kind == "dissipated") return e.dissipated;
   return total.array() - total[0] -
-         (e.drive_work + e.winch_work + e.wind_work - e.dissipated).array();
+         (e.drive_work + e.winch_work + e.outside_work - e.dissipated).array();
 }
 
 template <class Element>

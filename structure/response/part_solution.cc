@@ -35,6 +35,21 @@ void require_supported(const PartModel& model, const std::vector<FixedUnknown>& 
   throw ModelError(text);
 }
 
+// A load that goes straight into the supports, where nothing else moves them, strains nothing.
+void require_straining(const Eigen::VectorXd& load, const std::vector<FixedUnknown>& fixed) {
+  Eigen::VectorXd free = load;
+  bool is_moved = false;
+  for (const FixedUnknown& unknown : fixed) {
+    free[unknown.unknown] = 0;
+    is_moved = is_moved || unknown.value != 0;
+  }
+  constexpr double rounding = 1e-12;
+  if (is_moved || load.isZero(0) || free.norm() > rounding * load.norm()) return;
+  throw ModelError(
+      "the loads act on supported nodes alone, along the axes that are held: they go straight into "
+      "the supports and strain nothing");
+}
+
 // The averages as recover_part_stress; of_solids: what each solid says at its nodes.
 PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
                    std::vector<StressColumns>& of_solids) {
@@ -217,6 +232,7 @@ PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
   fixed = with_idle_nodes(model, std::move(fixed));
   PartSolution solution;
   const Eigen::VectorXd load = part_load(model);
+  require_straining(load, fixed);
   PartDisplacement solved = solver(model, fixed, load);
   solution.displacement = std::move(solved.displacement);
   solution.solver = std::move(solved.account);

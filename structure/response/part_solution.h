@@ -95,7 +95,8 @@ struct PartProbe {
 };
 
 /// Solves a part. @throws ModelError if the supports leave a rigid motion (named), an element is
-/// inverted, a group is missing or empty, or memory does not suffice.
+/// inverted, a group is missing or empty, all loads go straight into the supports, or memory does
+/// not suffice.
 PartSolution solve_part(const PartModel& model, const PartSolver& solver = solve_by_cholesky);
 
 /// Stresses at the nodes from the displacement, averaged over the solids of one material.

@@ -20,7 +20,7 @@ TEST(TurnOver, EnergyNewtonAndStaticLoads) {
   // Energy to 1e-7 of what the winches give.
   const EnergyHistory& e = history.energy;
   const Eigen::ArrayXd energy = e.kinetic + e.gravity + e.elastic;
-  const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.wind_work - e.dissipated;
+  const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.outside_work - e.dissipated;
   EXPECT_GT(e.winch_work.maxCoeff(), 50e6);
   EXPECT_LT((energy - energy[0] - work).abs().maxCoeff(), 1e-6 * e.winch_work.maxCoeff());
 

@@ -121,6 +121,33 @@ struct Opened {
   bool is_geometry = false;
 };
 
+/// Keeps sets of nodes while raising the order or halving renumbers the nodes: meanwhile each is
+/// an entity of Gmsh's whose elements are its points.
+class KeptPoints {
+ public:
+  explicit KeptPoints(std::map<std::string, std::vector<std::size_t>>& sets) : sets_(sets) {
+    for (const auto& [name, nodes] : sets_) {
+      const int entity = gmsh::model::addDiscreteEntity(0);
+      gmsh::model::mesh::addElementsByType(entity, point_type, {}, nodes);
+      entity_of_[name] = entity;
+    }
+  }
+  /// Gives the sets the numbers that their nodes have now.
+  void put_back() {
+    for (const auto& [name, entity] : entity_of_) {
+      std::vector<std::size_t> points, nodes;
+      gmsh::model::mesh::getElementsByType(point_type, points, nodes, entity);
+      sets_.at(name) = std::move(nodes);
+      gmsh::model::removeEntities({{0, entity}});
+    }
+  }
+
+ private:
+  static constexpr int point_type = 15;
+  std::map<std::string, std::vector<std::size_t>>& sets_;
+  std::map<std::string, int> entity_of_;
+};
+
 Opened open_and_mesh(const std::string& path, const PartReading& reading) {
   Opened opened;
   gmsh::option::setNumber("Mesh.SaveAll", 1);
@@ -148,10 +175,12 @@ Opened open_and_mesh(const std::string& path, const PartReading& reading) {
   if (reading.refinements > 0)
     require_memory(static_cast<double>(solid_count()) * std::pow(8, reading.refinements),
                    reading.memory, fmt::format("halving the mesh {} times", reading.refinements));
+  KeptPoints kept(opened.points);
   for (int i = 0; i < reading.refinements; ++i) gmsh::model::mesh::refine();
   if (reading.refinements > 0) order = largest_order();
   if (order > 0 && order < reading.element_order)
     gmsh::model::mesh::setOrder(reading.element_order);
+  kept.put_back();
   return opened;
 }
 

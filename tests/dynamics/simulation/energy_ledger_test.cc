@@ -84,9 +84,9 @@ TEST(EnergyLedger, CountsWhatWavesAddToStillWater) {
     const auto k = static_cast<Eigen::Index>(i);
     work += interval / 3 * (powers[i - 2] + 4 * powers[i - 1] + powers[i]);
     largest = std::max(largest, std::abs(work));
-    EXPECT_NEAR(e.wind_work[k], work, 1e-4 * std::max(largest, 1e3)) << history.time[k];
+    EXPECT_NEAR(e.outside_work[k], work, 1e-4 * std::max(largest, 1e3)) << history.time[k];
     const auto sum = [&](Eigen::Index n) { return e.kinetic[n] + e.gravity[n] + e.elastic[n]; };
-    imbalance = std::max(imbalance, std::abs(sum(k) - sum(0) - e.wind_work[k]));
+    imbalance = std::max(imbalance, std::abs(sum(k) - sum(0) - e.outside_work[k]));
     turnover = std::max(turnover, e.kinetic[k]);
   }
   EXPECT_GT(largest, 5e3);
@@ -102,7 +102,7 @@ TEST(EnergyLedger, ClosesTheBetterTheSmallerTheTolerance) {
     const EnergyHistory e = integrate(system, system.q_start(), system.v_start(),
                                       {.relative_tolerance = tolerance, .sample_interval = 0.05})
                                 .history.energy;
-    const Eigen::VectorXd sum = e.kinetic + e.gravity + e.elastic - e.wind_work;
+    const Eigen::VectorXd sum = e.kinetic + e.gravity + e.elastic - e.outside_work;
     errors.push_back((sum.array() - sum[0]).abs().maxCoeff() / e.kinetic.maxCoeff());
   }
   EXPECT_LT(errors[1], 0.1 * errors[0]);

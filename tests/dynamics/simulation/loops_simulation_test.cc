@@ -29,8 +29,8 @@ double largest_residual(const History& history) {
 // Largest change of the energy less all works, relative to the largest kinetic energy.
 double energy_error(const History& history) {
   const EnergyHistory& e = history.energy;
-  const Eigen::VectorXd total =
-      e.kinetic + e.gravity + e.elastic - e.drive_work - e.winch_work - e.wind_work + e.dissipated;
+  const Eigen::VectorXd total = e.kinetic + e.gravity + e.elastic - e.drive_work - e.winch_work -
+                                e.outside_work + e.dissipated;
   return (total.array() - total[0]).abs().maxCoeff() / e.kinetic.maxCoeff();
 }
 

@@ -22,7 +22,7 @@ Eigen::VectorXd at_height(double z) { return Vector3(0, 0, z); }
 
 double largest_imbalance(const EnergyHistory& e) {
   const Eigen::ArrayXd energy = e.kinetic + e.gravity + e.elastic;
-  const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.wind_work - e.dissipated;
+  const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.outside_work - e.dissipated;
   return (energy - energy[0] - work).abs().maxCoeff();
 }
 

@@ -179,7 +179,7 @@ TEST(EnergyImbalance, IsWhatTheTermsLeaveUnexplained) {
   EXPECT_EQ(energy_imbalance(energy).size(), 0);  // no works: nothing to compare with
   energy.drive_work = 4 * step;
   energy.winch_work = 5 * step;
-  energy.wind_work = -1 * step;
+  energy.outside_work = -1 * step;
   energy.dissipated = 2.5 * step;
   EXPECT_LT((energy_imbalance(energy) - 0.5 * step).norm(), 1e-12);
 

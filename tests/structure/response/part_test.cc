@@ -290,6 +290,19 @@ std::string error_of(const PartModel& model) {
   return "";
 }
 
+TEST(Part, LoadsThatStrainNothingAreRefused) {
+  PartModel model = part(box(Shape::hexahedra, 1, Vector3(2, 1, 1), {2, 1, 1}));
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  model.surface_loads = {{"push", "x0", SurfaceLoad::Kind::force, 0, Vector3(0, 1e4, 0)}};
+  EXPECT_THAT(error_of(model), HasSubstr("strain nothing"));
+  // A support that moves strains the part, whatever the load.
+  model.supports.push_back({"end", "x1", {true, true, true}, Vector3(1e-4, 0, 0)});
+  EXPECT_EQ(error_of(model), "");
+  model.supports.pop_back();
+  model.surface_loads.push_back({"tip", "x1", SurfaceLoad::Kind::force, 0, Vector3(1, 0, 0)});
+  EXPECT_EQ(error_of(model), "");
+}
+
 TEST(Part, RigidMotionsThatAreLeftAreNamed) {
   PartModel model = part(box(Shape::hexahedra, 1, Vector3(2, 1, 1), {2, 1, 1}));
   EXPECT_THAT(error_of(model),

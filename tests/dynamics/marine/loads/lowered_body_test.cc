@@ -134,7 +134,7 @@ LiftSystem falling(const RadiatedWater::Definition& definition, double height, d
 /// Largest error of the ledger over the energy that is turned over.
 double ledger_error(const History& history) {
   const EnergyHistory& e = history.energy;
-  const Eigen::VectorXd total = e.kinetic + e.gravity + e.elastic - e.wind_work + e.dissipated;
+  const Eigen::VectorXd total = e.kinetic + e.gravity + e.elastic - e.outside_work + e.dissipated;
   return (total.array() - total[0]).abs().maxCoeff() / e.kinetic.maxCoeff();
 }
 
@@ -219,7 +219,7 @@ TEST(LoweredBody, GainsNoEnergyFromTheSurface) {
   const double all = 0.5 * 40e3 * 1.5 * 1.5;
   for (Eigen::Index i = 1; i < result.history.sample_count(); ++i) {
     EXPECT_GE(e.dissipated[i], e.dissipated[i - 1] - 1e-6 * all);
-    EXPECT_LT(e.wind_work[i], 1e-6 * all);  // the memory gives no more than it took
+    EXPECT_LT(e.outside_work[i], 1e-6 * all);  // the memory gives no more than it took
   }
   EXPECT_GT(e.dissipated[result.history.sample_count() - 1], 0.05 * all);
 }

@@ -136,7 +136,7 @@ TEST(RadiatedWater, MovesBodiesAsCumminsEquationDoes) {
     EXPECT_GT(largest, 1e-4);
     // Energy: what the memory takes is accounted for.
     const EnergyHistory& e = result.history.energy;
-    const Eigen::VectorXd total = e.kinetic + e.gravity + e.elastic - e.wind_work + e.dissipated;
+    const Eigen::VectorXd total = e.kinetic + e.gravity + e.elastic - e.outside_work + e.dissipated;
     const double turned_over = e.kinetic.maxCoeff();
     EXPECT_LT((total.array() - total[0]).abs().maxCoeff(), 1e-4 * turned_over);
   }

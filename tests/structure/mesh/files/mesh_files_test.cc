@@ -124,6 +124,25 @@ TEST_F(MeshFiles, AbaqusSetsBecomeGroups) {
   expect_group(mesh, "bottom", 2, 2);
 }
 
+// Raising the order and halving give the nodes other numbers: a set of one node stays at its place.
+TEST_F(MeshFiles, SetsStayAtTheirPlacesWhenNodesAreRenumbered) {
+  write("upper.inc", upper_nodes);
+  const std::string file = write("bricks.inp", two_bricks);
+  for (const int order : {1, 2})
+    for (const int refinements : {0, 1, 2}) {
+      PartReading reading;
+      reading.element_order = order;
+      reading.refinements = refinements;
+      const PartMesh mesh = read_part_mesh(file, reading);
+      const PartGroup* corner = mesh.find_group("corner");
+      ASSERT_NE(corner, nullptr);
+      ASSERT_EQ(corner->elements.size(), 1u);
+      EXPECT_EQ(mesh.nodes.col(mesh.node(corner->elements[0], 0)), Vector3(2, 0, 0))
+          << "order " << order << ", halved " << refinements << " times";
+      expect_group(mesh, "both", 0, 5);
+    }
+}
+
 // Gmsh itself would end the program here.
 TEST_F(MeshFiles, ElementsWithoutTheirNodesAreNamed) {
   const std::string mesh =
