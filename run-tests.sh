@@ -11,5 +11,5 @@ failed=()
 say "Fast tests"
 ctest --test-dir build/release --output-on-failure --no-tests=ignore -j2 -L unit "$@" || failed+=("fast tests")
 say "Command line, verification and whole cases"
-ctest --test-dir build/release --output-on-failure --no-tests=ignore -LE unit "$@" || failed+=("long tests")
+ctest --test-dir build/release --output-on-failure --no-tests=ignore -j2 -LE unit "$@" || failed+=("long tests")
 verdict "${failed[@]}"

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "pipeline/lift/stopwatch.h"
-#include "structure/batches.h"
 #include "structure/response/flexibility.h"
 
 namespace blocklift::pipeline {
@@ -39,13 +38,15 @@ BlockState make_state(structure::LoadCase load, std::string name, std::string ro
   return state;
 }
 
-/// Evaluates states by the responses of one block, several at once.
+/// Evaluates states by the responses of one block, all in one pass.
 void evaluate(const structure::StressRecovery& recovery, std::vector<BlockState>& states) {
-  structure::in_batches(static_cast<int>(states.size()), 1, 0, [&](int i, int) {
-    BlockState& state = states[static_cast<std::size_t>(i)];
-    state.result = recovery.evaluate(state.load);
-    require_balance(state);
-  });
+  std::vector<structure::LoadCase> loads;
+  for (const BlockState& state : states) loads.push_back(state.load);
+  std::vector<structure::LoadCaseResult> results = recovery.evaluate(loads);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i].result = std::move(results[i]);
+    require_balance(states[i]);
+  }
 }
 
 // To about a thousandth.

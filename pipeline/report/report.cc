@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/formats/atomic_file.h"
@@ -24,6 +25,17 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& path) {
   } catch (const nlohmann::json::exception& error) {
     throw ResultsError(path.string() + ": is not readable JSON: " + error.what());
   }
+}
+
+/// @throws ResultsError if the file has a layout of another version.
+void require_known_layout(const ResultsReader& results, const std::filesystem::path& path) {
+  if (!results.has_attribute("/", "format_version")) return;
+  const double version = results.read_number_attribute("/", "format_version");
+  if (version == layout::format_version) return;
+  throw ResultsError(
+      fmt::format("{}: its layout has version {:.6g}, and this program knows version {:.6g}: run "
+                  "the case again",
+                  path.string(), version, layout::format_version));
 }
 
 /// Text as HTML content or attribute value.
@@ -86,6 +98,7 @@ std::string fill_page(std::string_view page, const std::string& title, const std
 std::filesystem::path write_report(const std::filesystem::path& folder) {
   const nlohmann::ordered_json summary = read_summary(folder / layout::summary_file);
   const ResultsReader results(folder / layout::results_file);
+  require_known_layout(results, folder / layout::results_file);
   nlohmann::ordered_json data;
   try {
     data = make_page_data(results, summary);

@@ -113,6 +113,8 @@ std::string creation_time() {
 
 void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
                 const std::string& yaml) {
+  file.write_attribute("/", "format", layout::format_name);
+  file.write_attribute("/", "format_version", layout::format_version);
   file.make_group(layout::case_group);
   file.write_attribute(layout::case_group, "name", name);
   file.write_attribute(layout::case_group, "title", title);

@@ -127,6 +127,7 @@ class StressSearch {
   }
 
   StressFound run() {
+    if (!reaches_at_all()) return found_;
     const int width = history_.padded_clusters(), clusters = history_.clusters();
     float* bounds = workspace_.bounds.data();
     kernel().bound_stress(screen_, history_, workspace_.work.data(), bounds);
@@ -164,6 +165,18 @@ class StressSearch {
     }
     screen_ = {rows, weighed, norms,
                2 * margin(history_, norms) + 2 * margin(history_, norms + rank)};
+  }
+
+  // No coordinate goes beyond its reach, so that f(s) <= sum_k f(s_k) reach_k for the von Mises
+  // stress and the spectral norm: most points of no interest are passed over by this alone.
+  bool reaches_at_all() const {
+    float q = screen_.margin, spectral = screen_.margin;
+    for (int k = 0; k < history_.rank(); ++k) {
+      const auto reach = static_cast<float>(history_.reach()[k]);
+      q += screen_.norms[k] * reach;
+      spectral += screen_.norms[history_.rank() + k] * reach;
+    }
+    return reaches(q, spectral, spectral);
   }
 
   bool reaches(float q, float largest, float minus_smallest) const {

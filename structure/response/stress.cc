@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "structure/batches.h"
 #include "structure/index.h"
 #include "structure/stress_tensor.h"
 
@@ -29,13 +31,97 @@ struct RunningExtreme {
 };
 
 // One quantity over the whole block, each group and each lug's neighbourhood.
-struct Maxima {
-  Maxima(std::size_t groups, std::size_t lugs) : group(groups), lug(lugs) {}
+class Maxima {
+ public:
+  explicit Maxima(const StressRecovery& recovery, const Mesh& mesh)
+      : recovery_(&recovery),
+        mesh_(&mesh),
+        groups_(mesh.groups.size()),
+        lugs_(mesh.lifting_points.size()) {}
 
-  RunningExtreme all;
-  std::vector<RunningExtreme> group;
-  std::vector<RunningExtreme> lug;
+  void take(double value, const Vector3& place, int region) {
+    all_.take(value, place, region);
+    if (region >= 0) groups_[at(mesh_->regions[at(region)].group)].take(value, place, region);
+    for (std::size_t i = 0; i < lugs_.size(); ++i) {
+      const LiftingPoint& lug = mesh_->lifting_points[i];
+      if (value > lugs_[i].value && (place - lug.p_BPin).norm() <= recovery_->lug_radius(lug))
+        lugs_[i].take(value, place, region);
+    }
+  }
+  /// What later points had: of equal values the earlier stays.
+  void take(const Maxima& later) {
+    const auto merge = [](RunningExtreme& into, const RunningExtreme& from) {
+      into.take(from.value, from.point, from.region);
+    };
+    merge(all_, later.all_);
+    for (std::size_t i = 0; i < groups_.size(); ++i) merge(groups_[i], later.groups_[i]);
+    for (std::size_t i = 0; i < lugs_.size(); ++i) merge(lugs_[i], later.lugs_[i]);
+  }
+  Extreme all() const { return all_.named(*mesh_); }
+  Extreme group(std::size_t group) const { return groups_[group].named(*mesh_); }
+  Extreme lug(std::size_t lug) const { return lugs_[lug].named(*mesh_); }
+
+ private:
+  const StressRecovery* recovery_;
+  const Mesh* mesh_;
+  RunningExtreme all_;
+  std::vector<RunningExtreme> groups_, lugs_;
 };
+
+/// The largest nodal stresses of several motions (columns), one pass through all cells.
+std::vector<Maxima> find_peaks(const StressPoints& points, const Eigen::MatrixXd& motions,
+                               const Maxima& none) {
+  constexpr int batch = 2048;
+  const int batches = (points.count() + batch - 1) / batch;
+  const auto cases = static_cast<std::size_t>(motions.cols());
+  std::vector<std::vector<Maxima>> of_batch(at(batches));
+  in_batches(points.count(), batch, 0, [&](int first, int count) {
+    std::vector<Maxima> maxima(cases, none);
+    const Eigen::MatrixXd stress = points.stresses(first, count, motions);
+    for (int i = 0; i < count; ++i) {
+      const Vector3 place = points.place(first + i);
+      const int region = points.region(first + i);
+      for (std::size_t c = 0; c < cases; ++c)
+        maxima[c].take(von_mises(stress.block<6, 1>(6 * i, static_cast<Eigen::Index>(c))), place,
+                       region);
+    }
+    of_batch[at(first / batch)] = std::move(maxima);
+  });
+  std::vector<Maxima> all(cases, none);
+  for (const std::vector<Maxima>& maxima : of_batch)
+    for (std::size_t c = 0; c < cases; ++c) all[c].take(maxima[c]);
+  return all;
+}
+
+Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& motion,
+                          Maxima moved) {
+  for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
+    const int region = space.mesh().shells[at(space.shells()[at(cell)].shell)].region;
+    for (int i = 0; i < space.nodes_per_shell(); ++i) {
+      const int node = space.shell_nodes(cell)[i];
+      moved.take(motion.segment<3>(6 * static_cast<Eigen::Index>(node)).norm(),
+                 space.nodes().col(node), region);
+    }
+  }
+  return moved;
+}
+
+void fill_in(const StressRecovery& recovery, const Mesh& mesh, const Maxima& checked,
+             const Maxima& peak, const Maxima& moved, LoadCaseResult& result) {
+  result.checked_von_mises = checked.all();
+  result.peak_von_mises = peak.all();
+  result.displacement = moved.all();
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+    const Material& material = mesh.materials[at(mesh.groups[g].material)];
+    result.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
+                             checked.group(g), peak.group(g)});
+  }
+  for (std::size_t i = 0; i < mesh.lifting_points.size(); ++i) {
+    const LiftingPoint& lug = mesh.lifting_points[i];
+    result.lugs.push_back(
+        {lug.name, recovery.lug_radius(lug), checked.lug(i), peak.lug(i), moved.lug(i)});
+  }
+}
 
 }  // namespace
 
@@ -46,62 +132,41 @@ StressRecovery::StressRecovery(const UnitResponses& responses, const Options& op
       points_(responses.model().space()) {}
 
 LoadCaseResult StressRecovery::evaluate(const LoadCase& load_case) const {
+  return std::move(evaluate(std::vector<LoadCase>{load_case}).front());
+}
+
+std::vector<LoadCaseResult> StressRecovery::evaluate(
+    const std::vector<LoadCase>& load_cases) const {
   const ElasticModel& model = responses_.model();
-  const Mesh& mesh = model.mesh();
-  const std::vector<LiftingPoint>& lugs = mesh.lifting_points;
-  const auto take = [&](Maxima& maxima, double value, const Vector3& place, int region) {
-    maxima.all.take(value, place, region);
-    if (region >= 0) maxima.group[at(mesh.regions[at(region)].group)].take(value, place, region);
-    for (std::size_t lug = 0; lug < lugs.size(); ++lug)
-      if (value > maxima.lug[lug].value &&
-          (place - lugs[lug].p_BPin).norm() <= lug_radius(lugs[lug]))
-        maxima.lug[lug].take(value, place, region);
-  };
-  Maxima checked(mesh.groups.size(), lugs.size());
-  Maxima peak(mesh.groups.size(), lugs.size());
-  Maxima moved(mesh.groups.size(), lugs.size());
-  RunningExtreme field;
+  Eigen::MatrixXd relative(responses_.displacements().rows(),
+                           static_cast<Eigen::Index>(load_cases.size()));
+  for (std::size_t c = 0; c < load_cases.size(); ++c)
+    relative.col(static_cast<Eigen::Index>(c)) =
+        responses_.without_rigid_motion(responses_.displacement(load_cases[c]));
+  const Maxima none(*this, model.mesh());
+  const std::vector<Maxima> peaks = find_peaks(points_, relative, none);
 
-  const Eigen::VectorXd membrane = checked_.von_mises(responses_.coefficients(load_case));
-  for (std::size_t s = 0; s < checked_.squares().size(); ++s) {
-    const Square& square = checked_.squares()[s];
-    const double value = membrane[static_cast<Eigen::Index>(s)];
-    take(checked, value, square.centre_B, square.region);
-    if (!square.at_corner) field.take(value, square.centre_B, square.region);
-  }
-  const Eigen::MatrixXd relative =
-      responses_.without_rigid_motion(responses_.displacement(load_case));
-  constexpr int batch = 4096;
-  for (int first = 0; first < points_.count(); first += batch) {
-    const int count = std::min(batch, points_.count() - first);
-    const Eigen::MatrixXd stress = points_.stresses(first, count, relative);
-    for (int i = 0; i < count; ++i)
-      take(peak, von_mises(stress.block<6, 1>(6 * i, 0)), points_.place(first + i),
-           points_.region(first + i));
-  }
-  for (int cell = 0; cell < static_cast<int>(model.space().shells().size()); ++cell)
-    for (int i = 0; i < model.space().nodes_per_shell(); ++i) {
-      const int node = model.space().shell_nodes(cell)[i];
-      take(moved, relative.block<3, 1>(6 * node, 0).norm(), model.space().nodes().col(node),
-           mesh.shells[at(model.space().shells()[at(cell)].shell)].region);
+  std::vector<LoadCaseResult> results;
+  for (std::size_t c = 0; c < load_cases.size(); ++c) {
+    LoadCaseResult result;
+    result.name = load_cases[c].name;
+    result.balance = responses_.balance(load_cases[c]);
+    Maxima checked = none;
+    RunningExtreme field;
+    const Eigen::VectorXd membrane = checked_.von_mises(responses_.coefficients(load_cases[c]));
+    for (std::size_t s = 0; s < checked_.squares().size(); ++s) {
+      const Square& square = checked_.squares()[s];
+      const double value = membrane[static_cast<Eigen::Index>(s)];
+      checked.take(value, square.centre_B, square.region);
+      if (!square.at_corner) field.take(value, square.centre_B, square.region);
     }
-
-  LoadCaseResult result;
-  result.name = load_case.name;
-  result.checked_von_mises = checked.all.named(mesh);
-  result.field_von_mises = field.named(mesh);
-  result.peak_von_mises = peak.all.named(mesh);
-  result.displacement = moved.all.named(mesh);
-  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
-    const Material& material = mesh.materials[at(mesh.groups[g].material)];
-    result.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
-                             checked.group[g].named(mesh), peak.group[g].named(mesh)});
+    const Maxima moved =
+        find_displacements(model.space(), relative.col(static_cast<Eigen::Index>(c)), none);
+    fill_in(*this, model.mesh(), checked, peaks[c], moved, result);
+    result.field_von_mises = field.named(model.mesh());
+    results.push_back(std::move(result));
   }
-  for (std::size_t lug = 0; lug < lugs.size(); ++lug)
-    result.lugs.push_back({lugs[lug].name, lug_radius(lugs[lug]), checked.lug[lug].named(mesh),
-                           peak.lug[lug].named(mesh), moved.lug[lug].named(mesh)});
-  result.balance = responses_.balance(load_case);
-  return result;
+  return results;
 }
 
 }  // namespace blocklift::structure

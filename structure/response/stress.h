@@ -63,6 +63,8 @@ class StressRecovery {
   StressRecovery(const UnitResponses& responses, const Options& options);
 
   LoadCaseResult evaluate(const LoadCase& load_case) const;
+  /// Several at once, in their order: one pass through all cells serves them all.
+  std::vector<LoadCaseResult> evaluate(const std::vector<LoadCase>& load_cases) const;
   const CheckedStress& checked() const { return checked_; }
   const StressPoints& points() const { return points_; }
   /// Radius about a lug's pin that counts as its neighbourhood, m.
