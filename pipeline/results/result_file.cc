@@ -111,12 +111,13 @@ std::string creation_time() {
 }
 
 void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
-                const std::string& yaml) {
+                const std::string& yaml, const std::string& run) {
   file.make_group(layout::case_group);
   file.write_attribute(layout::case_group, "name", name);
   file.write_attribute(layout::case_group, "title", title);
   file.write_attribute(layout::case_group, "created", creation_time());
   file.write_attribute(layout::case_group, "program_version", program_version);
+  file.write_attribute(layout::case_group, layout::run, run);
   file.write_text(layout::case_yaml, yaml, "the case file");
 }
 
