@@ -55,6 +55,7 @@ class Integrator {
   void repair_contacts(double t);
   bool motion_jumps(double t) const;
   double within_interval(double t) const { return std::clamp(t, from_, to_); }
+  void check_pace();
   void report_progress(double t);
   [[noreturn]] void fail(const char* what);
 
@@ -101,6 +102,7 @@ class Integrator {
   IntegrationResult result_;
   double reported_ = -1.0;  ///< fraction of the operation
   long steps_taken_ = 0;
+  double time_of_portion_ = 0.0;  // when the last hundredth of the allowed steps was taken
 };
 
 Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -435,6 +437,7 @@ void Integrator::integrate_interval(double start, double end) {
   const double reached = end - 1e-12 * std::max(1.0, end);
   while (time_ < reached) {
     if (++steps_taken_ > settings_.largest_step_count) fail("more steps than allowed");
+    check_pace();
     // A surface's step that ends together with the interval ends with it.
     const bool first = surface_ && surface_->next() < end - 1e-6 * settings_.surface_step;
     const double stop = first ? surface_->next() : end;
@@ -455,10 +458,30 @@ void Integrator::march_surface() {
   surface_->advance(w_);
 }
 
+// A motion that is far faster than the operation would go on for hours before the steps run out: a
+// hundredth of the steps brings it a hundredth of the way, or it will not arrive.
+void Integrator::check_pace() {
+  constexpr long too_few = 100;  // the first steps of a method are small
+  const long portion = settings_.largest_step_count / 100;
+  if (portion < too_few || steps_taken_ % portion != 0) return;
+  const double gained = time_ - time_of_portion_;
+  time_of_portion_ = time_;
+  const double duration = system_.operation().duration();
+  if (gained * static_cast<double>(settings_.largest_step_count) >=
+      duration * static_cast<double>(portion)) {
+    return;
+  }
+  std::ostringstream what;
+  what << "the last " << portion << " steps were of " << gained / static_cast<double>(portion)
+       << " s: something moves far too fast for an operation of " << duration << " s";
+  fail(what.str().c_str());
+}
+
 void Integrator::report_progress(double t) {
+  constexpr long steps_between = 10000;  // where the time hardly moves
   if (!settings_.progress) return;
   const double fraction = t / system_.operation().duration();
-  if (fraction < reported_ + 0.01 && fraction < 1.0) return;
+  if (fraction < reported_ + 0.01 && fraction < 1.0 && steps_taken_ % steps_between != 0) return;
   reported_ = fraction;
   settings_.progress(fraction, t);
 }

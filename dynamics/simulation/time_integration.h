@@ -14,6 +14,7 @@ struct IntegrationSettings {
   double relative_tolerance = 1e-6;
   double sample_interval = 0.05;  ///< s
   bool works = true;              ///< accumulate the works of drives, winches, wind and dissipation
+  /// Nor may a hundredth of them bring it less than a hundredth of the way.
   long largest_step_count = 50'000'000;
   /// The water's surface to be marched beside (MarchedSurface), from calm; null: none. The system's
   /// water then has its added mass and no states.

@@ -16,6 +16,7 @@
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/run_identity.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/report/report.h"
@@ -68,10 +69,10 @@ std::vector<structure::LiftingPoint> lugs_of(const Assessment& assessment) {
                                 : vessel_lugs(assessment.lift_case.load);
 }
 
-void write_result_file(const Assessment& assessment, const fs::path& path) {
+void write_result_file(const Assessment& assessment, const std::string& run, const fs::path& path) {
   ResultsWriter file(path);
-  write_case(file, assessment.lift_case.name, assessment.lift_case.title,
-             assessment.lift_case.yaml);
+  write_case(file, assessment.lift_case.name, assessment.lift_case.title, assessment.lift_case.yaml,
+             run);
   if (assessment.lift) {
     const dynamics::LiftSystem& system = assessment.lift->model.system;
     const Scene scene = make_scene(assessment.lift->model, lugs_of(assessment));
@@ -265,6 +266,12 @@ void require_writable(const fs::path& folder) {
   if (::access(existing.c_str(), W_OK | X_OK) != 0) {
     refuse(existing.string() + ": " + std::generic_category().message(errno));
   }
+  try {
+    // Some places forbid what their access rights allow: names too long, file systems of the kernel.
+    const Preparation attempt(folder);
+  } catch (const fs::filesystem_error& failure) {
+    refuse(failure.code().message());
+  }
 }
 
 namespace {
@@ -272,7 +279,8 @@ namespace {
 fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   const Preparation preparation(folder);
   Stopwatch watch;
-  write_result_file(assessment, preparation.folder() / layout::results_file);
+  const std::string run = new_run_identity();
+  write_result_file(assessment, run, preparation.folder() / layout::results_file);
   if (assessment.block.model) {
     const LoadComparison& pictured = assessment.block.assessment.simultaneous;
     const structure::UnitResponses& responses = *assessment.block.responses;
@@ -286,6 +294,7 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   }
 
   nlohmann::ordered_json summary = make_summary(assessment);
+  summary[layout::run] = run;
   const fs::path summary_path = preparation.folder() / layout::summary_file;
   write_file(summary_path, summary.dump(2));
   write_report(preparation.folder());

@@ -11,7 +11,7 @@ namespace blocklift::pipeline {
 /// @throws dynamics::SimulationError, structure::ModelError, std::runtime_error as the stages do.
 Assessment assess(LiftCase lift_case, const Progress& progress);
 
-/// Asks before a run whether its results can be written; makes nothing.
+/// Asks before a run whether its results can be written, by trying it; leaves nothing behind.
 /// @throws InputError if the folder is a file or lies in one, or the user may not write there.
 void require_writable(const std::filesystem::path& folder);
 

@@ -13,6 +13,7 @@
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/doubts.h"
 #include "pipeline/results/radiation_summary.h"
 
 namespace blocklift::pipeline {
@@ -187,6 +188,10 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
     print_block(assessment.block.assessment,
                 assessment.block.history ? &*assessment.block.history : nullptr);
     print_details(assessment.block);
+  }
+  if (assessment.lift) {
+    for (const std::string& doubt : list_doubts(assessment.lift_case, *assessment.lift))
+      fmt::print("warning: {}\n", doubt);
   }
   print_checks(assessment);
   fmt::print("report: {}\n", report.string());

@@ -1,6 +1,12 @@
 #include "pipeline/command_line/hydro_command.h"
 
+#include <cerrno>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -62,6 +68,26 @@ HydrodynamicFile compute(const HydrodynamicProblem& problem,
       problem, states, [&](double fraction, const std::string& what) { bar.show(fraction, what); });
 }
 
+[[noreturn]] void refuse(const std::string& file, const std::string& what,
+                         const std::vector<std::string>& hints) {
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(file), 0, 0}, what, hints);
+  throw InputError(diagnostics);
+}
+
+/// Asks before the work whether its result can be written.
+void require_writable_file(const fs::path& file) {
+  try {
+    const AtomicFile attempt(file);
+    errno = 0;
+    if (!std::ofstream(attempt.temporary_path()))
+      throw std::runtime_error(std::generic_category().message(errno));
+  } catch (const std::runtime_error& error) {
+    refuse(file.string(), std::string("the database cannot be written here: ") + error.what(),
+           {"name another file with --output"});
+  }
+}
+
 int compute_vessel(const HydroOptions& options) {
   Diagnostics diagnostics;
   std::optional<HydrodynamicProblem> problem =
@@ -69,6 +95,7 @@ int compute_vessel(const HydroOptions& options) {
   if (!problem) throw InputError(diagnostics);
   if (options.memory_limit) problem->memory_limit = 1e9 * *options.memory_limit;
   const fs::path output = output_of(options, *problem);
+  require_writable_file(output);
   const std::vector<HydrodynamicState> states = prepare(*problem);
   std::vector<Eigen::MatrixXd> masses;
   for (const HydrodynamicState& state : states) masses.push_back(state.mass);
@@ -87,13 +114,6 @@ int compute_vessel(const HydroOptions& options) {
   fmt::print("{}: {}\n{}\n", known ? "already computed" : "database", output.string(),
              page_of(output).string());
   return exit_code::done;
-}
-
-[[noreturn]] void refuse(const std::string& file, const std::string& what,
-                         const std::vector<std::string>& hints) {
-  Diagnostics diagnostics;
-  diagnostics.error({std::make_shared<const std::string>(file), 0, 0}, what, hints);
-  throw InputError(diagnostics);
 }
 
 /// Takes a file over and writes it as our own, or as that of another program.

@@ -20,6 +20,7 @@
 #include "pipeline/command_line/verify_command.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/schema.h"
+#include "pipeline/formats/hdf5_exit.h"
 #include "pipeline/version.h"
 #include "structure/process_group.h"
 
@@ -200,13 +201,24 @@ int run(int argc, char** argv) {
   return code;
 }
 
+/// Writes out what is still held of standard output; false, and a word, if it does not arrive.
+bool all_is_printed() {
+  std::cout.flush();
+  if (std::cout.good() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  std::fputs("blocklift: error: standard output cannot be written\n", stderr);
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   return_freed_memory();
+  leave_no_files_to_hdf5();
   use_all_of_the_processor(argc, argv);
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    if (!all_is_printed() && code == exit_code::done) return exit_code::run_failed;
+    return code;
   } catch (const InputError& error) {
     std::fputs(error.what(), stderr);
     return exit_code::wrong_input;

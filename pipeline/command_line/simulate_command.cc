@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
@@ -11,6 +12,9 @@
 #include "pipeline/command_line/progress_bar.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/file_kind.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/results/doubts.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
@@ -21,10 +25,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A verdict on a lift is not lost to a run that has none.
+void require_no_assessment(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path summary = folder / layout::summary_file;
+  if (!fs::is_regular_file(summary, ignored)) return;
+  const auto old = nlohmann::json::parse(read_file(summary), nullptr, false);
+  if (!old.is_object() || !old.contains("verdict")) return;
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
+                    "the folder holds the assessment of a lift, which a simulation would replace",
+                    {"name another folder with --output, or remove this one"});
+  throw InputError(diagnostics);
+}
+
 /// The folder of the results, asked for before the run.
 fs::path result_folder(const SimulateOptions& options, const std::string& name) {
   fs::path folder = options.output ? fs::path(*options.output) : fs::path("results") / name;
   require_writable(folder);
+  require_no_assessment(folder);
   return folder;
 }
 
@@ -124,6 +143,8 @@ int simulate_lift_case(const SimulateOptions& options) {
   }
   fmt::print("{}", straying_notice(
                        record_radiation(simulation.run.model, simulation.run.dynamic_history())));
+  for (const std::string& doubt : list_doubts(simulation.lift_case, simulation.run))
+    fmt::print("warning: {}\n", doubt);
   print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
   print_files(folder, options.csv);
   return exit_code::done;

@@ -3,11 +3,15 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case.h"
@@ -110,15 +114,23 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
 }  // namespace
 
 int validate_files(const std::vector<std::string>& files) {
-  Diagnostics diagnostics;
-  ModelLibrary library = ModelLibrary::of_installation();
+  Diagnostics all;
+  std::set<std::string> said;
   for (const std::string& file : files) {
-    if (const auto summary = validate(file, library, diagnostics)) {
+    // Each by itself: what is wrong with one, or with a model of it, must not hush up another.
+    Diagnostics own;
+    ModelLibrary library = ModelLibrary::of_installation();
+    if (const auto summary = validate(file, library, own))
       std::cout << fmt::format("{}: valid, {}\n", shown_path(file), *summary);
+    for (const Diagnostic& error : own.errors()) {
+      const std::string place = fmt::format("{}:{}:{}", error.mark.file ? *error.mark.file : "",
+                                            error.mark.line, error.mark.column);
+      if (said.insert(place + error.message).second)
+        all.error(error.mark, error.message, error.hints);
     }
   }
-  std::cerr << diagnostics.to_text();
-  return diagnostics.has_errors() ? 2 : 0;
+  std::cerr << all.to_text();
+  return all.has_errors() ? exit_code::wrong_input : exit_code::done;
 }
 
 }  // namespace blocklift::pipeline

@@ -41,10 +41,40 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return distance[a.size()][b.size()];
 }
 
+/// The beginning of a text, not cut within a character, and "..." if it has more bytes.
+std::string beginning_of(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return std::string(text.substr(0, end)) + "...";
+}
+
+/// What stands between two quotation marks by its beginning, and so any word without a blank: a
+/// line of a file may have megabytes, and a file that is named by mistake may hold secrets.
+std::string shortened(const std::string& message) {
+  constexpr std::size_t most_quoted = 80, longest_word = 300, longest_message = 20000;
+  std::string text;
+  for (std::size_t begin = 0; begin < message.size();) {
+    const bool is_quote = message[begin] == '"';
+    const std::size_t end =
+        std::min(is_quote ? message.find('"', begin + 1) : message.find_first_of(" \n\"", begin),
+                 message.size());
+    const std::string_view passage = std::string_view(message).substr(
+        begin + (is_quote ? 1 : 0), end - begin - (is_quote ? 1 : 0));
+    if (is_quote) text += '"';
+    text += beginning_of(passage, is_quote ? most_quoted : longest_word);
+    begin = end;
+    if (begin == message.size() || (!is_quote && message[begin] == '"')) continue;
+    text += message[begin++];
+  }
+  return beginning_of(text, longest_message);
+}
+
 }  // namespace
 
 void Diagnostics::error(Mark mark, std::string message, std::vector<std::string> hints) {
-  errors_.push_back({std::move(mark), std::move(message), std::move(hints)});
+  for (std::string& hint : hints) hint = shortened(hint);
+  errors_.push_back({std::move(mark), shortened(message), std::move(hints)});
 }
 
 std::string Diagnostics::to_text() const {

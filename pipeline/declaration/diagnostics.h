@@ -42,6 +42,7 @@ class Diagnostics {
   /// Complaints that are printed at most; what lies beyond is only counted.
   static constexpr std::size_t most_printed = 50;
 
+  /// What message and hints quote is cut at 80 characters.
   void error(Mark mark, std::string message, std::vector<std::string> hints = {});
 
   bool has_errors() const { return !errors_.empty(); }

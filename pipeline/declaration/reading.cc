@@ -36,13 +36,14 @@ bool Reading::count_value(const YAML::Node& node) {
 }
 
 std::vector<Entry> Reading::entries_of(const YAML::Node& mapping) {
-  std::vector<Entry> entries;
-  add_entries(mapping, 0, entries);
-  return entries;
+  EntryList list;
+  add_entries(mapping, 0, list);
+  return std::move(list.entries);
 }
 
-void Reading::add_entries(const YAML::Node& mapping, int merge_depth, std::vector<Entry>& entries) {
-  const std::size_t inherited = entries.size();  // keys that merging mappings have already given
+void Reading::add_entries(const YAML::Node& mapping, int merge_depth, EntryList& list) {
+  const std::size_t inherited =
+      list.entries.size();  // keys that merging mappings have already given
   std::vector<YAML::Node> merged;
   for (const auto& pair : mapping) {
     if (!count_value(pair.second)) return;
@@ -51,32 +52,34 @@ void Reading::add_entries(const YAML::Node& mapping, int merge_depth, std::vecto
       continue;
     }
     const std::string key = pair.first.Scalar();
+    if (key.empty()) {
+      error(pair.first, "a key is empty; a name is due");
+      continue;
+    }
     if (key == "<<") {
       merged.push_back(pair.second);
       continue;
     }
-    const auto same = std::find_if(entries.begin(), entries.end(),
-                                   [&](const Entry& entry) { return entry.key == key; });
-    if (same == entries.end()) {
-      entries.push_back({key, mark_of(pair.first), pair.second});
-    } else if (static_cast<std::size_t>(same - entries.begin()) >= inherited) {
+    const auto [same, is_new] = list.place_of_key.try_emplace(key, list.entries.size());
+    if (is_new) {
+      list.entries.push_back({key, mark_of(pair.first), pair.second});
+    } else if (same->second >= inherited) {
       error(pair.first, fmt::format("key \"{}\" is given twice", key),
-            {fmt::format("it stands first in line {}", same->mark.line)});
+            {fmt::format("it stands first in line {}", list.entries[same->second].mark.line)});
     }
   }
-  for (const YAML::Node& node : merged) merge_entries(node, merge_depth + 1, entries);
+  for (const YAML::Node& node : merged) merge_entries(node, merge_depth + 1, list);
 }
 
-void Reading::merge_entries(const YAML::Node& merged, int merge_depth,
-                            std::vector<Entry>& entries) {
+void Reading::merge_entries(const YAML::Node& merged, int merge_depth, EntryList& list) {
   if (merge_depth > deepest_merge) {
     error(merged, "merge keys \"<<\" are nested too deeply");
   } else if (merged.IsMap()) {
-    add_entries(merged, merge_depth, entries);
+    add_entries(merged, merge_depth, list);
   } else if (merged.IsSequence()) {
     for (const YAML::Node& node : merged) {
       if (!count_value(node)) return;
-      merge_entries(node, merge_depth + 1, entries);
+      merge_entries(node, merge_depth, list);
     }
   } else {
     error(merged, "the merge key \"<<\" takes a table of keys or a list of them");

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -48,8 +49,8 @@ class Reading {
   bool count_value(const YAML::Node& node);
 
   /// The entries of a mapping in the order of the file. A YAML merge key `<<` adds entries of the
-  /// mappings that it names where the mapping itself has none. Complains about keys given twice and
-  /// about keys that are no plain text.
+  /// mappings that it names where the mapping itself has none. Complains about keys given twice,
+  /// about keys that are no plain text and about empty ones, which are left out.
   std::vector<Entry> entries_of(const YAML::Node& mapping);
 
   /// Complains if the entry has a key and nothing behind it; `due` is what should stand there.
@@ -79,8 +80,13 @@ class Reading {
   std::string take_name() { return std::exchange(name_, {}); }
 
  private:
-  void add_entries(const YAML::Node& mapping, int merge_depth, std::vector<Entry>& entries);
-  void merge_entries(const YAML::Node& merged, int merge_depth, std::vector<Entry>& entries);
+  /// Entries, each found by its key in an instant however many there are.
+  struct EntryList {
+    std::vector<Entry> entries;
+    std::unordered_map<std::string, std::size_t> place_of_key;
+  };
+  void add_entries(const YAML::Node& mapping, int merge_depth, EntryList& list);
+  void merge_entries(const YAML::Node& merged, int merge_depth, EntryList& list);
 
   const Document& document_;
   Diagnostics& diagnostics_;

@@ -277,6 +277,7 @@ Eigen::Matrix<double, 6, 1> DampingInCase::vector() const {
 
 void check_draughts(const std::string& who, const Located<std::vector<double>>& draughts,
                     const Vessel& vessel, Diagnostics& diagnostics) {
+  if (draughts.value.empty()) return;  // the reader has complained
   const auto [low, high] = vessel.hull.bounds();
   const double depth = high.z() - low.z(), deepest = draughts.value.back();
   if (deepest >= depth) {

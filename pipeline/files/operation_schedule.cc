@@ -313,6 +313,7 @@ class Scheduler {
       diagnostics_.error(table.mark, std::move(message), std::move(hints));
       return std::nullopt;
     };
+    if (table.value.size() < 2) return std::nullopt;  // the reader has complained
     std::vector<std::pair<double, double>> points;
     for (const auto& [leaders, own] : table.value) {
       if (!std::isfinite(leaders.value) || !std::isfinite(own.value)) return std::nullopt;

@@ -1,5 +1,7 @@
 #include "pipeline/files/vessel_model.h"
 
+#include <fmt/format.h>
+
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "pipeline/declaration/document.h"
@@ -18,14 +20,31 @@ dynamics::PanelDivision division_of(const Shape& shape, double panel_size) {
   return division;
 }
 
+/// Complains before panels are made that nobody could wait for.
+template <class Shape>
+void require_few_panels(const Shape& shape, double panel_size) {
+  constexpr double most = 60000;
+  const double faces =
+      2 * (shape.length * shape.breadth + (shape.length + shape.breadth) * shape.depth);
+  const double panels = faces / (panel_size * panel_size);
+  if (panels <= most) return;
+  throw dynamics::ModelError(fmt::format(
+      "a hull of {:.6g} x {:.6g} x {:.6g} m with panels of {:.4g} m would have about {:.3g} "
+      "panels; "
+      "at most {:.0f} are made: are all dimensions right? Else give a larger panel_size",
+      shape.length, shape.breadth, shape.depth, panel_size, panels, most));
+}
+
 }  // namespace
 
 dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem::path& folder,
                                 double panel_size) {
   if (model.hull.barge) {
+    require_few_panels(*model.hull.barge, panel_size);
     return make_barge(*model.hull.barge, division_of(*model.hull.barge, panel_size));
   }
   if (model.hull.ship) {
+    require_few_panels(*model.hull.ship, panel_size);
     return make_ship(*model.hull.ship, division_of(*model.hull.ship, panel_size));
   }
   return read_hull(folder / model.hull.file->path.value,

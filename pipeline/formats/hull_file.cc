@@ -2,31 +2,45 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gmsh.h>
 
 #include "dynamics/errors.h"
+#include "structure/child_process.h"
+#include "structure/error.h"
 #include "structure/mesh/files/gmsh_session.h"
 
 namespace blocklift::pipeline {
 namespace {
 
+/// Panels as they come from Gmsh.
+struct PanelList {
+  std::vector<double> places;               ///< x, y, z of the vertices
+  std::vector<int> corners, corner_counts;  ///< of the panels, one after another
+};
+
 // The panels of all surfaces in the session.
-dynamics::Hull collect_panels(const std::string& name) {
-  dynamics::Hull hull(name);
+PanelList collect_panels() {
+  PanelList panels;
   std::vector<std::size_t> tags;
   std::vector<double> places, parameters;
   gmsh::model::mesh::getNodes(tags, places, parameters);
-  std::unordered_map<std::size_t, dynamics::Vector3> place_of_tag;
+  std::unordered_map<std::size_t, std::size_t> place_of_tag;
   for (std::size_t n = 0; n < tags.size(); ++n) {
-    place_of_tag[tags[n]] = {places[3 * n], places[3 * n + 1], places[3 * n + 2]};
+    if (!std::isfinite(places[3 * n] + places[3 * n + 1] + places[3 * n + 2])) {
+      throw structure::ModelError(
+          fmt::format("node {} has a coordinate that is no finite number", tags[n]));
+    }
+    place_of_tag[tags[n]] = 3 * n;
   }
   std::unordered_map<std::size_t, int> vertex_of_tag;
   std::vector<int> types;
   gmsh::model::mesh::getElementTypes(types, 2);
-  std::vector<int> corners;
   for (const int type : types) {
     std::string type_name;
     int dimension = 0, order = 0, nodes = 0, corner_nodes = 0;
@@ -36,20 +50,22 @@ dynamics::Hull collect_panels(const std::string& name) {
     std::vector<std::size_t> elements, element_nodes;
     gmsh::model::mesh::getElementsByType(type, elements, element_nodes);
     for (std::size_t e = 0; e < elements.size(); ++e) {
-      corners.clear();
+      panels.corner_counts.push_back(corner_nodes);
       for (std::size_t i = 0; i < static_cast<std::size_t>(corner_nodes); ++i) {
         const std::size_t tag = element_nodes[e * static_cast<std::size_t>(nodes) + i];
-        const auto [known, is_new] = vertex_of_tag.try_emplace(tag, 0);
-        if (is_new) known->second = hull.add_vertex(place_of_tag.at(tag));
-        corners.push_back(known->second);
+        const auto [known, is_new] =
+            vertex_of_tag.try_emplace(tag, static_cast<int>(panels.places.size() / 3));
+        panels.corners.push_back(known->second);
+        if (!is_new) continue;
+        const auto place = places.begin() + static_cast<std::ptrdiff_t>(place_of_tag.at(tag));
+        panels.places.insert(panels.places.end(), place, place + 3);
       }
-      hull.add_panel(corners);
     }
   }
-  return hull;
+  return panels;
 }
 
-dynamics::Hull read_by_gmsh(const std::filesystem::path& path, bool is_geometry,
+structure::Packet read_here(const std::filesystem::path& path, bool is_geometry,
                             const HullReading& reading) {
   const structure::GmshSession session;
   try {
@@ -61,14 +77,43 @@ dynamics::Hull read_by_gmsh(const std::filesystem::path& path, bool is_geometry,
       }
       gmsh::model::mesh::generate(2);
     }
-    return collect_panels(path.stem().string());
+    const PanelList panels = collect_panels();
+    structure::Packet packet;
+    packet.put(panels.places);
+    packet.put(panels.corners);
+    packet.put(panels.corner_counts);
+    return packet;
   } catch (const std::string& error) {
-    throw HullFileError(path.string() + ": Gmsh cannot read this file: " + error);
-  } catch (const dynamics::ModelError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw HullFileError(path.string() + ": Gmsh cannot read this file: " + error.what());
+    throw structure::ModelError(error);
   }
+}
+
+/// In a child process, since damaged files crash Gmsh.
+dynamics::Hull read_by_gmsh(const std::filesystem::path& path, bool is_geometry,
+                            const HullReading& reading) {
+  constexpr structure::ChildLimits limits{1200, 8e9};
+  PanelList panels;
+  try {
+    structure::Packet packet =
+        in_child_process([&] { return read_here(path, is_geometry, reading); }, limits);
+    packet.take(panels.places);
+    packet.take(panels.corners);
+    packet.take(panels.corner_counts);
+  } catch (const structure::ModelError& error) {
+    throw HullFileError(path.string() + ": Gmsh cannot read this file: " + error.what());
+  } catch (const structure::ChildDied& death) {
+    throw HullFileError(
+        fmt::format("{}: Gmsh {}; is the file damaged?", path.string(), death.what()));
+  }
+  dynamics::Hull hull(path.stem().string());
+  for (std::size_t i = 0; i + 2 < panels.places.size(); i += 3)
+    hull.add_vertex({panels.places[i], panels.places[i + 1], panels.places[i + 2]});
+  auto next = panels.corners.begin();
+  for (const int count : panels.corner_counts) {
+    hull.add_panel(std::vector<int>(next, next + count));
+    next += count;
+  }
+  return hull;
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "pipeline/formats/preparation.h"
 
 #include <system_error>
+#include <vector>
+
+#include "pipeline/formats/results_layout.h"
 
 namespace blocklift::pipeline {
 
@@ -26,8 +29,16 @@ Preparation::~Preparation() {
 }
 
 void Preparation::move_into_place() const {
-  for (const fs::directory_entry& entry : fs::directory_iterator(aside_))
-    fs::rename(entry.path(), folder_ / entry.path().filename());
+  // Whoever is stopped between two files leaves no summary: never one beside another run's results.
+  const fs::path summary = aside_ / layout::summary_file;
+  std::error_code ignored;
+  if (fs::exists(summary, ignored)) fs::remove(folder_ / layout::summary_file, ignored);
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(aside_)) {
+    if (entry.path() != summary) files.push_back(entry.path());
+  }
+  if (fs::exists(summary, ignored)) files.push_back(summary);
+  for (const fs::path& file : files) fs::rename(file, folder_ / file.filename());
 }
 
 }  // namespace blocklift::pipeline

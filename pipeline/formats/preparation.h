@@ -16,7 +16,8 @@ class Preparation {
   Preparation& operator=(const Preparation&) = delete;
 
   const std::filesystem::path& folder() const { return aside_; }
-  /// Each file takes the place of an older one of its name, in one step.
+  /// Each file takes the place of an older one of its name, in one step. A summary.json comes last,
+  /// and an older one goes first: a folder with a summary is whole.
   /// @throws std::filesystem::filesystem_error if a file cannot be moved.
   void move_into_place() const;
 

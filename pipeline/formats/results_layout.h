@@ -13,7 +13,8 @@
 ///
 /// results.h5
 ///   /                                  attributes format = "blocklift results", format_version = 2
-///   /case                              attributes name, title, created (ISO 8601), program_version
+///   /case                              attributes name, title, created (ISO 8601), program_version,
+///                                      run (o): the same in summary.json of the same run
 ///   /case/yaml                         text of the case file
 ///   /operation/stage_names         (o) texts [s]
 ///   /operation/stage_start             s [s]      /operation/stage_end   s [s]
@@ -70,7 +71,7 @@
 ///
 /// summary.json, one object; everything but case may be missing, null stands for "not known"; what
 /// is simulated and not assessed has no verdict
-///   case, title, program_version, created
+///   case, title, program_version, created, run (o): as in results.h5
 ///   verdict            "pass" | "fail";   verdict_reasons   list of text
 ///   checks             [{name, demand, limit, unit, utilisation, pass, time_s (o), note (o)}]
 ///                      unit as given is turned into the report's: N -> kN, Pa -> MPa, m -> mm, rad -> deg
@@ -139,6 +140,7 @@ inline constexpr std::string_view format_name = "blocklift results";
 inline constexpr double format_version = 2;
 
 inline constexpr std::string_view case_group = "/case";
+inline constexpr std::string_view run = "run";
 inline constexpr std::string_view case_yaml = "/case/yaml";
 
 inline constexpr std::string_view stage_names = "/operation/stage_names";

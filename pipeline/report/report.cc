@@ -10,6 +10,7 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/formats/run_identity.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/report_page.h"
 
@@ -99,6 +100,8 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
   const nlohmann::ordered_json summary = read_summary(folder / layout::summary_file);
   const ResultsReader results(folder / layout::results_file);
   require_known_layout(results, folder / layout::results_file);
+  if (const std::string complaint = mixed_runs(results, summary); !complaint.empty())
+    throw ResultsError(folder.string() + ": " + complaint);
   nlohmann::ordered_json data;
   try {
     data = make_page_data(results, summary);

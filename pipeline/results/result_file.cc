@@ -112,7 +112,7 @@ std::string creation_time() {
 }
 
 void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
-                const std::string& yaml) {
+                const std::string& yaml, const std::string& run) {
   file.write_attribute("/", "format", layout::format_name);
   file.write_attribute("/", "format_version", layout::format_version);
   file.make_group(layout::case_group);
@@ -120,6 +120,7 @@ void write_case(ResultsWriter& file, const std::string& name, const std::string&
   file.write_attribute(layout::case_group, "title", title);
   file.write_attribute(layout::case_group, "created", creation_time());
   file.write_attribute(layout::case_group, "program_version", program_version);
+  file.write_attribute(layout::case_group, layout::run, run);
   file.write_text(layout::case_yaml, yaml, "the case file");
 }
 

@@ -12,6 +12,7 @@
 #include "pipeline/formats/json_values.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/results/assumptions.h"
+#include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/radiation_summary.h"
@@ -408,6 +409,11 @@ void add_loads(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
   if (Json loops = loops_json(lift); !loops.empty()) summary["loops"] = std::move(loops);
 }
 
+void add_doubts(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
+  for (std::string& doubt : list_doubts(lift_case, lift))
+    summary["warnings"].push_back(std::move(doubt));
+}
+
 void add_motion(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
   summary["natural_periods"] =
       natural_periods_json(lift.model.system.mechanism(), lift.natural_modes);
@@ -437,6 +443,7 @@ Json make_summary(const Assessment& assessment) {
   if (assessment.block.model) summary["structure"] = structure_json(assessment);
   if (lift) add_motion(assessment.lift_case, *lift, summary);
   summary["timing"] = timing_json(assessment);
+  if (lift) add_doubts(assessment.lift_case, *lift, summary);
   summary["assumptions"] = list_assumptions(assessment);
   return summary;
 }
@@ -450,6 +457,7 @@ Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift) {
   if (lift_case.compare) summary["comparison"] = comparison_json(lift_case, &lift);
   add_motion(lift_case, lift, summary);
   summary["timing"] = dynamics_timing(lift);
+  add_doubts(lift_case, lift, summary);
   return summary;
 }
 

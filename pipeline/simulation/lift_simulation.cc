@@ -10,6 +10,7 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/run_identity.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/lift_scene.h"
@@ -79,7 +80,8 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   const Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
   ResultsWriter file(aside / layout::results_file);
-  write_case(file, lift_case.name, lift_case.title, lift_case.yaml);
+  const std::string run = new_run_identity();
+  write_case(file, lift_case.name, lift_case.title, lift_case.yaml, run);
   write_operation(file, system.operation());
   write_history(file, layout::static_history, system, simulation.run.static_history, scene);
   write_history(file, layout::dynamic_history, system, simulation.run.dynamic_history(), scene);
@@ -88,8 +90,9 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   if (lift_case.compare) write_measured(file, *lift_case.compare);
   write_statistics(file, simulation.run.dynamic_result.statistics);
   file.finish();
-  write_file(aside / layout::summary_file,
-             make_simulation_summary(lift_case, simulation.run).dump(2));
+  nlohmann::ordered_json summary = make_simulation_summary(lift_case, simulation.run);
+  summary[layout::run] = run;
+  write_file(aside / layout::summary_file, summary.dump(2));
   write_report(aside);
   if (with_csv) {
     write_file(aside / "results.csv",

@@ -7,6 +7,7 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/run_identity.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/summary.h"
@@ -34,12 +35,12 @@ void write_output(ResultsWriter& results, const OutputSeries& series) {
   if (!names.empty()) results.write_attribute(path, "columns", names);
 }
 
-void write_results(const MechanismFile& file, const MechanismRun& run,
+void write_results(const MechanismFile& file, const MechanismRun& run, const std::string& identity,
                    const std::filesystem::path& path) {
   const dynamics::LiftSystem& system = run.mechanism.system;
   const Scene scene = make_scene(file, run.mechanism);
   ResultsWriter results(path);
-  write_case(results, file.name, file.title, file.yaml);
+  write_case(results, file.name, file.title, file.yaml, identity);
   write_operation(results, system.operation());
   write_history(results, layout::dynamic_history, system, run.result.history, scene);
   results.write(
@@ -53,12 +54,14 @@ void write_results(const MechanismFile& file, const MechanismRun& run,
   results.finish();
 }
 
-nlohmann::ordered_json make_summary(const MechanismFile& file, const MechanismRun& run) {
+nlohmann::ordered_json make_summary(const MechanismFile& file, const MechanismRun& run,
+                                    const std::string& identity) {
   const double duration = run.mechanism.system.operation().duration();
   nlohmann::ordered_json summary{{"case", file.name},
                                  {"title", file.title},
                                  {"program_version", program_version},
-                                 {"created", creation_time()}};
+                                 {"created", creation_time()},
+                                 {std::string(layout::run), identity}};
   if (!run.natural_modes.empty()) {
     summary["natural_periods"] =
         natural_periods_json(run.mechanism.system.mechanism(), run.natural_modes);
@@ -93,8 +96,9 @@ void write_mechanism_results(const MechanismFile& file, const MechanismRun& run,
                              const std::filesystem::path& folder, bool with_csv) {
   const Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
-  write_results(file, run, aside / layout::results_file);
-  write_file(aside / layout::summary_file, make_summary(file, run).dump(2));
+  const std::string identity = new_run_identity();
+  write_results(file, run, identity, aside / layout::results_file);
+  write_file(aside / layout::summary_file, make_summary(file, run, identity).dump(2));
   write_report(aside);
   if (with_csv) write_file(aside / "results.csv", csv_text(run.time(), run.outputs));
   preparation.move_into_place();

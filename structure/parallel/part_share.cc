@@ -9,6 +9,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/part_mesh_packet.h"
 
 namespace blocklift::structure {
 
@@ -38,23 +39,6 @@ std::vector<int> deal_out(const PartMesh& mesh, int processes) {
 }
 
 // What is sent of each, in one order: `pass` puts it into a packet or takes it out.
-template <typename Kind, typename Pass>
-void pass_kind(Kind& kind, const Pass& pass) {
-  pass(kind.name);
-  pass(kind.dimension);
-  pass(kind.order);
-  pass(kind.nodes);
-  pass(kind.corners);
-  pass(kind.local);
-  pass(kind.rule);
-  pass(kind.weights);
-  pass(kind.values);
-  pass(kind.gradients);
-  pass(kind.gradients_at_nodes);
-  pass(kind.corner_order);
-  pass(kind.edge_order);
-}
-
 template <typename OneMaterial, typename Pass>
 void pass_material(OneMaterial& material, const Pass& pass) {
   pass(material.name);
@@ -66,12 +50,7 @@ void pass_material(OneMaterial& material, const Pass& pass) {
 
 template <typename Share, typename Pass>
 void pass_share(Share& share, const Pass& pass) {
-  for (auto& kind : share.model.mesh.kinds) pass_kind(kind, pass);
   for (auto& material : share.model.materials) pass_material(material, pass);
-  pass(share.model.mesh.nodes);
-  pass(share.model.mesh.elements);
-  pass(share.model.mesh.element_nodes);
-  pass(share.model.mesh.solids);
   pass(share.model.material_of_solid);
   pass(share.own_solids);
   pass(share.row_of_node);
@@ -135,17 +114,16 @@ class ShareMaker {
 }  // namespace
 
 void PartShare::put_into(Packet& packet) const {
-  packet.put(model.mesh.kinds.size());
+  put_part_mesh(model.mesh, packet);
   packet.put(model.materials.size());
   pass_share(*this, [&](const auto& value) { packet.put(value); });
 }
 
 PartShare PartShare::from(Packet packet) {
   PartShare share;
-  std::size_t kinds = 0, materials = 0;
-  packet.take(kinds);
+  share.model.mesh = take_part_mesh(packet);
+  std::size_t materials = 0;
   packet.take(materials);
-  share.model.mesh.kinds.resize(kinds);
   share.model.materials.resize(materials);
   pass_share(share, [&](auto& value) { packet.take(value); });
   return share;

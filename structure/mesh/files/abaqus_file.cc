@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -195,7 +196,7 @@ class AbaqusReader {
     const std::size_t sign = text.rfind('+', 0) == 0 ? 1 : 0;
     double value = 0;
     const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
       fail(fmt::format("\"{}\" is no coordinate", text));
     return value;
   }

@@ -48,7 +48,7 @@ void require_known_nodes(const std::string& path) {
     std::istringstream numbers(line);
     std::size_t element = 0, type = 0, marks = 0, value = 0;
     if (!(numbers >> element >> type >> marks)) return;
-    for (std::size_t m = 0; m < marks; ++m) numbers >> value;
+    for (std::size_t m = 0; m < marks && numbers; ++m) numbers >> value;
     while (numbers >> value)
       if (nodes.count(value) == 0)
         throw ModelError(

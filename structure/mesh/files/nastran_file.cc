@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -144,7 +145,7 @@ class NastranReader {
     const std::string text = with_exponent(card.fields[field]);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
       fail(card.line, fmt::format("GRID: \"{}\" is no coordinate", card.fields[field]));
     return value;
   }

@@ -46,6 +46,10 @@ void PartCollector::read_nodes() {
   std::vector<std::size_t> tags;
   std::vector<double> places, parameters;
   gmsh::model::mesh::getNodes(tags, places, parameters);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!std::isfinite(places[i]))
+      throw ModelError(
+          fmt::format("node {} has a coordinate that is no finite number", tags[i / 3]));
   all_places_ = std::move(places);
   for (std::size_t n = 0; n < tags.size(); ++n) place_of_tag_[tags[n]] = n;
 }

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <new>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include "structure/child_process.h"
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus_model.h"
@@ -19,6 +21,7 @@
 #include "structure/mesh/files/nastran_file.h"
 #include "structure/mesh/files/part_collector.h"
 #include "structure/mesh/files/plate_collector.h"
+#include "structure/mesh/part_mesh_packet.h"
 
 namespace blocklift::structure {
 
@@ -121,6 +124,9 @@ struct Opened {
   bool is_geometry = false;
 };
 
+// Sound files take a hundredth of this.
+constexpr double seconds_to_open_a_megabyte = 10, seconds_to_mesh = 7200;
+
 /// Keeps sets of nodes while raising the order or halving renumbers the nodes: meanwhile each is
 /// an entity of Gmsh's whose elements are its points.
 class KeptPoints {
@@ -154,7 +160,10 @@ Opened open_and_mesh(const std::string& path, const PartReading& reading) {
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
   // Geometries come with the unit of the file, never converted.
   gmsh::option::setString("Geometry.OCCTargetUnit", "");
+  const auto megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
+  allow_processor_time(reading.seconds_to_open + seconds_to_open_a_megabyte * megabytes);
   open_file(path, opened.points);
+  allow_processor_time(seconds_to_mesh);
   if (reading.element_size > 0)
     gmsh::option::setNumber("Mesh.MeshSizeMax", reading.element_size / reading.length_unit);
   if (!reading.plates.empty()) {
@@ -184,11 +193,8 @@ Opened open_and_mesh(const std::string& path, const PartReading& reading) {
   return opened;
 }
 
-}  // namespace
-
-PartMesh read_part_mesh(const std::string& path, const PartReading& reading) {
-  if (!std::filesystem::is_regular_file(path))
-    throw ModelError("there is no file \"" + path + "\"");
+// In this process.
+PartMesh read_here(const std::string& path, const PartReading& reading) {
   const GmshSession session;
   try {
     const Opened opened = open_and_mesh(path, reading);
@@ -200,8 +206,35 @@ PartMesh read_part_mesh(const std::string& path, const PartReading& reading) {
     throw ModelError("mesh \"" + path + "\": " + error.what());
   } catch (const std::string& error) {
     throw ModelError("Gmsh cannot read \"" + path + "\": " + error);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw ModelError("Gmsh cannot read \"" + path + "\": " + error.what());
+  }
+}
+
+}  // namespace
+
+PartMesh read_part_mesh(const std::string& path, const PartReading& reading) {
+  if (!std::filesystem::is_regular_file(path))
+    throw ModelError("there is no file \"" + path + "\"");
+  // Damaged files make Gmsh and OpenCASCADE crash, search without end or ask for any memory.
+  constexpr double most_memory = 16e9;  // bytes, where nobody has looked at what is free
+  const ChildLimits limits{seconds_to_mesh, reading.memory > 0 ? reading.memory : most_memory};
+  try {
+    Packet packet = in_child_process(
+        [&] {
+          Packet result;
+          put_part_mesh(read_here(path, reading), result);
+          return result;
+        },
+        limits);
+    return take_part_mesh(packet);
+  } catch (const ChildDied& death) {
+    throw ModelError(fmt::format(
+        "mesh \"{}\": Gmsh {}; is the file damaged? Another program may repair it, or write "
+        "another format",
+        path, death.what()));
   }
 }
 

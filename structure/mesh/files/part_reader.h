@@ -38,6 +38,8 @@ struct PartReading {
   double element_size = 0;  ///< largest edge where the file is a geometry, m; 0: as the file says
   int refinements = 0;      ///< halvings of all elements along their edges
   double memory = 0;        ///< that the stiffness may take at most, bytes; 0: not looked at
+  /// Of the processor, that opening the file may take at most, before it is meshed, s.
+  double seconds_to_open = 60;
   /// Thicknesses of plates, m, by groups of surfaces: where there are any, the file holds
   /// mid-surfaces, which are thickened (see thicken).
   std::map<std::string, double> plates;
@@ -51,10 +53,12 @@ struct PartReading {
 ///
 /// Groups are the physical groups by their names, or "volume group 3" and so on where they have
 /// none; besides them each geometric entity is a group of its own: "volume 1", "surface 4", "curve
-/// 2", "point 7". Gmsh's session is opened and closed again here.
+/// 2", "point 7". All of it is done in a child process: damaged files crash the libraries that read
+/// them, or keep them busy for ever.
 /// @throws ModelError if the file cannot be read or meshed, asks for so many elements that their
 ///   stiffness would exceed the memory (before they are made), or holds no solid elements, or kinds
-///   other than hexahedra, tetrahedra and wedges (pyramids among them).
+///   other than hexahedra, tetrahedra and wedges (pyramids among them), or if the child process
+///   dies; the message names the file.
 PartMesh read_part_mesh(const std::string& path, const PartReading& reading);
 
 /// The same of a mesh that is made here; coordinates in m, elements as they are. Element::tag is

@@ -3,13 +3,18 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "pipeline/assessment/assess.h"
+#include "pipeline/results/doubts.h"
+#include "pipeline/results/history_summary.h"
 #include "pipeline/results/summary.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/small_lift.h"
@@ -218,6 +223,87 @@ TEST(Summary, OfALoadTableHasNoRopes) {
   const auto& forces = assessment.block.assessment.simultaneous.dynamic_state.load.lug_forces_B;
   EXPECT_NEAR(forces[0].z(), 3e3 * 9.80665, 1e-6);
   EXPECT_NEAR(forces[1].z(), 2e3 * 9.80665, 1e-6);
+}
+
+// Rounding differs with the number of threads; it must not turn a word.
+TEST(Summary, RoundingMakesNoPracticeUnsafe) {
+  HistoryAssessment history;
+  const auto is_safe = [&](double percent) {
+    history.per_rope_maxima.largest_percent = percent;
+    return history_json(history)["practice"]["per_rope_maxima"]["safe"].get<bool>();
+  };
+  EXPECT_TRUE(is_safe(0.5));
+  EXPECT_TRUE(is_safe(1e-12));
+  EXPECT_TRUE(is_safe(-1e-12));
+  EXPECT_FALSE(is_safe(-0.01));
+}
+
+class DoubtsOfALift : public ::testing::Test {
+ protected:
+  std::string doubts() const {
+    std::string all;
+    for (const std::string& doubt : list_doubts(lift_case_, *assessment_.lift)) all += doubt + "\n";
+    return all;
+  }
+  /// The block with a change.
+  template <class Change>
+  void change_block(const Change& change) {
+    auto block = std::make_shared<BlockModel>(*lift_case_.load.model);
+    change(*block);
+    lift_case_.load.model = std::move(block);
+  }
+
+  Assessment& assessment_ = small_assessment();
+  LiftCase lift_case_ = assessment_.lift_case;
+};
+
+TEST_F(DoubtsOfALift, AreNoneOfASoundLift) { EXPECT_EQ(doubts(), ""); }
+
+TEST_F(DoubtsOfALift, PlaceOfTheLoad) {
+  lift_case_.load.position.x() += 200;
+  EXPECT_THAT(doubts(), ::testing::HasSubstr("The load hangs at rest 200 m from where the case"));
+}
+
+TEST_F(DoubtsOfALift, CranesInOnePlace) {
+  lift_case_.cranes.push_back(lift_case_.cranes.front());
+  lift_case_.cranes.back().name.value = "C2";
+  EXPECT_EQ(doubts(), "Cranes C1 and C2 stand in one place.\n");
+  lift_case_.cranes.back().position.x() += 5;
+  EXPECT_EQ(doubts(), "");
+}
+
+TEST_F(DoubtsOfALift, WindAndItsAreas) {
+  change_block([](BlockModel& block) { block.wind_areas.front().area = 1e6; });
+  EXPECT_THAT(doubts(), ::testing::HasSubstr("The load has a wind area of 1e+06 m2"));
+  change_block([](BlockModel& block) { block.wind_areas.clear(); });
+  EXPECT_EQ(doubts(), "Wind blows, and the load has no wind_areas: it feels none of it.\n");
+  lift_case_.wind.reset();
+  EXPECT_EQ(doubts(), "");
+}
+
+TEST_F(DoubtsOfALift, MaterialAndMass) {
+  change_block([](BlockModel& block) { block.materials.front().youngs_modulus = 0.2e9; });
+  EXPECT_THAT(doubts(), ::testing::HasSubstr("0.2 GPa; metals have 40 to 450 GPa (steel 206)"));
+  change_block([](BlockModel& block) {
+    block.materials.front().youngs_modulus = 206e9;
+    block.centre_of_mass = Located<Vector3>{Vector3(0, 0, 50), {}};
+  });
+  EXPECT_EQ(doubts(), "The centre of mass of the load, (0, 0, 50) m, lies outside its body.\n");
+}
+
+TEST_F(DoubtsOfALift, RopesBeyondTheirStrengthAndLoadInTheGround) {
+  LiftRun& lift = *assessment_.lift;
+  const double strength = std::exchange(lift.model.ropes.front().breaking_load, 1e3);
+  EXPECT_THAT(doubts(), ::testing::HasSubstr("more than its breaking load of 1 kN"));
+  lift.model.ropes.front().breaking_load = strength;
+
+  auto& pose =
+      lift.dynamic_result.history.bodies[static_cast<std::size_t>(lift.model.load) - 1].pose;
+  const auto before = pose;
+  pose.col(2).array() -= 100;
+  EXPECT_THAT(doubts(), ::testing::HasSubstr("m below the ground (z = 0 m)"));
+  pose = before;
+  EXPECT_EQ(doubts(), "");
 }
 
 }  // namespace

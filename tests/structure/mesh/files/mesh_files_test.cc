@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gmsh.h>
@@ -323,6 +324,42 @@ TEST_F(MeshFiles, NastranMessagesNameFileAndLine) {
   EXPECT_THAT(changed("6,10,7\n", "6,10,7\n,1\n"), HasSubstr("1 of its 9 grids between corners"));
   EXPECT_THAT(changed("1,4,8,5", "1,4,7,5"), HasSubstr("lies on no solid"));
   EXPECT_THAT(changed("1.,,,,2,10", "1.,,,,1,10"), HasSubstr("name no face of element 8"));
+}
+
+TEST_F(MeshFiles, CoordinatesAreFiniteNumbers) {
+  write("upper.inc", upper_nodes);
+  for (const char* number : {"nan", "-nan", "inf", "-inf", "1e999"}) {
+    std::string text = two_bricks;
+    text.replace(text.find("3, 2., 0., 0."), 13, std::string("3, ") + number + ", 0., 0.");
+    EXPECT_THAT(error_of(write("wrong.inp", text)), HasSubstr("is no coordinate")) << number;
+    text = bulk;
+    text.replace(text.find("GRID,2,,2."), 10, std::string("GRID,2,,") + number);
+    EXPECT_THAT(error_of(write("wrong.bdf", text)), HasSubstr("is no coordinate")) << number;
+  }
+}
+
+// Gmsh and OpenCASCADE may do with damaged files what they like, but not in this process.
+TEST_F(MeshFiles, DamagedGeometryIsReadOrRefused) {
+  write_box(path("box.step"), false);
+  std::ifstream stream(path("box.step"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  ASSERT_GT(lines.size(), 50u);
+  PartReading reading;
+  reading.length_unit = 1e-3;
+  reading.element_size = 4e-3;
+  reading.seconds_to_open = 2;
+  for (std::size_t lost = 20; lost < lines.size(); lost += lines.size() / 8) {
+    std::string text;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (i != lost) text += lines[i] + "\n";
+    write("damaged.step", text);
+    try {
+      EXPECT_FALSE(read_part_mesh(path("damaged.step"), reading).solids.empty());
+    } catch (const ModelError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("damaged.step"));
+    }
+  }
 }
 
 // Every kind comes back from our own file for CalculiX node by node; the file holds 12 digits, so

@@ -1,0 +1,220 @@
+#include "pipeline/results/doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/build/build_lift.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using dynamics::Pose;
+
+/// What stands for the load in drawings: its bounding box in its own frame.
+struct Box {
+  Vector3 centre, half;
+};
+
+Box box_of(const BoxShape& shape) { return {shape.centre, 0.5 * shape.size}; }
+
+/// Height of the lowest corner, m.
+double lowest_point(const Box& box, const Pose& X_WB) {
+  return X_WB.apply(box.centre).z() - X_WB.R.row(2).cwiseAbs().dot(box.half);
+}
+
+class Doubts {
+ public:
+  Doubts(const LiftCase& lift_case, const LiftRun& lift) : case_(lift_case), lift_(lift) {
+    for (const LiftBody& body : lift.model.bodies) {
+      if (body.body == lift.model.load && !body.boxes.empty()) load_box_ = box_of(body.boxes[0]);
+    }
+  }
+
+  std::vector<std::string> list() {
+    doubt_place();
+    doubt_ground();
+    doubt_ropes();
+    doubt_cranes();
+    doubt_wind();
+    doubt_materials();
+    doubt_masses();
+    return std::move(list_);
+  }
+
+ private:
+  template <typename... Values>
+  void doubt(fmt::format_string<Values...> text, Values&&... values) {
+    list_.push_back(fmt::format(text, std::forward<Values>(values)...));
+  }
+
+  const dynamics::BodyHistory& load(const dynamics::History& history) const {
+    return history.bodies[static_cast<std::size_t>(lift_.model.load) - 1];
+  }
+
+  /// The place that the case gives is a first guess, but not of another yard.
+  void doubt_place() {
+    constexpr double usual = 10;  // m
+    const double size = load_box_ ? 2 * load_box_->half.norm() : 0;
+    const Vector3 found = load(lift_.static_history).X_WB(0).p;
+    const double distance = (found - case_.load.position).norm();
+    if (distance <= std::max(usual, size)) return;
+    doubt(
+        "The load hangs at rest {:.0f} m from where the case puts it, at ({:.1f}, {:.1f}, {:.1f}) "
+        "m; usually it is found within {:.0f} m. Are cranes, ropes and load in their places?",
+        distance, found.x(), found.y(), found.z(), std::max(usual, size));
+  }
+
+  /// Ashore nothing but pads keeps the load out of the ground, which is at z = 0 or where they
+  /// stand.
+  void doubt_ground() {
+    if (case_.sea || !load_box_) return;
+    constexpr double sunk = 0.1;  // m
+    double ground = 0;
+    for (const SupportInCase& support : case_.supports) ground = std::min(ground, support.ground);
+    const dynamics::BodyHistory& body = load(lift_.dynamic_history());
+    double lowest = std::numeric_limits<double>::infinity(), when = 0;
+    for (Eigen::Index i = 0; i < lift_.dynamic_history().sample_count(); ++i) {
+      const double height = lowest_point(*load_box_, body.X_WB(i));
+      if (height >= lowest) continue;
+      lowest = height;
+      when = lift_.dynamic_history().time[i];
+    }
+    if (lowest < ground - sunk)
+      doubt(
+          "The load reaches {:.2f} m below the ground (z = {:g} m) at {:.1f} s; nothing is there "
+          "that would bear it.",
+          ground - lowest, ground, when);
+  }
+
+  void doubt_ropes() {
+    for (const dynamics::LinkedMaximum& most :
+         dynamics::find_largest_tensions(lift_.dynamic_history())) {
+      const auto check = [&](const auto& rope) {
+        if (rope.rope != most.rope || !(most.tension > rope.breaking_load)) return;
+        doubt(
+            "Rope {} carries {:.0f} kN at {:.1f} s, more than its breaking load of {:.0f} kN: what "
+            "follows would not happen so.",
+            rope.name, most.tension / 1e3, most.time, rope.breaking_load / 1e3);
+      };
+      for (const LiftRope& rope : lift_.model.ropes) check(rope);
+      for (const LiftHoist& hoist : lift_.model.hoists) check(hoist);
+    }
+  }
+
+  void doubt_cranes() {
+    constexpr double apart = 0.1;  // m
+    for (std::size_t i = 0; i < case_.cranes.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const CraneInCase &one = case_.cranes[j], &other = case_.cranes[i];
+        const bool same_ground = one.base.has_value() == other.base.has_value() &&
+                                 (!one.base || one.base->value == other.base->value);
+        if (!same_ground || (one.position - other.position).norm() > apart ||
+            (one.attitude - other.attitude).norm() > apart || starts_differ(one, other)) {
+          continue;
+        }
+        doubt("Cranes {} and {} stand in one place.", one.name.value, other.name.value);
+      }
+    }
+  }
+
+  /// Cranes on one rail have one position and start apart.
+  static bool starts_differ(const CraneInCase& one, const CraneInCase& other) {
+    if (!one.model || !other.model) return true;
+    for (const DriveModel& drive : one.model->drives) {
+      const auto *a = one.find_start(drive.name.value), *b = other.find_start(drive.name.value);
+      if (!a || !b || std::abs(a->value.value - b->value.value) > 0.1) return true;
+    }
+    return false;
+  }
+
+  void doubt_wind() {
+    const BlockModel* block = case_.load.model.get();
+    if (case_.wind && case_.wind->speed > 0 && (!block || block->wind_areas.empty()))
+      doubt("Wind blows, and the load has no wind_areas: it feels none of it.");
+    if (!block || !load_box_) return;
+    // A body shows the wind at most the sum of its box's faces, times what lattices and edges add.
+    constexpr double usual = 3;
+    const Vector3 size = 2 * load_box_->half;
+    const double faces = size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+    for (const WindAreaModel& area : block->wind_areas) {
+      if (area.area > usual * faces)
+        doubt(
+            "The load has a wind area of {:.4g} m2; its box has faces of {:.4g} m2 in all three "
+            "directions together.",
+            area.area, faces);
+    }
+  }
+
+  void doubt_materials() {
+    if (!case_.load.model) return;
+    constexpr double lowest = 40e9, highest = 450e9;  // Pa: magnesium, tungsten
+    for (const MaterialModel& material : case_.load.model->materials) {
+      const double modulus = material.youngs_modulus;
+      if (modulus < lowest || modulus > highest)
+        doubt(
+            "Material {} has a Young's modulus of {:.4g} GPa; metals have {:.0f} to {:.0f} GPa "
+            "(steel 206).",
+            material.name.value, modulus / 1e9, lowest / 1e9, highest / 1e9);
+    }
+  }
+
+  void doubt_masses() {
+    const auto& centre = case_.load.model ? case_.load.model->centre_of_mass : std::nullopt;
+    if (centre && load_box_ && is_outside(centre->value, *load_box_))
+      doubt_centre("the load", centre->value);
+    if (case_.load.vessel) doubt_vessel("the load", *case_.load.vessel);
+    for (const VesselInCase& vessel : case_.vessels) {
+      if (vessel.model) doubt_vessel("vessel " + vessel.name.value, *vessel.model);
+    }
+  }
+
+  static bool is_outside(const Vector3& point, const Box& box) {
+    return ((point - box.centre).cwiseAbs() - box.half).maxCoeff() > 1e-6;
+  }
+
+  void doubt_centre(const std::string& who, const Vector3& point) {
+    doubt("The centre of mass of {}, ({:.3g}, {:.3g}, {:.3g}) m, lies outside its body.", who,
+          point.x(), point.y(), point.z());
+  }
+
+  void doubt_vessel(const std::string& who, const Vessel& vessel) {
+    const auto [low, high] = vessel.hull.bounds();
+    // Masts and cranes that a vessel's mass includes may stand above its deck.
+    Box box{0.5 * (low + high), 0.5 * (high - low)};
+    box.half.z() *= 3;
+    if (is_outside(vessel.model.centre_of_mass, box))
+      doubt_centre(who, vessel.model.centre_of_mass);
+    const Vector3 size = high - low;
+    const Vector3 widths(size.y(), size.x(), size.x());
+    const char* const names[] = {"x", "y", "z"};
+    constexpr double least = 0.1, most = 0.8;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double share = vessel.model.radii_of_gyration[axis] / widths[axis];
+      if (share >= least && share <= most) continue;
+      doubt(
+          "The radius of gyration of {} about {} is {:.3g} m, {:.2g} of its {}; ships have 0.2 to "
+          "0.45 of it.",
+          who, names[axis], vessel.model.radii_of_gyration[axis], share,
+          axis == 0 ? "breadth" : "length");
+    }
+  }
+
+  const LiftCase& case_;
+  const LiftRun& lift_;
+  std::optional<Box> load_box_;
+  std::vector<std::string> list_;
+};
+
+}  // namespace
+
+std::vector<std::string> list_doubts(const LiftCase& lift_case, const LiftRun& lift) {
+  return Doubts(lift_case, lift).list();
+}
+
+}  // namespace blocklift::pipeline
