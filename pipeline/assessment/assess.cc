@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/checks/lift_checks.h"
+#include "pipeline/checks/standard_checks.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
@@ -187,7 +188,7 @@ void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& 
 
 Assessment assess(LiftCase lift_case, const Progress& progress) {
   Stopwatch total;
-  Assessment assessment{std::move(lift_case), {}, {}, {}, 0};
+  Assessment assessment{std::move(lift_case), {}, {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 
   if (!the_case.has_structure()) {
@@ -195,6 +196,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
         run_lift(the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
                  progress);
     assessment.checks = check_lift(the_case, *assessment.lift);
+    check_by_standard(assessment);
     assessment.total_s = total.lap();
     return assessment;
   }
@@ -241,6 +243,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     assessment.checks.push_back(std::move(check));
   for (Check& check : check_padeyes(the_case, block.padeyes))
     assessment.checks.push_back(std::move(check));
+  check_by_standard(assessment);
   assessment.total_s = total.lap();
   return assessment;
 }

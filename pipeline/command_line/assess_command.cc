@@ -14,6 +14,7 @@
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/radiation_summary.h"
+#include "pipeline/results/standard_summary.h"
 
 namespace blocklift::pipeline {
 
@@ -188,6 +189,7 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
                 assessment.block.history ? &*assessment.block.history : nullptr);
     print_details(assessment.block);
   }
+  if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
   print_checks(assessment);
   fmt::print("report: {}\n", report.string());
   return assessment.pass() ? exit_code::done : exit_code::lift_fails;
