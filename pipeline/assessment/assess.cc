@@ -20,6 +20,7 @@
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/calculation_package.h"
 #include "pipeline/results/history_file.h"
 #include "pipeline/results/lift_scene.h"
 #include "pipeline/results/padeye_summary.h"
@@ -291,6 +292,8 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   nlohmann::ordered_json summary = make_summary(assessment);
   const fs::path summary_path = preparation.folder() / layout::summary_file;
   write_file(summary_path, summary.dump(2));
+  if (assessment.standard)
+    write_file(preparation.folder() / package_file, calculation_package(assessment));
   write_report(preparation.folder());
   summary["timing"]["report_s"] = watch.lap();
   write_file(summary_path, summary.dump(2));

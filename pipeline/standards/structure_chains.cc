@@ -70,7 +70,7 @@ Chain lug_chain(const LoadFactors& factors, const LugFacts& lug) {
   lateral.standard = input.side_load;
   lateral.simulated = lug.lateral;
   lateral.clause = rules.lateral ? rules.lateral->clause : "checks.lug_side_load";
-  lateral.formula = "along the pin; of all instants";
+  lateral.formula = "along the pin, where it is largest";
   if (lug.lateral_time) lateral.formula += fmt::format(", at {:.1f} s", *lug.lateral_time);
   chain.tell(std::move(lateral));
   const double standard = chain.standard(), simulated = chain.simulated();
