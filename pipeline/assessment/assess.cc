@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/checks/lift_checks.h"
+#include "pipeline/checks/standard_checks.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
@@ -20,6 +21,7 @@
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/calculation_package.h"
 #include "pipeline/results/history_file.h"
 #include "pipeline/results/lift_scene.h"
 #include "pipeline/results/padeye_summary.h"
@@ -188,7 +190,7 @@ void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& 
 
 Assessment assess(LiftCase lift_case, const Progress& progress) {
   Stopwatch total;
-  Assessment assessment{std::move(lift_case), {}, {}, {}, 0};
+  Assessment assessment{std::move(lift_case), {}, {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 
   if (!the_case.has_structure()) {
@@ -196,6 +198,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
         run_lift(the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
                  progress);
     assessment.checks = check_lift(the_case, *assessment.lift);
+    check_by_standard(assessment);
     assessment.total_s = total.lap();
     return assessment;
   }
@@ -242,6 +245,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     assessment.checks.push_back(std::move(check));
   for (Check& check : check_padeyes(the_case, block.padeyes))
     assessment.checks.push_back(std::move(check));
+  check_by_standard(assessment);
   assessment.total_s = total.lap();
   return assessment;
 }
@@ -297,6 +301,8 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   summary[layout::run] = run;
   const fs::path summary_path = preparation.folder() / layout::summary_file;
   write_file(summary_path, summary.dump(2));
+  if (assessment.standard)
+    write_file(preparation.folder() / package_file, calculation_package(assessment));
   write_report(preparation.folder());
   summary["timing"]["report_s"] = watch.lap();
   write_file(summary_path, summary.dump(2));

@@ -15,6 +15,7 @@
 #include "pipeline/report/report.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/radiation_summary.h"
+#include "pipeline/results/standard_summary.h"
 
 namespace blocklift::pipeline {
 
@@ -193,6 +194,7 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
     for (const std::string& doubt : list_doubts(assessment.lift_case, *assessment.lift))
       fmt::print("warning: {}\n", doubt);
   }
+  if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
   print_checks(assessment);
   fmt::print("report: {}\n", report.string());
   return assessment.pass() ? exit_code::done : exit_code::lift_fails;

@@ -83,6 +83,11 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
     library.read_rope(path, diagnostics);
     return if_sound("rope");
   }
+  if (kind == FileKind::standard) {
+    const auto rules = library.read_standard(path, diagnostics);
+    if (!rules) return std::nullopt;
+    return if_sound(fmt::format("standard {}, {}", rules->name, rules->edition));
+  }
   if (kind == FileKind::part) {
     const std::optional<PartFile> part = read_part_file(path, diagnostics);
     if (!part) return std::nullopt;

@@ -45,6 +45,7 @@ FileKind kind_of_file(const fs::path& path) {
   if (kind == "rope") return FileKind::rope;
   if (kind == "vessel") return FileKind::vessel;
   if (kind == "vessels") return FileKind::vessels;
+  if (kind == "standard") return FileKind::standard;
   return FileKind::lift_case;
 }
 

@@ -5,7 +5,18 @@
 namespace blocklift::pipeline {
 
 /// What an input file is, by what it begins with.
-enum class FileKind { lift_case, mechanism, robot, crane, block, rope, part, vessel, vessels };
+enum class FileKind {
+  lift_case,
+  mechanism,
+  robot,
+  crane,
+  block,
+  rope,
+  part,
+  vessel,
+  vessels,
+  standard
+};
 
 /// The kind of a file, or of the file in a folder: a robot description is XML or ends in .urdf, a
 /// mechanism has the key `mechanism`, a part the key `part`, a model says its kind. Everything

@@ -71,6 +71,7 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
   for (RopeInCase& rope : lift_case.ropes) {
     rope.rope = library.resolve(rope.rope_choice, folder, diagnostics);
   }
+  if (lift_case.standard) load_rules(*lift_case.standard, folder, library, diagnostics);
 }
 
 }  // namespace

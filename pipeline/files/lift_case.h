@@ -15,6 +15,7 @@
 #include "pipeline/files/hot_spot_format.h"
 #include "pipeline/files/marine_parts.h"
 #include "pipeline/files/model_library.h"
+#include "pipeline/files/standard_in_case.h"
 
 namespace blocklift::pipeline {
 
@@ -242,6 +243,7 @@ struct LiftCase : MarineParts {
   DynamicsSettings dynamics;
   StructureSettings structure;
   CheckSettings checks;
+  std::optional<StandardInCase> standard;
   std::optional<Comparison> compare;
   std::optional<LoadTable> load_table;
   Mark place;

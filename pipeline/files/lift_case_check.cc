@@ -9,6 +9,7 @@
 #include "dynamics/errors.h"
 #include "pipeline/files/crane_pose.h"
 #include "pipeline/files/operation_schedule.h"
+#include "pipeline/files/standard_check.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -493,6 +494,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_flexibility(lift_case.dynamics, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
+  check_standard(lift_case, diagnostics);
   check_duration(lift_case, schedule_operation(lift_case, diagnostics), diagnostics);
 }
 

@@ -429,6 +429,8 @@ Format<LiftCase> lift_case_format() {
       .by_default("structure", &LiftCase::structure, structure_format(), "{}",
                   "how the stress is computed")
       .by_default("checks", &LiftCase::checks, checks_format(), "{}", "what the lift must meet")
+      .optional("standard", &LiftCase::standard, standard_in_case_format(),
+                "rules of standards by which the lift is checked, too")
       .optional("compare", &LiftCase::compare, comparison_format(),
                 "published or measured figures, shown beside ours")
       .optional("load_table", &LiftCase::load_table, load_table_format(),

@@ -131,6 +131,9 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
                             const fs::path& beside, Diagnostics& diagnostics) const {
   std::vector<fs::path> places = {beside};
   places.insert(places.end(), model_folders_.begin(), model_folders_.end());
+  const bool is_short = kind == "standard" && name.value.find('/') == std::string::npos;
+  if (is_short)
+    for (const fs::path& folder : model_folders_) places.push_back(folder / "standards");
   for (const fs::path& place : places) {
     const fs::path model = place / name.value;
     for (const fs::path& file :
@@ -145,10 +148,13 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
       looked_in.push_back(shown);
     }
   }
-  diagnostics.error(
-      name.mark, fmt::format("there is no {} model \"{}\"", kind, name.value),
-      {names_hint(fmt::format("the {} models are", kind), names_of_kind(kind, beside), name.value),
-       "looked for in " + list_of_names(looked_in)});
+  std::vector<std::string> known = names_of_kind(kind, beside);
+  if (is_short)
+    for (std::string& one : known)
+      if (one.starts_with("standards/")) one = one.substr(std::string("standards/").size());
+  diagnostics.error(name.mark, fmt::format("there is no {} model \"{}\"", kind, name.value),
+                    {names_hint(fmt::format("the {} models are", kind), known, name.value),
+                     "looked for in " + list_of_names(looked_in)});
   return {};
 }
 
@@ -232,6 +238,20 @@ std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
   const auto known = ropes_.find(file);
   if (known != ropes_.end()) return known->second;
   return ropes_[file] = read_model(file, "rope", rope_model_format(), diagnostics);
+}
+
+std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<std::string>& name,
+                                                                 const fs::path& beside,
+                                                                 Diagnostics& diagnostics) {
+  const fs::path file = find(name, "standard", beside, diagnostics);
+  return file.empty() ? nullptr : read_standard(file, diagnostics);
+}
+
+std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path& file,
+                                                                 Diagnostics& diagnostics) {
+  const auto known = standards_.find(file);
+  if (known != standards_.end()) return known->second;
+  return standards_[file] = read_model(file, "standard", standard_rules_format(), diagnostics);
 }
 
 }  // namespace blocklift::pipeline

@@ -10,6 +10,7 @@
 #include "pipeline/files/block_model.h"
 #include "pipeline/files/crane_model.h"
 #include "pipeline/files/rope_model.h"
+#include "pipeline/files/standard_rules.h"
 #include "pipeline/files/vessel_model.h"
 
 namespace blocklift::pipeline {
@@ -19,6 +20,7 @@ namespace blocklift::pipeline {
 /// A model `cranes/goliath-600t` of the kind crane is one of the files, in this order of places and
 /// names: in the folder of the file that names it, then in each folder of models,
 ///   cranes/goliath-600t, cranes/goliath-600t.yaml, cranes/goliath-600t/crane.yaml.
+/// A standard's name may do without its folder: nd-0027 is standards/nd-0027.
 /// Each file is read once, however often it is named; a crane once for each set of parameters.
 class ModelLibrary {
  public:
@@ -52,6 +54,9 @@ class ModelLibrary {
   std::shared_ptr<const Vessel> load_vessel(const Located<std::string>& name,
                                             const std::filesystem::path& beside,
                                             Diagnostics& diagnostics);
+  std::shared_ptr<const StandardRules> load_standard(const Located<std::string>& name,
+                                                     const std::filesystem::path& beside,
+                                                     Diagnostics& diagnostics);
   /// The rope that is chosen by name or by its keys. @returns an empty rope if there is none.
   RopeModel resolve(const RopeChoice& choice, const std::filesystem::path& beside,
                     Diagnostics& diagnostics);
@@ -71,6 +76,8 @@ class ModelLibrary {
                                                Diagnostics& diagnostics);
   std::shared_ptr<const RopeModel> read_rope(const std::filesystem::path& file,
                                              Diagnostics& diagnostics);
+  std::shared_ptr<const StandardRules> read_standard(const std::filesystem::path& file,
+                                                     Diagnostics& diagnostics);
 
  private:
   /// The file of a model; empty after a complaint.
@@ -84,6 +91,7 @@ class ModelLibrary {
   std::map<std::filesystem::path, std::shared_ptr<const BlockModel>> blocks_;
   std::map<std::filesystem::path, std::shared_ptr<const RopeModel>> ropes_;
   std::map<std::filesystem::path, std::shared_ptr<const Vessel>> vessels_;
+  std::map<std::filesystem::path, std::shared_ptr<const StandardRules>> standards_;
 };
 
 }  // namespace blocklift::pipeline

@@ -12,6 +12,15 @@ Table<RopeModel>& add_rope_keys(Table<RopeModel>& table, bool breaking_load_requ
                   quantity(Dimension::time, Range::between(0, 1)), "5 ms",
                   "damping over stiffness (Kelvin-Voigt): the tension gains stiffness times this "
                   "time times the rate of stretching")
+      .optional("diameter", &RopeModel::diameter, quantity(Dimension::length, Range::positive()),
+                "of the rope, for bending and tolerances by a standard")
+      .optional("mass", &RopeModel::mass_per_length,
+                quantity(Dimension::mass_per_length, Range::positive()),
+                "per length; rigging weight where a case has a standard, the motion leaves it out")
+      .optional("material", &RopeModel::material, located(reference()),
+                "by which a standard has its material factor")
+      .optional("termination", &RopeModel::termination, located(reference()),
+                "of the ends, by which a standard has its termination factor")
       .place(&RopeModel::place);
   const Format<double> load = quantity(Dimension::load, Range::positive());
   if (breaking_load_required) {

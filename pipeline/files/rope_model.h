@@ -18,6 +18,11 @@ struct RopeModel {
   double axial_stiffness = nan;  ///< EA of all falls together, N
   double damping_time = nan;     ///< Kelvin-Voigt: damping over stiffness, s
   double breaking_load = nan;    ///< of all falls together, N
+  // What standards ask of a sling.
+  std::optional<double> diameter;                   ///< of a part, m
+  std::optional<double> mass_per_length;            ///< kg/m
+  std::optional<Located<std::string>> material;     ///< by which a standard has its factor
+  std::optional<Located<std::string>> termination;  ///< likewise
   Mark place;
 };
 

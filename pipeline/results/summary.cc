@@ -17,6 +17,7 @@
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/result_file.h"
+#include "pipeline/results/standard_summary.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -436,6 +437,7 @@ Json make_summary(const Assessment& assessment) {
                {"verdict_reasons", verdict_reasons(assessment.checks)},
                {"checks", Json::array()}};
   for (const Check& check : assessment.checks) summary["checks"].push_back(check_json(check));
+  if (assessment.standard) summary["standard"] = standard_json(*assessment.standard);
   const LiftRun* lift = assessment.lift ? &*assessment.lift : nullptr;
   if (lift) add_loads(assessment.lift_case, *lift, summary);
   if (assessment.lift_case.compare)

@@ -12,6 +12,7 @@ namespace {
 const char* const working_stress = "working-stress design: 0.9, 0.4, 0.6, 0.66, 0.75 of yield";
 const char* const dnv = "DNV 2.7-3 (2011), section 3.4";
 const char* const asme = "ASME BTH-1 (2014), section 3-3.3";
+const char* const eurocode = "EN 1993-1-8 (2005), 3.13";
 const char* const practice = "GL Noble Denton 0027/ND rev. 11.2 (2016)";
 
 PadeyeFormula at_most(const char* name, double demand, double limit, const char* unit,
@@ -83,6 +84,15 @@ void add_asme(const PadeyeFormulaInput& input, double force, std::vector<PadeyeF
 
 std::vector<PadeyeFormula> padeye_strength(const PadeyeFormulaInput& input,
                                            const Vector3& force_P) {
+  std::vector<PadeyeFormula> formulas;
+  for (const auto& family : {padeye_working_stress(input, force_P),
+                             padeye_dnv_2_7_3(input, force_P), padeye_asme_bth_1(input, force_P)})
+    formulas.insert(formulas.end(), family.begin(), family.end());
+  return formulas;
+}
+
+std::vector<PadeyeFormula> padeye_working_stress(const PadeyeFormulaInput& input,
+                                                 const Vector3& force_P) {
   const PadeyeGeometry& g = input.geometry;
   const double yield = input.material.yield_stress, force = force_P.norm();
   const double net = net_section(g);
@@ -101,10 +111,35 @@ std::vector<PadeyeFormula> padeye_strength(const PadeyeFormulaInput& input,
                                force * share / (throat * std::numbers::pi * g.cheek_radius),
                                0.4 * yield, "Pa", working_stress));
   }
-  formulas.push_back(at_most("bearing (Hertz)", hertz_stress(input, force), yield, "Pa", dnv));
-  formulas.push_back(at_most("tear-out", 2 * force / net, yield, "Pa", dnv));
-  if (input.tensile_strength) add_asme(input, force, formulas);
   return formulas;
+}
+
+std::vector<PadeyeFormula> padeye_dnv_2_7_3(const PadeyeFormulaInput& input,
+                                            const Vector3& force_P) {
+  const double yield = input.material.yield_stress, force = force_P.norm();
+  return {at_most("bearing (Hertz)", hertz_stress(input, force), yield, "Pa", dnv),
+          at_most("tear-out", 2 * force / net_section(input.geometry), yield, "Pa", dnv)};
+}
+
+std::vector<PadeyeFormula> padeye_asme_bth_1(const PadeyeFormulaInput& input,
+                                             const Vector3& force_P) {
+  std::vector<PadeyeFormula> formulas;
+  if (input.tensile_strength) add_asme(input, force_P.norm(), formulas);
+  return formulas;
+}
+
+std::vector<PadeyeFormula> padeye_en_1993_1_8(const PadeyeFormulaInput& input,
+                                              const Vector3& force_P) {
+  const PadeyeGeometry& g = input.geometry;
+  const double force = force_P.norm(), yield = input.material.yield_stress;
+  const double net = force / (2 * g.bearing_thickness() * yield);
+  double edge = std::numeric_limits<double>::infinity();
+  for (const Plates& plates : plates_of(g))
+    edge = std::min(edge, plates.radius - g.hole_diameter / 2);
+  const double bearing = 1.5 * g.bearing_thickness() * g.pin_diameter * yield;
+  return {at_least("pin plate: end distance", edge, net + 2 * g.hole_diameter / 3, eurocode),
+          at_least("pin plate: side distance", edge, net + g.hole_diameter / 3, eurocode),
+          at_most("pin plate: bearing", force, bearing, "N", eurocode)};
 }
 
 std::vector<PadeyeFormula> padeye_rules(const PadeyeFormulaInput& input) {

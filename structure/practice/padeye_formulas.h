@@ -5,6 +5,7 @@
 
 #include "structure/material.h"
 #include "structure/mesh/padeye/padeye_geometry.h"
+#include "structure/rigid_body.h"
 
 namespace blocklift::structure {
 
@@ -44,6 +45,23 @@ struct PadeyeFormula {
 ///   D_p < 0.94 D_H; tear-out 2 F / sum t (2 R - D_H); both against the yield stress;
 ///   ASME BTH-1 (3-3.3): see asme_pin_plate.
 std::vector<PadeyeFormula> padeye_strength(const PadeyeFormulaInput& input, const Vector3& force_P);
+
+/// The families of padeye_strength by themselves.
+std::vector<PadeyeFormula> padeye_working_stress(const PadeyeFormulaInput& input,
+                                                 const Vector3& force_P);
+std::vector<PadeyeFormula> padeye_dnv_2_7_3(const PadeyeFormulaInput& input,
+                                            const Vector3& force_P);
+/// Empty without the tensile strength of the plates.
+std::vector<PadeyeFormula> padeye_asme_bth_1(const PadeyeFormulaInput& input,
+                                             const Vector3& force_P);
+
+/// Plates of a connection made with a pin by EN 1993-1-8 (2005), 3.13, F a design load (all factors
+/// in it), the partial factor of resistance 1, plates sharing the load by their thickness:
+///   end distance   a = R - D_H/2 >= F / (2 T F_y) + 2/3 D_H   (table 3.9, type A),
+///   side distance  c = a         >= F / (2 T F_y) + 1/3 D_H,
+///   bearing        F <= 1.5 T D_p F_y                          (table 3.10).
+std::vector<PadeyeFormula> padeye_en_1993_1_8(const PadeyeFormulaInput& input,
+                                              const Vector3& force_P);
 
 /// Rules of practice for a padeye's measures (GL Noble Denton 0027/ND rev. 11.2, section 12): main
 /// plate's radius >= D_H; hole larger than the pin by 2 mm or 3 %, at most by 6 mm; cheek plate no

@@ -14,8 +14,8 @@ if (!browser) {
 }
 
 const sections = {
-  whole: ["lift", "periods", "histories", "loads", "stress", "structure", "checks", "accuracy", "method"],
-  loads: ["loads", "stress", "structure", "checks", "method"],
+  whole: ["lift", "periods", "histories", "loads", "stress", "structure", "standard", "checks", "accuracy", "method"],
+  loads: ["loads", "stress", "structure", "standard", "checks", "method"],
   motion: ["lift", "periods", "histories", "loads", "checks", "accuracy", "method"],
 };
 const expected = [">988<", "Decisive: ", "A sample &amp; nothing else"];
@@ -38,6 +38,9 @@ try {
     if (ids.includes("periods"))
       for (const text of ["block: pendulum along x", ">14.6<", "neutral: nothing brings it back"])
         if (!dom.includes(text)) complain(`"${text}" is not among the natural periods`);
+    if (ids.includes("standard"))
+      for (const text of ["Motion asks for more.", ">1.234<", "Rules 5.5", "0.987"])
+        if (!dom.includes(text)) complain(`"${text}" is not in the chain of the standard`);
     for (const text of expected) if (!dom.includes(text)) complain(`"${text}" is not on the page`);
     for (const line of (run.stderr ?? "").split("\n"))
       if (/CONSOLE/.test(line) && !/GPU stall|GL Driver Message/.test(line)) complain(line);

@@ -141,6 +141,44 @@ nlohmann::ordered_json structure_summary() {
       {"unknowns", 1234}, {"simultaneous", way}, {"per_rope_maxima", way}, {"yield_Pa", 3.55e8}};
 }
 
+nlohmann::ordered_json standard_summary() {
+  using json = nlohmann::ordered_json;
+  const json load{{"name", "largest load at rest"},
+                  {"kind", "load"},
+                  {"unit", "N"},
+                  {"standard", 4e5},
+                  {"simulated", 4e5},
+                  {"clause", "equilibria"},
+                  {"formula", "at 10 s"}};
+  const json factor{{"name", "dynamic amplification"},
+                    {"kind", "factor"},
+                    {"unit", "1"},
+                    {"standard", 1.05},
+                    {"simulated", 1.234},
+                    {"clause", "Rules 5.5"},
+                    {"formula", "onshore"}};
+  json chain{{"name", "sling R1"},
+             {"kind", "sling"},
+             {"unit", "N"},
+             {"standard", 4.2e5},
+             {"simulated", 4.936e5},
+             {"limit", 5e5},
+             {"simulated_limit", 5e5},
+             {"limit_text", "breaking load / 2.3"},
+             {"limit_clause", "Rules 7.3"},
+             {"standard_utilisation", 0.84},
+             {"simulated_utilisation", 0.9872},
+             {"pass", true}};
+  chain["steps"] = json::array({load, factor});
+  return {{"name", "Rules"},
+          {"title", "A sample of rules"},
+          {"edition", "first"},
+          {"source", "nowhere"},
+          {"notes", json::array({"Motion asks for more."})},
+          {"governing", "sling R1"},
+          {"chains", json::array({chain})}};
+}
+
 }  // namespace
 
 void write_sample_result(const std::filesystem::path& folder, const SampleParts& parts) {
@@ -177,6 +215,7 @@ void write_sample_result(const std::filesystem::path& folder, const SampleParts&
   if (parts.structure) {
     write_structure(writer);
     summary["structure"] = structure_summary();
+    summary["standard"] = standard_summary();
   }
   writer.finish();
   write_file(folder / layout::summary_file, summary.dump(1));

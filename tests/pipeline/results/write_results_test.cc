@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/assessment/assess.h"
+#include "pipeline/checks/standard_checks.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
 #include "pipeline/results/summary.h"
@@ -72,6 +73,58 @@ TEST(WriteResults, PutsEverythingIntoTheFolder) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"block-dynamic.vtu", "block-static.vtu", "lug-L1.vtu",
                                           "report.html", "results.h5", "summary.json"}));
+}
+
+/// Gives the assessment rules, while it lives.
+class WithRules {
+ public:
+  explicit WithRules(Assessment& assessment) : assessment_(assessment), checks_(assessment.checks) {
+    StandardInCase& standard = assessment.lift_case.standard.emplace();
+    Diagnostics diagnostics;
+    ModelLibrary library = ModelLibrary::of_installation();
+    for (const char* name : {"en-13001", "asme-bth-1-a"}) standard.rule_names.push_back({name, {}});
+    load_rules(standard, ".", library, diagnostics);
+    standard.hoisting_class = {"HC2", {}};
+    standard.length_tolerance = 0.0025;
+    check_by_standard(assessment);
+  }
+  ~WithRules() {
+    assessment_.lift_case.standard.reset();
+    assessment_.standard.reset();
+    assessment_.checks = checks_;
+  }
+  WithRules(const WithRules&) = delete;
+  WithRules& operator=(const WithRules&) = delete;
+
+ private:
+  Assessment& assessment_;
+  std::vector<Check> checks_;
+};
+
+TEST(WriteResults, HasTheCalculationWhereTheCaseNamesRules) {
+  const TemporaryFolder folder;
+  Assessment& assessment = small_assessment();
+  const std::size_t checks_before = assessment.checks.size();
+  const WithRules rules(assessment);
+  EXPECT_GT(assessment.checks.size(), checks_before);
+  write_results(assessment, "results");
+  const std::string calculation = test::text_of_file("results/calculation.md");
+  for (const char* text :
+       {"## Design basis", "## Weights", "## Rigging list", "| R1 | L1 |", "## Geometry",
+        "## Load cases", "1. carry", "## Utilisations", "### sling R4", "hook C1.left",
+        "EN 13001-2 4.2.2.2", "| prepared |", "hash of case and factors"})
+    EXPECT_NE(calculation.find(text), std::string::npos) << text;
+  const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
+  // What the two columns of a sling say of its motion is what the histories say.
+  for (const auto& rope : summary.at("ropes"))
+    for (const auto& chain : summary.at("standard").at("chains")) {
+      if (chain.at("name") != "sling " + rope.at("name").get<std::string>()) continue;
+      double product = 1;
+      for (const auto& step : chain.at("steps"))
+        if (step.at("name") == "dynamic amplification" || step.at("name") == "re-sharing in motion")
+          product *= step.at("simulated").get<double>();
+      EXPECT_NEAR(product, rope.at("dynamic_over_static").get<double>(), 1e-9);
+    }
 }
 
 TEST(WriteResults, LeavesNothingWhenItFails) {

@@ -131,7 +131,20 @@ export interface NaturalMode {
   elastic_share?: Maybe<number>; energy_share_by_body?: Record<string, number>;
 }
 export interface ModeShapes { time: number; bodies: Record<string, Packed> }
+export interface ChainStep {
+  name: string; kind: "load" | "factor" | "result" | "told"; unit: string; standard?: Maybe<number>; simulated?: Maybe<number>;
+  clause?: string; formula?: string;
+}
+export interface Chain {
+  name: string; kind: string; unit: string; standard?: Maybe<number>; simulated?: Maybe<number>;
+  limit?: Maybe<number>; simulated_limit?: Maybe<number>; limit_text?: string; limit_clause?: string;
+  standard_utilisation?: Maybe<number>; simulated_utilisation?: Maybe<number>; pass?: boolean; steps: ChainStep[];
+}
+export interface Standard {
+  name: string; title?: string; edition?: string; source?: string; notes?: string[]; governing?: string; chains: Chain[];
+}
 export interface Summary {
+  standard?: Maybe<Standard>;
   verdict?: string; verdict_reasons?: string[]; checks?: Check[];
   ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[]; loops?: LoadMaxima[];
   comparison?: Maybe<Comparison>; structure?: Maybe<Structure>;

@@ -11,6 +11,7 @@ import { loadsSection } from "./loads";
 import { modesSection, VibrationPlayer } from "./modes";
 import { padeyesSection } from "./padeyes";
 import { Section } from "./section";
+import { standardSection } from "./standard";
 import { stressSection } from "./stress";
 import { structureSection } from "./structure";
 
@@ -33,7 +34,8 @@ function show(): void {
   append(report, [verdictSection(data)]);
   const makers: (() => Section | null)[] = [
     () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock),
-    () => stressSection(data), () => structureSection(data), () => padeyesSection(data), () => checksSection(data),
+    () => stressSection(data), () => structureSection(data), () => padeyesSection(data),
+    () => standardSection(data), () => checksSection(data),
     () => accuracySection(data), () => methodSection(data),
   ];
   const links: Child[] = [h("a", { href: "#verdict" }, data.case.name || "Verdict")];

@@ -8,7 +8,7 @@ import { change, inReportUnit, kilonewtons, megapascals, millimetres, missing, r
 // What stands for the utilisation where nothing finite describes it: a rope that has gone slack.
 const beyondAnyLimit = 999;
 
-function bar(utilisation: unknown, pass: boolean): Child {
+export function bar(utilisation: unknown, pass: boolean): Child {
   if (!known(utilisation)) return missing;
   const full = 1.25;  // the bar ends at 125 %, so that an excess shows
   const width = Math.min(Math.max(utilisation, 0) / full, 1) * 100;
@@ -19,7 +19,7 @@ function bar(utilisation: unknown, pass: boolean): Child {
     h("span", { class: "value" }, utilisation < beyondAnyLimit ? share(utilisation) : "beyond any limit"));
 }
 
-function mark(pass: boolean): Child {
+export function mark(pass: boolean): Child {
   return h("span", { class: pass ? "mark pass" : "mark fail" }, pass ? "pass" : "fail");
 }
 

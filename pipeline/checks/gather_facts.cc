@@ -1,0 +1,275 @@
+#include "pipeline/checks/gather_facts.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "pipeline/checks/rigging_facts.h"
+#include "structure/response/flexibility.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Largest load of one thing, and how the whole load and its own share of it grew.
+/// @param total_at_rest, total_in_motion the whole load on the hooks at each sample.
+LoadFacts load_facts(const VectorXd& at_rest, const VectorXd& in_motion,
+                     const VectorXd& total_at_rest, const VectorXd& total_in_motion,
+                     const LiftRun& lift, Index& sample_at_rest) {
+  LoadFacts facts;
+  Index moving = 0;
+  facts.at_rest = at_rest.maxCoeff(&sample_at_rest);
+  facts.in_motion = in_motion.maxCoeff(&moving);
+  facts.time_at_rest = lift.static_history.time[sample_at_rest];
+  facts.time_in_motion = lift.dynamic_history().time[moving];
+  const double still = total_at_rest[sample_at_rest], now = total_in_motion[moving];
+  if (facts.at_rest > 0 && facts.in_motion > 0) {
+    // Where the load stands or floats no load hangs whose growth could be told.
+    facts.amplification = still > 0 && now > 0 ? now / still : 1;
+    facts.resharing = facts.in_motion / facts.at_rest / facts.amplification;
+  }
+  return facts;
+}
+
+/// Facts of a lift that was simulated.
+class LiftedFacts {
+ public:
+  LiftedFacts(const Assessment& assessment, LiftFacts& facts)
+      : case_(assessment.lift_case),
+        lift_(*assessment.lift),
+        facts_(facts),
+        rigging_(case_, lift_, compliance(assessment.block), lug_names(assessment.block)),
+        total_at_rest_(rigging_.hook_load(lift_.static_history)),
+        total_in_motion_(rigging_.hook_load(lift_.dynamic_history())) {}
+
+  void add() {
+    facts_.net_weight =
+        lift_.model.system.mechanism().body(lift_.model.load).inertia.mass * case_.gravity;
+    facts_.at_rest = total_at_rest_.maxCoeff();
+    facts_.in_motion = total_in_motion_.maxCoeff();
+    facts_.has_environment = lift_.model.calm.has_value();
+    add_slings();
+    for (std::size_t h = 0; h < lift_.model.hoists.size(); ++h) add_hook(h);
+    for (std::size_t c = 0; c < case_.cranes.size(); ++c) add_crane(c);
+  }
+
+ private:
+  // What a rigid block would hide: its own compliance shares skew loads out.
+  static Eigen::MatrixXd compliance(const BlockRun& block) {
+    if (!block.responses) return {};
+    return structure::find_lug_flexibility(*block.responses, 0).compliance;
+  }
+  static std::vector<std::string> lug_names(const BlockRun& block) {
+    std::vector<std::string> names;
+    if (block.model)
+      for (const structure::LiftingPoint& lug : block.model->mesh().lifting_points)
+        names.push_back(lug.name);
+    return names;
+  }
+
+  LoadFacts load_of(const VectorXd& at_rest, const VectorXd& in_motion, Index& sample) const {
+    return load_facts(at_rest, in_motion, total_at_rest_, total_in_motion_, lift_, sample);
+  }
+  LoadFacts load_of(int rope, Index& sample) const {
+    const auto i = static_cast<std::size_t>(rope);
+    return load_of(lift_.static_history.ropes[i].tension, lift_.dynamic_history().ropes[i].tension,
+                   sample);
+  }
+
+  void add_slings() {
+    std::map<std::string, int> on_hook;
+    for (const LiftRope& sling : rigging_.slings()) ++on_hook[sling.hoist];
+    for (std::size_t i = 0; i < rigging_.slings().size(); ++i) {
+      const LiftRope& rope = rigging_.slings()[i];
+      const RopeModel& model = case_.find_rope(rope.name)->rope;
+      SlingFacts sling;
+      sling.name = rope.name;
+      sling.lug = rope.lug;
+      sling.hook = rope.hoist;
+      Index sample = 0;
+      sling.load = load_of(rope.rope, sample);
+      sling.computed = rigging_.of_sling(i, sample);
+      sling.breaking_load = rope.breaking_load;
+      if (model.material) sling.material = model.material->value;
+      if (model.termination) sling.termination = model.termination->value;
+      sling.diameter = model.diameter;
+      sling.slings_on_hook = on_hook[rope.hoist];
+      const auto weight = rigging_.weight_of(i);
+      facts_.has_rigging_weight = facts_.has_rigging_weight && weight;
+      facts_.rigging += weight.value_or(0);
+      rigging_at_[rope.hoist] += weight.value_or(0);
+      facts_.slings.push_back(std::move(sling));
+    }
+  }
+
+  void add_hook(std::size_t index) {
+    const LiftHoist& hoist = lift_.model.hoists[index];
+    const CraneInCase& crane = case_.cranes[hoist.crane];
+    const HoistModel& model = *crane.model->find_hoist(hoist.name.substr(hoist.name.find('.') + 1));
+    HookFacts hook;
+    hook.name = hoist.name;
+    hook.crane = crane.name.value;
+    Index sample = 0;
+    hook.load = load_of(hoist.rope, sample);
+    hook.computed = rigging_.of_hook(index, sample);
+    hook.hook_block = model.hook_block.mass * case_.gravity;
+    hook.rigging = rigging_at_[hoist.name];
+    hook.hoisting_speed = model.winch.speed.value.value;
+    hook.capacity = hoist.capacity;
+    facts_.hooks.push_back(std::move(hook));
+  }
+
+  void add_crane(std::size_t index) {
+    CraneFacts crane;
+    crane.name = case_.cranes[index].name.value;
+    Index sample = 0;
+    crane.load = load_of(crane_load(lift_.model, lift_.static_history, index),
+                         crane_load(lift_.model, lift_.dynamic_history(), index), sample);
+    crane.computed = rigging_.of_crane(index, sample);
+    for (const HookFacts& hook : facts_.hooks) {
+      if (hook.crane != crane.name) continue;
+      crane.hook_blocks += hook.hook_block;
+      crane.rigging += hook.rigging;
+      crane.hoisting_speed = std::max(crane.hoisting_speed, hook.hoisting_speed);
+    }
+    crane.capacity = case_.cranes[index].model->capacity;
+    facts_.cranes.push_back(std::move(crane));
+  }
+
+  const LiftCase& case_;
+  const LiftRun& lift_;
+  LiftFacts& facts_;
+  RiggingFacts rigging_;
+  VectorXd total_at_rest_, total_in_motion_;
+  std::map<std::string, double> rigging_at_;  ///< by hook, N
+};
+
+/// Sums of a load table.
+void add_table(const Assessment& assessment, LiftFacts& facts) {
+  const auto& block = assessment.block.assessment.simultaneous;
+  const auto sum = [](const structure::LoadCase& load) {
+    structure::Vector3 total = structure::Vector3::Zero();
+    for (const auto& force : load.lug_forces_B) total += force;
+    return total.norm();
+  };
+  facts.net_weight = assessment.block.model->mass_properties().mass * assessment.lift_case.gravity;
+  facts.at_rest = sum(block.static_state.load);
+  facts.in_motion = sum(block.dynamic_state.load);
+}
+
+LugFacts lug_facts(const PadeyeAssessment& padeye, const LiftFacts& facts) {
+  LugFacts lug;
+  lug.name = padeye.lug;
+  lug.input = padeye.input;
+  const PadeyeState& at_rest = padeye.states.front();
+  const PadeyeState& in_motion = padeye.states[std::min<std::size_t>(1, padeye.states.size() - 1)];
+  lug.at_rest = at_rest.force_P;
+  lug.in_motion = in_motion.force_P;
+  for (const PadeyeState& state : padeye.states) {
+    const double share = std::abs(state.force_P.z()) / state.force_P.norm();
+    if (!(share > lug.lateral)) continue;
+    lug.lateral = share;
+    lug.lateral_time = state.time;
+  }
+  const auto sling = std::find_if(facts.slings.begin(), facts.slings.end(),
+                                  [&](const SlingFacts& one) { return one.lug == padeye.lug; });
+  if (sling != facts.slings.end()) {
+    lug.load = sling->load;
+    lug.computed = sling->computed;
+    lug.slings_on_hook = sling->slings_on_hook;
+    return lug;
+  }
+  lug.load.at_rest = lug.at_rest.norm();
+  lug.load.in_motion = lug.in_motion.norm();
+  lug.load.amplification = facts.in_motion / facts.at_rest;
+  lug.load.resharing = lug.load.in_motion / lug.load.at_rest / lug.load.amplification;
+  return lug;
+}
+
+/// A place with its stress at rest and in motion.
+struct StressOfPlace {
+  std::string name, part;
+  double at_rest = 0, in_motion = 0, yield = 0;
+};
+
+/// The most used group of each material, and the most used surroundings of a lug.
+void add_stresses(const std::vector<std::pair<std::string, StressOfPlace>>& groups,
+                  const std::vector<StressOfPlace>& lugs, LiftFacts& facts) {
+  const auto use = [](const StressFacts& s) { return std::max(s.at_rest, s.in_motion) / s.yield; };
+  std::map<std::string, StressFacts> by_material;
+  for (const auto& [material, place] : groups) {
+    const StressFacts one{material, false, place.at_rest, place.in_motion, place.yield};
+    const auto [known, is_new] = by_material.emplace(material, one);
+    if (!is_new && use(one) > use(known->second)) known->second = one;
+  }
+  for (auto& [material, stress] : by_material) facts.stresses.push_back(stress);
+  std::optional<StressFacts> worst;
+  for (const StressOfPlace& lug : lugs) {
+    StressFacts one{"about lug " + lug.name, true, lug.at_rest, lug.in_motion, 0};
+    // The part about the lug is one of a group's plates: "web_frames at x = 4 m".
+    std::size_t longest = 0;
+    for (const auto& [material, group] : groups) {
+      if (one.yield > 0 && (!lug.part.starts_with(group.name) || group.name.size() < longest))
+        continue;
+      one.yield = group.yield;
+      if (lug.part.starts_with(group.name)) longest = group.name.size();
+    }
+    if (one.yield > 0 && (!worst || use(one) > use(*worst))) worst = one;
+  }
+  if (worst) facts.stresses.push_back(*worst);
+}
+
+void add_structure(const BlockRun& block, LiftFacts& facts) {
+  std::vector<std::pair<std::string, StressOfPlace>> groups;
+  std::vector<StressOfPlace> lugs;
+  if (block.history) {
+    const HistoryState &still = block.history->static_state, &moving = block.history->dynamic_state;
+    for (std::size_t i = 0; i < moving.groups.size(); ++i)
+      groups.push_back({moving.groups[i].material,
+                        {moving.groups[i].name,
+                         {},
+                         still.groups[i].checked_von_mises.at.value,
+                         moving.groups[i].checked_von_mises.at.value,
+                         moving.groups[i].yield_stress}});
+    for (std::size_t i = 0; i < moving.lugs.size(); ++i)
+      lugs.push_back({moving.lugs[i].name, moving.lugs[i].checked_von_mises.at.part,
+                      still.lugs[i].checked_von_mises.at.value,
+                      moving.lugs[i].checked_von_mises.at.value, 0});
+  } else {
+    const auto &still = block.assessment.simultaneous.static_state.result,
+               &moving = block.assessment.simultaneous.dynamic_state.result;
+    for (std::size_t i = 0; i < moving.groups.size(); ++i)
+      groups.push_back({moving.groups[i].material,
+                        {moving.groups[i].group,
+                         {},
+                         still.groups[i].checked_von_mises.value,
+                         moving.groups[i].checked_von_mises.value,
+                         moving.groups[i].yield_stress}});
+    for (std::size_t i = 0; i < moving.lugs.size(); ++i)
+      lugs.push_back({moving.lugs[i].lug, moving.lugs[i].checked_von_mises.part,
+                      still.lugs[i].checked_von_mises.value, moving.lugs[i].checked_von_mises.value,
+                      0});
+  }
+  add_stresses(groups, lugs, facts);
+}
+
+}  // namespace
+
+LiftFacts gather_facts(const Assessment& assessment) {
+  LiftFacts facts;
+  facts.yield_factor = assessment.lift_case.checks.yield_factor;
+  facts.lateral = assessment.lift_case.checks.lug_side_load;
+  if (assessment.lift)
+    LiftedFacts(assessment, facts).add();
+  else
+    add_table(assessment, facts);
+  for (const PadeyeAssessment& padeye : assessment.block.padeyes.padeyes)
+    facts.lugs.push_back(lug_facts(padeye, facts));
+  if (assessment.block.model) add_structure(assessment.block, facts);
+  return facts;
+}
+
+}  // namespace blocklift::pipeline

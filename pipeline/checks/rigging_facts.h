@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/files/lift_case.h"
+#include "pipeline/lift/lift_run.h"
+#include "pipeline/standards/lift_facts.h"
+#include "pipeline/standards/rigging_balance.h"
+
+namespace blocklift::pipeline {
+
+/// The rigging of a lift at samples of its history at rest: what standards ask to be computed.
+class RiggingFacts {
+ public:
+  /// @param compliance of the block at its lugs, 3 rows a lug in the order of `lugs`, m/N; empty: the
+  ///   load is rigid.
+  RiggingFacts(const LiftCase& lift_case, const LiftRun& lift, Eigen::MatrixXd compliance,
+               std::vector<std::string> lugs);
+
+  /// Ropes of the case that end at a lug.
+  const std::vector<LiftRope>& slings() const { return slings_; }
+  /// The name of a sling's hook; empty if it begins elsewhere.
+  const std::string& hook_of(std::size_t sling) const { return slings_[sling].hoist; }
+  /// Vertical part of all slings' forces on the load, at each sample, N.
+  Eigen::VectorXd hook_load(const dynamics::History& history) const;
+  /// Weight of a sling by its model's mass, N; none without.
+  std::optional<double> weight_of(std::size_t sling) const;
+
+  /// Factors at a sample at rest, for slings and for hooks.
+  ComputedFactors of_sling(std::size_t sling, Eigen::Index sample) const;
+  ComputedFactors of_hook(std::size_t hoist, Eigen::Index sample) const;
+  ComputedFactors of_crane(std::size_t crane, Eigen::Index sample) const;
+
+ private:
+  struct State;
+  const State& at(Eigen::Index sample) const;
+  std::optional<TwoHooks> two_hooks(const std::string& hook, Eigen::Index sample) const;
+  std::string crane_of(const std::string& hook) const { return hook.substr(0, hook.find('.')); }
+
+  const LiftCase& case_;
+  const LiftRun& lift_;
+  Eigen::MatrixXd compliance_;
+  std::vector<std::string> lugs_;
+  std::vector<LiftRope> slings_;
+  Eigen::Vector3d p_BoBcm_;
+  double weight_ = 0;  ///< of the load, N
+  mutable std::vector<std::pair<Eigen::Index, std::shared_ptr<const State>>> states_;
+};
+
+}  // namespace blocklift::pipeline

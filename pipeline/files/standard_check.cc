@@ -1,0 +1,131 @@
+#include "pipeline/files/standard_check.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace blocklift::pipeline {
+namespace {
+
+/// Looks at the choices of one case.
+class StandardCheck {
+ public:
+  StandardCheck(const LiftCase& lift_case, Diagnostics& diagnostics)
+      : case_(lift_case),
+        standard_(*lift_case.standard),
+        rules_(lift_case.standard->rules),
+        diagnostics_(diagnostics) {}
+
+  /// @param needed where the rules have that section, the case must choose.
+  template <class T>
+  void choice(const char* key, const char* noun, const std::optional<Located<std::string>>& chosen,
+              const std::vector<T>& section, bool needed) {
+    if (!chosen) {
+      if (!needed || section.empty()) return;
+      diagnostics_.error(
+          standard_.place,
+          fmt::format("the rules {} need a {}, and the case gives none", rules_.name, noun),
+          {fmt::format("add {}: one of {}", key, list_of_names(names_of(section)))});
+      return;
+    }
+    if (section.empty()) {
+      diagnostics_.error(chosen->mark, fmt::format("the rules {} know no {}", rules_.name, noun),
+                         {fmt::format("leave {} out", key)});
+      return;
+    }
+    exists(*chosen, section, fmt::format("the rules {} have no {}", rules_.name, noun));
+  }
+
+  template <class T>
+  void exists(const Located<std::string>& chosen, const std::vector<T>& section,
+              const std::string& complaint) {
+    if (chosen.value.empty() || find_by_name(section, chosen.value)) return;
+    diagnostics_.error(chosen.mark, fmt::format("{} \"{}\"", complaint, chosen.value),
+                       {names_hint("they have", names_of(section), chosen.value)});
+  }
+
+  void sling(const RopeInCase& rope) {
+    const auto lacks = [&](const char* key, const char* why) {
+      diagnostics_.error(
+          rope.name.mark,
+          fmt::format("the model of rope {} has no {}, which {}", rope.name.value, key, why),
+          {fmt::format("add {} to the rope's model", key)});
+    };
+    if (rules_.sling) {
+      const std::string why = fmt::format("the rules {} need for slings", rules_.name);
+      if (!rope.rope.material)
+        lacks("material", why.c_str());
+      else
+        exists(*rope.rope.material, rules_.sling->material,
+               fmt::format("the rules {} have no material", rules_.name));
+      if (!rope.rope.termination)
+        lacks("termination", why.c_str());
+      else
+        exists(*rope.rope.termination, rules_.sling->termination,
+               fmt::format("the rules {} have no termination", rules_.name));
+    }
+    if (!standard_.bend_diameter) return;
+    if (!rope.rope.diameter) {
+      lacks("diameter", "the bend diameter is held against");
+    } else if (*standard_.bend_diameter < *rope.rope.diameter) {
+      diagnostics_.error(standard_.place,
+                         fmt::format("rope {} of {} is bent round {}", rope.name.value,
+                                     format_quantity(*rope.rope.diameter, Dimension::length),
+                                     format_quantity(*standard_.bend_diameter, Dimension::length)),
+                         {"a sling is not bent round less than its own diameter"});
+    }
+  }
+
+  void shackles() {
+    std::vector<std::string> lugs = names_of(case_.load.lugs);
+    if (case_.load.model) lugs = case_.load.model->lug_names();
+    for (const ShackleInCase& shackle : standard_.shackles) {
+      if (!rules_.shackle) {
+        diagnostics_.error(shackle.name.mark,
+                           fmt::format("the rules {} say nothing of shackles", rules_.name),
+                           {"leave shackles out, or add a standard that has them to rules"});
+        return;
+      }
+      if (std::find(lugs.begin(), lugs.end(), shackle.name.value) == lugs.end())
+        diagnostics_.error(shackle.name.mark,
+                           fmt::format("a shackle is at lug \"{}\", which the load does not have",
+                                       shackle.name.value),
+                           {names_hint("its lugs are", lugs, shackle.name.value)});
+      if (shackle.breaking_load < shackle.working_load)
+        diagnostics_.error(
+            shackle.name.mark,
+            fmt::format("the shackle at lug {} breaks below its working load", shackle.name.value));
+    }
+  }
+
+ private:
+  const LiftCase& case_;
+  const StandardInCase& standard_;
+  const StandardRules& rules_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void check_standard(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  // Rules that could not be read have been complained about.
+  if (!lift_case.standard || lift_case.standard->rules.name.empty()) return;
+  const StandardInCase& standard = *lift_case.standard;
+  const StandardRules& rules = standard.rules;
+  StandardCheck check(lift_case, diagnostics);
+  const bool moves = !lift_case.load_table;
+  check.choice("weight_class", "weight class", standard.weight_class, rules.weight_classes, true);
+  check.choice("setting", "setting", standard.setting, rules.dynamic_amplification, true);
+  check.choice("hoisting_class", "hoisting class", standard.hoisting_class, rules.hoisting_classes,
+               moves);
+  check.choice("skew", "skew", standard.skew, rules.skew, true);
+  check.choice("tilt", "tilt", standard.tilt, rules.tilt, lift_case.cranes.size() > 1);
+  std::vector<NamedFactor> wear;
+  if (rules.sling) wear = rules.sling->wear;
+  check.choice("wear", "wear", standard.wear, wear, moves);
+  for (const RopeInCase& rope : lift_case.ropes)
+    if (!rope.lug().empty()) check.sling(rope);
+  check.shackles();
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/standards/two_hooks.h"
+#include "structure/practice/padeye_formulas.h"
+
+namespace blocklift::pipeline {
+
+/// The largest load of one thing of the lift, at rest and in motion, N, and how the one became the
+/// other: in_motion = at_rest x amplification x resharing.
+struct LoadFacts {
+  double at_rest = 0, in_motion = 0;
+  double time_at_rest = 0, time_in_motion = 0;  ///< s
+  /// The whole load on the hooks at the instant of in_motion over that at the instant of at_rest.
+  double amplification = 1;
+  double resharing = 1;  ///< this thing's share of it, likewise
+
+  /// Share of the increase that is re-sharing: ln(resharing) / ln(in_motion / at_rest); none where
+  /// there is no increase.
+  std::optional<double> share_of_resharing() const;
+};
+
+/// What may only be computed where the rigging is known.
+struct ComputedFactors {
+  std::optional<double> skew;        ///< by all sets of the slings' length tolerances
+  std::optional<double> centre_box;  ///< by the centre of mass at the worst corner of its box
+  std::optional<TwoHooks>
+      two_hooks;  ///< where the lift hangs from two, at the largest load at rest
+};
+
+/// Sling, or another rope that ends at a lug.
+struct SlingFacts {
+  std::string name, lug, hook;
+  LoadFacts load;
+  ComputedFactors computed;
+  double breaking_load = 0;  ///< N
+  std::optional<std::string> material, termination;
+  std::optional<double> diameter;  ///< m
+  int slings_on_hook = 1;
+};
+
+/// Hoist with its hook block.
+struct HookFacts {
+  std::string name, crane;
+  LoadFacts load;  ///< of the tackle: hook block and what hangs on it
+  ComputedFactors computed;
+  double hook_block = 0;      ///< weight, N
+  double rigging = 0;         ///< weight of its slings, which the motion leaves out, N
+  double hoisting_speed = 0;  ///< that the winch may have, m/s
+  double capacity = 0;        ///< N
+};
+
+/// Crane: all its hoists together.
+struct CraneFacts {
+  std::string name;
+  LoadFacts load;
+  ComputedFactors computed;
+  double hook_blocks = 0, rigging = 0;  ///< weights, N
+  double hoisting_speed = 0;            ///< of its fastest hoist, m/s
+  std::optional<double> capacity;       ///< N
+};
+
+/// Lug that is made as a padeye.
+struct LugFacts {
+  std::string name;
+  LoadFacts load;  ///< of the rope at it
+  ComputedFactors computed;
+  int slings_on_hook = 1;
+  structure::PadeyeFormulaInput input;
+  structure::Vector3 at_rest = structure::Vector3::Zero();    ///< largest force in P, N
+  structure::Vector3 in_motion = structure::Vector3::Zero();  ///< likewise
+  double lateral = 0;  ///< largest force along the pin over the force, of all instants
+  std::optional<double> lateral_time;  ///< s
+};
+
+/// Checked stress of the structure.
+struct StressFacts {
+  std::string name;                   ///< material, or lug
+  bool is_at_lug = false;             ///< of members that frame into a lift point
+  double at_rest = 0, in_motion = 0;  ///< Pa
+  double yield = 0;                   ///< Pa
+};
+
+/// What a run knows that standards ask for. SI units.
+struct LiftFacts {
+  double net_weight = 0;           ///< N
+  double rigging = 0;              ///< of all slings, N
+  bool has_rigging_weight = true;  ///< every sling's model gives its mass
+  double at_rest = 0;              ///< largest load on all hooks together, hook blocks apart, N
+  double in_motion = 0;            ///< likewise
+  bool has_environment = false;    ///< waves or gusts, whose share of loads may reduce factors
+  double yield_factor = 1;
+  double lateral = 0;  ///< that the case takes along a lug's pin, share of the force
+  std::vector<SlingFacts> slings;
+  std::vector<HookFacts> hooks;
+  std::vector<CraneFacts> cranes;
+  std::vector<LugFacts> lugs;
+  std::vector<StressFacts> stresses;
+};
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,161 @@
+#include "pipeline/standards/load_factors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace blocklift::pipeline {
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+}  // namespace
+
+std::string load_text(double newtons) {
+  return fmt::format("{:.1f} kN, {:.2f} t", newtons / 1e3, newtons / newton_per_tonne);
+}
+
+std::optional<double> LoadFacts::share_of_resharing() const {
+  if (!(at_rest > 0) || !(in_motion > at_rest) || !(resharing > 0)) return {};
+  return std::log(resharing) / std::log(in_motion / at_rest);
+}
+
+LoadFactors::LoadFactors(const StandardInCase& standard, const LiftFacts& facts)
+    : standard_(standard), facts_(facts) {}
+
+const NamedFactor* LoadFactors::contingency() const {
+  if (!standard_.weight_class) return nullptr;
+  return find_by_name(rules().weight_classes, standard_.weight_class->value);
+}
+
+const HoistingClass* LoadFactors::hoisting_class() const {
+  if (!standard_.hoisting_class) return nullptr;
+  return find_by_name(rules().hoisting_classes, standard_.hoisting_class->value);
+}
+
+const AmplificationRow* LoadFactors::amplification_row() const {
+  if (!standard_.setting) return nullptr;
+  const auto* table = find_by_name(rules().dynamic_amplification, standard_.setting->value);
+  return table ? &table->row_of(static_hook_load()) : nullptr;
+}
+
+double LoadFactors::static_hook_load() const {
+  const NamedFactor* factor = contingency();
+  return facts_.net_weight * (factor ? factor->value : 1) + facts_.rigging;
+}
+
+double LoadFactors::hoisting_speed() const {
+  double speed = 0;
+  for (const HookFacts& hook : facts_.hooks) speed = std::max(speed, hook.hoisting_speed);
+  return speed;
+}
+
+double LoadFactors::amplification(double hoisting_speed) const {
+  if (const AmplificationRow* row = amplification_row()) return row->at(static_hook_load());
+  const HoistingClass* hoisting = hoisting_class();
+  return hoisting ? hoisting->at(hoisting_speed) : 1;
+}
+
+void LoadFactors::add_contingency(ChainBuilder& chain) const {
+  const NamedFactor* factor = contingency();
+  if (!factor) return;
+  chain.times("weight contingency", factor->value, factor->value, factor->clause,
+              "weight class " + standard_.weight_class->value);
+}
+
+void LoadFactors::add_centre(ChainBuilder& chain, const ComputedFactors& computed) const {
+  if (standard_.centre_box) {
+    const Vector3& box = *standard_.centre_box;
+    chain.times(
+        "centre of mass", computed.centre_box, computed.centre_box, "standard.centre_box",
+        fmt::format("at the worst corner of +-({:g}, {:g}, {:g}) m", box.x(), box.y(), box.z()));
+  } else if (const auto& factor = rules().centre_of_mass) {
+    chain.times("centre of mass", factor->value, factor->value, factor->clause,
+                "no box of the centre is given");
+  }
+}
+
+void LoadFactors::add_amplification(ChainBuilder& chain, std::optional<double> simulated,
+                                    double hoisting_speed) const {
+  const char* name = "dynamic amplification";
+  if (const AmplificationRow* row = amplification_row()) {
+    const double load = static_hook_load();
+    chain.times(name, row->at(load), simulated, row->clause,
+                fmt::format("{}, static hook load {:.1f} t", standard_.setting->value,
+                            load / newton_per_tonne));
+  } else if (const HoistingClass* hoisting = hoisting_class()) {
+    chain.times(name, hoisting->at(hoisting_speed), simulated, hoisting->clause,
+                fmt::format("{}: {:g} + {:g} x {:.3f} m/s", hoisting->name.value, hoisting->least,
+                            hoisting->per_speed, hoisting_speed));
+  } else {
+    chain.times(name, {}, simulated, "", "the rules have none");
+  }
+}
+
+void LoadFactors::add_resharing(ChainBuilder& chain, const LoadFacts& load) {
+  const auto share = load.share_of_resharing();
+  chain.times("re-sharing in motion", {}, load.resharing, "simulation",
+              share ? fmt::format("{:.0f} % of the increase by motion", 100 * *share)
+                    : "no increase by motion");
+}
+
+void LoadFactors::add_tilt(ChainBuilder& chain, const ComputedFactors& computed) const {
+  if (!standard_.tilt) return;
+  const TiltRule& rule = *find_by_name(rules().tilt, standard_.tilt->value);
+  if (!computed.two_hooks) {
+    chain.times("tilt", {}, {}, rule.clause,
+                "not worked: the formula is for a load on two hooks or two cranes");
+    return;
+  }
+  const TwoHooks& hooks = *computed.two_hooks;
+  const double span = std::hypot(hooks.span(), hooks.height - hooks.other_height);
+  double angle = rule.angle;
+  if (rule.height && *rule.height < span) angle = std::max(angle, std::asin(*rule.height / span));
+  chain.times("tilt", tilt_factor(hooks, angle), {}, rule.clause,
+              fmt::format("{:.2f} degrees; lift points {:.2f} and {:.2f} m from the centre, {:.2f} "
+                          "and {:.2f} m above it",
+                          angle / degree, hooks.along, hooks.other_along, hooks.height,
+                          hooks.other_height));
+}
+
+void LoadFactors::add_yaw(ChainBuilder& chain, int slings_on_hook) const {
+  if (!rules().yaw || !standard_.tilt) return;
+  const bool several = slings_on_hook > 1;
+  chain.times("yaw", several ? std::optional(rules().yaw->value) : std::nullopt, {},
+              rules().yaw->clause,
+              several ? fmt::format("{} slings on the hook", slings_on_hook)
+                      : "one sling on the hook: it does not apply");
+}
+
+void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed) const {
+  const NamedFactor* factor =
+      standard_.skew ? find_by_name(rules().skew, standard_.skew->value) : nullptr;
+  const std::optional<double> by_rules = factor ? std::optional(factor->value) : std::nullopt;
+  if (!factor && !computed.skew) return;
+  chain.times("skew of sling lengths", by_rules, computed.skew ? computed.skew : by_rules,
+              factor ? factor->clause : "",
+              computed.skew ? "computed by re-sharing for all sets of length tolerances"
+                            : standard_.skew->value + "; no tolerance of lengths is given");
+}
+
+void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
+                          const ComputedFactors& computed, int slings_on_hook,
+                          bool in_motion) const {
+  chain.add("largest load at rest", load.at_rest, "equilibria of the operation",
+            fmt::format("at {:.1f} s; in motion {} at {:.1f} s", load.time_at_rest,
+                        load_text(load.in_motion), load.time_in_motion));
+  add_contingency(chain);
+  add_centre(chain, computed);
+  if (in_motion) {
+    add_amplification(chain, load.amplification, hoisting_speed());
+    add_resharing(chain, load);
+  }
+  add_tilt(chain, computed);
+  add_yaw(chain, slings_on_hook);
+  add_skew(chain, computed);
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "pipeline/files/standard_in_case.h"
+#include "pipeline/standards/chain.h"
+#include "pipeline/standards/lift_facts.h"
+
+namespace blocklift::pipeline {
+
+/// The factors on loads that hooks, slings, lugs and cranes have in common, as steps of a chain.
+class LoadFactors {
+ public:
+  LoadFactors(const StandardInCase& standard, const LiftFacts& facts);
+
+  void add_contingency(ChainBuilder& chain) const;
+  /// By the box of the centre where the case has one, else by the rules' factor.
+  void add_centre(ChainBuilder& chain, const ComputedFactors& computed) const;
+  /// @param simulated how the whole load on the hooks grew by the motion.
+  void add_amplification(ChainBuilder& chain, std::optional<double> simulated,
+                         double hoisting_speed) const;
+  /// Of the thing's own share in motion: the simulation alone has it.
+  static void add_resharing(ChainBuilder& chain, const LoadFacts& load);
+  void add_tilt(ChainBuilder& chain, const ComputedFactors& computed) const;
+  void add_yaw(ChainBuilder& chain, int slings_on_hook) const;
+  void add_skew(ChainBuilder& chain, const ComputedFactors& computed) const;
+
+  /// All of them on the load of a sling, a shackle or a lug.
+  /// @param in_motion false: without amplification, for what is held against the static load.
+  void add_all(ChainBuilder& chain, const LoadFacts& load, const ComputedFactors& computed,
+               int slings_on_hook, bool in_motion = true) const;
+
+  /// Amplification of the rules; 1 without. @param hoisting_speed where it depends on that, m/s.
+  double amplification(double hoisting_speed) const;
+  /// Weight with contingency, and rigging, N.
+  double static_hook_load() const;
+  /// Fastest of the hoists, m/s.
+  double hoisting_speed() const;
+
+  const StandardInCase& standard() const { return standard_; }
+  const StandardRules& rules() const { return standard_.rules; }
+  const LiftFacts& facts() const { return facts_; }
+  const HoistingClass* hoisting_class() const;
+
+ private:
+  const NamedFactor* contingency() const;
+  const AmplificationRow* amplification_row() const;
+
+  const StandardInCase& standard_;
+  const LiftFacts& facts_;
+};
+
+/// "1,969 kN (200.7 t)".
+std::string load_text(double newtons);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,133 @@
+#include "pipeline/standards/rigging_balance.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Dense>
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+Matrix3d cross_matrix(const Vector3d& v) {
+  Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// Displacement of a rope's end by x = (turn and shift of the load, shifts of the hooks), 3 x size.
+MatrixXd displacement_of(const RiggingEnd& end, Eigen::Index size) {
+  MatrixXd d = MatrixXd::Zero(3, size);
+  switch (end.kind) {
+    case RiggingEnd::Kind::fixed:
+      break;
+    case RiggingEnd::Kind::hook:
+      d.middleCols<3>(6 + 3 * end.hook).setIdentity();
+      break;
+    case RiggingEnd::Kind::load:
+      d.leftCols<3>() = -cross_matrix(end.r_W);
+      d.middleCols<3>(3).setIdentity();
+      break;
+  }
+  return d;
+}
+
+/// What a pull T along u at an arm r turns with: the second order of -u . (turn x (turn x r)) / 2.
+void add_arm(const RiggingEnd& end, const Vector3d& u, double tension, MatrixXd& stiffness) {
+  if (end.kind != RiggingEnd::Kind::load) return;
+  const Matrix3d ur = u * end.r_W.transpose();
+  stiffness.topLeftCorner<3, 3>() +=
+      tension * (u.dot(end.r_W) * Matrix3d::Identity() - (ur + ur.transpose()) / 2);
+}
+
+}  // namespace
+
+RiggingBalance::RiggingBalance(std::vector<RiggingRope> ropes, int hooks,
+                               Eigen::MatrixXd load_compliance)
+    : ropes_(std::move(ropes)), compliance_(std::move(load_compliance)) {
+  const auto count = static_cast<Eigen::Index>(ropes_.size());
+  elongation_ = MatrixXd::Zero(count, 6 + 3 * hooks);
+  if (compliance_.size() == 0) compliance_ = MatrixXd::Zero(count, count);
+  tension_.resize(count);
+  for (std::size_t i = 0; i < ropes_.size(); ++i) add_rope(i);
+}
+
+void RiggingBalance::add_rope(std::size_t rope) {
+  const RiggingRope& r = ropes_[rope];
+  const auto row = static_cast<Eigen::Index>(rope);
+  const Eigen::Index size = elongation_.cols();
+  const MatrixXd apart = displacement_of(r.upper, size) - displacement_of(r.lower, size);
+  const Vector3d& u = r.direction_W;
+  elongation_.row(row) = u.transpose() * apart;
+  compliance_(row, row) += r.compliance;
+  tension_[row] = r.tension;
+  MatrixXd turning =
+      r.tension / r.length * apart.transpose() * (Matrix3d::Identity() - u * u.transpose()) * apart;
+  add_arm(r.lower, u, r.tension, turning);
+  add_arm(r.upper, -u, r.tension, turning);
+  turning_.push_back(std::move(turning));
+}
+
+Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& force) const {
+  MatrixXd turning = MatrixXd::Zero(elongation_.cols(), elongation_.cols());
+  for (const MatrixXd& one : turning_) turning += one;
+  std::vector<Eigen::Index> taut;
+  VectorXd slackened = force;  // what ropes that are taken off no longer hold
+  for (Eigen::Index i = 0; i < tension_.size(); ++i)
+    if (tension_[i] > 0) taut.push_back(i);
+  VectorXd result = VectorXd::Zero(tension_.size());
+  while (!taut.empty()) {
+    const MatrixXd B = elongation_(taut, Eigen::all);
+    const MatrixXd stiffness_of_ropes = compliance_(taut, taut).inverse();
+    const VectorXd e = errors(taut);
+    const MatrixXd K = B.transpose() * stiffness_of_ropes * B + turning;
+    // What turns freely (a load about the plumb line of its one hook) stays where it is.
+    const VectorXd x = Eigen::CompleteOrthogonalDecomposition<MatrixXd>(K).solve(
+        slackened + B.transpose() * stiffness_of_ropes * e);
+    const VectorXd tension = tension_(taut) + stiffness_of_ropes * (B * x - e);
+    Eigen::Index lowest = 0;
+    if (tension.minCoeff(&lowest) >= 0) {
+      for (std::size_t i = 0; i < taut.size(); ++i)
+        result[taut[i]] = tension[static_cast<Eigen::Index>(i)];
+      return result;
+    }
+    const Eigen::Index off = taut[static_cast<std::size_t>(lowest)];
+    slackened += elongation_.row(off).transpose() * tension_[off];
+    turning -= turning_[static_cast<std::size_t>(off)];
+    taut.erase(taut.begin() + lowest);
+  }
+  return result;
+}
+
+Eigen::VectorXd RiggingBalance::with_length_errors(const VectorXd& errors) const {
+  return solve(errors, VectorXd::Zero(elongation_.cols()));
+}
+
+Eigen::VectorXd RiggingBalance::with_moment(const Vector3d& moment_W) const {
+  VectorXd force = VectorXd::Zero(elongation_.cols());
+  force.head<3>() = moment_W;
+  return solve(VectorXd::Zero(tension_.size()), force);
+}
+
+Eigen::VectorXd RiggingBalance::largest_by_tolerance(const VectorXd& tolerance) const {
+  std::vector<Eigen::Index> inexact;
+  for (Eigen::Index i = 0; i < tolerance.size(); ++i)
+    if (tolerance[i] > 0) inexact.push_back(i);
+  if (inexact.size() > most_toleranced)
+    throw std::invalid_argument("too many ropes for every set of their tolerances");
+  VectorXd largest = tension_;
+  for (unsigned set = 0; set < 1U << inexact.size(); ++set) {
+    VectorXd errors = VectorXd::Zero(tolerance.size());
+    for (std::size_t i = 0; i < inexact.size(); ++i)
+      errors[inexact[i]] = (set >> i & 1U) != 0 ? tolerance[inexact[i]] : -tolerance[inexact[i]];
+    largest = largest.cwiseMax(with_length_errors(errors));
+  }
+  return largest;
+}
+
+}  // namespace blocklift::pipeline

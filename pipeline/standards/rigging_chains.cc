@@ -1,0 +1,185 @@
+#include "pipeline/standards/rigging_chains.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "pipeline/standards/sling_factor.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// What hangs on a hook or a crane, up to its dynamic load.
+void add_hook_load(ChainBuilder& chain, const LoadFactors& factors, const LoadFacts& load,
+                   const ComputedFactors& computed, double hook_blocks, double rigging,
+                   double hoisting_speed) {
+  chain.add("largest load below the hook at rest", std::max(0.0, load.at_rest - hook_blocks),
+            "equilibria of the operation",
+            fmt::format("at {:.1f} s; with the hook block {}", load.time_at_rest,
+                        load_text(load.at_rest)));
+  factors.add_contingency(chain);
+  factors.add_centre(chain, computed);
+  factors.add_tilt(chain, computed);
+  chain.add("rigging weight", rigging, "mass of the slings' models");
+  chain.add("hook block", hook_blocks, "crane's model");
+  chain.result("static hook load");
+  factors.add_amplification(chain, load.amplification, hoisting_speed);
+  LoadFactors::add_resharing(chain, load);
+  chain.result("dynamic hook load");
+}
+
+/// The hoisting factor where the amplification is another's.
+void tell_hoisting(ChainBuilder& chain, const LoadFactors& factors, double speed,
+                   const LoadFacts& load) {
+  const HoistingClass* hoisting = factors.hoisting_class();
+  if (!hoisting || !factors.standard().setting) return;
+  ChainStep step;
+  step.name = "hoisting factor, for comparison";
+  step.standard = hoisting->at(speed);
+  step.simulated = load.at_rest > 0 ? load.in_motion / load.at_rest : 1;
+  step.clause = hoisting->clause;
+  step.formula = fmt::format("{}: {:g} + {:g} x {:.3f} m/s", hoisting->name.value, hoisting->least,
+                             hoisting->per_speed, speed);
+  chain.tell(std::move(step));
+}
+
+void tell_part(ChainBuilder& chain, const std::string& name, double standard, double simulated,
+               const std::string& clause, std::string formula = {}) {
+  ChainStep step;
+  step.name = name;
+  step.standard = standard;
+  step.simulated = simulated;
+  step.clause = clause;
+  step.formula = std::move(formula);
+  chain.tell(std::move(step));
+}
+
+const std::string& clause_named(const std::vector<NamedFactor>& factors, const std::string& name) {
+  return find_by_name(factors, name)->clause;
+}
+
+/// Parts of a sling's safety factor, and the breaking load over it as the limit.
+void add_sling_limit(ChainBuilder& chain, const LoadFactors& factors, const SlingFacts& sling) {
+  const SlingRules& rules = *factors.rules().sling;
+  SlingChoice choice{*sling.material, factors.standard().wear->value, *sling.termination, {}, 0};
+  const auto& bend = factors.standard().bend_diameter;
+  if (bend && sling.diameter) choice.diameter_ratio = *bend / *sling.diameter;
+  const SlingFactor standard = sling_factor(rules, choice);
+  if (factors.facts().has_environment && sling.load.in_motion > 0)
+    choice.environment_share = std::max(0.0, 1 - sling.load.at_rest / sling.load.in_motion);
+  const SlingFactor simulated = sling_factor(rules, choice);
+  tell_part(chain, "safety factor: load", standard.load, simulated.load, rules.load.clause,
+            rules.environment && choice.environment_share > 0
+                ? fmt::format("E/T {:.3f}, {}", choice.environment_share, rules.environment->clause)
+                : "");
+  tell_part(chain, "safety factor: consequence", standard.consequence, simulated.consequence,
+            rules.consequence.clause);
+  tell_part(chain, "safety factor: material", standard.material, simulated.material,
+            clause_named(rules.material, choice.material), choice.material);
+  tell_part(chain, "safety factor: wear", standard.wear, simulated.wear,
+            clause_named(rules.wear, choice.wear), choice.wear);
+  tell_part(chain, "safety factor: reduction", standard.reduction, simulated.reduction,
+            standard.bending > standard.termination
+                ? rules.bending.clause
+                : clause_named(rules.termination, choice.termination),
+            standard.bending > standard.termination
+                ? fmt::format("bent round D/d {:.2f}", *choice.diameter_ratio)
+                : choice.termination);
+  tell_part(chain, "safety factor by its parts", standard.by_parts, simulated.by_parts,
+            rules.floor.clause);
+  tell_part(chain, "safety factor by its floor", standard.by_floor, simulated.by_floor,
+            rules.floor.clause,
+            standard.is_by_floor() ? "it governs: a dynamic analysis gains nothing" : "");
+  chain.limit(
+      sling.breaking_load / standard.factor,
+      fmt::format("breaking load {} / {:.3f}", load_text(sling.breaking_load), standard.factor),
+      rules.floor.clause, sling.breaking_load / simulated.factor);
+}
+
+}  // namespace
+
+Chain lift_chain(const LoadFactors& factors) {
+  const LiftFacts& facts = factors.facts();
+  ChainBuilder chain("lift", "as a whole");
+  chain.add("net weight", facts.net_weight, "load's model");
+  factors.add_contingency(chain);
+  chain.result("design weight");
+  chain.add("rigging weight", facts.rigging, "mass of the slings' models");
+  chain.result("static hook load");
+  factors.add_amplification(
+      chain, facts.at_rest > 0 ? std::optional(facts.in_motion / facts.at_rest) : std::nullopt,
+      factors.hoisting_speed());
+  chain.result("dynamic hook load");
+  return chain.finish();
+}
+
+Chain hook_chain(const LoadFactors& factors, const HookFacts& hook) {
+  ChainBuilder chain("hook", hook.name);
+  add_hook_load(chain, factors, hook.load, hook.computed, hook.hook_block, hook.rigging,
+                hook.hoisting_speed);
+  tell_hoisting(chain, factors, hook.hoisting_speed, hook.load);
+  chain.limit(hook.capacity, "capacity of the hoist", "crane's model");
+  return chain.finish();
+}
+
+Chain crane_chain(const LoadFactors& factors, const CraneFacts& crane) {
+  ChainBuilder chain("crane", crane.name);
+  add_hook_load(chain, factors, crane.load, crane.computed, crane.hook_blocks, crane.rigging,
+                crane.hoisting_speed);
+  if (!crane.capacity) return chain.finish();
+  const auto cranes = static_cast<int>(factors.facts().cranes.size());
+  const TandemRow* row = nullptr;
+  for (const TandemRow& one : factors.rules().tandem)
+    if (one.cranes <= cranes && (!row || one.cranes > row->cranes)) row = &one;
+  if (row)
+    chain.limit(*crane.capacity * row->factor,
+                fmt::format("capacity {} x {:g} of {} cranes", load_text(*crane.capacity),
+                            row->factor, cranes),
+                row->clause);
+  else
+    chain.limit(*crane.capacity, "capacity of the crane", "crane's model");
+  return chain.finish();
+}
+
+Chain sling_chain(const LoadFactors& factors, const SlingFacts& sling) {
+  ChainBuilder chain("sling", sling.name);
+  factors.add_all(chain, sling.load, sling.computed, sling.slings_on_hook);
+  chain.result("sling load");
+  if (factors.rules().sling) add_sling_limit(chain, factors, sling);
+  return chain.finish();
+}
+
+std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCase& shackle,
+                                  const SlingFacts& sling) {
+  const ShackleRules& rules = *factors.rules().shackle;
+  const std::string& lug = shackle.name.value;
+  ChainBuilder at_rest("shackle", lug + " at rest");
+  factors.add_all(at_rest, sling.load, sling.computed, sling.slings_on_hook, false);
+  at_rest.result("static sling load");
+  const double working = shackle.working_load / rules.working.value;
+  at_rest.limit(working, "working load " + load_text(shackle.working_load), rules.working.clause);
+
+  ChainBuilder in_motion("shackle", lug);
+  factors.add_all(in_motion, sling.load, sling.computed, sling.slings_on_hook);
+  in_motion.result("dynamic sling load");
+  const double amplification = factors.amplification(factors.hoisting_speed());
+  const double by_working = working * amplification;
+  const double by_breaking = shackle.breaking_load / rules.breaking.value;
+  if (by_working < by_breaking)
+    in_motion.limit(
+        by_working,
+        fmt::format("working load {} x {:.3f}", load_text(shackle.working_load), amplification),
+        rules.working.clause);
+  else
+    in_motion.limit(by_breaking,
+                    fmt::format("breaking load {} / {:g}", load_text(shackle.breaking_load),
+                                rules.breaking.value),
+                    rules.breaking.clause);
+  std::vector<Chain> chains;
+  chains.push_back(at_rest.finish());
+  chains.push_back(in_motion.finish());
+  return chains;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,72 @@
+#include "pipeline/checks/rigging_facts.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/small_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using test::small_lift;
+using test::SmallLift;
+
+LiftCase with_tolerances() {
+  LiftCase lift_case = small_lift().lift_case;
+  lift_case.standard.emplace();
+  lift_case.standard->length_tolerance = 0.0025;
+  lift_case.standard->centre_box = Vector3(0.1, 0.1, 0.1);
+  return lift_case;
+}
+
+TEST(RiggingFacts, HookLoadAtRestIsTheWeight) {
+  const SmallLift& lift = small_lift();
+  const LiftCase lift_case = with_tolerances();
+  const RiggingFacts rigging(lift_case, lift.run, {}, {});
+  const double weight = lift.mass().mass * lift.lift_case.gravity;
+  for (const double load : rigging.hook_load(lift.run.static_history))
+    EXPECT_NEAR(load, weight, 1e-6 * weight);
+}
+
+// By statics the weight on the slings of one hook is the formula's share at no tilt.
+TEST(RiggingFacts, TwoHooksShareAsAtRest) {
+  const SmallLift& lift = small_lift();
+  const LiftCase lift_case = with_tolerances();
+  const RiggingFacts rigging(lift_case, lift.run, {}, {});
+  const Eigen::Index last = lift.run.static_history.sample_count() - 1;
+  double sum = 0;
+  for (std::size_t h = 0; h < 2; ++h) {
+    const auto computed = rigging.of_hook(h, last);
+    ASSERT_TRUE(computed.two_hooks);
+    double load = 0;
+    for (std::size_t s = 0; s < rigging.slings().size(); ++s) {
+      if (rigging.hook_of(s) != lift.run.model.hoists[h].name) continue;
+      const auto rope = static_cast<std::size_t>(rigging.slings()[s].rope);
+      load += lift.run.static_history.ropes[rope].last_force(last, 2);
+    }
+    const double share = load / rigging.hook_load(lift.run.static_history)[last];
+    // The steady wind pushes at the load: its moment moves the share by some thousandths.
+    EXPECT_NEAR(share_of_hook(*computed.two_hooks, 0), share, 0.01);
+    sum += share_of_hook(*computed.two_hooks, 0);
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+TEST(RiggingFacts, TolerancesRaiseTheLoads) {
+  const SmallLift& lift = small_lift();
+  const LiftCase lift_case = with_tolerances();
+  const RiggingFacts rigging(lift_case, lift.run, {}, {});
+  for (std::size_t s = 0; s < rigging.slings().size(); ++s) {
+    const ComputedFactors computed = rigging.of_sling(s, 0);
+    ASSERT_TRUE(computed.skew);
+    ASSERT_TRUE(computed.centre_box);
+    EXPECT_GT(*computed.skew, 1);
+    EXPECT_GT(*computed.centre_box, 1);
+    EXPECT_LT(*computed.centre_box, 1.5);
+    EXPECT_FALSE(rigging.weight_of(s));
+  }
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline

@@ -1,0 +1,212 @@
+// Whole chains, worked by hand.
+
+#include "pipeline/standards/standard_assessment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/standards/shipped_rules.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using test::shipped_rules;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+Located<std::string> called(const std::string& name) { return {name, {}}; }
+
+StandardInCase by_nd_0027() {
+  StandardInCase standard;
+  standard.rules = shipped_rules("nd-0027");
+  standard.weight_class = called("B");
+  standard.setting = called("onshore");
+  standard.skew = called("matched");
+  standard.wear = called("inspected");
+  return standard;
+}
+
+/// 1,000 kN on one hook by two slings; R1 has 400 kN at rest and 460 in motion.
+LiftFacts two_slings() {
+  LiftFacts facts;
+  facts.net_weight = 1000e3;
+  facts.at_rest = 1000e3;
+  facts.in_motion = 1040e3;
+  SlingFacts sling;
+  sling.name = "R1";
+  sling.lug = "L1";
+  sling.hook = "C1.main";
+  sling.load = {400e3, 460e3, 10, 12, 1.04, 460.0 / 400 / 1.04};
+  sling.breaking_load = 2000e3;
+  sling.material = "steel";
+  sling.termination = "resin_socket";
+  sling.slings_on_hook = 2;
+  facts.slings.push_back(sling);
+  HookFacts hook;
+  hook.name = "C1.main";
+  hook.crane = "C1";
+  hook.load = {1030e3, 1071.2e3, 10, 12, 1.04, 1};
+  hook.hook_block = 30e3;
+  hook.rigging = 20e3;
+  hook.hoisting_speed = 0.2;
+  hook.capacity = 1500e3;
+  facts.hooks.push_back(hook);
+  return facts;
+}
+
+const Chain& chain_of(const StandardAssessment& standard, const std::string& object) {
+  const auto found = std::find_if(standard.chains.begin(), standard.chains.end(),
+                                  [&](const Chain& chain) { return chain.object == object; });
+  if (found == standard.chains.end()) throw std::out_of_range(object);
+  return *found;
+}
+
+// 400 kN x 1.10 (weight B) x 1.10 (centre) x 1.05 (DAF of 112 t ashore) x 1.25 (skew) = 635.25 kN;
+// in motion 400 x 1.10 x 1.10 x 460/400 x 1.25 = 695.75 kN; 2,000 kN / (1.3 x 1.3 x 1.5) = 788.95 kN.
+TEST(StandardAssessment, WorksASlingStepByStep) {
+  const StandardAssessment result = assess_standard(by_nd_0027(), two_slings());
+  const Chain& sling = chain_of(result, "sling R1");
+  EXPECT_NEAR(sling.standard, 635.25e3, 1e-6);
+  EXPECT_NEAR(sling.simulated, 695.75e3, 1e-6);
+  EXPECT_NEAR(*sling.limit, 2000e3 / 2.535, 1e-6);
+  EXPECT_NEAR(sling.standard_utilisation(), 0.805179, 1e-6);
+  EXPECT_NEAR(sling.simulated_utilisation(), 0.881863, 1e-6);
+  for (const ChainStep& step : sling.steps)
+    EXPECT_TRUE(step.kind != ChainStep::Kind::factor || !step.clause.empty()) << step.name;
+}
+
+TEST(StandardAssessment, EveryColumnIsTheProductOfItsSteps) {
+  const StandardAssessment result = assess_standard(by_nd_0027(), two_slings());
+  for (const Chain& chain : result.chains) {
+    double standard = 0, simulated = 0;
+    for (const ChainStep& step : chain.steps) {
+      if (step.kind == ChainStep::Kind::load) {
+        standard += *step.standard;
+        simulated += *step.simulated;
+      } else if (step.kind == ChainStep::Kind::factor) {
+        standard *= step.standard.value_or(1);
+        simulated *= step.simulated.value_or(1);
+      }
+    }
+    EXPECT_NEAR(standard, chain.standard, 1e-9 * chain.standard) << chain.object;
+    EXPECT_NEAR(simulated, chain.simulated, 1e-9 * chain.simulated) << chain.object;
+  }
+}
+
+// ((1,030 - 30) x 1.1 x 1.1 + 20 + 30) x 1.05 = 1,323 kN of 1,500.
+TEST(StandardAssessment, AddsRiggingAndHookBlockToAHook) {
+  const StandardAssessment result = assess_standard(by_nd_0027(), two_slings());
+  const Chain& hook = chain_of(result, "hook C1.main");
+  EXPECT_NEAR(hook.standard, 1323e3, 1e-6);
+  EXPECT_NEAR(hook.simulated, 1260e3 * 1.04, 1e-6);
+  EXPECT_NEAR(hook.utilisation(), 0.882, 1e-9);
+}
+
+TEST(StandardAssessment, TakesTheHoistingFactorWhereTheRulesHaveNoOther) {
+  StandardInCase standard;
+  standard.rules = shipped_rules("en-13001");
+  standard.hoisting_class = called("HC2");
+  const StandardAssessment result = assess_standard(standard, two_slings());
+  // (1,000 + 20 + 30) x (1.10 + 0.34 x 0.2)
+  EXPECT_NEAR(chain_of(result, "hook C1.main").standard, 1050e3 * 1.168, 1e-6);
+  EXPECT_FALSE(chain_of(result, "sling R1").has_limit());
+}
+
+TEST(StandardAssessment, SaysWhatTheRulesDoNotCover) {
+  LiftFacts facts = two_slings();
+  StandardInCase standard = by_nd_0027();
+  // 1.15 in motion is more than 1.05, and less than 1.05 x 1.25.
+  EXPECT_THAT(assess_standard(standard, facts).notes,
+              Contains(HasSubstr("only their skew factor, which stands for sling lengths, does: R1 "
+                                 "1.150 > 1.050")));
+  standard.skew = called("determinate");
+  EXPECT_THAT(assess_standard(standard, facts).notes, Contains(HasSubstr("R1 1.150 > 1.050.")));
+  facts.slings[0].material = "steel_as_new";
+  EXPECT_THAT(assess_standard(standard, facts).notes,
+              Contains(HasSubstr("The safety factor of R1 is the floor of the rules")));
+}
+
+TEST(StandardAssessment, LowersTheLoadFactorForWavesAlone) {
+  LiftFacts facts = two_slings();
+  const StandardInCase standard = by_nd_0027();
+  const Chain ashore = chain_of(assess_standard(standard, facts), "sling R1");
+  EXPECT_DOUBLE_EQ(*ashore.simulated_limit, *ashore.limit);
+  facts.has_environment = true;
+  const Chain afloat = chain_of(assess_standard(standard, facts), "sling R1");
+  const double share = 1 - 400.0 / 460;
+  EXPECT_NEAR(*afloat.simulated_limit, 2000e3 / ((1.3 - 0.6 * share) * 1.3 * 1.5), 1e-6);
+  EXPECT_DOUBLE_EQ(*afloat.limit, *ashore.limit);
+}
+
+TEST(StandardAssessment, HoldsShacklesAgainstStaticAndDynamicLoad) {
+  StandardInCase standard = by_nd_0027();
+  ShackleInCase shackle;
+  shackle.name = called("L1");
+  shackle.working_load = 650e3;
+  shackle.breaking_load = 3900e3;
+  standard.shackles.push_back(shackle);
+  const StandardAssessment result = assess_standard(standard, two_slings());
+  // 400 x 1.1 x 1.1 x 1.25 = 605 of 650 kN at rest; 635.25 of min(650 x 1.05, 3,900 / 3) in motion.
+  EXPECT_NEAR(chain_of(result, "shackle L1 at rest").standard_utilisation(), 605.0 / 650, 1e-9);
+  EXPECT_NEAR(*chain_of(result, "shackle L1").limit, 682.5e3, 1e-6);
+}
+
+// ASME BTH-1 in US units (kip, in): N_d 2, t 1.25, a = b_e = 3, D_p 2.75, D_h 3, R 4.5, F_y 36,
+// F_u 58; C_r taken 1 there: P_t 175.2, P_b 144.1, P_v 148.0 kip.
+TEST(StandardAssessment, HoldsALugByTheFormulaeThatTheRulesName) {
+  constexpr double inch = 0.0254, kip = 4448.2216, ksi = kip / (inch * inch);
+  StandardInCase standard;
+  standard.rules = shipped_rules("asme-bth-1-a");
+  LiftFacts facts;
+  LugFacts lug;
+  lug.name = "L1";
+  lug.input.geometry = {4.5 * inch, 1.25 * inch, 3 * inch, 2.75 * inch, 0,
+                        0,          8 * inch,    8 * inch, 8 * inch};
+  lug.input.material.yield_stress = 36 * ksi;
+  lug.input.tensile_strength = 58 * ksi;
+  lug.load = {70 * kip, 80 * kip, 0, 0, 1, 8.0 / 7};
+  lug.at_rest = lug.in_motion = {0, 70 * kip, 0};
+  facts.lugs.push_back(lug);
+  const StandardAssessment result = assess_standard(standard, facts);
+  const Chain& chain = chain_of(result, "lug L1");
+  // Bearing governs: 1.25 F_y / N_d D_p t.
+  const double bearing = 1.25 * 36 / 2 * 2.75 * 1.25;
+  EXPECT_NEAR(chain.standard_utilisation(), 70 / bearing, 1e-9);
+  EXPECT_NEAR(chain.simulated_utilisation(), 80 / bearing, 1e-9);
+  lug.input.design_factor = 2;
+  const structure::AsmePinPlate plate = structure::asme_pin_plate(lug.input);
+  EXPECT_NEAR(plate.tension / plate.clearance_factor / kip, 175.2, 0.05);
+  EXPECT_NEAR(plate.splitting / plate.clearance_factor / kip, 144.1, 0.05);
+  EXPECT_NEAR(plate.shear / kip, 148.0, 0.05);
+  StandardInCase category_b = standard;
+  category_b.rules = shipped_rules("asme-bth-1-b");
+  EXPECT_NEAR(chain_of(assess_standard(category_b, facts), "lug L1").standard_utilisation(),
+              1.5 * chain.standard_utilisation(), 1e-9);
+}
+
+TEST(StandardAssessment, HoldsBackAShareOfSeveralCranes) {
+  StandardInCase standard;
+  standard.rules = shipped_rules("nd-0027");
+  standard.rules.add(shipped_rules("queensland-tandem"));
+  standard.weight_class = called("weighed");
+  standard.setting = called("onshore");
+  LiftFacts facts = two_slings();
+  for (const char* name : {"C1", "C2", "C3"}) {
+    CraneFacts crane;
+    crane.name = name;
+    crane.load = {500e3, 510e3, 0, 0, 1.02, 1};
+    crane.capacity = 1000e3;
+    facts.cranes.push_back(crane);
+  }
+  facts.slings.clear();
+  const StandardAssessment result = assess_standard(standard, facts);
+  EXPECT_NEAR(*chain_of(result, "crane C2").limit, 670e3, 1e-6);
+  EXPECT_EQ(result.name, "0027/ND + Queensland code");
+  EXPECT_THAT(chain_of(result, "crane C2").limit_clause, HasSubstr("Queensland code"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
