@@ -130,6 +130,7 @@ dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem
   dynamics::DatabaseSettings settings;
   settings.frequencies = problem.frequencies;
   settings.headings = problem.headings;
+  settings.with_coarser = true;
   return compute_database(model, settings, report);
 }
 
