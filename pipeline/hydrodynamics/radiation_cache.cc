@@ -11,6 +11,7 @@
 #include "dynamics/errors.h"
 #include "pipeline/formats/hull_hash.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/hydrodynamics/given_database.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
 
 namespace blocklift::pipeline {
@@ -92,7 +93,12 @@ dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
   }
   say("computing that of " + names_of_bodies(problem) + where);
   dynamics::HydrodynamicDatabase database =
-      compute_or_refuse(problem, [](const RadiationProblem& p) { return compute_radiation(p); });
+      compute_or_refuse(problem, [&](const RadiationProblem& p) {
+        const dynamics::PanelModel model = make_panel_model(p);
+        const std::string doubt = doubt_about_coupling(model, p.frequencies.back());
+        if (!doubt.empty()) say("warning: " + doubt);
+        return compute_radiation(p, model);
+      });
   say_doubt(database, say);
   if (folder.empty()) return database;
   try {
@@ -133,6 +139,11 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
   const Say say = [&](const std::string& text) {
     if (report) report(text);
   };
+  if (problem.given) {
+    say("of the file that the case names");
+    return std::make_shared<const dynamics::HydrodynamicSeries>(
+        dynamics::HydrodynamicSeries{0, {0.0}, {take_given_database(problem)}});
+  }
   if (problem.lowered_body() >= 0) {
     return std::make_shared<const dynamics::HydrodynamicSeries>(find_series(problem, say));
   }

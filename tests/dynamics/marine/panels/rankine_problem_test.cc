@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/radiation/frequency_domain.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
@@ -172,6 +173,26 @@ TEST(HydrodynamicDatabase, SurgeOfATruncatedCylinderFollowsItsPanels) {
   EXPECT_LT(change[surge], 10.0 * worst);
   EXPECT_NEAR(change[sway], change[surge], 1e-3);
   EXPECT_EQ(change[yaw], 0.0);  // a round body does not move the water
+}
+
+// Panels between bodies are wider the farther they lie apart; beyond 16 radii waves of six radii
+// (1 rad/s) are lost.
+TEST(CouplingReach, ShrinksWithTheDistance) {
+  const PanelMesh sphere = make_half_ellipsoid({1, 1, 1}, {.meridians = 16, .parallels = 4});
+  const auto reach_at = [&](double distance) {
+    const std::vector<WettedBody> bodies{{"left", translate(sphere, {-distance / 2, 0, 0}), {}},
+                                         {"right", translate(sphere, {distance / 2, 0, 0}), {}}};
+    const auto lines = find_water_lines(bodies);
+    const SurfaceMesh surface = make_surface_mesh(lines, surface_settings(lines, 3.0, 10.0));
+    const PanelModel model(bodies, surface, {1.0, 1.0}, {true, true});
+    return find_coupling_reach(model).value();
+  };
+  const CouplingReach near = reach_at(4.0), far = reach_at(16.0);
+  EXPECT_NEAR(near.gap, 2.0, 0.05);
+  EXPECT_NEAR(far.gap, 14.0, 0.05);
+  EXPECT_LT(near.shortest, 2.0 * std::numbers::pi);
+  EXPECT_GT(far.shortest, 2.0 * std::numbers::pi);
+  EXPECT_FALSE(find_coupling_reach(make_sphere_model({true, true})));
 }
 
 TEST(HydrodynamicDatabase, RefusesFrequenciesOutOfOrder) {
