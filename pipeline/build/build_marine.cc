@@ -87,8 +87,6 @@ RadiationProblem at_draught(RadiationProblem problem, double draught) {
   return problem;
 }
 
-namespace {
-
 dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
   std::vector<dynamics::WettedBody> bodies;
   for (const RadiationProblem::Body& body : problem.bodies) {
@@ -105,8 +103,6 @@ dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
   require_panels_for_waves(model, problem.frequencies.back());
   return model;
 }
-
-}  // namespace
 
 MarchedWater make_marched_water(const RadiationProblem& problem) {
   if (!problem.direct || problem.bodies.empty()) return {};
@@ -125,12 +121,12 @@ MarchedWater make_marched_water(const RadiationProblem& problem) {
 }
 
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
-                                                 dynamics::DatabaseReport* report) {
-  const dynamics::PanelModel model = make_panel_model(problem);
+                                                 const dynamics::PanelModel& model) {
   dynamics::DatabaseSettings settings;
   settings.frequencies = problem.frequencies;
   settings.headings = problem.headings;
-  return compute_database(model, settings, report);
+  settings.with_coarser = true;
+  return compute_database(model, settings);
 }
 
 dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {
@@ -181,7 +177,18 @@ std::vector<MarineBuilder::Radiating> MarineBuilder::radiating() const {
       vessels.push_back(lowered(name, vessel.model, vessel.draughts->value,
                                 {vessel.position[0], vessel.position[1]}, vessel.heading));
     } else {
-      vessels.push_back({name, vessel.model, start(name), {}});
+      vessels.push_back(
+          {name, vessel.model, start(name), {}, vessel.hydrodynamics, vessel.hydrodynamic_body});
+    }
+  }
+  if (!vessels.empty() && vessels.front().given) {
+    const dynamics::Pose X_WD = world_of_database(vessels);
+    for (Radiating& vessel : vessels) {
+      if (!vessel.given) continue;
+      const auto body = static_cast<std::size_t>(vessel.given_body);
+      const Vector3 p_WR = X_WD.apply(vessel.given->reference_points[body]);
+      vessel.X_BR = {vessel.X_WB.R.transpose() * X_WD.R,
+                     vessel.X_WB.R.transpose() * (p_WR - vessel.X_WB.p)};
     }
   }
   if (load_) {
@@ -189,6 +196,22 @@ std::vector<MarineBuilder::Radiating> MarineBuilder::radiating() const {
         lowered(load_->name, load_->vessel, load_->draughts, load_->position, load_->heading));
   }
   return vessels;
+}
+
+dynamics::Pose MarineBuilder::world_of_database(const std::vector<Radiating>& vessels) {
+  const dynamics::Pose& alone = vessels.front().X_WB;
+  if (vessels.size() == 1) return {alone.R, {alone.p.x(), alone.p.y(), 0}};
+  const std::vector<Vector3>& centres = vessels.front().given->centres_of_buoyancy;
+  Vector3 shift = Vector3::Zero();
+  for (const Radiating& vessel : vessels) {
+    if (!vessel.given || centres.empty()) continue;
+    const dynamics::Hydrostatics rest =
+        calc_hydrostatics(dynamics::HullClusters(vessel.vessel->hull), vessel.X_WB);
+    const Vector3 difference =
+        vessel.X_WB.p + rest.p_BoC_W() - centres[static_cast<std::size_t>(vessel.given_body)];
+    shift += Vector3(difference.x(), difference.y(), 0) / static_cast<double>(vessels.size());
+  }
+  return {dynamics::Matrix3::Identity(), shift};
 }
 
 RadiationProblem MarineBuilder::radiation_problem() const {
@@ -208,8 +231,16 @@ RadiationProblem MarineBuilder::radiation_problem() const {
     problem.bodies.push_back({vessel.name,
                               vessel.vessel,
                               {vessel.X_WB.R, vessel.X_WB.p - middle},
-                              vessel.p_BoR_B(),
-                              vessel.draughts});
+                              vessel.X_BR.p,
+                              vessel.draughts,
+                              vessel.given_body});
+  }
+  if (vessels.front().given) {
+    problem.given = vessels.front().given;
+    const dynamics::Pose X_DW = world_of_database(vessels).inverse();
+    for (std::size_t k = 0; k < vessels.size(); ++k) {
+      problem.bodies[k].X_DB = X_DW * vessels[k].X_WB;
+    }
   }
   problem.origin = middle.head<2>();
   problem.water = water_of(*parts_.sea, gravity_);
@@ -246,8 +277,7 @@ std::shared_ptr<const dynamics::HullClusters> MarineBuilder::clusters(const Vess
 }
 
 dynamics::BodyFrame MarineBuilder::radiation_frame(const Radiating& vessel, const BodyOf& point) {
-  return {point({{vessel.name, {}}, Vector3::Zero(), {}}).body,
-          {vessel.X_WB.R.transpose(), vessel.p_BoR_B()}};
+  return {point({{vessel.name, {}}, Vector3::Zero(), {}}).body, vessel.X_BR};
 }
 
 dynamics::DraughtMark MarineBuilder::draught_mark(const std::vector<Radiating>& vessels,
@@ -272,7 +302,7 @@ dynamics::Arrangement MarineBuilder::arrangement(const BodyOf& point) const {
     const auto [low, high] = vessel.vessel->hull.bounds();
     const Eigen::Vector2d size = (high - low).head<2>();
     arrangement.bodies.push_back({vessel.name, radiation_frame(vessel, point),
-                                  vessel.X_WB.apply(vessel.p_BoR_B()).head<2>(), size.maxCoeff(),
+                                  vessel.X_WB.apply(vessel.X_BR.p).head<2>(), size.maxCoeff(),
                                   size.minCoeff()});
   }
   if (!vessels.empty() && has_waves()) {

@@ -29,8 +29,12 @@ struct RadiationProblem {
     Vector3 p_BoR_B = Vector3::Zero();  ///< reference point: in the water line above Bo, m
     /// Of one that is lowered: from its lowest point, ascending, m; X_DB is that of the last.
     std::vector<double> draughts = {};
+    int given_body = 0;  ///< which body of `given` it is
   };
   std::vector<Body> bodies;
+  /// A database that the case names, in place of one to be computed; null: there is none. D is then
+  /// its world.
+  std::shared_ptr<const dynamics::HydrodynamicDatabase> given = nullptr;
   dynamics::Water water;
   std::vector<double> frequencies;  ///< rad/s, ascending
   std::vector<double> headings;     ///< rad, a whole turn
@@ -69,10 +73,14 @@ struct MarchedWater {
 /// @throws dynamics::ModelError, dynamics::SimulationError as its meshes and DirectRadiation do.
 MarchedWater make_marched_water(const RadiationProblem& problem);
 
-/// Computes the database of a problem whose bodies stay by the panel method.
-/// @throws dynamics::ModelError, dynamics::SimulationError as compute_database and its meshes do.
+/// The panels of a problem whose bodies stay.
+/// @throws dynamics::ModelError as meshes and dynamics::PanelModel do.
+dynamics::PanelModel make_panel_model(const RadiationProblem& problem);
+
+/// Computes the database of a problem by the panel method, with the model of its panels.
+/// @throws dynamics::ModelError, dynamics::SimulationError as compute_database.
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
-                                                 dynamics::DatabaseReport* report = nullptr);
+                                                 const dynamics::PanelModel& model);
 
 /// Makes of marine parts the bodies that float and what acts on them. The parts must outlive the
 /// builder and be sound.
@@ -130,10 +138,17 @@ class MarineBuilder {
     std::string name;
     std::shared_ptr<const Vessel> vessel;
     dynamics::Pose X_WB;
-    std::vector<double> draughts;
-
-    Vector3 p_BoR_B() const { return {0, 0, -X_WB.p.z()}; }
+    std::vector<double> draughts = {};
+    std::shared_ptr<const dynamics::HydrodynamicDatabase> given = nullptr;  ///< by the case
+    int given_body = 0;
+    /// The axes of D about the reference point: with a computed database those of the world, in the
+    /// water line above Bo.
+    dynamics::Pose X_BR = {X_WB.R.transpose(), {0, 0, -X_WB.p.z()}};
   };
+  /// The world of the database that vessels name, in W. One vessel: that of its own frame, level.
+  /// Several: along W's axes, where the centres of buoyancy lie as in the database, or, if it does
+  /// not tell them, W itself.
+  static dynamics::Pose world_of_database(const std::vector<Radiating>& vessels);
   static Radiating lowered(std::string name, std::shared_ptr<const Vessel> vessel,
                            std::vector<double> draughts, const Eigen::Vector2d& position,
                            double heading);

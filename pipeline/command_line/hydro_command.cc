@@ -40,6 +40,8 @@ void print_panels(const HydrodynamicState& state) {
       : symmetry.x || symmetry.y ? ", a half of all"
                                  : "",
       state.bytes / 1e9);
+  const std::string doubt = doubt_about_coupling(*state.model, state.settings.frequencies.back());
+  if (!doubt.empty()) fmt::print("warning: {}\n", doubt);
   std::fflush(stdout);
 }
 

@@ -46,4 +46,13 @@ Eigen::Matrix3d rotation_of(const Vector3& roll_pitch_yaw) {
       .toRotationMatrix();
 }
 
+Vector3 roll_pitch_yaw_of(const Eigen::Matrix3d& R_AB) {
+  // R = Rz(yaw) Ry(pitch) Rx(roll), so that Rz(-yaw) R = Ry(pitch) Rx(roll): whatever yaw is found
+  // of the first column, which vanishes at a right angle, the others follow for that very yaw.
+  const double yaw = std::atan2(R_AB(1, 0), R_AB(0, 0));
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  return {std::atan2(s * R_AB(0, 2) - c * R_AB(1, 2), c * R_AB(1, 1) - s * R_AB(0, 1)),
+          std::atan2(-R_AB(2, 0), c * R_AB(0, 0) + s * R_AB(1, 0)), yaw};
+}
+
 }  // namespace blocklift::pipeline

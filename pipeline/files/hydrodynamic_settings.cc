@@ -87,9 +87,11 @@ Format<HydrodynamicSettings> hydrodynamic_settings_format() {
           "draughts", &HydrodynamicSettings::draughts, draughts_format(),
           "upright, from the lowest point of the hull; several for a hull that is lowered into "
           "the water; afloat by its weight if left out")
-      .by_default("water_line", &HydrodynamicSettings::as_meshed,
-                  choice<bool>({{"by weight", false}, {"as meshed", true}}), "by weight",
-                  "as meshed: z = 0 of the hull's own frame, for meshes of the wetted surface")
+      .by_default(
+          "water_line", &HydrodynamicSettings::as_meshed,
+          choice<bool>({{"by weight", false}, {"as meshed", true}}), "by weight",
+          "as meshed: z = 0 of the hull's own frame; a mesh that ends there goes on upright "
+          "above it by as much as it is deep")
       .by_default("symmetry", &HydrodynamicSettings::symmetry, boolean(), "true",
                   "compute a half or a quarter where the hulls are symmetric in x = 0 or y = 0")
       .rule(check_settings);

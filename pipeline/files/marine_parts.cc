@@ -11,6 +11,7 @@
 #include "dynamics/marine/loads/draught_shares.h"
 #include "dynamics/marine/waves/wave_spectrum.h"
 #include "pipeline/files/model_library.h"
+#include "pipeline/files/vessel_database.h"
 #include "pipeline/formats/series_file.h"
 
 namespace blocklift::pipeline {
@@ -307,6 +308,7 @@ void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
     if (vessel.model_name.value.empty()) continue;
     vessel.model = library.load_vessel(vessel.model_name, beside, diagnostics);
   }
+  load_vessel_databases(parts.vessels, beside, diagnostics);
   if (parts.sea && parts.sea->waves && parts.sea->waves->record) {
     read_record(*parts.sea->waves->record, beside, diagnostics);
   }
@@ -322,6 +324,7 @@ void check_marine_parts(const MarineParts& parts, double gravity,
   }
   for (const VesselInCase& vessel : parts.vessels) check_vessel(vessel, diagnostics);
   check_radiation(parts.vessels, diagnostics);
+  check_vessel_databases(parts, gravity, diagnostics);
   if (parts.sea && sound_so_far) {
     check_sea(parts, gravity, diagnostics);
     for (const VesselInCase& vessel : parts.vessels) {

@@ -15,6 +15,10 @@
 #include "pipeline/files/vessel_model.h"
 #include "pipeline/mechanism/mechanism_parts.h"
 
+namespace blocklift::dynamics {
+struct HydrodynamicDatabase;
+}
+
 namespace blocklift::pipeline {
 
 /// A regular wave: by its frequency or its period.
@@ -119,6 +123,11 @@ struct VesselInCase {
   Located<RadiationMethod> radiation{RadiationMethod::database, {}};
   /// Of one that is lowered or lifted: from its lowest point, ascending, m.
   std::optional<Located<std::vector<double>>> draughts;
+  std::optional<Located<std::string>> database;       ///< file beside the case
+  std::optional<Located<std::string>> database_body;  ///< its name in the file
+  /// After the look-up, and which of its bodies it is; null: computed by the panel method.
+  std::shared_ptr<const dynamics::HydrodynamicDatabase> hydrodynamics;
+  int hydrodynamic_body = 0;
   DampingInCase damping, quadratic_damping;
   std::vector<MemberInCase> members;
 };
@@ -175,7 +184,7 @@ void add_marine_keys(Table<T>& table) {
 
 class ModelLibrary;
 
-/// Reads the vessels' models and the record of the waves.
+/// Reads the vessels' models and databases and the record of the waves.
 void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
                         ModelLibrary& library, Diagnostics& diagnostics);
 

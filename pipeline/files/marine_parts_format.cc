@@ -232,7 +232,8 @@ Format<VesselInCase> vessel_in_case_format() {
                   "level, of the vessel's frame at the start")
       .by_default("heading", &VesselInCase::heading, quantity(Dimension::angle), "0 deg",
                   "of its x axis, from the world's +x towards +y")
-      .optional("draught", &VesselInCase::draught, quantity(Dimension::length, Range::positive()),
+      .optional("draught", &VesselInCase::draught,
+                quantity(Dimension::length, Range::not_negative()),
                 "depth of its frame's origin at the start and for its radiation; by its weight and "
                 "that of what stands on it if left out")
       .by_default("radiation", &VesselInCase::radiation,
@@ -248,6 +249,13 @@ Format<VesselInCase> vessel_in_case_format() {
           "of the one vessel that is lowered or lifted: upright, from the lowest point of its "
           "hull; its radiation is interpolated between them, and to none where it is dry; that "
           "of its draught alone if left out")
+      .optional("database", &VesselInCase::database, located(text()),
+                "file beside this one, made by blocklift hydro, with --import of another program's "
+                "figures: radiation and diffraction from there in place of the panel method; all "
+                "vessels that make waves name the same file")
+      .optional("database_body", &VesselInCase::database_body, located(text()),
+                "which body of that file it is; that of the vessel's name, or the only one, if "
+                "left out")
       .by_default("damping", &VesselInCase::damping, vessel_damping_format(), "{}",
                   "linear, relative to the current; in proportion to the wet volume")
       .by_default("quadratic_damping", &VesselInCase::quadratic_damping,

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <system_error>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "pipeline/declaration/document.h"
@@ -35,10 +36,11 @@ class KeptMessages : public console_bridge::OutputHandler {
 
 Vector3 vector_of(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
-Vector3 roll_pitch_yaw(const urdf::Rotation& rotation) {
-  Vector3 angles;
-  rotation.getRPY(angles[0], angles[1], angles[2]);
-  return angles;
+/// By the quaternion: the library's own angles are rounded where the pitch is near a right angle.
+Eigen::Matrix3d matrix_of(const urdf::Rotation& rotation) {
+  return Eigen::Quaterniond(rotation.w, rotation.x, rotation.y, rotation.z)
+      .normalized()
+      .toRotationMatrix();
 }
 
 /// Gathers the parts of one robot.
@@ -79,7 +81,7 @@ class Importer {
       body.mass = given.mass;
       body.centre_of_mass = vector_of(given.origin.position);
       // The inertia is given along the axes of its own frame.
-      const Eigen::Matrix3d R = rotation_of(roll_pitch_yaw(given.origin.rotation));
+      const Eigen::Matrix3d R = matrix_of(given.origin.rotation);
       Eigen::Matrix3d I;
       I << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
           given.izz;
@@ -118,7 +120,7 @@ class Importer {
     if (axis.norm() > 0) joint.axis = axis.normalized();
     const urdf::Pose& origin = given.parent_to_joint_origin_transform;
     joint.position = vector_of(origin.position);
-    joint.attitude = roll_pitch_yaw(origin.rotation);
+    joint.attitude = roll_pitch_yaw_of(matrix_of(origin.rotation));
     const std::vector<bool> turns = joint_turns(joint.kind);
     if (given.dynamics && given.dynamics->damping != 0) {
       for (const bool turn : turns) {

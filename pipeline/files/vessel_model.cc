@@ -1,5 +1,11 @@
 #include "pipeline/files/vessel_model.h"
 
+#include <algorithm>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
@@ -35,6 +41,40 @@ void require_few_panels(const Shape& shape, double panel_size) {
       shape.length, shape.breadth, shape.depth, panel_size, panels, most));
 }
 
+/// A hull that ends at z = 0 goes on upright above it, by as much as it is deep, and is closed
+/// there; panels in z = 0 (lids) are left out. A hull that reaches higher stays as it is.
+dynamics::Hull with_freeboard(const dynamics::Hull& wetted) {
+  const auto [low, high] = wetted.bounds();
+  const double tolerance = 1e-5 * (high - low).norm();
+  if (high.z() > tolerance) return wetted;
+  dynamics::Hull hull(wetted.name());
+  for (const Vector3& vertex : wetted.vertices()) hull.add_vertex(vertex);
+  const auto at_surface = [&](int vertex) { return wetted.vertex(vertex).z() > -tolerance; };
+  std::set<std::pair<int, int>> edges;
+  for (int k = 0; k < wetted.panel_count(); ++k) {
+    const std::span<const int> panel = wetted.panel(k);
+    if (std::all_of(panel.begin(), panel.end(), at_surface)) continue;
+    hull.add_panel(panel);
+    for (std::size_t i = 0; i < panel.size(); ++i) {
+      edges.insert({panel[i], panel[(i + 1) % panel.size()]});
+    }
+  }
+  std::map<int, int> raised;
+  const auto raise = [&](int vertex) {
+    const auto [known, is_new] = raised.try_emplace(vertex, 0);
+    if (is_new) {
+      const Vector3& p = wetted.vertex(vertex);
+      known->second = hull.add_vertex({p.x(), p.y(), -low.z()});
+    }
+    return known->second;
+  };
+  for (const auto& [from, to] : edges) {
+    if (edges.contains({to, from}) || !at_surface(from) || !at_surface(to)) continue;
+    hull.add_panel({to, from, raise(from), raise(to)});
+  }
+  return with_lids(hull, tolerance);
+}
+
 }  // namespace
 
 dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem::path& folder,
@@ -47,8 +87,10 @@ dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem:
     require_few_panels(*model.hull.ship, panel_size);
     return make_ship(*model.hull.ship, division_of(*model.hull.ship, panel_size));
   }
-  return read_hull(folder / model.hull.file->path.value,
-                   {.close_openings = model.hull.file->close_openings, .panel_size = panel_size});
+  const dynamics::Hull hull =
+      read_hull(folder / model.hull.file->path.value,
+                {.close_openings = model.hull.file->close_openings, .panel_size = panel_size});
+  return model.hydrodynamics.as_meshed ? with_freeboard(hull) : hull;
 }
 
 std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics& diagnostics) {

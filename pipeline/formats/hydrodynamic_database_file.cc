@@ -72,6 +72,11 @@ void write_state(ResultsWriter& file, const std::string& group,
         group + "/hydrostatic_stiffness", database.hydrostatic_stiffness,
         {"N m-1", "restoring force by displacement, weight included (rotations: N, N m)"});
   }
+  if (const Eigen::VectorXd& change = database.change_from_coarser; change.size() > 0) {
+    file.write(group + "/change_from_coarser",
+               std::span<const double>(change.data(), static_cast<std::size_t>(change.size())),
+               {"1", "of each mode's radiation force, from panels of twice the size to these"});
+  }
   file.write_matrix(group + "/infinite_added_mass", database.infinite_added_mass,
                     {"kg", "added mass at infinite frequency (rotations: kg m, kg m2)"});
   write_matrices(file, group + "/added_mass", database.added_mass, modes, modes, same,
@@ -220,6 +225,11 @@ HydrodynamicDatabase read_state(const Source& source, const std::string& group,
   database.displaced_volumes = source.read(group + "/displaced_volumes", {bodies});
   if (source.file().has(group + "/hydrostatic_stiffness")) {
     database.hydrostatic_stiffness = source.matrix(group + "/hydrostatic_stiffness", modes, modes);
+  }
+  if (source.file().has(group + "/change_from_coarser")) {
+    const std::vector<double> change = source.read(group + "/change_from_coarser", {modes});
+    database.change_from_coarser =
+        Eigen::Map<const Eigen::VectorXd>(change.data(), static_cast<Eigen::Index>(modes));
   }
   database.infinite_added_mass = source.matrix(group + "/infinite_added_mass", modes, modes);
   database.added_mass = source.matrices(group + "/added_mass", frequencies, modes, modes);

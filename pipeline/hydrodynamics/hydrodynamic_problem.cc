@@ -20,9 +20,6 @@ namespace {
 using dynamics::Matrix3;
 using dynamics::Pose;
 
-/// Changes whenever the same problem gives other figures than before.
-constexpr std::int64_t method_version = 1;
-
 Matrix3 turn_about_z(double angle) {
   return Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
 }
@@ -142,6 +139,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
                                                              problem.water, symmetry);
   state.settings.frequencies = problem.frequencies;
   state.settings.headings = problem.headings;
+  state.settings.with_coarser = true;
   state.settings.rankine.memory_limit = problem.memory_limit;
   require_panels(problem, *state.model);
   state.bytes = database_bytes(*state.model, state.settings);
@@ -152,7 +150,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
 
 std::string identity_of(const HydrodynamicProblem& problem) {
   ContentHash hash;
-  hash.add(method_version);
+  hash.add(std::int64_t{dynamics::panel_method_version});
   hash.add(std::string_view(program_version));
   hash.add(problem.water.density);
   hash.add(problem.water.gravity);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 
@@ -19,6 +20,9 @@ using Eigen::MatrixXd;
 
 constexpr std::array<const char*, 6> mode_names = {"surge", "sway",  "heave",
                                                    "roll",  "pitch", "yaw"};
+/// Largest change of a radiation force from panels of twice the size that is not warned of. The
+/// error is a third of it where panels converge at second order: some three per cent.
+constexpr double acceptable_change = 0.1;
 constexpr double degree = std::numbers::pi / 180.0;
 
 bool is_rotation(Eigen::Index mode) { return mode % modes_per_body >= 3; }
@@ -67,6 +71,14 @@ std::string radiation_table(const HydrodynamicDatabase& database, Eigen::Index f
                 [&](Eigen::Index m) { return database.damping[k](m, m) / 1e3; });
   }
   return text;
+}
+
+/// How far the panels are from fine enough; empty where it is not known.
+std::string panel_table(const HydrodynamicDatabase& database, Eigen::Index first) {
+  if (database.change_from_coarser.size() == 0) return {};
+  return head("accuracy of the panels, %") +
+         row("error at most, by coarser ones", first,
+             [&](Eigen::Index m) { return 100.0 * database.change_from_coarser[m]; });
 }
 
 /// Excitation (kN/m, kN) and response (m/m, deg/m): the largest over all headings.
@@ -196,10 +208,44 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
         text += row("natural period alone, s", first,
                     [&](Eigen::Index m) { return calc_natural_period(database, masses[s], m); });
       }
-      text += radiation_table(database, first) + wave_table(database, responses, first);
+      text += panel_table(database, first) + radiation_table(database, first) +
+              wave_table(database, responses, first);
+    }
+    if (const std::string doubt = doubt_about_panels(database); !doubt.empty()) {
+      text += "\nwarning: " + doubt + "\n";
     }
   }
   return text;
+}
+
+std::string doubt_about_panels(const HydrodynamicDatabase& database) {
+  if (database.change_from_coarser.size() == 0) return {};
+  Eigen::Index worst = 0;
+  const double change = database.change_from_coarser.maxCoeff(&worst);
+  if (change <= acceptable_change) return {};
+  const auto body = static_cast<std::size_t>(worst / modes_per_body);
+  return fmt::format(
+      "the panels are coarse: the radiation force of {} in {} changes by {:.0f} % from panels of "
+      "twice the size to these; take smaller panels until that is below {:.0f} %",
+      database.body_names[body], mode_names[static_cast<std::size_t>(worst % modes_per_body)],
+      100.0 * change, 100.0 * acceptable_change);
+}
+
+std::string doubt_about_coupling(const dynamics::PanelModel& model, double highest_frequency) {
+  const std::optional<dynamics::CouplingReach> reach = find_coupling_reach(model);
+  const auto length = [&](double frequency) {
+    return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, model.water());
+  };
+  if (!reach || reach->shortest <= length(highest_frequency)) return {};
+  const auto name = [&](int body) { return model.bodies()[static_cast<std::size_t>(body)].name; };
+  return fmt::format(
+      "{} and {} lie {:.4g} m apart: waves shorter than {:.4g} m, above {:.3g} rad/s in deep "
+      "water, "
+      "are lost between them, so that each is computed as if it lay alone there; the shortest "
+      "wave asked for is {:.4g} m long",
+      name(reach->first), name(reach->second), reach->gap, reach->shortest,
+      std::sqrt(2.0 * std::numbers::pi * model.water().gravity / reach->shortest),
+      length(highest_frequency));
 }
 
 std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& title,

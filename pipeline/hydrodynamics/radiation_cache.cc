@@ -11,14 +11,13 @@
 #include "dynamics/errors.h"
 #include "pipeline/formats/hull_hash.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/hydrodynamics/given_database.h"
+#include "pipeline/hydrodynamics/hydrodynamic_report.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Grows when the panel method changes what it computes.
-constexpr std::int64_t radiation_method_version = 1;
 
 /// What `compute` makes of the problem; what is wrong with the problem is wrong input.
 template <class Compute>
@@ -49,7 +48,7 @@ fs::path cache_folder() {
 
 std::string identity_of(const RadiationProblem& problem) {
   ContentHash hash;
-  hash.add(radiation_method_version);
+  hash.add(std::int64_t{dynamics::panel_method_version});
   for (const RadiationProblem::Body& body : problem.bodies) {
     hash.add(body.name);
     add(hash, body.vessel->hull);
@@ -71,6 +70,11 @@ namespace {
 
 using Say = std::function<void(const std::string&)>;
 
+void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
+  const std::string doubt = doubt_about_panels(database);
+  if (!doubt.empty()) say("warning: " + doubt);
+}
+
 /// The database of bodies that stay.
 dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
                                              const std::string& where, const Say& say) {
@@ -81,6 +85,7 @@ dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
     try {
       dynamics::HydrodynamicDatabase database = read_hydrodynamic_database(file);
       say("from " + file.string());
+      say_doubt(database, say);
       return database;
     } catch (const HydrodynamicFileError&) {
       // Of an older version, or damaged: computed anew.
@@ -88,7 +93,13 @@ dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
   }
   say("computing that of " + names_of_bodies(problem) + where);
   dynamics::HydrodynamicDatabase database =
-      compute_or_refuse(problem, [](const RadiationProblem& p) { return compute_radiation(p); });
+      compute_or_refuse(problem, [&](const RadiationProblem& p) {
+        const dynamics::PanelModel model = make_panel_model(p);
+        const std::string doubt = doubt_about_coupling(model, p.frequencies.back());
+        if (!doubt.empty()) say("warning: " + doubt);
+        return compute_radiation(p, model);
+      });
+  say_doubt(database, say);
   if (folder.empty()) return database;
   try {
     std::error_code ignored;
@@ -128,6 +139,11 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
   const Say say = [&](const std::string& text) {
     if (report) report(text);
   };
+  if (problem.given) {
+    say("of the file that the case names");
+    return std::make_shared<const dynamics::HydrodynamicSeries>(
+        dynamics::HydrodynamicSeries{0, {0.0}, {take_given_database(problem)}});
+  }
   if (problem.lowered_body() >= 0) {
     return std::make_shared<const dynamics::HydrodynamicSeries>(find_series(problem, say));
   }

@@ -177,7 +177,12 @@ PanelMesh make_vertical_cylinder(double radius, double draught, bool closed,
   const double r = division.exact_volume
                        ? radius * std::sqrt(2.0 * std::numbers::pi / (n * std::sin(angle)))
                        : radius;
-  const auto depth = graded_to_end(division.parallels, division.grading);
+  const bool graded_edge = closed && division.graded_edge;
+  auto depth = graded_to_end(division.parallels, division.grading);
+  if (graded_edge) {
+    depth = graded_to_both_ends(division.parallels, division.grading);
+    for (double& fraction : depth) fraction += 0.5;
+  }
   std::vector<Panel> panels;
   const auto side = [&](int i, int j) -> Vector3 {
     const auto [c, s] = around(j, n);
@@ -185,10 +190,11 @@ PanelMesh make_vertical_cylinder(double radius, double draught, bool closed,
   };
   add_grid(division.parallels, n, side, panels);
   if (closed) {
-    const int rings = std::max(2, n / 6);
+    const int rings = graded_edge ? std::max(2, 5 * n / 16) : std::max(2, n / 6);
+    const auto radii = graded_to_end(rings, graded_edge ? division.grading : 1.0);
     const auto bottom = [&](int i, int j) -> Vector3 {
       const auto [c, s] = around(n - j, n);
-      const double fraction = static_cast<double>(i) / rings;
+      const double fraction = i == 0 ? 0.0 : radii[static_cast<std::size_t>(i)];
       return {r * fraction * c, r * fraction * s, -draught};
     };
     std::vector<Panel> lid;

@@ -10,6 +10,9 @@ struct RoundDivision {
   int parallels = 8;   ///< panels from the lowest point to the water line (or to the equator)
   /// The lowest panel is this much longer than the one at the water line.
   double grading = 3.0;
+  /// A closed cylinder's panels are as fine at its lower edge as at the water line, on its side and
+  /// on its bottom: the velocity is singular there.
+  bool graded_edge = false;
   /// Scale the inscribed surface so that it keeps out the volume of the round body.
   bool exact_volume = true;
 };

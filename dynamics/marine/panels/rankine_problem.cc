@@ -170,15 +170,42 @@ RankinePart::RankinePart(const PanelModel& model, const Parity& parity,
     if (!all_velocities.col(mode).isZero(0.0)) modes_.push_back(mode);
   }
   normal_velocities_ = all_velocities(Eigen::all, modes_);
-  const MatrixXd& n = normal_velocities_;
-  auto start = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
   Influence influence = compute_influence(model, settings.threads);
   timing_.influence_s = seconds_since(start);
-  const bool deep = is_deep(model.water());
-  const VectorXd root_area = model.surface_areas().cwiseSqrt();
+  const Areas areas{model.body_areas(), model.surface_areas(), is_deep(model.water())};
+  if (settings.coarser) solve_coarser(influence, areas, *settings.coarser);
+  reduce(std::move(influence), areas, settings.keep_factors);
+}
+
+void RankinePart::solve_coarser(const Influence& influence, const Areas& areas,
+                                const CoarserPanels& panels) {
+  const PanelClusters &b = panels.bodies, &f = panels.surface;
+  const auto coarsen = [](const MatrixXd& matrix, const PanelClusters& rows,
+                          const VectorXd& row_areas, const PanelClusters& columns) {
+    return PanelClusters::coarsen(matrix, rows, row_areas, columns);
+  };
+  const Influence coarse{
+      coarsen(influence.S_BB, b, areas.bodies, b),  coarsen(influence.D_BB, b, areas.bodies, b),
+      coarsen(influence.S_BF, b, areas.bodies, f),  coarsen(influence.D_BF, b, areas.bodies, f),
+      coarsen(influence.S_FB, f, areas.surface, b), coarsen(influence.D_FB, f, areas.surface, b),
+      coarsen(influence.S_FF, f, areas.surface, f), coarsen(influence.D_FF, f, areas.surface, f)};
+  const std::shared_ptr<RankinePart> part(new RankinePart);
+  part->parity_ = parity_;
+  part->image_count_ = image_count_;
+  part->modes_ = modes_;
+  part->normal_velocities_ = b.average(areas.bodies, normal_velocities_);
+  part->reduce(coarse, {b.sum(areas.bodies), f.sum(areas.surface), areas.deep}, false);
+  coarser_ = part;
+}
+
+void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_factors) {
+  const MatrixXd& n = normal_velocities_;
+  const bool deep = areas.deep;
+  const VectorXd root_area = areas.surface.cwiseSqrt();
 
   // The bodies: (2 pi - D_BB) phi_B = D_BF phi_F - S_BB v + S_BF w.
-  start = std::chrono::steady_clock::now();
+  auto start = std::chrono::steady_clock::now();
   auto factors = std::make_shared<Factors>();
   MatrixXd body_matrix = std::move(influence.D_BB);
   body_matrix *= -1.0;
@@ -215,7 +242,7 @@ RankinePart::RankinePart(const PanelModel& model, const Parity& parity,
   surface_operator_ = std::move(reduced);
   make_symmetric(root_area, surface_operator_);
   body_from_surface_ = P * root_area.cwiseInverse().asDiagonal();
-  const MatrixXd weighted = model.body_areas().asDiagonal() * n;
+  const MatrixXd weighted = areas.bodies.asDiagonal() * n;
   const MatrixXd by_velocity = root_area.asDiagonal() * q;
   const MatrixXd by_force = body_from_surface_.transpose() * weighted;
   surface_columns_ = 0.5 * (by_velocity + by_force);
@@ -225,7 +252,7 @@ RankinePart::RankinePart(const PanelModel& model, const Parity& parity,
   }
   infinite_frequency_volume_ = -image_count_ * weighted.transpose() * body_columns_;
   timing_.reduction_s = seconds_since(start);
-  if (!settings.keep_factors) return;
+  if (!keep_factors) return;
   factors->S_BB = std::move(influence.S_BB);
   factors->S_FB = std::move(influence.S_FB);
   factors->D_FB = std::move(influence.D_FB);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "dynamics/marine/panels/dense_algebra.h"
+#include "dynamics/marine/panels/panel_clusters.h"
 #include "dynamics/marine/panels/panel_model.h"
 
 namespace blocklift::dynamics {
@@ -14,12 +15,20 @@ double rankine_part_bytes(int body_panels, int surface_panels, bool finite_depth
 /// Four fifths of the machine's memory, bytes: what may be used where no limit is set.
 double usable_memory();
 
+/// Panels of a problem that are taken together for a second, coarser solution of it.
+struct CoarserPanels {
+  PanelClusters bodies, surface;
+};
+
 struct RankineSettings {
   int threads = 0;  ///< 0: one a core
   /// What may be used, bytes; 0: usable_memory().
   double memory_limit = 0.0;
   /// Keep the factors with which any normal velocity on the bodies can be solved for.
   bool keep_factors = false;
+  /// Solve a second time with these panels; null: not. From the same matrices, at a small part of
+  /// the first solution's cost.
+  std::shared_ptr<const CoarserPanels> coarser = nullptr;
 };
 
 /// Seconds that the steps of a solution took.
@@ -80,6 +89,9 @@ class RankinePart {
   const Eigen::MatrixXd& infinite_frequency_volume() const { return infinite_frequency_volume_; }
   /// Largest relative difference between W^1/2 q and W^-1/2 c.
   double reciprocity_error() const { return reciprocity_error_; }
+  /// The solution with RankineSettings::coarser; null without. What it differs by tells how far the
+  /// panels are from being fine enough. It keeps no factors.
+  const RankinePart* coarser() const { return coarser_.get(); }
 
   /// Body potential and W^1/2 w for any normal velocities on the bodies (columns) while phi = 0 on
   /// the surface. Needs keep_factors. @throws ModelError without them.
@@ -88,10 +100,19 @@ class RankinePart {
 
  private:
   struct Influence;
+  /// Areas of the panels, m2, and whether the water is deep.
+  struct Areas {
+    Eigen::VectorXd bodies, surface;
+    bool deep;
+  };
+  RankinePart() = default;
   Influence compute_influence(const PanelModel& model, int threads) const;
+  void solve_coarser(const Influence& influence, const Areas& areas, const CoarserPanels& panels);
+  /// Factorises the matrices and reduces them to the surface.
+  void reduce(Influence influence, const Areas& areas, bool keep_factors);
 
   Parity parity_;
-  int image_count_;
+  int image_count_ = 1;
   std::vector<int> modes_;
   RankineTiming timing_;
   double reciprocity_error_ = 0.0;
@@ -100,6 +121,7 @@ class RankinePart {
   /// Kept for solve(): factors and the blocks of the right-hand side.
   struct Factors;
   std::shared_ptr<const Factors> factors_;
+  std::shared_ptr<const RankinePart> coarser_;
 };
 
 }  // namespace blocklift::dynamics

@@ -95,18 +95,32 @@ HalfPlane separate(const PlanePolygon& first, const PlanePolygon& second, double
   return half;
 }
 
-/// Number of rings that cover a distance when the first is given, at least one.
-int ring_count(double distance, double first, double growth) {
-  const double rings = growth > 1.0
-                           ? std::log1p(distance * (growth - 1.0) / first) / std::log(growth)
-                           : distance / first;
-  return std::max(1, static_cast<int>(std::lround(rings)));
-}
+/// Widths of rings, from the water line outwards.
+struct RingWidths {
+  double width;        ///< of the next ring, m
+  double slow_from;    ///< width from which the rings widen slowly, m
+  double fast_growth;  ///< up to there
+  double growth;
 
-/// Fraction of the way after j of n rings.
-double ring_fraction(int j, int n, double growth) {
-  if (growth <= 1.0) return static_cast<double>(j) / n;
-  return std::expm1(j * std::log(growth)) / std::expm1(n * std::log(growth));
+  void widen() {
+    width = width < slow_from ? std::min(width * fast_growth, std::max(slow_from, width * growth))
+                              : width * growth;
+  }
+};
+
+/// Edges of the rings that cover a distance best, in shares of it: 0 to 1, one ring at least.
+/// `widths` is left at the ring that follows.
+std::vector<double> ring_edges(double distance, RingWidths& widths) {
+  std::vector<double> edges{0.0, widths.width};
+  widths.widen();
+  while (edges.back() + 0.5 * widths.width < distance) {
+    edges.push_back(edges.back() + widths.width);
+    widths.widen();
+  }
+  const double sum = edges.back();
+  for (double& edge : edges) edge /= sum;
+  edges.back() = 1.0;
+  return edges;
 }
 
 class SurfaceMesher {
@@ -134,7 +148,8 @@ class SurfaceMesher {
   std::vector<RayEnd> find_corners(const Body& body) const;
   std::vector<RayEnd> find_ends(const Body& body, const PlanePolygon& from) const;
   void add_rings(const Vector2& a, const Vector2& b, const Vector2& a_end, const Vector2& b_end,
-                 int rings);
+                 const std::vector<double>& edges);
+  RingWidths widths_at(const Body& body) const;
   void add_outer_rings();
   void add_panel(const std::vector<Vector2>& points);
 
@@ -150,7 +165,8 @@ class SurfaceMesher {
 
 SurfaceMesher::SurfaceMesher(std::span<const WaterLine> lines, const SurfaceMeshSettings& settings)
     : settings_(settings) {
-  if (!(settings.first_ring > 0.0) || !(settings.growth >= 1.0) || !(settings.growth < 2.0)) {
+  if (!(settings.first_ring > 0.0) || !(settings.growth >= 1.0) || !(settings.growth < 2.0) ||
+      !(settings.edge_share >= 0.0) || !(settings.edge_growth >= 1.0)) {
     throw ModelError(
         "the surface mesh needs a positive first ring and a growth from 1 to 2; they are " +
         std::to_string(settings.first_ring) + " m and " + std::to_string(settings.growth));
@@ -307,12 +323,26 @@ void SurfaceMesher::add_panel(const std::vector<Vector2>& points) {
 
 /// Rings between two neighbouring rays a -> a_end and b -> b_end.
 void SurfaceMesher::add_rings(const Vector2& a, const Vector2& b, const Vector2& a_end,
-                              const Vector2& b_end, int rings) {
-  for (int j = 0; j < rings; ++j) {
-    const double s = ring_fraction(j, rings, settings_.growth);
-    const double t = j + 1 == rings ? 1.0 : ring_fraction(j + 1, rings, settings_.growth);
+                              const Vector2& b_end, const std::vector<double>& edges) {
+  for (std::size_t j = 0; j + 1 < edges.size(); ++j) {
+    const double s = edges[j], t = edges[j + 1];
     add_panel({a + s * (a_end - a), a + t * (a_end - a), b + t * (b_end - b), b + s * (b_end - b)});
   }
+}
+
+RingWidths SurfaceMesher::widths_at(const Body& body) const {
+  double length = 0.0;
+  for (std::size_t k = 0; k < body.line.size(); ++k) {
+    length += (body.line[(k + 1) % body.line.size()] - body.line[k]).norm();
+  }
+  const double edge = length / static_cast<double>(body.line.size());
+  RingWidths widths{settings_.first_ring, settings_.first_ring, settings_.edge_growth,
+                    settings_.growth};
+  if (settings_.edge_share > 0.0) {
+    widths.slow_from = std::min(settings_.first_ring, edge);
+    widths.width = std::min(settings_.first_ring, settings_.edge_share * edge);
+  }
+  return widths;
 }
 
 void SurfaceMesher::mesh_body(const Body& body) {
@@ -321,30 +351,25 @@ void SurfaceMesher::mesh_body(const Body& body) {
   double size = 0.0;
   for (const Vector2& p : body.line) size = std::max(size, (p - body.centre).norm());
   const double reach = std::min(0.25 * size, 0.3 * body.gap);
-  const double first = std::min(settings_.first_ring, reach);
-  const int near_rings = ring_count(reach, first, settings_.growth);
-  const double width =
-      settings_.growth > 1.0
-          ? std::min(reach, first * std::expm1(near_rings * std::log(settings_.growth)) /
-                                (settings_.growth - 1.0))
-          : std::min(reach, first * near_rings);
+  RingWidths widths = widths_at(body);
+  widths.width = std::min(widths.width, reach);
+  const std::vector<double> near_edges = ring_edges(reach, widths);
   PlanePolygon offset(count);
   for (std::size_t k = 0; k < count; ++k) {
     const Vector2 before = (body.line[k] - body.line[(k + count - 1) % count]).normalized();
     const Vector2 after = (body.line[(k + 1) % count] - body.line[k]).normalized();
     const Vector2 sum = before + after;
     const Vector2 normal(sum.y(), -sum.x());
-    offset[k] = body.line[k] + 2.0 * width / normal.squaredNorm() * normal;
+    offset[k] = body.line[k] + 2.0 * reach / normal.squaredNorm() * normal;
   }
   const std::vector<RayEnd> ends = find_ends(body, offset);
-  const double next_ring = first * std::pow(settings_.growth, near_rings);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t next = (k + 1) % count;
-    add_rings(body.line[k], body.line[next], offset[k], offset[next], near_rings);
+    add_rings(body.line[k], body.line[next], offset[k], offset[next], near_edges);
     const double distance =
         0.5 * ((ends[k].p - offset[k]).norm() + (ends[next].p - offset[next]).norm());
-    add_rings(offset[k], offset[next], ends[k].p, ends[next].p,
-              ring_count(distance, next_ring, settings_.growth));
+    RingWidths further = widths;
+    add_rings(offset[k], offset[next], ends[k].p, ends[next].p, ring_edges(distance, further));
     if (ends[k].on_circle) common_edge_.push_back(ends[k].p);
   }
 }
@@ -364,7 +389,8 @@ void SurfaceMesher::add_outer_rings() {
   if ((edge.front() - edge.back()).norm() < tolerance) edge.pop_back();
   const double first = std::max(settings_.first_ring, 2.0 * std::numbers::pi * common_radius_ /
                                                           static_cast<double>(edge.size()));
-  const int rings = ring_count(settings_.radius - common_radius_, first, settings_.growth);
+  RingWidths widths{first, first, settings_.growth, settings_.growth};
+  const std::vector<double> edges = ring_edges(settings_.radius - common_radius_, widths);
   const double ratio = settings_.radius / common_radius_;
   for (std::size_t k = 0; k < edge.size(); ++k) {
     outer_area_ +=
@@ -373,7 +399,7 @@ void SurfaceMesher::add_outer_rings() {
   if (!(settings_.radius > common_radius_)) return;
   for (std::size_t k = 0; k < edge.size(); ++k) {
     const Vector2 &a = edge[k], &b = edge[(k + 1) % edge.size()];
-    add_rings(a, b, centre_ + ratio * (a - centre_), centre_ + ratio * (b - centre_), rings);
+    add_rings(a, b, centre_ + ratio * (a - centre_), centre_ + ratio * (b - centre_), edges);
   }
 }
 

@@ -11,11 +11,17 @@ struct SurfaceMeshSettings {
   double first_ring = not_a_number;  ///< width of the panels at the water line, m
   double growth = 1.1;               ///< each ring is this much wider than the one inside it
   double radius = not_a_number;      ///< of the outer edge, about the middle of the bodies, m
+  /// Rings at a body begin with this share of the mean edge of its water line, if that is less than
+  /// first_ring, and widen by edge_growth until they have reached it; 0: they begin with it.
+  double edge_share = 0.0;
+  double edge_growth = 1.4;
 };
 
-/// Settings for waves between two lengths (m) around bodies within a radius (m): the first ring is
-/// a fifteenth of the shortest wave (but at least 0.06 of the smallest water line's radius), the
-/// edge 1.4 of the longest wave away, which the damping zone needs to take it in.
+/// Settings for waves between two lengths (m): waves are resolved by a first ring of a fifteenth of
+/// the shortest (but at least 0.06 of the smallest water line's radius), and by an edge 1.4 of the
+/// longest away, which the damping zone needs to take it in. At a hull whose side moves to and fro
+/// the vertical velocity of the surface is infinite as a logarithm: there the rings begin with a
+/// quarter of the water line's edges, so that they follow the hull's own panels.
 SurfaceMeshSettings surface_settings(std::span<const WaterLine> water_lines, double shortest_wave,
                                      double longest_wave);
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/impulse_run.h"
 #include "dynamics/marine/radiation/incident_wave.h"
 
 namespace blocklift::dynamics {
@@ -16,18 +19,8 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double tapered_fraction = 0.4;
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// 1 over the first part of the run, then half a cosine down to 0 at its end.
-double taper(long step, long steps) {
-  const double begin = (1.0 - tapered_fraction) * static_cast<double>(steps);
-  const double fraction =
-      (static_cast<double>(step) - begin) / (static_cast<double>(steps) - begin);
-  return fraction <= 0.0 ? 1.0 : 0.5 * (1.0 + std::cos(std::numbers::pi * std::min(1.0, fraction)));
 }
 
 void check(const DatabaseSettings& settings) {
@@ -59,38 +52,57 @@ class Progress {
   double parts_, done_ = 0.0;
 };
 
+/// On the surface only what is small beside the shortest wave is taken together: near the hulls.
+/// Waves that leave them must not be lost on coarse rings, which would tell nothing of the hulls.
+RankineSettings rankine_settings(const PanelModel& model, const DatabaseSettings& settings) {
+  RankineSettings rankine = settings.rankine;
+  if (!settings.with_coarser) return rankine;
+  double diameters = 0.0;
+  for (const Panel& panel : model.body_mesh().panels) diameters += panel.diameter();
+  const double wave =
+      2.0 * std::numbers::pi / calc_wave_number(settings.frequencies.back(), model.water());
+  const double largest = std::max(wave / 8.0, 2.0 * diameters / model.body_mesh().size());
+  rankine.coarser = std::make_shared<const CoarserPanels>(CoarserPanels{
+      cluster_panels(model.body_mesh()), cluster_panels(model.surface_mesh(), largest)});
+  return rankine;
+}
+
 /// The share of one part in the database: its impulse run and what follows from it.
 class PartComputation {
  public:
   PartComputation(const PanelModel& model, const Parity& parity, const DatabaseSettings& settings,
-                  double duration, double damping_strength)
-      : model_(model),
-        settings_(settings),
-        part_(model, parity, settings.rankine),
-        duration_(duration),
-        march_(part_, DampingZone{damping_strength}.rates(model.surface()), model.water().gravity,
-               part_.surface_columns().cols()) {}
+                  const RankineSettings& rankine, double damping_strength);
 
   const RankinePart& part() const { return part_; }
-  double step_limit() const { return march_.step_limit(); }
+  double step_limit() const { return run_.step_limit(); }
   double added_mass_asymmetry(MatrixXd& infinite_added_mass) const;
-  long run(double step, std::vector<MatrixXd>& retardation, const Progress& progress);
+  void run(double step, long steps, std::vector<MatrixXd>& retardation, const Progress& progress);
   void add_frequencies(HydrodynamicDatabase& database) const;
   void add_excitation(HydrodynamicDatabase& database) const;
+  /// To the radiation forces of the coarser solution, one 6N x 6N for each frequency.
+  void add_coarser(std::vector<MatrixXcd>& forces) const;
 
  private:
-  void accumulate(long step, double taper);
-  double discrete_frequency(double w) const { return 2.0 / step_ * std::asin(0.5 * w * step_); }
-
   const PanelModel& model_;
   const DatabaseSettings& settings_;
   RankinePart part_;
-  double duration_;
-  FreeSurfaceMarch march_;
-  double step_ = not_a_number;
-  /// Integral of W^1/2 eta e^{-iwt} over the run, for each frequency: panels x modes.
-  std::vector<MatrixXd> cosine_, sine_;
+  ImpulseRun run_;
+  std::optional<ImpulseRun> coarser_run_;
 };
+
+PartComputation::PartComputation(const PanelModel& model, const Parity& parity,
+                                 const DatabaseSettings& settings, const RankineSettings& rankine,
+                                 double damping_strength)
+    : model_(model),
+      settings_(settings),
+      part_(model, parity, rankine),
+      run_(part_, DampingZone{damping_strength}.rates(model.surface()), model.water(),
+           settings.frequencies) {
+  if (part_.coarser() == nullptr) return;
+  const Eigen::VectorXd rates = rankine.coarser->surface.average(
+      model.surface_areas(), DampingZone{damping_strength}.rates(model.surface()));
+  coarser_run_.emplace(*part_.coarser(), rates, model.water(), settings.frequencies);
+}
 
 double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) const {
   const MatrixXd share = model_.water().density * part_.infinite_frequency_volume();
@@ -107,51 +119,35 @@ double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) cons
   return asymmetry;
 }
 
-void PartComputation::accumulate(long step, double weight) {
-  for (std::size_t k = 0; k < settings_.frequencies.size(); ++k) {
-    const double angle =
-        discrete_frequency(settings_.frequencies[k]) * static_cast<double>(step) * step_;
-    cosine_[k] += weight * std::cos(angle) * march_.elevation();
-    sine_[k] -= weight * std::sin(angle) * march_.elevation();
-  }
-}
-
-long PartComputation::run(double step, std::vector<MatrixXd>& retardation,
+void PartComputation::run(double step, long steps, std::vector<MatrixXd>& retardation,
                           const Progress& progress) {
-  step_ = step;
-  const auto steps = static_cast<long>(std::ceil(duration_ / step));
-  const MatrixXd& q = part_.surface_columns();
   const auto& modes = part_.modes();
-  cosine_.assign(settings_.frequencies.size(), MatrixXd::Zero(q.rows(), q.cols()));
-  sine_ = cosine_;
   retardation.resize(static_cast<std::size_t>(steps) + 1,
                      MatrixXd::Zero(model_.mode_count(), model_.mode_count()));
-  const double factor = model_.water().density * model_.water().gravity * part_.image_count();
-  march_.start(q, step);
-  for (long k = 0;; ++k) {
-    const double reduction = taper(k, steps);
-    MatrixXd share = factor * reduction * (q.transpose() * march_.elevation());
-    retardation[static_cast<std::size_t>(k)](modes, modes) += 0.5 * (share + share.transpose());
-    accumulate(k, (k == 0 ? 0.5 : 1.0) * step * reduction);
-    if (k == steps) break;
+  run_.run(step, steps, [&](long k, const MatrixXd& share) {
+    retardation[static_cast<std::size_t>(k)](modes, modes) += share;
     if (k % 16 == 0) progress.march(static_cast<double>(k) / static_cast<double>(steps));
-    march_.advance();
-  }
-  return steps;
+  });
+  // The coarser surface's waves are longer: what the finer one's step suits suits it too.
+  if (coarser_run_) coarser_run_->run(step, steps, [](long, const MatrixXd&) {});
 }
 
 void PartComputation::add_frequencies(HydrodynamicDatabase& database) const {
-  const MatrixXd& q = part_.surface_columns();
   const auto& modes = part_.modes();
-  const double factor = model_.water().density * model_.water().gravity * part_.image_count();
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-    const double w = database.frequencies[k];
-    const double half_angle = 0.5 * w * step_;
-    const double scale = factor / std::sqrt(1.0 - half_angle * half_angle);
-    const MatrixXd damping = scale * (q.transpose() * cosine_[k]);
-    const MatrixXd mass = scale / w * (q.transpose() * sine_[k]);
-    database.damping[k](modes, modes) += 0.5 * (damping + damping.transpose());
-    database.added_mass[k](modes, modes) += 0.5 * (mass + mass.transpose());
+    database.damping[k](modes, modes) += run_.damping(k);
+    database.added_mass[k](modes, modes) += run_.added_mass(k);
+  }
+}
+
+void PartComputation::add_coarser(std::vector<MatrixXcd>& forces) const {
+  if (!coarser_run_) return;
+  const auto& modes = part_.modes();
+  const MatrixXd& volume = part_.coarser()->infinite_frequency_volume();
+  for (std::size_t k = 0; k < settings_.frequencies.size(); ++k) {
+    const MatrixXd mass = model_.water().density * volume + coarser_run_->added_mass(k);
+    forces[k](modes, modes) +=
+        coarser_run_->damping(k) + Complex(0, settings_.frequencies[k]) * mass;
   }
 }
 
@@ -163,13 +159,8 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
       static_cast<int>(database.frequencies.size()), settings_.rankine.threads, [&](int index) {
         const auto k = static_cast<std::size_t>(index);
         const double w = database.frequencies[k];
-        const double half_angle = 0.5 * w * step_;
-        const double scale = 1.0 / std::sqrt(1.0 - half_angle * half_angle);
         // phi on the surface per unit velocity is -g eta/(i w); then on the bodies.
-        MatrixXcd surface(cosine_[k].rows(), cosine_[k].cols());
-        surface.real() = scale * cosine_[k];
-        surface.imag() = scale * sine_[k];
-        surface *= -water.gravity / Complex(0.0, w);
+        const MatrixXcd surface = -water.gravity / Complex(0.0, w) * run_.elevation(k);
         MatrixXcd bodies(part_.body_columns().rows(), part_.body_columns().cols());
         bodies.real() = part_.body_columns() + part_.body_from_surface() * surface.real();
         bodies.imag() = part_.body_from_surface() * surface.imag();
@@ -214,6 +205,24 @@ HydrodynamicDatabase make_empty(const PanelModel& model, const DatabaseSettings&
   database.froude_krylov.assign(count, MatrixXcd::Zero(modes, headings));
   database.diffraction = database.froude_krylov;
   return database;
+}
+
+/// Largest relative change of each mode's radiation force on itself over the frequencies. Zero for
+/// a mode with next to no force, such as the turns of a round body about its axis.
+Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
+                               const std::vector<MatrixXcd>& coarser) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(database.mode_count());
+  for (std::size_t k = 0; k < coarser.size(); ++k) {
+    for (Eigen::Index m = 0; m < change.size(); ++m) {
+      const Complex force(database.damping[k](m, m),
+                          database.frequencies[k] * database.added_mass[k](m, m));
+      const Eigen::Index first = m - m % 3;
+      const double largest = database.added_mass[k].diagonal().segment<3>(first).maxCoeff();
+      if (std::abs(force) < 1e-3 * database.frequencies[k] * largest) continue;
+      change[m] = std::max(change[m], std::abs(coarser[k](m, m) - force) / std::abs(force));
+    }
+  }
+  return change;
 }
 
 }  // namespace
@@ -266,6 +275,9 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   account.body_panels = model.body_mesh().size();
   account.surface_panels = model.surface_mesh().size();
   account.peak_bytes = database_bytes(model, settings);
+  const RankineSettings rankine = rankine_settings(model, settings);
+  std::vector<MatrixXcd> coarser(settings.with_coarser ? settings.frequencies.size() : 0,
+                                 MatrixXcd::Zero(model.mode_count(), model.mode_count()));
   double step = settings.time_step;
   const std::vector<Parity> parities = model.parities();
   Progress progress(settings, parities.size());
@@ -274,7 +286,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     if (model.normal_velocities(parity).isZero(0.0)) continue;
     progress.part(p);
     progress.solve();
-    PartComputation computation(model, parity, settings, duration, strength);
+    PartComputation computation(model, parity, settings, rankine, strength);
     if (!(step > 0.0)) step = std::min(0.8 * computation.step_limit(), 0.25 / highest);
     if (!(0.5 * highest * step < 1.0)) {
       throw ModelError("the highest frequency, " + std::to_string(highest) +
@@ -284,8 +296,11 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     auto start = std::chrono::steady_clock::now();
     account.asymmetry =
         std::max(account.asymmetry, computation.added_mass_asymmetry(database.infinite_added_mass));
-    account.steps += computation.run(step, database.retardation, progress);
+    const auto steps = static_cast<long>(std::ceil(duration / step));
+    computation.run(step, steps, database.retardation, progress);
+    account.steps += steps;
     computation.add_frequencies(database);
+    computation.add_coarser(coarser);
     account.march_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
     progress.excite();
@@ -303,6 +318,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   }
   database.time_step = step;
   for (MatrixXd& mass : database.added_mass) mass += database.infinite_added_mass;
+  if (settings.with_coarser) database.change_from_coarser = largest_change(database, coarser);
   return database;
 }
 

@@ -22,6 +22,9 @@ class Examination {
     if (database_.hydrostatic_stiffness.size() > 0) {
       matrix(database_.hydrostatic_stiffness, modes, "the hydrostatic stiffness");
     }
+    if (const auto known = database_.change_from_coarser.size(); known > 0 && known != modes) {
+      complain(join("there are ", known, " changes from coarser panels for ", modes, " modes"));
+    }
     series(database_.added_mass, modes, "the added mass");
     series(database_.damping, modes, "the damping");
     series(database_.froude_krylov, headings(), "the Froude-Krylov force");

@@ -175,6 +175,7 @@ HydrodynamicDatabase with_dry_body(const HydrodynamicDatabase& wet, int body,
   dry_out(dry);
   dry.hydrostatic_stiffness = {};
   dry.centres_of_buoyancy.clear();
+  dry.change_from_coarser = {};
   dry.displaced_volumes[static_cast<std::size_t>(body)] = 0.0;
   if (!others) return dry;
   std::vector<std::string> names = wet.body_names;

@@ -22,6 +22,8 @@ VerificationCase deep_sphere();
 /// Added mass and damping of a hemisphere over frequency, with convergence; energy; Ogilvie's
 /// relations.
 VerificationCase floating_hemisphere();
+/// Surge and heave of a cylinder with a flat bottom, with their order of convergence.
+VerificationCase truncated_cylinder();
 /// Symmetry of two bodies' coefficients.
 VerificationCase two_hemispheres();
 /// Diffraction directly and by Haskind's relation.

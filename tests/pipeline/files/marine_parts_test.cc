@@ -11,6 +11,7 @@
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/formats/hydrodynamic_database_file.h"
 #include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {
@@ -156,6 +157,78 @@ TEST(MarineParts, DatabaseMakesWaterAndDiffraction) {
       dynamics::integrate(built.system, built.system.q_start(), built.system.v_start(),
                           {.relative_tolerance = 1e-6, .sample_interval = 0.5});
   EXPECT_TRUE(result.q_end.allFinite());
+}
+
+/// A database of bodies afloat in the water of `floating`, written into the current folder.
+void write_database(const std::string& file, const std::vector<std::string>& bodies,
+                    double density = 1025) {
+  const auto modes = static_cast<Eigen::Index>(6 * bodies.size());
+  dynamics::HydrodynamicDatabase database;
+  database.water = {density, 9.81};
+  database.body_names = bodies;
+  database.reference_points.assign(bodies.size(), Vector3(0.5, 0, 0.9));
+  database.displaced_volumes.assign(bodies.size(), 1680);
+  database.infinite_added_mass = 5e6 * Eigen::MatrixXd::Identity(modes, modes);
+  database.time_step = 0.2;
+  for (int n = 0; n < 100; ++n) {
+    database.retardation.push_back(1e5 * std::exp(-0.2 * n) *
+                                   Eigen::MatrixXd::Identity(modes, modes));
+  }
+  database.frequencies = {0.5, 1.5};
+  for (int h = 0; h < 8; ++h) database.headings.push_back(h * std::numbers::pi / 4);
+  database.added_mass.assign(2, database.infinite_added_mass);
+  database.damping.assign(2, 1e5 * Eigen::MatrixXd::Identity(modes, modes));
+  database.froude_krylov.assign(2, Eigen::MatrixXcd::Zero(modes, 8));
+  database.diffraction.assign(2, Eigen::MatrixXcd::Constant(modes, 8, 1e4));
+  write_hydrodynamic_database(file, database);
+}
+
+// The barge of `floating` lies at (3, 4), turned by a quarter, 2.1 m deep: the database's world is
+// the barge's own, level in the water.
+TEST(MarineParts, AVesselMayNameADatabase) {
+  const TemporaryFolder folder;
+  folder.write("vessels/barge.yaml", barge);
+  folder.write("mechanism.yaml", with(floating, "damping:", "database: pontoon.h5, damping:"));
+  write_database("pontoon.h5", {"pontoon"});
+  Diagnostics diagnostics;
+  ModelLibrary library({});
+  const auto file = read_mechanism("mechanism.yaml", library, diagnostics);
+  ASSERT_TRUE(file) << diagnostics.to_text();
+  const RadiationProblem problem = radiation_problem(*file);
+  ASSERT_TRUE(problem.given);
+  EXPECT_LT((problem.bodies[0].X_DB.p - Vector3(0, 0, -2.1)).norm(), 1e-6);
+  EXPECT_LT((problem.bodies[0].X_DB.R - dynamics::Matrix3::Identity()).norm(), 1e-12);
+  EXPECT_LT((problem.bodies[0].p_BoR_B - Vector3(0.5, 0, 3.0)).norm(), 1e-6);
+  const dynamics::HydrodynamicSeries series{0, {0.0}, {*problem.given}};
+  const BuiltMechanism built = build_mechanism(*file, &series);
+  const auto& force =
+      std::get<std::vector<dynamics::DiffractionForce>>(built.system.elements()).at(0);
+  EXPECT_LT((force.definition().frame.X_BH.R - dynamics::Matrix3::Identity()).norm(), 1e-12);
+  EXPECT_LT((force.definition().frame.X_BH.p - Vector3(0.5, 0, 3.0)).norm(), 1e-6);
+}
+
+TEST(MarineParts, ComplainsAboutDatabases) {
+  const auto complaint = [](const std::string& keys) {
+    const TemporaryFolder folder;
+    folder.write("vessels/barge.yaml", barge);
+    folder.write("mechanism.yaml", with(floating, "damping:", keys + ", damping:"));
+    write_database("one.h5", {"pontoon"});
+    write_database("fresh.h5", {"pontoon"}, 1000);
+    write_database("two.h5", {"B1", "B2"});
+    Diagnostics diagnostics;
+    ModelLibrary library({});
+    EXPECT_FALSE(read_mechanism("mechanism.yaml", library, diagnostics));
+    return diagnostics.to_text();
+  };
+  EXPECT_THAT(complaint("database: none.h5"), HasSubstr("there is no database none.h5"));
+  EXPECT_THAT(complaint("database: one.h5, database_body: ponton"),
+              HasSubstr("holds no body \"ponton\""));
+  EXPECT_THAT(complaint("database: fresh.h5"), HasSubstr("for water of 1000 kg/m3"));
+  EXPECT_THAT(complaint("database: two.h5"), HasSubstr("holds body B2, which no vessel is"));
+  EXPECT_THAT(complaint("radiation: none, database: one.h5"), HasSubstr("its radiation is none"));
+  EXPECT_THAT(complaint("draughts: [1 m, 2 m], database: one.h5"),
+              HasSubstr("a database of one draught"));
+  EXPECT_THAT(complaint("database_body: pontoon"), HasSubstr("is a body of no database"));
 }
 
 TEST(MarineParts, IrregularSeas) {

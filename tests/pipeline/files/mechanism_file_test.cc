@@ -1,9 +1,11 @@
 #include "pipeline/files/mechanism_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +13,8 @@
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/declaration/geometry_format.h"
+#include "pipeline/files/urdf_import.h"
 #include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {
@@ -367,6 +371,40 @@ TEST(Urdf, BecomesAMechanism) {
   const double turn = system.q_start()[mechanism.body(mechanism.body_index("upper")).q_offset];
   const double slide = system.q_start()[mechanism.body(mechanism.body_index("finger")).q_offset];
   EXPECT_NEAR(slide, 0.2 * turn + 0.1, 1e-9);
+}
+
+// Over the whole range of pitch, right angles among them and what lies next to them, to the
+// rounding of a quaternion and of three angles.
+TEST(Urdf, KeepsRotationsOfEveryPitch) {
+  std::vector<Vector3> given;
+  std::string text = "<robot name=\"many\"><link name=\"l\"/>\n";
+  for (const double from_right_angle : {0.0, 1e-9, 1e-6, 1e-4, 0.0045, 0.02, 0.4, 1.0, 1.5, 1.6}) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3 rpy(0.7 * sign - from_right_angle,
+                        sign * (std::numbers::pi / 2 - from_right_angle), 2.1 - from_right_angle);
+      const std::string name = "j" + std::to_string(given.size());
+      text += fmt::format(
+          "<link name=\"{0}\"/><joint name=\"{0}\" type=\"fixed\">"
+          "<parent link=\"l\"/><child link=\"{0}\"/>"
+          "<origin rpy=\"{1:.17g} {2:.17g} {3:.17g}\"/></joint>\n",
+          name, rpy.x(), rpy.y(), rpy.z());
+      given.push_back(rpy);
+    }
+  }
+  const TemporaryFolder folder;
+  folder.write("many.urdf", text + "</robot>\n");
+  Diagnostics diagnostics;
+  const auto robot_read = import_urdf("many.urdf", {}, diagnostics);
+  ASSERT_TRUE(robot_read) << diagnostics.to_text();
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const auto& joints = robot_read->parts.joints;
+    const auto joint = std::find_if(joints.begin(), joints.end(), [&](const JointModel& candidate) {
+      return candidate.name.value == "j" + std::to_string(k);
+    });
+    ASSERT_NE(joint, joints.end());
+    EXPECT_LT((rotation_of(joint->attitude) - rotation_of(given[k])).norm(), 4e-15)
+        << given[k].transpose();
+  }
 }
 
 TEST(Urdf, IsTheBaseOfAMechanismFile) {

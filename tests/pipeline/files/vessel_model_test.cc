@@ -41,6 +41,31 @@ TEST(VesselModel, ReadsHullAndMass) {
   EXPECT_NEAR(vessel->body().mass, 60e3, 1e-9);
 }
 
+// The wetted surface alone of a box 4 x 2 x 1 m, and with a lid in the water plane: both go on
+// above the water as a closed hull.
+TEST(VesselModel, AMeshThatEndsAtTheWaterGoesOnUpright) {
+  const std::string wetted =
+      "-2 -1 -1 -2 1 -1 2 1 -1 2 -1 -1\n"  // bottom
+      "-2 -1 -1 2 -1 -1 2 -1 0 -2 -1 0\n"
+      "2 -1 -1 2 1 -1 2 1 0 2 -1 0\n"
+      "2 1 -1 -2 1 -1 -2 1 0 2 1 0\n"
+      "-2 1 -1 -2 -1 -1 -2 -1 0 -2 1 0\n";
+  const std::string lid = "-2 -1 0 2 -1 0 2 1 0 -2 1 0\n";
+  for (const bool with_lid : {false, true}) {
+    const test::TemporaryFolder folder;
+    folder.write("box.gdf", std::string("box\n1 9.80665\n0 0\n") + (with_lid ? "6\n" : "5\n") +
+                                wetted + (with_lid ? lid : ""));
+    folder.write("vessel.yaml", replaced(cube, "{barge: {length: 5 m, breadth: 5 m, depth: 5 m}}",
+                                         "{mesh: {file: box.gdf}}") +
+                                    "hydrodynamics: {water_line: as meshed}\n");
+    Diagnostics diagnostics;
+    const std::optional<Vessel> vessel = read_vessel("vessel.yaml", diagnostics);
+    ASSERT_TRUE(vessel.has_value()) << diagnostics.to_text();
+    EXPECT_NEAR(dynamics::calc_enclosed_volume(vessel->hull).volume, 16.0, 1e-12);
+    EXPECT_EQ(vessel->hull.bounds()[1].z(), 1.0);
+  }
+}
+
 TEST(VesselModel, SaysWhatIsWrong) {
   EXPECT_THAT(complaint(replaced(cube, "60 t", "200 t")),
               HasSubstr("would have to displace 195.122 m3; it encloses 125 m3"));

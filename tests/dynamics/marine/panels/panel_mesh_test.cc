@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/panels/panel_clusters.h"
 #include "dynamics/marine/panels/panel_model.h"
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/panels/surface_mesh.h"
@@ -150,6 +151,42 @@ TEST(SurfaceMesh, CoversTheWaterBetweenBodies) {
     }
     EXPECT_LT(worst, 1e-4);
   }
+}
+
+// The innermost ring is a quarter of the water line's edge wide, however long the waves are.
+TEST(SurfaceMesh, RingsFollowThePanelsOfTheHull) {
+  for (const int meridians : {16, 48}) {
+    const std::vector<WettedBody> bodies{
+        {"cylinder", make_vertical_cylinder(1, 0.5, true, {.meridians = meridians}), {}}};
+    const auto lines = find_water_lines(bodies);
+    const SurfaceMesh surface = make_surface_mesh(lines, surface_settings(lines, 10.0, 20.0));
+    const double edge = (lines[0][1] - lines[0][0]).norm();
+    double innermost = std::numeric_limits<double>::infinity();
+    for (const Panel& panel : surface.mesh.panels) {
+      innermost = std::min(innermost, panel.area / edge);
+    }
+    EXPECT_NEAR(innermost, 0.25 * edge, 0.05 * edge);
+  }
+}
+
+// Taken together four by four where that is possible; nothing is lost, and edges are kept.
+TEST(PanelClusters, OfABoxCoverIt) {
+  const PanelMesh box = make_box_hull(8, 4, 2, {8, 4, 2, 1.0});
+  const PanelClusters clusters = cluster_panels(box);
+  EXPECT_EQ(4 * clusters.count, box.size());
+  Eigen::VectorXd areas(box.size()), depths(box.size());
+  for (int k = 0; k < box.size(); ++k) {
+    areas[k] = box.panels[static_cast<std::size_t>(k)].area;
+    depths[k] = box.panels[static_cast<std::size_t>(k)].centroid.z();
+  }
+  EXPECT_NEAR(clusters.sum(areas).sum(), box.total_area(), 1e-12);
+  for (int k = 0; k < clusters.count; ++k) EXPECT_NEAR(clusters.sum(areas)[k], 4.0, 1e-12);
+  // Bottom and sides are not mixed: a cluster's mean depth is that of either.
+  const Eigen::MatrixXd mean = clusters.average(areas, depths);
+  for (int k = 0; k < clusters.count; ++k) {
+    EXPECT_LT(std::min(std::abs(mean(k, 0) + 2.0), std::abs(mean(k, 0) + 1.0)), 1e-12);
+  }
+  EXPECT_EQ(cluster_panels(box, 1.0).count, box.size());
 }
 
 TEST(SurfaceMesh, ThreeBodiesInARow) {

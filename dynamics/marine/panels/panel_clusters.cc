@@ -1,0 +1,146 @@
+#include "dynamics/marine/panels/panel_clusters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace blocklift::dynamics {
+namespace {
+
+using Pair = std::pair<int, int>;
+
+/// An edge that two panels have in common.
+struct SharedEdge {
+  Pair panels;
+  double length;  ///< m
+};
+
+std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Panel& panel : mesh.panels) smallest = std::min(smallest, panel.diameter());
+  // Vertices of neighbours are the same points, but for rounding.
+  const double grain = 1e-5 * smallest;
+  std::map<std::tuple<long, long, long>, int> vertices;
+  const auto number_of = [&](const Vector3& p) {
+    const auto cell = [&](double x) { return std::lround(x / grain); };
+    return vertices
+        .try_emplace({cell(p.x()), cell(p.y()), cell(p.z())}, static_cast<int>(vertices.size()))
+        .first->second;
+  };
+  std::map<Pair, int> first_at;
+  std::vector<SharedEdge> shared;
+  for (int k = 0; k < mesh.size(); ++k) {
+    const Panel& panel = mesh.panels[static_cast<std::size_t>(k)];
+    for (int v = 0; v < panel.vertex_count; ++v) {
+      const Vector3& a = panel.vertices[static_cast<std::size_t>(v)];
+      const Vector3& b = panel.vertices[static_cast<std::size_t>((v + 1) % panel.vertex_count)];
+      const int from = number_of(a), to = number_of(b);
+      const auto [known, is_new] =
+          first_at.try_emplace({std::min(from, to), std::max(from, to)}, k);
+      if (!is_new) shared.push_back({{known->second, k}, (b - a).norm()});
+    }
+  }
+  return shared;
+}
+
+/// What a cluster covers.
+struct Cover {
+  Vector3 area = Vector3::Zero();  ///< sum of areas times normals, m2
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<Cover> find_covers(const PanelMesh& mesh, const PanelClusters& clusters) {
+  std::vector<Cover> covers(static_cast<std::size_t>(clusters.count));
+  for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
+    Cover& cover = covers[static_cast<std::size_t>(clusters.of_panel[k])];
+    cover.area += mesh.panels[k].area * mesh.panels[k].normal;
+    for (const Vector3& vertex : mesh.panels[k].vertices) cover.box.extend(vertex);
+  }
+  return covers;
+}
+
+bool may_join(const Cover& a, const Cover& b, double largest) {
+  return a.area.dot(b.area) > std::sqrt(0.5) * a.area.norm() * b.area.norm() &&
+         a.box.merged(b.box).diagonal().norm() <= largest;
+}
+
+/// Joins neighbouring clusters two by two, those first that share the longest edges.
+void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, double largest,
+                PanelClusters& clusters) {
+  const std::vector<Cover> covers = find_covers(mesh, clusters);
+  std::map<Pair, double> common;
+  for (const SharedEdge& edge : edges) {
+    const int a = clusters.of_panel[static_cast<std::size_t>(edge.panels.first)];
+    const int b = clusters.of_panel[static_cast<std::size_t>(edge.panels.second)];
+    if (a != b) common[{std::min(a, b), std::max(a, b)}] += edge.length;
+  }
+  std::vector<std::pair<Pair, double>> ordered(common.begin(), common.end());
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<int> renamed(covers.size(), -1);
+  int count = 0;
+  for (const auto& [pair, length] : ordered) {
+    const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+    if (renamed[a] >= 0 || renamed[b] >= 0 || !may_join(covers[a], covers[b], largest)) continue;
+    renamed[a] = renamed[b] = count++;
+  }
+  for (int& name : renamed) {
+    if (name < 0) name = count++;
+  }
+  for (int& cluster : clusters.of_panel) cluster = renamed[static_cast<std::size_t>(cluster)];
+  clusters.count = count;
+}
+
+}  // namespace
+
+Eigen::MatrixXd PanelClusters::average(const Eigen::VectorXd& areas,
+                                       const Eigen::MatrixXd& values) const {
+  const Eigen::VectorXd whole = sum(areas);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, values.cols());
+  for (Eigen::Index column = 0; column < values.cols(); ++column) {
+    for (Eigen::Index k = 0; k < values.rows(); ++k) {
+      const int cluster = of_panel[static_cast<std::size_t>(k)];
+      result(cluster, column) += areas[k] / whole[cluster] * values(k, column);
+    }
+  }
+  return result;
+}
+
+Eigen::VectorXd PanelClusters::sum(const Eigen::VectorXd& values) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    result[of_panel[static_cast<std::size_t>(k)]] += values[k];
+  }
+  return result;
+}
+
+Eigen::MatrixXd PanelClusters::coarsen(const Eigen::MatrixXd& matrix, const PanelClusters& rows,
+                                       const Eigen::VectorXd& row_areas,
+                                       const PanelClusters& columns) {
+  if (matrix.size() == 0) return {};
+  const Eigen::VectorXd whole = rows.sum(row_areas);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.count, columns.count);
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    const int to = columns.of_panel[static_cast<std::size_t>(column)];
+    for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
+      const int cluster = rows.of_panel[static_cast<std::size_t>(k)];
+      result(cluster, to) += row_areas[k] / whole[cluster] * matrix(k, column);
+    }
+  }
+  return result;
+}
+
+PanelClusters cluster_panels(const PanelMesh& mesh, double largest) {
+  PanelClusters clusters;
+  clusters.count = mesh.size();
+  for (int k = 0; k < mesh.size(); ++k) clusters.of_panel.push_back(k);
+  const std::vector<SharedEdge> edges = find_shared_edges(mesh);
+  for (int pass = 0; pass < 2; ++pass) join_pairs(mesh, edges, largest, clusters);
+  return clusters;
+}
+
+}  // namespace blocklift::dynamics

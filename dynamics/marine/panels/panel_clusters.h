@@ -1,0 +1,32 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "dynamics/marine/panels/panel_mesh.h"
+
+namespace blocklift::dynamics {
+
+/// Neighbouring panels taken together, as one panel of a coarser mesh.
+struct PanelClusters {
+  std::vector<int> of_panel;  ///< the cluster that a panel belongs to
+  int count = 0;
+
+  /// Mean over each cluster's panels, weighted with their areas, for each column of values.
+  Eigen::MatrixXd average(const Eigen::VectorXd& areas, const Eigen::MatrixXd& values) const;
+  /// Sum over each cluster's panels.
+  Eigen::VectorXd sum(const Eigen::VectorXd& values) const;
+  /// Panels of one mesh (rows) by panels of another (columns), rows averaged and columns summed:
+  /// what a matrix of influence becomes when potentials are constant on the clusters and equations
+  /// hold in the mean over each.
+  static Eigen::MatrixXd coarsen(const Eigen::MatrixXd& matrix, const PanelClusters& rows,
+                                 const Eigen::VectorXd& row_areas, const PanelClusters& columns);
+};
+
+/// Clusters of up to four panels, of about twice a panel's size and at most `largest` (m) across.
+/// Panels are paired with the neighbour with which they share the longest edge, then the pairs once
+/// more. Those that meet at more than 45 degrees stay apart.
+PanelClusters cluster_panels(const PanelMesh& mesh,
+                             double largest = std::numeric_limits<double>::infinity());
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,148 @@
+#include "pipeline/hydrodynamics/given_database.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "dynamics/marine/panels/wetted_body.h"
+#include "dynamics/marine/radiation/incident_wave.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::HydrodynamicDatabase;
+using dynamics::modes_per_body;
+using Complex = std::complex<double>;
+
+constexpr double largest_difference = 0.05;
+
+[[noreturn]] void refuse(const Mark& mark, const std::string& what, const std::string& hint) {
+  Diagnostics diagnostics;
+  diagnostics.error(mark, what, {hint});
+  throw InputError(diagnostics);
+}
+
+/// Is the hull, as it lies at rest, that of the database's body?
+void require_same_hull(const RadiationProblem& problem, const RadiationProblem::Body& body) {
+  const HydrodynamicDatabase& database = *problem.given;
+  const auto index = static_cast<std::size_t>(body.given_body);
+  const dynamics::Hull& hull = body.vessel->hull;
+  const dynamics::Hydrostatics rest = calc_hydrostatics(dynamics::HullClusters(hull), body.X_DB);
+  const double volume = database.displaced_volumes[index];
+  if (volume > 0.0 && std::abs(rest.volume - volume) > largest_difference * volume) {
+    refuse(problem.place,
+           fmt::format("the database's body {} displaces {:.5g} m3, and the hull of vessel {} "
+                       "{:.5g} m3 at rest",
+                       database.body_names[index], volume, body.name, rest.volume),
+           "the database is of another vessel, or the vessel floats at another draught");
+  }
+  if (database.centres_of_buoyancy.empty()) return;
+  const Vector3 difference = body.X_DB.p + rest.p_BoC_W() - database.centres_of_buoyancy[index];
+  const auto [low, high] = hull.bounds();
+  if (difference.norm() > largest_difference * (high - low).norm()) {
+    refuse(problem.place,
+           fmt::format("the centre of buoyancy of vessel {} lies ({:.4g}, {:.4g}, {:.4g}) m from "
+                       "where the database has that of its body {}",
+                       body.name, difference.x(), difference.y(), difference.z(),
+                       database.body_names[index]),
+           "the vessels must lie to each other as in the database, and be its vessels");
+  }
+}
+
+/// Modes of the database (rows) in the order of the problem's bodies.
+std::vector<Eigen::Index> modes_in_order(const RadiationProblem& problem) {
+  std::vector<Eigen::Index> modes;
+  for (const RadiationProblem::Body& body : problem.bodies) {
+    for (Eigen::Index m = 0; m < modes_per_body; ++m) {
+      modes.push_back(modes_per_body * Eigen::Index{body.given_body} + m);
+    }
+  }
+  return modes;
+}
+
+template <class Value>
+std::vector<Value> in_order(const RadiationProblem& problem, const std::vector<Value>& values) {
+  std::vector<Value> result;
+  if (values.empty()) return result;
+  for (const RadiationProblem::Body& body : problem.bodies) {
+    result.push_back(values[static_cast<std::size_t>(body.given_body)]);
+  }
+  return result;
+}
+
+HydrodynamicDatabase ordered(const RadiationProblem& problem) {
+  HydrodynamicDatabase database = *problem.given;
+  const std::vector<Eigen::Index> modes = modes_in_order(problem);
+  const auto square = [&](Eigen::MatrixXd& matrix) {
+    if (matrix.size() > 0) matrix = Eigen::MatrixXd(matrix(modes, modes));
+  };
+  for (auto* matrices : {&database.retardation, &database.added_mass, &database.damping}) {
+    std::for_each(matrices->begin(), matrices->end(), square);
+  }
+  for (auto* matrices : {&database.froude_krylov, &database.diffraction}) {
+    for (Eigen::MatrixXcd& matrix : *matrices) {
+      matrix = Eigen::MatrixXcd(matrix(modes, Eigen::all));
+    }
+  }
+  square(database.infinite_added_mass);
+  square(database.hydrostatic_stiffness);
+  database.change_from_coarser = {};
+  database.body_names = in_order(problem, database.body_names);
+  database.reference_points = in_order(problem, database.reference_points);
+  database.displaced_volumes = in_order(problem, database.displaced_volumes);
+  database.centres_of_buoyancy = in_order(problem, database.centres_of_buoyancy);
+  database.centres_of_mass = in_order(problem, database.centres_of_mass);
+  return database;
+}
+
+bool is_whole(const HydrodynamicDatabase& database) {
+  return !database.headings.empty() &&
+         std::all_of(database.froude_krylov.begin(), database.froude_krylov.end(),
+                     [](const Eigen::MatrixXcd& force) { return force.isZero(0.0); });
+}
+
+/// Divides the whole excitation, which stands as diffraction, into the force of the incident wave
+/// on the hulls at rest and the rest.
+void divide_excitation(const RadiationProblem& problem, HydrodynamicDatabase& database) {
+  Eigen::Index first = 0;
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b, first += modes_per_body) {
+    const RadiationProblem::Body& body = problem.bodies[b];
+    const dynamics::WettedBody wet = make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B);
+    for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+      const double w = database.frequencies[k];
+      for (Eigen::Index h = 0; h < database.froude_krylov[k].cols(); ++h) {
+        const dynamics::IncidentWave wave(database.water, w,
+                                          database.headings[static_cast<std::size_t>(h)]);
+        Eigen::Matrix<Complex, 6, 1> force = Eigen::Matrix<Complex, 6, 1>::Zero();
+        for (const dynamics::Panel& panel : wet.hull.panels) {
+          const Complex pressure =
+              Complex(0.0, w * database.water.density) * wave.potential(panel.centroid);
+          const Vector3 arm = panel.centroid - wet.reference_point;
+          force.head<3>() += pressure * panel.area * panel.normal;
+          force.tail<3>() += pressure * panel.area * arm.cross(panel.normal);
+        }
+        database.froude_krylov[k].block<6, 1>(first, h) = force;
+        database.diffraction[k].block<6, 1>(first, h) -= force;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+HydrodynamicDatabase take_given_database(const RadiationProblem& problem) {
+  if (problem.lowered_body() >= 0) {
+    refuse(problem.place,
+           fmt::format("{} is lowered into the water of vessels that name a database",
+                       problem.bodies[static_cast<std::size_t>(problem.lowered_body())].name),
+           "a database of one draught does not hold it: leave out its draughts, or the database");
+  }
+  for (const RadiationProblem::Body& body : problem.bodies) require_same_hull(problem, body);
+  HydrodynamicDatabase database = ordered(problem);
+  if (is_whole(database)) divide_excitation(problem, database);
+  return database;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,103 @@
+// Databases that a case names in place of computed ones.
+#include "pipeline/hydrodynamics/given_database.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/marine/hull/hull_shapes.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::HydrodynamicDatabase;
+using dynamics::Pose;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double low_frequency = 0.05;
+
+/// Two barges of 40 x 20 m, 2 m deep in the water; the database has them the other way round.
+HydrodynamicDatabase two_barges() {
+  HydrodynamicDatabase database;
+  database.water = {1025.0, 9.81};
+  database.body_names = {"right", "left"};
+  database.reference_points = {{0, -30, 1}, {0, 30, 1}};
+  database.displaced_volumes = {1600, 1600};
+  database.centres_of_buoyancy = {{0, -30, -1}, {0, 30, -1}};
+  Eigen::VectorXd number(12);
+  for (Eigen::Index k = 0; k < 12; ++k) number[k] = static_cast<double>(k);
+  database.infinite_added_mass = number.asDiagonal();
+  database.time_step = 0.2;
+  database.retardation.assign(10, Eigen::MatrixXd::Identity(12, 12));
+  database.frequencies = {low_frequency};
+  database.headings = {0.0};
+  database.added_mass = {database.infinite_added_mass};
+  database.damping = {Eigen::MatrixXd::Zero(12, 12)};
+  database.froude_krylov = {Eigen::MatrixXcd::Zero(12, 1)};
+  database.diffraction = {Eigen::MatrixXcd::Zero(12, 1)};
+  return database;
+}
+
+RadiationProblem problem_with(const HydrodynamicDatabase& database) {
+  const auto vessel = std::make_shared<Vessel>();
+  vessel->hull =
+      dynamics::make_barge({.length = 40, .breadth = 20, .depth = 6}, {16, 8, 6, 2}, "barge");
+  RadiationProblem problem;
+  problem.given = std::make_shared<const HydrodynamicDatabase>(database);
+  problem.water = database.water;
+  problem.bodies = {{"left", vessel, Pose::translation({0, 30, -2}), {0, 0, 3}, {}, 1},
+                    {"right", vessel, Pose::translation({0, -30, -2}), {0, 0, 3}, {}, 0}};
+  return problem;
+}
+
+std::string complaint(const HydrodynamicDatabase& database) {
+  try {
+    take_given_database(problem_with(database));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(GivenDatabase, HasTheBodiesInTheOrderOfTheCase) {
+  const HydrodynamicDatabase taken = take_given_database(problem_with(two_barges()));
+  EXPECT_EQ(taken.body_names, (std::vector<std::string>{"left", "right"}));
+  EXPECT_EQ(taken.reference_points[0], Vector3(0, 30, 1));
+  for (Eigen::Index k = 0; k < 12; ++k) {
+    EXPECT_EQ(taken.infinite_added_mass(k, k), static_cast<double>((k + 6) % 12));
+  }
+}
+
+// In waves of 25 km the pressure of the incident wave is that of still water one metre higher:
+// rho g times the water plane in heave. What the database has besides is diffraction.
+TEST(GivenDatabase, WholeExcitationLosesTheForceOfTheIncidentWave) {
+  HydrodynamicDatabase database = two_barges();
+  const double still = 1025.0 * 9.81 * 40.0 * 20.0;
+  database.diffraction[0](dynamics::heave, 0) = 1.25 * still;  // of the right barge
+  const HydrodynamicDatabase taken = take_given_database(problem_with(database));
+  EXPECT_NEAR(taken.froude_krylov[0](dynamics::heave, 0).real(), still, 2e-3 * still);
+  EXPECT_NEAR(taken.froude_krylov[0](6 + dynamics::heave, 0).real(), still, 2e-3 * still);
+  EXPECT_NEAR(taken.diffraction[0](6 + dynamics::heave, 0).real(), 0.25 * still, 2e-3 * still);
+  EXPECT_EQ(taken.excitation(0)(6 + dynamics::heave, 0).real(), 1.25 * still);
+  // A database with both is left as it is.
+  database.froude_krylov[0].setConstant(7.0);
+  EXPECT_EQ(take_given_database(problem_with(database)).diffraction[0](6 + dynamics::heave, 0),
+            database.diffraction[0](dynamics::heave, 0));
+}
+
+TEST(GivenDatabase, RefusesThatOfAnotherVessel) {
+  HydrodynamicDatabase larger = two_barges();
+  larger.displaced_volumes[1] = 1800;
+  EXPECT_THAT(complaint(larger),
+              AllOf(HasSubstr("body left displaces 1800 m3"), HasSubstr("vessel left 1600 m3"),
+                    HasSubstr("of another vessel")));
+  HydrodynamicDatabase elsewhere = two_barges();
+  elsewhere.centres_of_buoyancy[0].y() = -40;
+  EXPECT_THAT(complaint(elsewhere), HasSubstr("centre of buoyancy of vessel right lies (0, 10, "));
+  RadiationProblem lowered = problem_with(two_barges());
+  lowered.bodies[0].draughts = {1.0, 2.0};
+  EXPECT_THROW(take_given_database(lowered), InputError);
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
