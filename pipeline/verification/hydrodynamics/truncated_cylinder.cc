@@ -64,7 +64,7 @@ Errors errors_of(const HydrodynamicDatabase& database) {
 
 // The bounds are what second order leaves of 3 % with 16 panels around: 0.75 % and 0.2 %, and as
 // much again for the damping zone, whose share does not fall with the panels.
-std::vector<VerificationRow> cylinder_rows() {
+std::vector<VerificationRow> truncated_cylinder_rows() {
   struct Mesh {
     int meridians;
     double largest_surge_A, largest_force;
@@ -106,7 +106,7 @@ VerificationCase truncated_cylinder() {
   return {.name = "truncated-cylinder",
           .stage = "hydrodynamics",
           .source = "Yeung (1981): added mass and damping by matched eigenfunctions",
-          .compute = cylinder_rows};
+          .compute = truncated_cylinder_rows};
 }
 
 }  // namespace blocklift::pipeline
