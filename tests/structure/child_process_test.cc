@@ -1,7 +1,9 @@
 #include "structure/child_process.h"
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -70,8 +72,10 @@ TEST(ChildProcess, CrashesAreNamed) {
 TEST(ChildProcess, EndsWithItsTime) {
   EXPECT_THAT(death_of(
                   []() -> Packet {
-                    for (volatile long i = 0;; ++i) {
+                    std::atomic<bool> goes_on{true};
+                    while (goes_on) {
                     }
+                    return {};
                   },
                   {1, 0}),
               HasSubstr("came to no end in the time that it is given"));
