@@ -306,6 +306,9 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   write_report(preparation.folder());
   summary["timing"]["report_s"] = watch.lap();
   write_file(summary_path, summary.dump(2));
+  // Nobody is to sign the calculation of an earlier run.
+  std::error_code ignored;
+  if (!assessment.standard) fs::remove(folder / package_file, ignored);
   preparation.move_into_place();
   return folder / layout::report_file;
 }

@@ -155,6 +155,7 @@ void add_table(const Assessment& assessment, LiftFacts& facts) {
     for (const auto& force : load.lug_forces_B) total += force;
     return total.norm();
   };
+  facts.rest_is_from = "load_table";
   facts.net_weight = assessment.block.model->mass_properties().mass * assessment.lift_case.gravity;
   facts.at_rest = sum(block.static_state.load);
   facts.in_motion = sum(block.dynamic_state.load);

@@ -170,7 +170,8 @@ std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index s
   const dynamics::History& history = lift_.static_history;
   const dynamics::Pose X_WB =
       history.bodies[static_cast<std::size_t>(lift_.model.load - 1)].X_WB(sample);
-  // Lift points of hooks and of cranes: where the vertical forces of their slings have their middle.
+  // Lift points of hooks and of cranes: where the vertical forces of their slings have their
+  // middle.
   struct Group {
     double load = 0;
     Vector3d moment = Vector3d::Zero();

@@ -15,7 +15,8 @@ namespace blocklift::pipeline {
 /// The rigging of a lift at samples of its history at rest: what standards ask to be computed.
 class RiggingFacts {
  public:
-  /// @param compliance of the block at its lugs, 3 rows a lug in the order of `lugs`, m/N; empty: the
+  /// @param compliance of the block at its lugs, 3 rows a lug in the order of `lugs`, m/N; empty:
+  /// the
   ///   load is rigid.
   RiggingFacts(const LiftCase& lift_case, const LiftRun& lift, Eigen::MatrixXd compliance,
                std::vector<std::string> lugs);

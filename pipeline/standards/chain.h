@@ -6,8 +6,8 @@
 
 namespace blocklift::pipeline {
 
-/// One step of a chain: a load that it begins with or adds, or a factor; by the standard, and as the
-/// simulation of this lift gives it.
+/// One step of a chain: a load that it begins with or adds, or a factor; by the standard, and as
+/// the simulation of this lift gives it.
 struct ChainStep {
   enum class Kind {
     load,    ///< begins the chain, or is added to it, N (of a stress, Pa)

@@ -13,7 +13,7 @@ namespace blocklift::pipeline {
 /// other: in_motion = at_rest x amplification x resharing.
 struct LoadFacts {
   double at_rest = 0, in_motion = 0;
-  double time_at_rest = 0, time_in_motion = 0;  ///< s
+  std::optional<double> time_at_rest = {}, time_in_motion = {};  ///< s; none of a load table
   /// The whole load on the hooks at the instant of in_motion over that at the instant of at_rest.
   double amplification = 1;
   double resharing = 1;  ///< this thing's share of it, likewise
@@ -86,12 +86,13 @@ struct StressFacts {
 
 /// What a run knows that standards ask for. SI units.
 struct LiftFacts {
-  double net_weight = 0;           ///< N
-  double rigging = 0;              ///< of all slings, N
-  bool has_rigging_weight = true;  ///< every sling's model gives its mass
-  double at_rest = 0;              ///< largest load on all hooks together, hook blocks apart, N
-  double in_motion = 0;            ///< likewise
-  bool has_environment = false;    ///< waves or gusts, whose share of loads may reduce factors
+  std::string rest_is_from = "equilibria of the operation";  ///< where loads at rest come from
+  double net_weight = 0;                                     ///< N
+  double rigging = 0;                                        ///< of all slings, N
+  bool has_rigging_weight = true;                            ///< every sling's model gives its mass
+  double at_rest = 0;            ///< largest load on all hooks together, hook blocks apart, N
+  double in_motion = 0;          ///< likewise
+  bool has_environment = false;  ///< waves or gusts, whose share of loads may reduce factors
   double yield_factor = 1;
   double lateral = 0;  ///< that the case takes along a lug's pin, share of the force
   std::vector<SlingFacts> slings;

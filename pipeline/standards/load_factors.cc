@@ -97,9 +97,14 @@ void LoadFactors::add_amplification(ChainBuilder& chain, std::optional<double> s
 
 void LoadFactors::add_resharing(ChainBuilder& chain, const LoadFacts& load) {
   const auto share = load.share_of_resharing();
-  chain.times("re-sharing in motion", {}, load.resharing, "simulation",
-              share ? fmt::format("{:.0f} % of the increase by motion", 100 * *share)
-                    : "no increase by motion");
+  std::string text = "no increase by motion";
+  if (share && *share < 0)
+    text = "its share of the whole load is smaller in motion";
+  else if (share && *share > 1)
+    text = "all of the increase by motion: the whole load is smaller at that instant";
+  else if (share)
+    text = fmt::format("{:.0f} % of the increase by motion", 100 * *share);
+  chain.times("re-sharing in motion", {}, load.resharing, "simulation", std::move(text));
 }
 
 void LoadFactors::add_tilt(ChainBuilder& chain, const ComputedFactors& computed) const {
@@ -144,9 +149,12 @@ void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed)
 void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
                           const ComputedFactors& computed, int slings_on_hook,
                           bool in_motion) const {
-  chain.add("largest load at rest", load.at_rest, "equilibria of the operation",
-            fmt::format("at {:.1f} s; in motion {} at {:.1f} s", load.time_at_rest,
-                        load_text(load.in_motion), load.time_in_motion));
+  const auto when = [](const std::optional<double>& time) {
+    return time ? fmt::format(" at {:.1f} s", *time) : std::string();
+  };
+  chain.add("largest load at rest", load.at_rest, facts_.rest_is_from,
+            fmt::format("{}{}; in motion {}{}", load_text(load.at_rest), when(load.time_at_rest),
+                        load_text(load.in_motion), when(load.time_in_motion)));
   add_contingency(chain);
   add_centre(chain, computed);
   if (in_motion) {

@@ -23,18 +23,19 @@ struct RiggingRope {
   double compliance = 0;         ///< m/N
 };
 
-/// How tensions share anew about a state of equilibrium: a rigid load on taut elastic ropes and hooks
-/// that move freely, to the first order of small displacements,
+/// How tensions share anew about a state of equilibrium: a rigid load on taut elastic ropes and
+/// hooks that move freely, to the first order of small displacements,
 ///   K x = f + B^T F^-1 e,   dT = F^-1 (B x - e),   K = B^T F^-1 B + K_g,
-/// B the elongation of each rope by the displacements x of load (6) and hooks (3 each), F the ropes'
-/// compliance with that of the load at its lugs, e how much longer than meant each rope is, K_g what
-/// the tensions turn with (strings and pendulum), f outer forces. A rope that would push is taken
-/// off and the rest solved again. For four equal slings on one hook and a rigid load the errors
-/// +d, -d, +d, -d give dT = EA d / L each.
-/// Source: Przemieniecki (1968), Theory of Matrix Structural Analysis, chapters 8 and 15.
+/// B the elongation of each rope by the displacements x of load (6) and hooks (3 each), F the
+/// ropes' compliance with that of the load at its lugs, e how much longer than meant each rope is,
+/// K_g what the tensions turn with (strings and pendulum), f outer forces. A rope that would push
+/// is taken off and the rest solved again. For four equal slings on one hook and a rigid load the
+/// errors +d, -d, +d, -d give dT = EA d / L each. Source: Przemieniecki (1968), Theory of Matrix
+/// Structural Analysis, chapters 8 and 15.
 class RiggingBalance {
  public:
-  /// @param load_compliance of the load at the ropes' ends along them, ropes x ropes, m/N; empty: the
+  /// @param load_compliance of the load at the ropes' ends along them, ropes x ropes, m/N; empty:
+  /// the
   ///   load is rigid.
   RiggingBalance(std::vector<RiggingRope> ropes, int hooks, Eigen::MatrixXd load_compliance = {});
 

@@ -15,9 +15,9 @@ void add_hook_load(ChainBuilder& chain, const LoadFactors& factors, const LoadFa
                    const ComputedFactors& computed, double hook_blocks, double rigging,
                    double hoisting_speed) {
   chain.add("largest load below the hook at rest", std::max(0.0, load.at_rest - hook_blocks),
-            "equilibria of the operation",
-            fmt::format("at {:.1f} s; with the hook block {}", load.time_at_rest,
-                        load_text(load.at_rest)));
+            factors.facts().rest_is_from,
+            fmt::format("with the hook block {}, at {:.1f} s", load_text(load.at_rest),
+                        load.time_at_rest.value_or(0)));
   factors.add_contingency(chain);
   factors.add_centre(chain, computed);
   factors.add_tilt(chain, computed);

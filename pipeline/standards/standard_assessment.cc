@@ -32,7 +32,7 @@ void tell_motion(const LiftFacts& facts, const std::vector<Chain>& chains, doubl
                  std::vector<std::string>& notes) {
   double least = 1e9, most = 0;
   std::string most_name, uncovered, covered_by_skew;
-  double most_share = 0;
+  std::optional<double> most_share;
   for (const SlingFacts& sling : facts.slings) {
     if (!(sling.load.at_rest > 0)) continue;
     const double ratio = sling.load.in_motion / sling.load.at_rest;
@@ -40,7 +40,7 @@ void tell_motion(const LiftFacts& facts, const std::vector<Chain>& chains, doubl
     if (ratio > most) {
       most = ratio;
       most_name = sling.name;
-      most_share = sling.load.share_of_resharing().value_or(0);
+      most_share = sling.load.share_of_resharing();
     }
     const auto chain = std::find_if(chains.begin(), chains.end(), [&](const Chain& one) {
       return one.kind == "sling" && one.name == sling.name;
@@ -56,13 +56,15 @@ void tell_motion(const LiftFacts& facts, const std::vector<Chain>& chains, doubl
                                      sling.name, ratio, cover);
   }
   if (most <= 0) return;
-  notes.push_back(fmt::format(
+  std::string note = fmt::format(
       "Motion multiplies the largest loads of the slings by {:.3f} to {:.3f}, and that of all "
       "hooks "
-      "together by {:.3f}; the rules' dynamic amplification of {:.3f} holds for the hook. In {} "
-      "{:.0f} % of the increase is re-sharing between the slings.",
-      least, most, facts.at_rest > 0 ? facts.in_motion / facts.at_rest : 1, amplification,
-      most_name, 100 * most_share));
+      "together by {:.3f}; the rules' dynamic amplification of {:.3f} holds for the hook.",
+      least, most, facts.at_rest > 0 ? facts.in_motion / facts.at_rest : 1, amplification);
+  if (most_share && *most_share >= 0)
+    note += fmt::format(" In {} {:.0f} % of the increase is re-sharing between the slings.",
+                        most_name, 100 * std::min(1.0, *most_share));
+  notes.push_back(std::move(note));
   if (!uncovered.empty())
     notes.push_back(
         "Motion multiplies these loads by more than all factors of the rules for motion and "

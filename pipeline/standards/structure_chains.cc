@@ -88,7 +88,7 @@ Chain lug_chain(const LoadFactors& factors, const LugFacts& lug) {
 
 Chain stress_chain(const LoadFactors& factors, const StressFacts& stress) {
   ChainBuilder chain("structure", stress.name, "Pa");
-  chain.add("largest checked stress at rest", stress.at_rest, "equilibria of the operation");
+  chain.add("largest checked stress at rest", stress.at_rest, factors.facts().rest_is_from);
   factors.add_contingency(chain);
   factors.add_amplification(
       chain, stress.at_rest > 0 ? std::optional(stress.in_motion / stress.at_rest) : std::nullopt,

@@ -75,9 +75,9 @@ TEST(RiggingBalance, SharesLessOnAFlexibleLoad) {
     EXPECT_NEAR(tension[i], slings.tension + (i % 2 == 0 ? -change : change), 1e-7 * change) << i;
 }
 
-// Errors that leave one diagonal slack (EA d / L is more than the load at rest): the other one bears
-// all, twice the load at rest but for the angle, which the error and the stretch of 8 and 14 mm over
-// 9 m of sling change by at most 2.5e-3.
+// Errors that leave one diagonal slack (EA d / L is more than the load at rest): the other one
+// bears all, twice the load at rest but for the angle, which the error and the stretch of 8 and 14
+// mm over 9 m of sling change by at most 2.5e-3.
 TEST(RiggingBalance, HangsOnADiagonalWhereTheOtherIsSlack) {
   const FourSlings slings;
   const VectorXd tension = RiggingBalance(slings.ropes, 1).with_length_errors(alternating(8e-3));

@@ -65,7 +65,8 @@ const Chain& chain_of(const StandardAssessment& standard, const std::string& obj
 }
 
 // 400 kN x 1.10 (weight B) x 1.10 (centre) x 1.05 (DAF of 112 t ashore) x 1.25 (skew) = 635.25 kN;
-// in motion 400 x 1.10 x 1.10 x 460/400 x 1.25 = 695.75 kN; 2,000 kN / (1.3 x 1.3 x 1.5) = 788.95 kN.
+// in motion 400 x 1.10 x 1.10 x 460/400 x 1.25 = 695.75 kN; 2,000 kN / (1.3 x 1.3 x 1.5) = 788.95
+// kN.
 TEST(StandardAssessment, WorksASlingStepByStep) {
   const StandardAssessment result = assess_standard(by_nd_0027(), two_slings());
   const Chain& sling = chain_of(result, "sling R1");

@@ -17,7 +17,8 @@ using test::shipped_rules;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// GL Noble Denton 0027/ND rev. 11.2, appendix B.1, for L 25, a 10, b 14, c 12, d 13, x 0.9, z 0.8 m.
+// GL Noble Denton 0027/ND rev. 11.2, appendix B.1, for L 25, a 10, b 14, c 12, d 13, x 0.9, z 0.8
+// m.
 TEST(TwoHooks, ShareTheWeightByTheFormulaOfTheGuideline) {
   const TwoHooks first{12, 10, 13, 14, 0.9, 0.8}, second{13, 14, 12, 10, 0.9, 0.8};
   const double half_a_digit = 0.5e-3;
@@ -106,8 +107,9 @@ TEST(Amplification, FollowsTheTable) {
   EXPECT_DOUBLE_EQ(at("offshore", 1001), 1.15);
 }
 
-// EN 1993-1-8, 3.13, by hand for a lug of 300 mm radius, plates of 80 and twice 35 mm (220 mm), hole
-// 145, pin 140, yield 355 MPa, 2 MN: F/(2 T F_y) = 18.78 mm; the cheek plates' edge is 147.5 mm.
+// EN 1993-1-8, 3.13, by hand for a lug of 300 mm radius, plates of 80 and twice 35 mm (220 mm),
+// hole 145, pin 140, yield 355 MPa, 2 MN: F/(2 T F_y) = 18.78 mm; the cheek plates' edge is 147.5
+// mm.
 TEST(PinPlate, IsThatOfTheEurocode) {
   structure::PadeyeFormulaInput input;
   input.geometry = {0.300, 0.080, 0.145, 0.140, 0.220, 0.035, 0.55, 0.6, 0.6};
