@@ -50,6 +50,7 @@ std::optional<CouplingReach> find_coupling_reach(const PanelModel& model) {
         if (distances[a][k] + distances[b][k] > detour * reach.gap) continue;
         reach.shortest = std::max(reach.shortest, panels_in_a_wave * surface.panels[k].diameter());
       }
+      reach.shortest = std::min(reach.shortest, reach.gap);
       if (!worst || reach.shortest > worst->shortest) worst = reach;
     }
   }

@@ -436,6 +436,9 @@ SurfaceMeshSettings surface_settings(std::span<const WaterLine> water_lines, dou
   settings.first_ring = std::max(shortest_wave / 15.0, 0.06 * smallest);
   settings.radius = std::max(0.5 * (high - low).norm() + 1.4 * longest_wave,
                              0.8 * (high - low).norm() + longest_wave);
+  settings.edge_share = 0.25;
+  // Slower growth costs a tenth more panels and halves an error that is a hundredth already.
+  settings.edge_growth = 1.7;
   return settings;
 }
 

@@ -178,7 +178,7 @@ TEST(HydrodynamicDatabase, SurgeOfATruncatedCylinderFollowsItsPanels) {
 // Panels between bodies are wider the farther they lie apart; beyond 16 radii waves of six radii
 // (1 rad/s) are lost.
 TEST(CouplingReach, ShrinksWithTheDistance) {
-  const PanelMesh sphere = make_half_ellipsoid({1, 1, 1}, {.meridians = 16, .parallels = 4});
+  const PanelMesh sphere = make_half_ellipsoid({1, 1, 1}, {.meridians = 24, .parallels = 6});
   const auto reach_at = [&](double distance) {
     const std::vector<WettedBody> bodies{{"left", translate(sphere, {-distance / 2, 0, 0}), {}},
                                          {"right", translate(sphere, {distance / 2, 0, 0}), {}}};
