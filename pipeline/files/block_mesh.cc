@@ -71,6 +71,17 @@ void pass_on(const std::string& complaint, const Mark& otherwise, Diagnostics& d
   diagnostics.error(mark, complaint.substr(end + separator.size()));
 }
 
+/// What was found with the numbers of the first cells or nodes, where it is more than a note.
+std::string described(const structure::Finding& finding) {
+  constexpr std::size_t most = 5;
+  if (finding.severity == structure::Severity::note || finding.labels.empty()) return finding.text;
+  std::vector<std::string> numbers;
+  for (std::size_t i = 0; i < std::min(most, finding.labels.size()); ++i)
+    numbers.push_back(std::to_string(finding.labels[i]));
+  return fmt::format("{}: {}{}", finding.text, fmt::join(numbers, ", "),
+                     static_cast<std::size_t>(finding.count) > numbers.size() ? ", ..." : "");
+}
+
 class MeshReader {
  public:
   MeshReader(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics)
@@ -241,7 +252,7 @@ class MeshReader {
     const structure::Diagnosis& diagnosis = *mesh_model_.diagnosis;
     for (const structure::Finding& finding : diagnosis.findings)
       if (finding.severity == structure::Severity::error)
-        complain(fmt::format("{}: {}", mesh_model_.file.value, finding.text));
+        complain(fmt::format("{}: {}", mesh_model_.file.value, described(finding)));
     Vector3 low = deck.mesh.vertices.front(), high = low;
     for (const Vector3& vertex : deck.mesh.vertices) {
       low = low.cwiseMin(vertex);
@@ -396,7 +407,7 @@ std::string describe_block_mesh(const MeshModel& mesh) {
   for (const structure::Finding& finding : mesh.diagnosis->findings)
     text += fmt::format("  {}: {}\n",
                         finding.severity == structure::Severity::note ? "note" : "warning",
-                        finding.text);
+                        described(finding));
   return text;
 }
 

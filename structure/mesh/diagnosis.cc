@@ -253,7 +253,7 @@ class Doctor {
       for (const DistributingLink& link : mesh_.distributing_links) see(link.reference, link.label);
       for (const Spring& spring : mesh_.springs)
         see(std::max(spring.vertices[0], spring.vertices[1]), spring.label);
-      say("unconnected parts", "{} parts hang together with nothing else (cells are named)",
+      say("unconnected parts", "{} parts hang together with nothing else; a cell of each",
           count("unconnected parts"));
     }
     for (const PointMass& mass : mesh_.masses)

@@ -37,21 +37,6 @@ void with_model_errors(const Work& work) {
   }
 }
 
-/// Each shell a part for itself.
-void create_shells(const Mesh& mesh, dealii::Triangulation<2, 3>& triangulation) {
-  std::vector<Point<3>> vertices;
-  std::vector<dealii::CellData<2>> cells(mesh.shells.size());
-  for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
-    for (unsigned v = 0; v < 4; ++v) {
-      cells[s].vertices[v] = static_cast<unsigned>(vertices.size());
-      vertices.push_back(to_point(mesh.vertices[at(mesh.shells[s].vertices[v])]));
-    }
-    cells[s].material_id = 0;
-  }
-  with_model_errors(
-      [&] { triangulation.create_triangulation(vertices, cells, dealii::SubCellData()); });
-}
-
 void create_beams(const Mesh& mesh, dealii::Triangulation<1, 3>& triangulation) {
   std::vector<Point<3>> vertices;
   std::vector<dealii::CellData<1>> cells(mesh.beams.size());
@@ -68,10 +53,10 @@ void create_beams(const Mesh& mesh, dealii::Triangulation<1, 3>& triangulation) 
 
 /// Where a cell lies on the unit square of its shell.
 template <typename Iterator>
-ShellCell locate(const Iterator& cell) {
+ShellCell locate(const ShellBatch& batch, const Iterator& cell) {
   ShellCell located;
   const dealii::CellId id = cell->id();
-  located.shell = static_cast<int>(id.get_coarse_cell_id());
+  located.shell = batch.first_shell + static_cast<int>(id.get_coarse_cell_id());
   for (const auto child : id.get_child_indices()) {
     located.size /= 2;
     located.origin += located.size * Eigen::Vector2d(child & 1, child >> 1);
@@ -90,11 +75,11 @@ double longest_edge_of(const Mesh& mesh, const ShellCell& cell) {
 }
 
 void divide_shells(const Mesh& mesh, const std::function<double(const Vector3&)>& largest_edge,
-                   dealii::Triangulation<2, 3>& triangulation) {
+                   ShellBatch& batch) {
   for (int round = 0; round < most_divisions; ++round) {
     bool is_any = false;
-    for (const auto& cell : triangulation.active_cell_iterators()) {
-      const ShellCell located = locate(cell);
+    for (const auto& cell : batch.cells.active_cell_iterators()) {
+      const ShellCell located = locate(batch, cell);
       if (longest_edge_of(mesh, located) <=
           (1 + 1e-9) * largest_edge(place_on(mesh, located, {0.5, 0.5})))
         continue;
@@ -102,7 +87,7 @@ void divide_shells(const Mesh& mesh, const std::function<double(const Vector3&)>
       is_any = true;
     }
     if (!is_any) return;
-    triangulation.execute_coarsening_and_refinement();
+    batch.cells.execute_coarsening_and_refinement();
   }
 }
 
@@ -138,6 +123,13 @@ class TraceCollector {
   TraceCollector(const Space& space, std::vector<EdgeTrace>& traces)
       : space_(space), traces_(traces) {}
 
+  /// All shells of a batch along all their edges.
+  void collect(const ShellBatch& batch) {
+    first_cell_ = batch.first_cell;
+    for (const auto& shell : batch.cells.cell_iterators_on_level(0))
+      for (int edge = 0; edge < 4; ++edge) collect(shell, edge, 0, 1);
+  }
+
   void collect(const ShellIterator& cell, int edge, double begin, double end) {
     const ShellEdge& ends = shell_edges[at(edge)];
     if (cell->has_children()) {
@@ -146,7 +138,7 @@ class TraceCollector {
       collect(cell->child(static_cast<unsigned>(ends.to)), edge, middle, end);
       return;
     }
-    const int active = static_cast<int>(cell->active_cell_index());
+    const int active = first_cell_ + static_cast<int>(cell->active_cell_index());
     const Shell& shell = space_.mesh().shells[at(space_.shells()[at(active)].shell)];
     const int p = space_.degree(), *nodes = space_.shell_nodes(active);
     const auto corner = [&](int c) { return (c & 1) * p + (c >> 1) * p * (p + 1); };
@@ -168,6 +160,7 @@ class TraceCollector {
  private:
   const Space& space_;
   std::vector<EdgeTrace>& traces_;
+  int first_cell_ = 0;
 };
 
 /// Pairs of vertices that are an edge of a shell.
@@ -178,6 +171,46 @@ std::vector<std::pair<int, int>> edges_of_shells(const Mesh& mesh) {
       edges.push_back(std::minmax(shell.vertices[at(edge.from)], shell.vertices[at(edge.to)]));
   std::sort(edges.begin(), edges.end());
   return edges;
+}
+
+/// Nodes of the shells' cells, batch by batch: their places, and each cell's with xi fastest.
+void make_shell_nodes(const Mesh& mesh, const std::vector<ShellCell>& shells,
+                      Space::Implementation& own, Eigen::Matrix3Xd& places,
+                      std::vector<int>& nodes) {
+  int count = 0;
+  for (const auto& batch : own.shell_batches) {
+    batch->nodes.reinit(batch->cells);
+    batch->nodes.distribute_dofs(own.shell_element);
+    batch->first_node = count;
+    count += static_cast<int>(batch->nodes.n_dofs());
+  }
+  places.resize(3, count);
+  nodes.reserve(shells.size() * own.shell_order.size());
+  const std::vector<Point<2>>& unit = own.shell_element.get_unit_support_points();
+  std::vector<dealii::types::global_dof_index> local(own.shell_order.size());
+  for (const auto& batch : own.shell_batches)
+    for (const auto& cell : batch->nodes.active_cell_iterators()) {
+      const ShellCell& located = shells[own.shell_cells.size()];
+      cell->get_dof_indices(local);
+      for (const unsigned i : own.shell_order) {
+        nodes.push_back(batch->first_node + static_cast<int>(local[i]));
+        places.col(nodes.back()) = place_on(mesh, located, {unit[i][0], unit[i][1]});
+      }
+      own.shell_cells.push_back(cell);
+    }
+}
+
+/// Nodes that cells of one shell have where their larger neighbour has none.
+void add_hanging_nodes(const ShellBatch& batch, dealii::AffineConstraints<double>& ties) {
+  if (batch.cells.n_levels() == 1) return;
+  dealii::AffineConstraints<double> own;
+  dealii::DoFTools::make_hanging_node_constraints(batch.nodes, own);
+  const auto first = static_cast<dealii::types::global_dof_index>(batch.first_node);
+  for (const auto& line : own.get_lines()) {
+    ties.add_line(first + line.index);
+    for (const auto& [master, share] : line.entries)
+      ties.add_entry(first + line.index, first + master, share);
+  }
 }
 
 }  // namespace
@@ -200,39 +233,25 @@ Space::Space(const Mesh& mesh, const Resolution& resolution)
 
 void Space::make_shells(const Resolution& resolution) {
   Implementation& own = *implementation_;
-  create_shells(*mesh_, own.shells);
-  if (resolution.largest_edge) divide_shells(*mesh_, resolution.largest_edge, own.shells);
-  for (const auto& cell : own.shells.active_cell_iterators()) shells_.push_back(locate(cell));
-
+  own.shell_order = lexicographic_order(own.shell_element);
+  own.shell_batches = make_shell_batches(*mesh_);
+  std::vector<int> first_cells;
+  for (const auto& batch : own.shell_batches) {
+    if (resolution.largest_edge) divide_shells(*mesh_, resolution.largest_edge, *batch);
+    batch->first_cell = static_cast<int>(shells_.size());
+    first_cells.push_back(batch->first_cell);
+    for (const auto& cell : batch->cells.active_cell_iterators())
+      shells_.push_back(locate(*batch, cell));
+  }
   const int order = std::min(geometry_order(*mesh_), degree_);
   const dealii::FE_Q<2, 3> geometry(static_cast<unsigned>(order));
-  const std::vector<Point<2>>& support = geometry.get_unit_support_points();
-  own.shell_mapping = std::make_unique<dealii::MappingQCache<2, 3>>(static_cast<unsigned>(order));
-  own.shell_mapping->initialize(own.shells, [&](const ShellIterator& cell) {
-    const ShellCell located = locate(cell);
-    std::vector<Point<3>> points;
-    for (const Point<2>& xi : support)
-      points.push_back(to_point(place_on(*mesh_, located, {xi[0], xi[1]})));
-    return points;
-  });
-
-  own.shell_nodes.reinit(own.shells);
-  own.shell_nodes.distribute_dofs(own.shell_element);
-  own.shell_order = lexicographic_order(own.shell_element);
-  const std::vector<Point<2>>& unit = own.shell_element.get_unit_support_points();
-  nodes_.resize(3, static_cast<Eigen::Index>(own.shell_nodes.n_dofs()));
-  shell_nodes_.reserve(shells_.size() * at(nodes_per_shell()));
-  std::vector<dealii::types::global_dof_index> local(own.shell_order.size());
-  for (const auto& cell : own.shell_nodes.active_cell_iterators()) {
-    const ShellCell& located = shells_[cell->active_cell_index()];
-    cell->get_dof_indices(local);
-    for (const unsigned i : own.shell_order) {
-      const auto node = static_cast<int>(local[i]);
-      shell_nodes_.push_back(node);
-      nodes_.col(node) = place_on(*mesh_, located, {unit[i][0], unit[i][1]});
-    }
-    own.shell_cells.push_back(cell);
-  }
+  std::vector<ShellMapping::Points> points(shells_.size());
+  for (std::size_t cell = 0; cell < shells_.size(); ++cell)
+    for (const Point<2>& xi : geometry.get_unit_support_points())
+      points[cell].push_back(to_point(place_on(*mesh_, shells_[cell], {xi[0], xi[1]})));
+  own.shell_mapping =
+      std::make_unique<ShellMapping>(order, std::move(first_cells), std::move(points));
+  make_shell_nodes(*mesh_, shells_, own, nodes_, shell_nodes_);
 }
 
 void Space::make_beams(const Resolution& resolution) {
@@ -395,17 +414,14 @@ void Space::number_unknowns() {
   const Implementation& own = *implementation_;
   std::vector<EdgeTrace> traces;
   TraceCollector collector(*this, traces);
-  for (std::size_t s = 0; s < mesh_->shells.size(); ++s)
-    for (int edge = 0; edge < 4; ++edge)
-      collector.collect(ShellIterator(&own.shells, 0, static_cast<int>(s)), edge, 0, 1);
+  for (const auto& batch : own.shell_batches) collector.collect(*batch);
   for (const BeamCell& cell : beams_) {
     const auto& ends = mesh_->beams[at(cell.beam)].vertices;
     collector.add(ends[0], ends[1], cell.origin, cell.origin + cell.size, cell.nodes);
   }
 
   dealii::AffineConstraints<double> ties;
-  if (!mesh_->shells.empty())
-    dealii::DoFTools::make_hanging_node_constraints(own.shell_nodes, ties);
+  for (const auto& batch : own.shell_batches) add_hanging_nodes(*batch, ties);
   for (const NodeTie& tie : find_joint_ties(node_count(), traces, node_of_vertex_)) {
     const auto node = static_cast<dealii::types::global_dof_index>(tie.node);
     ties.add_line(node);

@@ -4,10 +4,10 @@
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/hp/fe_collection.h>
 
+#include "structure/space/shell_batch.h"
 #include "structure/space/space.h"
 
 namespace blocklift::structure {
@@ -16,10 +16,9 @@ namespace blocklift::structure {
 struct Space::Implementation {
   explicit Implementation(int degree) : shell_element(static_cast<unsigned>(degree)) {}
 
-  dealii::Triangulation<2, 3> shells;
   dealii::FE_Q<2, 3> shell_element;
-  dealii::DoFHandler<2, 3> shell_nodes;
-  std::unique_ptr<dealii::MappingQCache<2, 3>> shell_mapping;
+  std::vector<std::unique_ptr<ShellBatch>> shell_batches;
+  std::unique_ptr<ShellMapping> shell_mapping;
   /// Active cells in the order of Space::shells().
   std::vector<dealii::DoFHandler<2, 3>::active_cell_iterator> shell_cells;
   /// deal.II's number of each of an element's nodes when xi runs fastest.

@@ -51,6 +51,7 @@ class DoubleBottom {
     make_long_plates();
     make_transverse_plates();
     make_longitudinals();
+    make_upright_bars();
     make_pumps();
     number();
     structure::LoadSet gravity;
@@ -113,6 +114,8 @@ class DoubleBottom {
     bottom_bulbs_ = stiffener("bottom longitudinals", structure::bulb_flat(0.28, 0.011));
     inner_bulbs_ = stiffener("inner bottom longitudinals", structure::bulb_flat(0.26, 0.011));
     side_bulbs_ = stiffener("side longitudinals", structure::bulb_flat(0.24, 0.010));
+    floor_bars_ = stiffener("floor stiffeners", structure::flat_bar(0.15, 0.012));
+    girder_bars_ = stiffener("girder stiffeners", structure::flat_bar(0.15, 0.012));
     face_plates_ = stiffener("face plates", structure::solid_rectangle(0.015, 0.15));
   }
 
@@ -322,6 +325,27 @@ class DoubleBottom {
     }
   }
 
+  // Flat bars from bottom to inner bottom: on floors under each longitudinal, on girders between
+  // floors. They stand inside the block.
+  void make_upright_bars() {
+    const auto line = [&](const Member& bar, const Vector3& foot, const Vector3& away,
+                          double plate) {
+      for (int j = 0; j < 2 * n_; ++j)
+        beam(bar, foot + Vector3(0, 0, j * step_), foot + Vector3(0, 0, (j + 1) * step_), away,
+             plate / 2);
+    };
+    for (int along = 0; along <= m_.bays; ++along)
+      for (int across = 0; across <= m_.bays_across; ++across) {
+        const bool is_floor = along % m_.bays_between_floors == 0;
+        const bool is_girder = across % m_.bays_between_girders == 0;
+        const Vector3 foot(along * m_.spacing, across * m_.spacing, 0);
+        if (is_floor && !is_girder)
+          line(floor_bars_, foot, (along == 0 ? 1 : -1) * Vector3::UnitX(), 0.012);
+        if (is_girder && !is_floor)
+          line(girder_bars_, foot, (across == 0 ? 1 : -1) * Vector3::UnitY(), 0.014);
+      }
+  }
+
   // Each pump of 8 t stands 1.2 m above the inner bottom on four feet two spacings apart.
   void make_pumps() {
     for (const int bay : {m_.bays / 4, 3 * m_.bays / 4}) {
@@ -367,7 +391,7 @@ class DoubleBottom {
   Mesh& mesh_ = deck_.mesh;
   long properties_ = 0;
   Member bottom_, bilge_, side_, inner_bottom_, floors_, girders_, frames_, brackets_, stringer_;
-  Member bottom_bulbs_, inner_bulbs_, side_bulbs_, face_plates_;
+  Member bottom_bulbs_, inner_bulbs_, side_bulbs_, floor_bars_, girder_bars_, face_plates_;
   std::unordered_map<std::array<std::int64_t, 3>, int, KeyHash> vertex_at_;
 };
 

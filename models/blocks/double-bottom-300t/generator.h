@@ -18,10 +18,11 @@ struct DoubleBottomMeasures {
 };
 
 /// The block as a deck in mm, t, N with the user's numbers: plates as shells, bulb flats
-/// (longitudinals of bottom, inner bottom and side) and face plates as beams with offsets, manholes
-/// of 0.6 m through floors and girders (where 4, 6, 8 ... shells lie between stiffeners), brackets
-/// at the feet of the web frames, a stringer, and two pumps on the inner bottom (masses on
-/// distributing links). Load cases: none, but for one of gravity.
+/// (longitudinals of bottom, inner bottom and side), flat bars on floors and girders and face
+/// plates as beams with offsets, manholes of 0.6 m through floors and girders (where 4, 6, 8 ...
+/// shells lie between stiffeners), brackets at the feet of the web frames, a stringer, and two
+/// pumps on the inner bottom (masses on distributing links). Load cases: none, but for one of
+/// gravity.
 ///
 /// The quarter of a circle of the bilge, of two spacings' radius, joins bottom, side and inner
 /// bottom.

@@ -39,6 +39,7 @@ class LinkBlocks {
         on("NONSTRUCTURAL MASS", [&] { add_spread_mass(block); });
         on("SPRING", [&] { add_springs(block); });
         on("COUPLING", [&] { add_coupling(block, next); });
+        on("KINEMATIC COUPLING", [&] { add_kinematic_coupling(block); });
         on("RIGID BODY", [&] { add_rigid_body(block); });
         on("MPC", [&] { add_mpc(block); });
         on("EQUATION", [&] { add_equations(block); });
@@ -271,6 +272,27 @@ class LinkBlocks {
     } else {
       throw CardError{"*KINEMATIC or *DISTRIBUTING is to follow"};
     }
+  }
+
+  // *KINEMATIC COUPLING, REF NODE = / node or set, first, last
+  void add_kinematic_coupling(const AbaqusBlock& block) {
+    if (block.has("ORIENTATION")) throw CardError{"ORIENTATION is not known"};
+    const int reference = model_.node_of(*scope_, block.required("REF NODE"));
+    model_.for_lines(block, [&](const Fields& fields) {
+      RigidLink link;
+      link.master = reference;
+      const auto given = [&](std::size_t i) { return i < fields.size() && !fields[i].empty(); };
+      if (given(1)) {
+        const long first = abaqus_label(fields[1], "freedom");
+        const long last = given(2) ? abaqus_label(fields[2], "freedom") : first;
+        if (last > 6 || first > last) throw CardError{"freedoms go from 1 to 6"};
+        link.bound.fill(false);
+        for (long i = first; i <= last; ++i) link.bound[at(i - 1)] = true;
+      }
+      for (const int node : model_.nodes_of(*scope_, fields[0]))
+        if (node != reference) link.slaves.push_back(node);
+      if (!link.slaves.empty()) mesh_.rigid_links.push_back(link);
+    });
   }
 
   // *RIGID BODY, REF NODE = , ELSET = , PIN NSET = , TIE NSET =

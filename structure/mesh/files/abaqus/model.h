@@ -95,6 +95,8 @@ void read_abaqus_sections(AbaqusModel& model);
 void read_abaqus_transforms(AbaqusModel& model);
 /// Masses, springs, couplings, rigid bodies, equations.
 void read_abaqus_links(AbaqusModel& model);
+/// Nodes tied to surfaces of shells.
+void read_abaqus_ties(AbaqusModel& model);
 /// Supports, loads and steps.
 void read_abaqus_steps(AbaqusModel& model);
 

@@ -54,6 +54,8 @@ const std::set<std::string, std::less<>>& keywords_read() {
                                                         "RELEASE",
                                                         "SPRING",
                                                         "COUPLING",
+                                                        "KINEMATIC COUPLING",
+                                                        "TIE",
                                                         "KINEMATIC",
                                                         "DISTRIBUTING",
                                                         "RIGID BODY",
@@ -146,6 +148,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
   read_abaqus_sections(model);
   read_abaqus_transforms(model);
   read_abaqus_links(model);
+  read_abaqus_ties(model);
   read_abaqus_steps(model);
   log.check();
   fasten_used_middles(deck, model.middles);

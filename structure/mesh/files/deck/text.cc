@@ -135,6 +135,7 @@ const DeckFiles::File& DeckFiles::load(const std::filesystem::path& path,
   file->number = log_.add_file(path.string());
   file->path = path;
   const std::string_view all = *text;
+  file->is_ended = all.empty() || all.back() == '\n';
   for (std::size_t begin = 0; begin < all.size();) {
     std::size_t end = all.find('\n', begin);
     if (end == std::string_view::npos) end = all.size();

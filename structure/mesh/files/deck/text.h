@@ -31,6 +31,7 @@ class DeckFiles {
     int number = 0;
     std::filesystem::path path;
     std::vector<std::string_view> lines;  ///< without their ends
+    bool is_ended = true;                 ///< the last line has its end
   };
   /// @throws DeckError if the file cannot be read or is no text.
   const File& open(const std::filesystem::path& path);

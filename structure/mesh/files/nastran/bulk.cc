@@ -57,11 +57,18 @@ class Splitter {
     const bool has_begin =
         std::any_of(file.lines.begin(), file.lines.end(),
                     [](std::string_view line) { return is_begin(trimmed(line)); });
-    section_ = has_begin ? Section::executive : Section::bulk;
+    // OptiStruct's decks have no executive section.
+    const bool has_executive =
+        std::any_of(file.lines.begin(), file.lines.end(),
+                    [](std::string_view line) { return begins_with(trimmed(line), "CEND"); });
+    section_ = !has_begin      ? Section::bulk
+               : has_executive ? Section::executive
+                               : Section::case_control;
     bulk_.has_case_control = has_begin;
     bulk_.data.reserve(file.lines.size() * 8);
     bulk_.cards.reserve(file.lines.size());
     read(file);
+    if (section_ != Section::end) note_missing_end(file);
     place_orphans();
     return std::move(bulk_);
   }
@@ -92,6 +99,16 @@ class Splitter {
       }
     }
     files_.close();
+  }
+
+  // Some programs write no ENDDATA; but where the last line of a whole deck, too, is without its
+  // end, the file is not all there.
+  void note_missing_end(const DeckFiles::File& file) {
+    const SourceLine last{file.number, static_cast<int>(file.lines.size())};
+    if (file.is_ended || !bulk_.has_case_control)
+      log_.remark(last, "the deck has no ENDDATA: is it all there?");
+    else
+      log_.complain(last, "the deck is cut off: it has no ENDDATA, and its last line no end");
   }
 
   void read_line(SourceLine place, std::string_view line, std::string_view text) {

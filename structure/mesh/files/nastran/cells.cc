@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -173,6 +174,9 @@ class Bars {
   explicit Bars(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
 
   void read() {
+    model_.for_each(
+        {{"BAROR", [&](const CardView& card) { take_defaults(card, bar_defaults_); }},
+         {"BEAMOR", [&](const CardView& card) { take_defaults(card, beam_defaults_); }}});
     model_.for_each({{"CBAR", [&](const CardView& card) { add_bar(card); }},
                      {"CBEAM", [&](const CardView& card) { add_bar(card); }},
                      {"CROD", [&](const CardView& card) { add_rod(card); }},
@@ -181,10 +185,30 @@ class Bars {
   }
 
  private:
+  /// What BAROR or BEAMOR says of bars that leave it out.
+  struct Defaults {
+    std::optional<CardView> card;
+    const CardView* find(std::size_t i) const { return card && card->has(i) ? &*card : nullptr; }
+  };
+
+  // BAROR blank PID blank blank X1/G0 X2 X3 OFFT
+  static void take_defaults(const CardView& card, Defaults& defaults) {
+    if (defaults.card) throw CardError{fmt::format("a second {}", card.name())};
+    defaults.card = card;
+  }
+  const Defaults& defaults_of(const CardView& card) const {
+    return card.name() == "CBAR" ? bar_defaults_ : beam_defaults_;
+  }
+
+  long property_of(const CardView& card, long otherwise) const {
+    const CardView* given = card.has(1) ? nullptr : defaults_of(card).find(1);
+    return given ? given->label(1, "property") : card.label(1, "property", otherwise);
+  }
+
   // CBAR EID PID GA GB X1/G0 X2 X3 OFFT / PA PB W1A W2A W3A W1B W2B W3B
   void add_bar(const CardView& card) {
     Beam beam = begin(card, 2);
-    const long property = card.label(1, "property", beam.label);
+    const long property = property_of(card, beam.label);
     const NastranBar bar = nastran_bar(model_, property);
     beam.section = bar.section;
     beam.is_rod = bar.is_rod;
@@ -235,14 +259,15 @@ class Bars {
     mesh_.beams.push_back(beam);
   }
 
-  static std::string option_of(const CardView& card) {
-    std::string option = card.has(7) ? upper(card.text(7)) : "GGG";
+  std::string option_of(const CardView& card) const {
+    const CardView* given = card.has(7) ? &card : defaults_of(card).find(7);
+    std::string option = given ? upper(given->text(7)) : "GGG";
     // A CBEAM may have a number there, the BIT of p-elements.
     const bool fits = option.size() == 3 && (option[0] == 'G' || option[0] == 'B') &&
                       option.find_first_not_of("GO", 1) == std::string::npos;
     if (!fits)
       throw CardError{
-          fmt::format("OFFT \"{}\" is not known; G or B, then G or O twice, is due", card.text(7))};
+          fmt::format("OFFT \"{}\" is not known; G or B, then G or O twice, is due", option)};
     return option;
   }
 
@@ -256,14 +281,17 @@ class Bars {
 
   /// The vector that orients the plane of axes 1 and 2.
   Vector3 direction(const CardView& card, const Beam& beam, const Eigen::Matrix3d& axes) {
-    const bool is_grid = card.is_integer(4) && !card.has(5) && !card.has(6);
+    const bool is_given = card.has(4) || card.has(5) || card.has(6);
+    const Defaults& defaults = defaults_of(card);
+    const CardView& source = is_given || !defaults.card ? card : *defaults.card;
+    const bool is_grid = source.is_integer(4) && !source.has(5) && !source.has(6);
     if (is_grid) {
-      const int grid = model_.vertex(card, 4, "grid that orients it");
+      const int grid = model_.vertex(source, 4, "grid that orients it");
       return model_.place(grid) - model_.place(beam.vertices[0]);
     }
-    const Vector3 given(card.real(4, "vector that orients it", 0.0),
-                        card.real(5, "vector that orients it", 0.0),
-                        card.real(6, "vector that orients it", 0.0));
+    const Vector3 given(source.real(4, "vector that orients it", 0.0),
+                        source.real(5, "vector that orients it", 0.0),
+                        source.real(6, "vector that orients it", 0.0));
     if (!(given.norm() > 0))
       return model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);  // refused above
     return axes * given.normalized();
@@ -296,6 +324,7 @@ class Bars {
 
   NastranModel& model_;
   Mesh& mesh_;
+  Defaults bar_defaults_, beam_defaults_;
 };
 
 }  // namespace
@@ -324,6 +353,7 @@ void read_nastran_cells(NastranModel& model) {
   }
   Shells(model).read();
   Bars(model).read();
+  remark_on_nastran_plates(model);
   for (const auto& [number, card] : model.materials)
     if (model.material_read.count(number) == 0)
       model.log.leave_out(card.name(), "some are of no element");

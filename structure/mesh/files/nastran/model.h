@@ -31,6 +31,16 @@ struct NastranBar {
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
 };
 
+/// Properties of plates of which the same is said: how many, the first, and the worst of them.
+struct NastranPlates {
+  int count = 0;
+  SourceLine line;   ///< of the first
+  std::string name;  ///< of the first
+  double membrane_error = 0, bending_error = 0, shear_error = 0;
+
+  void add(SourceLine at, const std::string& property);
+};
+
 /// What the stages of reading share; all maps go from the user's numbers to places in the mesh.
 struct NastranModel {
   NastranModel(const NastranBulk& cards, DeckLog& the_log, Deck& the_deck,
@@ -54,7 +64,9 @@ struct NastranModel {
   std::unordered_map<long, int> material_place;
   std::unordered_map<long, NastranBar> bar_read;
   std::map<std::tuple<long, double, double>, int>
-      shell_section_of;  ///< property, thickness, offset
+      shell_section_of;        ///< property, thickness, offset
+  NastranPlates layered;       ///< whose stiffness no plate of one material has
+  NastranPlates rigid_plates;  ///< that shear across does not deform
   /// Shells whose edges' middles are vertices that other things may use: vertex, shell, place on
   /// it.
   std::vector<SurfacePoint> middles;
@@ -106,6 +118,8 @@ const NastranBar& nastran_bar(NastranModel& model, long property);
 /// Section of a CONROD, which needs no property.
 int nastran_rod_section(NastranModel& model, const std::string& name, long label, long material,
                         double area, double torsion, double mass_per_length);
+/// Says once what holds for several properties of plates.
+void remark_on_nastran_plates(NastranModel& model);
 /// Region of a property's cells: one group and region each.
 int nastran_region(NastranModel& model, long property, int material);
 

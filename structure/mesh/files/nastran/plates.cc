@@ -196,9 +196,7 @@ void bound_shear(NastranModel& model, const CardView& card, Plate& plate) {
   if (plate.laminate.shear.allFinite()) return;
   const double shear = 5.0 / 6 * plate.laminate.membrane(2, 2);
   plate.laminate.shear = Eigen::Vector2d(shear, shear).asDiagonal();
-  model.log.remark(card.line(), fmt::format("{} is rigid in shear across it; 5/6 of its membrane "
-                                            "stiffness in shear is used",
-                                            plate.name));
+  model.rigid_plates.add(card.line(), plate.name);
 }
 
 int add_section(NastranModel& model, const CardView& card, Plate plate, double offset) {
@@ -222,13 +220,11 @@ int add_section(NastranModel& model, const CardView& card, Plate plate, double o
     if (!nearest.is_exact()) {
       section.laminate = static_cast<int>(mesh.laminates.size());
       mesh.laminates.push_back(plate.laminate);
-      model.log.remark(
-          card.line(),
-          fmt::format(
-              "{} is layered: its stiffness is kept as it is; the isotropic plate nearest "
-              "to it is off by {:.1f} % in membrane, {:.1f} % in bending, {:.1f} % in shear",
-              plate.name, 100 * nearest.membrane_error, 100 * nearest.bending_error,
-              100 * nearest.shear_error));
+      NastranPlates& layered = model.layered;
+      layered.add(card.line(), plate.name);
+      layered.membrane_error = std::max(layered.membrane_error, nearest.membrane_error);
+      layered.bending_error = std::max(layered.bending_error, nearest.bending_error);
+      layered.shear_error = std::max(layered.shear_error, nearest.shear_error);
     }
   }
   mesh.shell_sections.push_back(section);
@@ -317,6 +313,34 @@ int nastran_shell_section(NastranModel& model, long property, double thickness, 
   });
   if (is_new) model.log.use(card->name());
   return model.shell_section_of[key] = section;
+}
+
+void NastranPlates::add(SourceLine at, const std::string& property) {
+  if (count == 0) {
+    line = at;
+    name = property;
+  }
+  ++count;
+}
+
+void remark_on_nastran_plates(NastranModel& model) {
+  const auto named = [](const NastranPlates& plates) {
+    return plates.count == 1 ? fmt::format("{} is", plates.name)
+                             : fmt::format("{} properties of plates, {} the first, are",
+                                           plates.count, plates.name);
+  };
+  if (const NastranPlates& rigid = model.rigid_plates; rigid.count > 0)
+    model.log.remark(rigid.line, named(rigid) +
+                                     " rigid in shear across the plate; 5/6 of the membrane "
+                                     "stiffness in shear is used");
+  if (const NastranPlates& layered = model.layered; layered.count > 0)
+    model.log.remark(
+        layered.line,
+        fmt::format("{} layered, or of several stiffnesses, which are kept as they are; the plates "
+                    "of one material nearest to them, in whose terms stress is shown, are off by "
+                    "up to {:.1f} % in membrane, {:.1f} % in bending, {:.1f} % in shear",
+                    named(layered), 100 * layered.membrane_error, 100 * layered.bending_error,
+                    100 * layered.shear_error));
 }
 
 int nastran_region(NastranModel& model, long property, int material) {

@@ -17,13 +17,13 @@ namespace {
 /// Cards that some stage reads.
 const std::set<std::string, std::less<>>& cards_read() {
   static const std::set<std::string, std::less<>> names{
-      "GRID",   "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C",  "CORD2S",  "PARAM",
-      "CQUAD4", "CQUAD8", "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",    "CBEAM",   "CROD",
-      "CTUBE",  "CONROD", "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",   "RBE1",    "RBE2",
-      "RBE3",   "RBAR",   "PSHELL", "PCOMP",  "PBAR",   "PBARL",  "PBEAM",   "PBEAML",  "PROD",
-      "PTUBE",  "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "SPC",     "SPC1",    "SPCADD",
-      "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "LOAD",
-      "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE"};
+      "GRID",    "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PARAM",
+      "CQUAD4",  "CQUAD8", "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",
+      "CTUBE",   "CONROD", "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",  "RBE1",   "RBE2",
+      "RBE3",    "RBAR",   "PSHELL", "PCOMP",  "PBAR",   "PBARL",  "PBEAM",  "PBEAML", "PROD",
+      "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "BAROR",  "BEAMOR", "SPC",
+      "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1",
+      "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE"};
   return names;
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <numbers>
+#include <set>
 #include <tuple>
 
 #include <Eigen/Geometry>
@@ -191,6 +192,14 @@ class NastranText {
     return property;
   }
 
+  /// The name of a property's first group, as preprocessors keep it in comments.
+  void note_group(long property, int region) {
+    if (mesh_.regions.empty() || !named_.insert(property).second) return;
+    const std::string& name = mesh_.groups[at(mesh_.regions[at(region)].group)].name;
+    if (name.find('"') == std::string::npos)
+      out_.line(fmt::format("$HMNAME PROP {:>19}\"{}\"", property, name));
+  }
+
   long matrix_material(const Eigen::Matrix3d& matrix, double density) {
     const Eigen::Matrix3d g = matrix / units_.stress();
     out_.card("MAT2", {++next_material_, g(0, 0), g(0, 1), g(0, 2), g(1, 1), g(1, 2), g(2, 2),
@@ -207,6 +216,7 @@ class NastranText {
         throw ModelError(fmt::format("shell {} has no thickness; a deck needs one", shell.label));
       const ShellSection& section = mesh_.section_of(shell);
       const long property = shell_property(section);
+      note_group(property, shell.region);
       std::vector<int> around{shell.vertices[0], shell.vertices[1], shell.vertices[3]};
       if (!shell.is_triangle()) around.push_back(shell.vertices[2]);
       const std::size_t corners = around.size();
@@ -277,6 +287,7 @@ class NastranText {
   void write_beams() {
     for (const Beam& beam : mesh_.beams) {
       const long property = beam_property(beam.section, beam.is_rod);
+      note_group(property, beam.region);
       const long number = elements_.take(beam.label);
       beam_number_.push_back(number);
       const int a = beam.vertices[0], b = beam.vertices[1];
@@ -459,6 +470,7 @@ class NastranText {
   const UnitSystem units_;
   std::vector<Eigen::Matrix3d> axes_;
   Numbering elements_, properties_;
+  std::set<long> named_;  ///< properties whose group is written
   std::vector<std::vector<int>> middles_;
   std::vector<long> shell_number_, beam_number_;
   std::vector<long> support_label_, load_label_, combined_supports_, combined_loads_;

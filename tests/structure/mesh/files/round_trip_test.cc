@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "structure/index.h"
 #include "structure/mesh/diagnosis.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/abaqus/writer.h"
@@ -166,11 +167,17 @@ TEST(RoundTrip, RealsOfSixteenColumns) {
   }
 }
 
+std::string group_of(const Mesh& mesh, const Shell& shell) {
+  return mesh.groups[at(mesh.regions[at(shell.region)].group)].name;
+}
+
 // The generated block: all of it comes back, and the doctor has nothing against it.
 TEST(RoundTrip, DoubleBottom) {
   const Deck deck = models::make_double_bottom({.cells_per_spacing = 2, .bays = 8});
   const Deck again = nastran(to_nastran(deck), "mm-t-N");
   expect_same(deck, again, tolerance);
+  for (std::size_t s = 0; s < deck.mesh.shells.size(); s += 100)
+    EXPECT_EQ(group_of(again.mesh, again.mesh.shells[s]), group_of(deck.mesh, deck.mesh.shells[s]));
   const Diagnosis diagnosis = diagnose(again.mesh);
   EXPECT_EQ(diagnosis.parts, 1);
   for (const Finding& finding : diagnosis.findings)
@@ -202,6 +209,8 @@ TEST(RoundTrip, MassOfTheDoubleBottomByHand) {
   EXPECT_NEAR(mass("brackets"), 3 * 0.32 * 0.014 * steel, 1e-6);
   const double bulb = deck.mesh.beam_sections.at(0).area;
   EXPECT_NEAR(mass("bottom longitudinals"), 15 * length * bulb * steel, 1e-6);
+  EXPECT_NEAR(mass("floor stiffeners"), 3 * 15 * 1.6 * 0.15 * 0.012 * steel, 1e-6);
+  EXPECT_NEAR(mass("girder stiffeners"), 4 * 6 * 1.6 * 0.15 * 0.012 * steel, 1e-6);
 }
 
 }  // namespace
