@@ -1,6 +1,7 @@
 // A block read from a deck, as a user meets it.
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,6 +67,38 @@ TEST_F(MeshCommand, ABadDeckIsWrongInputAndNothingIsWritten) {
   EXPECT_THAT(outcome.err, HasSubstr("mesh-lift/box.bdf:"));
   EXPECT_THAT(outcome.err, HasSubstr("error: CQUAD4: CQUAD4 1 names grid 7777"));
   EXPECT_FALSE(fs::exists("out"));
+}
+
+/// What is done to the deck or the block's file, and what is said of it.
+struct Spoiled {
+  std::string file, old_passage, new_passage;
+  std::string place, complaint;
+};
+
+TEST_F(MeshCommand, BadDecksAreRefusedWithTheirLine) {
+  const std::vector<Spoiled> all{
+      {"box.bdf", "CQUAD4,1,1,1,2,3,4", "CQUAD4,1,77,1,2,3,4", "box.bdf:209",
+       "error: CQUAD4: property 77 does not exist"},
+      {"box.bdf", "ENDDATA", "WEIRD,1,2\nENDDATA", "box.bdf:474",
+       "error: the card WEIRD is not known here"},
+      {"box.bdf", "ENDDATA", "CONROD,9100,1,9100,7,100.\nGRID,9100,,9.+3,0.,0.\nENDDATA",
+       "block.yaml:3", "1 vertices can move in a direction that nothing there resists: 9100"},
+      {"box.bdf", "ENDDATA\n", "GRID,9101,,9.+3,", "box.bdf:474", "error: the deck is cut off"},
+      {"box.bdf", "ENDDATA", "CONM2,9102,1,,8.6+5\nENDDATA", "block.yaml:3",
+       "the block weighs 8.6e+05 t if units are mm-t-N"},
+      {"block.yaml", "mm-t-N", "m-kg-N", "box.bdf:469", "Is the deck in other units?"},
+      {"block.yaml", "yield_stress: 355 MPa", "yield_stress: 355 MPa, thicknesses: {a: 3 mm}",
+       "block.yaml:3", "the deck has no group \"a\" without a thickness"}};
+  for (const Spoiled& one : all) {
+    const fs::path path = fs::path("mesh-lift") / one.file;
+    const std::string before = text_of_file(path);
+    change(one.file, one.old_passage, one.new_passage);
+    const Outcome outcome = run("validate mesh-lift/block.yaml");
+    EXPECT_EQ(outcome.exit_code, 2) << one.complaint;
+    EXPECT_THAT(outcome.err, HasSubstr(one.complaint));
+    EXPECT_THAT(outcome.err, HasSubstr("mesh-lift/" + one.place + ":"));
+    folder_.write(path, before);
+  }
 }
 
 }  // namespace

@@ -336,11 +336,12 @@ void remark_on_nastran_plates(NastranModel& model) {
   if (const NastranPlates& layered = model.layered; layered.count > 0)
     model.log.remark(
         layered.line,
-        fmt::format("{} layered, or of several stiffnesses, which are kept as they are; the plates "
-                    "of one material nearest to them, in whose terms stress is shown, are off by "
-                    "up to {:.1f} % in membrane, {:.1f} % in bending, {:.1f} % in shear",
-                    named(layered), 100 * layered.membrane_error, 100 * layered.bending_error,
-                    100 * layered.shear_error));
+        fmt::format(
+            "{} layered, or of several stiffnesses, which are kept as they are; the plates "
+            "of one material nearest to them would be off by up to {:.1f} % in membrane, {:.1f} "
+            "% in bending, {:.1f} % in shear",
+            named(layered), 100 * layered.membrane_error, 100 * layered.bending_error,
+            100 * layered.shear_error));
 }
 
 int nastran_region(NastranModel& model, long property, int material) {
