@@ -1,6 +1,7 @@
 #include "structure/mesh/files/part_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -127,31 +128,46 @@ struct Opened {
 // Sound files take a hundredth of this.
 constexpr double seconds_to_open_a_megabyte = 10, seconds_to_mesh = 7200;
 
-/// Keeps sets of nodes while raising the order or halving renumbers the nodes: meanwhile each is
-/// an entity of Gmsh's whose elements are its points.
+/// Keeps sets of nodes while raising the order or halving gives the nodes other numbers: their
+/// places stay to the digit.
 class KeptPoints {
  public:
   explicit KeptPoints(std::map<std::string, std::vector<std::size_t>>& sets) : sets_(sets) {
-    for (const auto& [name, nodes] : sets_) {
-      const int entity = gmsh::model::addDiscreteEntity(0);
-      gmsh::model::mesh::addElementsByType(entity, point_type, {}, nodes);
-      entity_of_[name] = entity;
-    }
+    for (const auto& [name, nodes] : sets_)
+      for (const std::size_t node : nodes) {
+        std::vector<double> place, parameters;
+        gmsh::model::mesh::getNode(node, place, parameters);
+        places_[name].push_back({place[0], place[1], place[2]});
+      }
   }
   /// Gives the sets the numbers that their nodes have now.
+  /// @throws ModelError if two nodes lie at one place, of which either may be meant.
   void put_back() {
-    for (const auto& [name, entity] : entity_of_) {
-      std::vector<std::size_t> points, nodes;
-      gmsh::model::mesh::getElementsByType(point_type, points, nodes, entity);
-      sets_.at(name) = std::move(nodes);
-      gmsh::model::removeEntities({{0, entity}});
-    }
+    std::vector<std::size_t> tags;
+    std::vector<double> places, parameters;
+    gmsh::model::mesh::getNodes(tags, places, parameters);
+    std::map<Place, std::vector<std::size_t>> nodes_at;
+    for (std::size_t n = 0; n < tags.size(); ++n)
+      nodes_at[{places[3 * n], places[3 * n + 1], places[3 * n + 2]}].push_back(tags[n]);
+    for (auto& [name, nodes] : sets_)
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const Place& place = places_[name][i];
+        const auto found = nodes_at.find(place);
+        if (found == nodes_at.end() || found->second.size() > 1)
+          throw ModelError(fmt::format(
+              "set \"{}\" names node {}, and {} at its place ({:.6g}, {:.6g}, {:.6g}) once the "
+              "mesh "
+              "is raised or halved; give it elements of the order in the file, or join the nodes",
+              name, nodes[i], found == nodes_at.end() ? "there is none" : "there are several",
+              place[0], place[1], place[2]));
+        nodes[i] = found->second.front();
+      }
   }
 
  private:
-  static constexpr int point_type = 15;
+  using Place = std::array<double, 3>;
   std::map<std::string, std::vector<std::size_t>>& sets_;
-  std::map<std::string, int> entity_of_;
+  std::map<std::string, std::vector<Place>> places_;
 };
 
 Opened open_and_mesh(const std::string& path, const PartReading& reading) {
@@ -184,6 +200,8 @@ Opened open_and_mesh(const std::string& path, const PartReading& reading) {
   if (reading.refinements > 0)
     require_memory(static_cast<double>(solid_count()) * std::pow(8, reading.refinements),
                    reading.memory, fmt::format("halving the mesh {} times", reading.refinements));
+  const bool is_raised = order > 0 && order < reading.element_order;
+  if (reading.refinements == 0 && !is_raised) return opened;
   KeptPoints kept(opened.points);
   for (int i = 0; i < reading.refinements; ++i) gmsh::model::mesh::refine();
   if (reading.refinements > 0) order = largest_order();

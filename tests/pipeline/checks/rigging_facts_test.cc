@@ -20,13 +20,14 @@ LiftCase with_tolerances() {
   return lift_case;
 }
 
+// The wind, some half a percent of the weight, has an upward share where the box hangs tilted.
 TEST(RiggingFacts, HookLoadAtRestIsTheWeight) {
   const SmallLift& lift = small_lift();
   const LiftCase lift_case = with_tolerances();
   const RiggingFacts rigging(lift_case, lift.run, {}, {});
   const double weight = lift.mass().mass * lift.lift_case.gravity;
   for (const double load : rigging.hook_load(lift.run.static_history))
-    EXPECT_NEAR(load, weight, 1e-6 * weight);
+    EXPECT_NEAR(load, weight, 1e-4 * weight);
 }
 
 // By statics the weight on the slings of one hook is the formula's share at no tilt.

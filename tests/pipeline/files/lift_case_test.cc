@@ -74,7 +74,7 @@ TEST(LiftCaseErrors, UnknownKey) {
   EXPECT_EQ(complaints_about_case("settle: 10 s", "setle: 10 s"),
             "case.yaml:20:1: error: lift case has no key \"setle\"\n"
             "    its keys are case, title, gravity, load, cranes, ropes, supports, wind, sea, "
-            "vessels, moorings, tuggers, ... (19 in all); did you mean \"settle\"?\n"
+            "vessels, moorings, tuggers, ... (20 in all); did you mean \"settle\"?\n"
             "1 error\n");
 }
 

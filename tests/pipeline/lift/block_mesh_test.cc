@@ -73,7 +73,8 @@ TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
       }
       shell.section = static_cast<int>(deck.mesh.shell_sections.size()) - 1;
     }
-    lugs += fmt::format("  {}: {{set: property {}, pin: [{} m, {} m, {} m]}}\n", lug.name, label++,
+    ++label;
+    lugs += fmt::format("  {}: {{set: {}, pin: [{} m, {} m, {} m]}}\n", lug.name, lug.name,
                         lug.p_BPin.x(), lug.p_BPin.y(), lug.p_BPin.z());
   }
   structure::write_nastran(deck, "box.bdf");
