@@ -73,8 +73,9 @@ std::string shortened(const std::string& message) {
 }  // namespace
 
 void Diagnostics::error(Mark mark, std::string message, std::vector<std::string> hints) {
+  message = shortened(message);
   for (std::string& hint : hints) hint = shortened(hint);
-  errors_.push_back({std::move(mark), shortened(message), std::move(hints)});
+  errors_.push_back({std::move(mark), std::move(message), std::move(hints)});
 }
 
 std::string Diagnostics::to_text() const {
