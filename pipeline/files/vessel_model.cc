@@ -1,6 +1,7 @@
 #include "pipeline/files/vessel_model.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <span>
@@ -44,7 +45,8 @@ void require_few_panels(const Shape& shape, double panel_size) {
 /// A hull that ends at z = 0 goes on upright above it, by as much as it is deep, and is closed
 /// there; panels in z = 0 (lids) are left out. A hull that reaches higher stays as it is.
 dynamics::Hull with_freeboard(const dynamics::Hull& wetted) {
-  const auto [low, high] = wetted.bounds();
+  const std::array<Vector3, 2> bounds = wetted.bounds();
+  const Vector3 &low = bounds[0], &high = bounds[1];
   const double tolerance = 1e-5 * (high - low).norm();
   if (high.z() > tolerance) return wetted;
   dynamics::Hull hull(wetted.name());
