@@ -17,6 +17,21 @@ std::array<structure::Interval, 3> intervals_of(const Extents& extents) {
 
 structure::Axis axis_of(std::size_t axis) { return static_cast<structure::Axis>(axis); }
 
+structure::Stiffeners describe_stiffeners(const PlateModel& plate) {
+  const StiffenersModel& row = *plate.stiffeners;
+  structure::Stiffeners stiffeners;
+  stiffeners.name = "stiffeners of " + plate.name.value;
+  stiffeners.plate = plate.name.value;
+  stiffeners.along = axis_of(row.along);
+  stiffeners.spacing = row.spacing;
+  stiffeners.first = row.first;
+  stiffeners.side = row.side;
+  stiffeners.section = row.profile->section;
+  stiffeners.centroid = row.profile->centroid;
+  stiffeners.material = row.material.value;
+  return stiffeners;
+}
+
 }  // namespace
 
 structure::BlockDescription describe_block(const BlockModel& model, const std::string& name,
@@ -35,10 +50,13 @@ structure::BlockDescription describe_block(const BlockModel& model, const std::s
         plate.material.value.empty() ? model.materials.front().name.value : plate.material.value;
     block.plates.push_back({plate.name.value, axis_of(plate.normal), plate.at,
                             intervals_of(plate.extent), plate.thickness, material});
+    if (plate.stiffeners && plate.stiffeners->profile)
+      block.stiffeners.push_back(describe_stiffeners(plate));
   }
   for (const OpeningModel& opening : model.openings) {
     block.openings.push_back(
-        {opening.name.value, opening.plate.value, opening.at, intervals_of(opening.extent)});
+        {opening.name.value, opening.plate.value, opening.at, intervals_of(opening.extent),
+         opening.corner_radius ? opening.corner_radius->value : 0, opening.corners});
   }
   for (const PadModel& pad : model.pads) {
     block.pads.push_back({pad.name.value, pad.plate.value, axis_of(pad.normal), pad.at,

@@ -68,6 +68,9 @@ void check_plates(const BlockModel& block, Reading& reading) {
           fmt::format("plate {} names no material, and the block has several", plate.name.value),
           {"its materials are " + list_of_names(names_of(block.materials))});
     }
+    if (plate.stiffeners && !plate.stiffeners->material.value.empty())
+      look_up(plate.stiffeners->material, block.materials,
+              "a row of stiffeners on plate " + plate.name.value, "material", reading);
     if (plate.at.size() > 1) {
       std::vector<double> sorted = plate.at;
       std::sort(sorted.begin(), sorted.end());
@@ -133,12 +136,37 @@ void check_opening_spares_pads(const BlockModel& block, const OpeningModel& open
   }
 }
 
+/// A rectangle with corners that fit into it, or a polygon in the plane of its plate.
+void check_shape(const OpeningModel& opening, const PlateModel& plate, const std::string& user,
+                 Reading& reading) {
+  const auto& radius = opening.corner_radius;
+  if (!opening.corners.empty()) {
+    for (const auto& extent : opening.extent)
+      if (extent)
+        reading.error(extent->mark, user + " has corners and also an extent",
+                      {"a polygon has corners alone"});
+    if (radius) reading.error(radius->mark, user + " is a polygon, whose corners are not rounded");
+    return;
+  }
+  if (!radius) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis == plate.normal || !opening.extent[axis]) continue;
+    const auto& [lower, upper] = opening.extent[axis]->value;
+    if (radius->value <= (upper - lower) / 2 + same_place) continue;
+    reading.error(radius->mark,
+                  fmt::format("{} has a corner radius of {:.6g} m and is {:.6g} m wide along {}",
+                              user, radius->value, upper - lower, axis_name(axis)),
+                  {"half of the width is the most"});
+  }
+}
+
 void check_openings(const BlockModel& block, Reading& reading) {
   for (const OpeningModel& opening : block.openings) {
     const std::string user = "opening " + opening.name.value;
     const PlateModel* plate = look_up(opening.plate, block.plates, user, "plate", reading);
     if (!plate) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    check_shape(opening, *plate, user, reading);
+    for (std::size_t axis = 0; axis < 3 && opening.corners.empty(); ++axis) {
       if (axis != plate->normal && !opening.extent[axis]) {
         reading.error(
             opening.name.mark, fmt::format("{} lacks the key \"{}\"", user, axis_name(axis)),

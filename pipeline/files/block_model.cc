@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/declaration/table.h"
+#include "structure/error.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -141,14 +142,90 @@ Format<MaterialModel> material_format() {
   return table.format();
 }
 
+/// A stiffener's profile as the file writes it: one of the shapes.
+struct WrittenProfile {
+  std::optional<std::array<double, 2>> flat_bar, bulb_flat;
+  std::optional<std::array<double, 4>> angle_bar, tee_bar;
+
+  /// @throws structure::ModelError if there is none of these measures.
+  std::optional<structure::Profile> build() const {
+    if (flat_bar) return structure::flat_bar((*flat_bar)[0], (*flat_bar)[1]);
+    if (bulb_flat) return structure::bulb_flat((*bulb_flat)[0], (*bulb_flat)[1]);
+    const auto of_four = [](const auto& make, const std::array<double, 4>& measures) {
+      return make(measures[0], measures[1], measures[2], measures[3]);
+    };
+    if (angle_bar) return of_four(structure::angle_bar, *angle_bar);
+    if (tee_bar) return of_four(structure::tee_bar, *tee_bar);
+    return std::nullopt;
+  }
+};
+
+void check_profile(const WrittenProfile& written, Reading& reading, const Mark& mark) {
+  const int shapes = int{written.flat_bar.has_value()} + int{written.bulb_flat.has_value()} +
+                     int{written.angle_bar.has_value()} + int{written.tee_bar.has_value()};
+  if (shapes != 1) {
+    reading.error(
+        mark,
+        fmt::format("the profile of {} has {} shapes, and one is due", reading.owner(), shapes),
+        {"flat_bar, bulb_flat, angle_bar or tee_bar"});
+    return;
+  }
+  try {
+    written.build();
+  } catch (const structure::ModelError& error) {
+    reading.error(mark, error.what());
+  }
+}
+
+Format<std::optional<structure::Profile>> profile_format() {
+  const auto length = quantity(Dimension::length, Range::positive());
+  Table<WrittenProfile> table("profile", "Of a stiffener, by its measures from the plate on.");
+  table
+      .optional("flat_bar", &WrittenProfile::flat_bar, array_of<double, 2>(length),
+                "[height, thickness]")
+      .optional("bulb_flat", &WrittenProfile::bulb_flat, array_of<double, 2>(length),
+                "[height, thickness], nominal; the bulb is that of EN 10067")
+      .optional("angle_bar", &WrittenProfile::angle_bar, array_of<double, 4>(length),
+                "[height, web, width, flange]: height over the flange, thicknesses of web and "
+                "flange")
+      .optional("tee_bar", &WrittenProfile::tee_bar, array_of<double, 4>(length),
+                "[height, web, width, flange], likewise")
+      .rule(check_profile);
+  return converted<WrittenProfile, std::optional<structure::Profile>>(
+      table.format(), [](const WrittenProfile& written) -> std::optional<structure::Profile> {
+        try {
+          return written.build();
+        } catch (const structure::ModelError&) {
+          return std::nullopt;  // complained about by the rule
+        }
+      });
+}
+
+void check_stiffeners(const StiffenersModel& row, Reading& reading, const Mark& mark) {
+  if (row.profile || (!row.first && row.material.value.empty())) return;
+  reading.error(mark, reading.owner() + " has a place or a material, but no profile",
+                {"without a profile stiffeners are not in the model: they divide panels alone"});
+}
+
 Format<StiffenersModel> stiffeners_format() {
-  Table<StiffenersModel> table("row of stiffeners",
-                               "Stiffeners that a plate carries and its model leaves out (their "
-                               "mass belongs to the outfitting). They divide its panels where "
-                               "buckling is checked, and do nothing else.");
+  Table<StiffenersModel> table(
+      "row of stiffeners",
+      "Equal stiffeners that a plate carries, from edge to edge; openings cut them. They divide "
+      "its panels where buckling is checked. With a profile they are beams of the model; without "
+      "one the model leaves them out, and their mass belongs to the outfitting.");
   table.required("along", &StiffenersModel::along, choice<std::size_t>(axes), "axis they run along")
       .required("spacing", &StiffenersModel::spacing,
-                quantity(Dimension::length, Range::positive()), "between neighbours");
+                quantity(Dimension::length, Range::positive()), "between neighbours")
+      .optional("profile", &StiffenersModel::profile, profile_format(),
+                "makes them beams that stand on the plate")
+      .by_default("side", &StiffenersModel::side, choice<int>({{"positive", 1}, {"negative", -1}}),
+                  "positive", "of the plate on which they stand, along its normal")
+      .optional("first", &StiffenersModel::first, quantity(Dimension::length),
+                "place of one of them across, as a coordinate of the block; the plate's lower "
+                "edge if left out")
+      .optional("material", &StiffenersModel::material, reference(),
+                "one of the block's; that of the plate if left out")
+      .rule(check_stiffeners);
   return table.format();
 }
 
@@ -165,7 +242,7 @@ Format<PlateModel> plate_format() {
       .optional("material", &PlateModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
       .optional("stiffeners", &PlateModel::stiffeners, stiffeners_format(),
-                "that the plate carries and this model leaves out")
+                "that the plate carries: beams with a profile, else left out of the model")
       .rule([](const Written<PlateModel>& plate, Reading& reading, const Mark& mark) {
         if (!plate.stiffeners || plate.stiffeners->along != plate.normal) return;
         reading.error(mark,
@@ -178,12 +255,22 @@ Format<PlateModel> plate_format() {
 
 Format<OpeningModel> opening_format() {
   Table<Written<OpeningModel>> table("opening",
-                                     "A rectangular hole through the named plates; what crosses "
-                                     "them there stays.");
+                                     "A hole through the named plates: a rectangle, which may "
+                                     "have rounded corners up to a slot or a circle, or a "
+                                     "polygon. What crosses a rectangle stays; other shapes lie "
+                                     "between what joins or divides their plates.");
   table.required("plate", &OpeningModel::plate, reference(), "the plates that it cuts")
       .optional("at", &OpeningModel::at, positions_format(),
                 "positions of the plates that are cut; all of them if left out");
-  return taken(extent_keys(table));
+  extent_keys(table)
+      .optional("corner_radius", &OpeningModel::corner_radius,
+                located(quantity(Dimension::length, Range::positive())),
+                "of the rectangle's corners; half of both sides makes a circle, half of the "
+                "shorter one a slot")
+      .optional("corners", &OpeningModel::corners, list_of(position_format(), 3),
+                "of a polygon, in order, in place of the extents; all its sides can be seen from "
+                "its centre");
+  return taken(table);
 }
 
 Format<PadModel> pad_format() {

@@ -10,6 +10,7 @@
 #include "pipeline/files/block_mesh.h"
 #include "pipeline/files/crane_model.h"
 #include "pipeline/files/padeye_format.h"
+#include "structure/mesh/sections.h"
 
 namespace blocklift::pipeline {
 
@@ -31,11 +32,15 @@ struct Rectangle {
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
 };
 
-/// Stiffeners that a plate carries and its model does not: they divide its panels in the check of
-/// buckling.
+/// Equal stiffeners that a plate carries: they divide its panels in the check of buckling. With a
+/// profile they are beams of the model, too; without one it leaves them out.
 struct StiffenersModel {
   std::size_t along = 0;                                      ///< axis
   double spacing = std::numeric_limits<double>::quiet_NaN();  ///< m
+  std::optional<structure::Profile> profile;                  ///< from its foot on the plate
+  int side = 1;                                               ///< of the plate, along its normal
+  std::optional<double> first;    ///< place of one of them across, m; else the plate's lower edge
+  Located<std::string> material;  ///< empty: that of the plate
 };
 
 /// Equal plates, one at each of several positions along their common normal.
@@ -47,12 +52,14 @@ struct PlateModel : Rectangle {
   std::optional<StiffenersModel> stiffeners;
 };
 
-/// Rectangular hole in plates.
+/// Hole in plates: a rectangle, whose corners may be rounded, or a polygon.
 struct OpeningModel {
   Located<std::string> name;
   Located<std::string> plate;
   std::vector<double> at;  ///< which of the plates, by position; empty: all
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
+  std::optional<Located<double>> corner_radius;  ///< m
+  std::vector<Vector3> corners;                  ///< of a polygon, in place of the extent, m
 };
 
 /// Thickened region of a plate around a lug.

@@ -1,0 +1,126 @@
+// Stiffeners as beams and openings of any shape by the keys of a block's file.
+#include <filesystem>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/build/describe_block.h"
+#include "pipeline/files/model_library.h"
+#include "structure/mesh/mass_properties.h"
+#include "structure/mesh/plates/shell_generator.h"
+#include "structure/mesh/sections.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double density = 7850;  // kg/m^3
+
+/// A deck of 4 x 3 m and 10 mm with what is added to its keys, and openings.
+std::string deck_with(const std::string& keys, const std::string& openings = "") {
+  return "kind: block\n"
+         "materials:\n"
+         "  AH36: {youngs_modulus: 206 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3, "
+         "yield_stress: 355 MPa}\n"
+         "plates:\n"
+         "  deck: {normal: z, at: 1 m, x: [0 m, 4 m], y: [0 m, 3 m], thickness: 10 mm" +
+         keys + "}\n" + openings;
+}
+
+struct Read {
+  std::shared_ptr<const BlockModel> block;
+  std::string complaints;
+};
+
+Read read(const std::string& text) {
+  const test::TemporaryFolder folder;
+  folder.write("block.yaml", text);
+  ModelLibrary library({});
+  Diagnostics diagnostics;
+  Read result;
+  result.block = library.read_block("block.yaml", diagnostics);
+  result.complaints = diagnostics.to_text();
+  return result;
+}
+
+structure::Mesh mesh_of(const std::string& text) {
+  const Read result = read(text);
+  EXPECT_EQ(result.complaints, "");
+  return structure::generate_shell_mesh(describe_block(*result.block, "deck", 0.5));
+}
+
+TEST(BlockKeys, StiffenersWithAProfileAreBeams) {
+  const structure::Mesh mesh = mesh_of(
+      deck_with(", stiffeners: {along: x, spacing: 750 mm, side: negative, profile: {bulb_flat: "
+                "[200 mm, 9 mm]}}"));
+  const structure::Profile bulb = structure::bulb_flat(0.2, 0.009);
+  ASSERT_FALSE(mesh.beams.empty());
+  double length = 0;
+  for (const structure::Beam& beam : mesh.beams) {
+    const structure::Vector3 along = mesh.vertices[static_cast<std::size_t>(beam.vertices[1])] -
+                                     mesh.vertices[static_cast<std::size_t>(beam.vertices[0])];
+    length += along.norm();
+    // Below the deck, by half its thickness and the height of the centroid over the foot.
+    EXPECT_NEAR(beam.offset[0].z(), -0.005 - bulb.centroid[0], 1e-12);
+  }
+  EXPECT_NEAR(length, 3 * 4, 1e-9);  // at y = 0.75, 1.5, 2.25 m
+  EXPECT_NEAR(structure::mass_properties(mesh).mass, density * (12 * 0.01 + 12 * bulb.section.area),
+              1e-6);
+}
+
+TEST(BlockKeys, StiffenersWithoutAProfileAreLeftOut) {
+  EXPECT_TRUE(mesh_of(deck_with(", stiffeners: {along: x, spacing: 750 mm}")).beams.empty());
+}
+
+TEST(BlockKeys, OtherShapesOfProfiles) {
+  for (const char* profile :
+       {"flat_bar: [150 mm, 12 mm]", "angle_bar: [150 mm, 9 mm, 90 mm, 12 mm]",
+        "tee_bar: [300 mm, 10 mm, 120 mm, 15 mm]"})
+    EXPECT_EQ(read(deck_with(std::string(", stiffeners: {along: y, spacing: 1 m, first: 0.5 m, "
+                                         "material: AH36, profile: {") +
+                             profile + "}}"))
+                  .complaints,
+              "");
+}
+
+TEST(BlockKeys, OpeningsOfAnyShape) {
+  const auto hole = [](const std::string& opening) {
+    const structure::Mesh mesh =
+        mesh_of(deck_with("", "openings:\n  hole: {plate: deck, " + opening + "}\n"));
+    return 12 - structure::mass_properties(mesh).mass / (density * 0.01);
+  };
+  EXPECT_NEAR(hole("x: [1 m, 2 m], y: [1 m, 1.6 m]"), 0.6, 1e-9);
+  EXPECT_NEAR(hole("corners: [[1 m, 1 m, 1 m], [2 m, 1 m, 1 m], [1.5 m, 2 m, 1 m]]"), 0.5, 1e-9);
+  // Arcs are chords between their points: the hole is a little small.
+  const double circle = std::numbers::pi * 0.09, slot = circle + 0.6 * 0.4;
+  EXPECT_NEAR(hole("x: [1 m, 1.6 m], y: [1 m, 1.6 m], corner_radius: 0.3 m"), circle, 0.1 * circle);
+  EXPECT_NEAR(hole("x: [1 m, 2 m], y: [1 m, 1.6 m], corner_radius: 0.3 m"), slot, 0.1 * slot);
+}
+
+TEST(BlockKeys, SaysWhatIsWrong) {
+  const auto complaints = [](const std::string& keys, const std::string& opening = "") {
+    return read(deck_with(keys, opening.empty()
+                                    ? ""
+                                    : "openings:\n  hole: {plate: deck, " + opening + "}\n"))
+        .complaints;
+  };
+  const std::string row = ", stiffeners: {along: x, spacing: 1 m, ";
+  EXPECT_THAT(complaints(row + "profile: {}}"), HasSubstr("has 0 shapes, and one is due"));
+  EXPECT_THAT(complaints(row + "profile: {bulb_flat: [210 mm, 9 mm]}}"), HasSubstr("210"));
+  EXPECT_THAT(complaints(row + "first: 0.5 m}"), HasSubstr("but no profile"));
+  EXPECT_THAT(complaints(row + "material: AH32, profile: {flat_bar: [1 m, 1 cm]}}"),
+              HasSubstr("did you mean \"AH36\"?"));
+  EXPECT_THAT(complaints("", "x: [1 m, 2 m], y: [1 m, 1.6 m], corner_radius: 0.4 m"),
+              HasSubstr("corner radius of 0.4 m and is 0.6 m wide along y"));
+  EXPECT_THAT(complaints("",
+                         "x: [1 m, 2 m], corners: [[1 m, 1 m, 1 m], [2 m, 1 m, 1 m], "
+                         "[1.5 m, 2 m, 1 m]]"),
+              HasSubstr("has corners and also an extent"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
