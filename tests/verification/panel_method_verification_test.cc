@@ -13,7 +13,6 @@
 namespace blocklift::dynamics {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 
 // Lamb, Hydrodynamics, art. 114: added mass of an ellipsoid along the axis i over the displaced
 // mass: k_i = alpha_i/(2 - alpha_i), alpha_i = a b c int_0^inf d lambda/((a_i^2 + lambda) Delta),
@@ -39,7 +38,7 @@ TEST(Ellipsoid, AddedMassInInfiniteFluid) {
         make_ellipsoid(axes, {0, 0, -1000}, {.meridians = 2 * n, .parallels = n / 2});
     const PanelModel model({{"ellipsoid", hull, {0, 0, -1000}}}, {}, {1, 1});
     const RankinePart part(model, {});
-    const double mass = 4.0 / 3.0 * pi * axes.prod();
+    const double mass = 4.0 / 3.0 * std::numbers::pi * axes.prod();
     for (int i = 0; i < 3; ++i) {
       const auto index = static_cast<std::size_t>(i);
       const double error = part.infinite_frequency_volume()(i, i) / mass / lamb(axes, i) - 1.0;

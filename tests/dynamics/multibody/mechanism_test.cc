@@ -33,7 +33,7 @@ std::string message_of(const std::vector<BodyDefinition>& bodies) {
 }
 
 template <class Change>
-std::string message_after(Change change) {
+std::string refusal_after(Change change) {
   BodyDefinition body = trolley();
   change(body);
   return message_of({body});
@@ -42,51 +42,51 @@ std::string message_after(Change change) {
 TEST(MechanismBuilder, AcceptsASoundBody) { EXPECT_EQ(message_of({trolley()}), ""); }
 
 TEST(MechanismBuilder, TellsWhatIsWrongWithABody) {
-  EXPECT_THAT(message_after([](auto& b) { b.name = ""; }), HasSubstr("has no name"));
-  EXPECT_THAT(message_after([](auto& b) { b.name = "world"; }), HasSubstr("names must differ"));
-  EXPECT_THAT(message_after([](auto& b) { b.parent = "girder"; }),
+  EXPECT_THAT(refusal_after([](auto& b) { b.name = ""; }), HasSubstr("has no name"));
+  EXPECT_THAT(refusal_after([](auto& b) { b.name = "world"; }), HasSubstr("names must differ"));
+  EXPECT_THAT(refusal_after([](auto& b) { b.parent = "girder"; }),
               HasSubstr("body \"trolley\": its parent \"girder\" is not there; parents come before "
                         "children, and so far there are: world"));
-  EXPECT_THAT(message_after([](auto& b) { b.mass = not_a_number; }), HasSubstr("no mass is given"));
-  EXPECT_THAT(message_after([](auto& b) { b.mass = -3; }), HasSubstr("its mass is -3 kg"));
-  EXPECT_THAT(message_after([](auto& b) { b.p_BoBcm_B[1] = not_a_number; }),
+  EXPECT_THAT(refusal_after([](auto& b) { b.mass = not_a_number; }), HasSubstr("no mass is given"));
+  EXPECT_THAT(refusal_after([](auto& b) { b.mass = -3; }), HasSubstr("its mass is -3 kg"));
+  EXPECT_THAT(refusal_after([](auto& b) { b.p_BoBcm_B[1] = not_a_number; }),
               HasSubstr("centre of mass is not finite"));
-  EXPECT_THAT(message_after([](auto& b) { b.joint.axis.setZero(); }),
+  EXPECT_THAT(refusal_after([](auto& b) { b.joint.axis.setZero(); }),
               HasSubstr("its joint's axis (0, 0, 0) has no direction"));
-  EXPECT_THAT(message_after([](auto& b) {
+  EXPECT_THAT(refusal_after([](auto& b) {
                 b.damping = {1, 2};
               }),
               HasSubstr("it has 2 damping values; its prismatic joint takes 1 or none"));
-  EXPECT_THAT(message_after([](auto& b) { b.damping = {-1}; }), HasSubstr("its damping -1"));
-  EXPECT_THAT(message_after([](auto& b) { b.X_PJ.R *= 2; }), HasSubstr("not a rotation matrix"));
-  EXPECT_THAT(message_after([](auto& b) { b.X_PJ.p[0] = not_a_number; }),
+  EXPECT_THAT(refusal_after([](auto& b) { b.damping = {-1}; }), HasSubstr("its damping -1"));
+  EXPECT_THAT(refusal_after([](auto& b) { b.X_PJ.R *= 2; }), HasSubstr("not a rotation matrix"));
+  EXPECT_THAT(refusal_after([](auto& b) { b.X_PJ.p[0] = not_a_number; }),
               HasSubstr("place of its joint"));
 }
 
 TEST(MechanismBuilder, RefusesInertiaThatNoBodyHas) {
-  EXPECT_THAT(message_after([](auto& b) { b.I_BBcm_B = Vector3(1, 1, 3).asDiagonal(); }),
+  EXPECT_THAT(refusal_after([](auto& b) { b.I_BBcm_B = Vector3(1, 1, 3).asDiagonal(); }),
               HasSubstr("principal moments of inertia (1, 1, 3)"));
-  EXPECT_THAT(message_after([](auto& b) { b.I_BBcm_B = Vector3(-1, 1, 1).asDiagonal(); }),
+  EXPECT_THAT(refusal_after([](auto& b) { b.I_BBcm_B = Vector3(-1, 1, 1).asDiagonal(); }),
               HasSubstr("principal moments"));
-  EXPECT_THAT(message_after([](auto& b) { b.I_BBcm_B(0, 1) = 1; }), HasSubstr("not symmetric"));
-  EXPECT_THAT(message_after([](auto& b) {
+  EXPECT_THAT(refusal_after([](auto& b) { b.I_BBcm_B(0, 1) = 1; }), HasSubstr("not symmetric"));
+  EXPECT_THAT(refusal_after([](auto& b) {
                 b.mass = 0;
                 b.I_BBcm_B.setIdentity();
               }),
               HasSubstr("inertia but no mass"));
   // A slender rod is the limit case and is allowed.
-  EXPECT_EQ(message_after([](auto& b) { b.I_BBcm_B = Vector3(0, 1, 1).asDiagonal(); }), "");
+  EXPECT_EQ(refusal_after([](auto& b) { b.I_BBcm_B = Vector3(0, 1, 1).asDiagonal(); }), "");
 }
 
 TEST(MechanismBuilder, WantsPerpendicularAxes) {
-  EXPECT_THAT(message_after([](auto& b) {
+  EXPECT_THAT(refusal_after([](auto& b) {
                 b.joint = {JointKind::universal, Vector3::UnitX(), Vector3(1, 1, 0)};
               }),
               HasSubstr("enclose 45 degrees; 90 are due"));
 }
 
 TEST(MechanismBuilder, DrivesAQuaternionJointAsAWhole) {
-  const auto message = message_after([](auto& b) {
+  const auto message = refusal_after([](auto& b) {
     b.joint.kind = JointKind::spherical;
     b.driven = {true, false, false};
   });

@@ -14,8 +14,8 @@ namespace {
 using testing::Random;
 
 // A random tree in a random state.
-struct RandomState {
-  explicit RandomState(unsigned seed, bool with_drives = false)
+struct MovingTree {
+  explicit MovingTree(unsigned seed, bool with_drives = false)
       : random(seed),
         mechanism(testing::random_tree(random, 12, with_drives)),
         q(testing::random_configuration(random, mechanism)),
@@ -42,7 +42,7 @@ struct RandomState {
 class RandomTree : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(RandomTree, VelocitiesAreRatesOfThePoses) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   const double h = 1e-5;
   Kinematics before(s.mechanism);
   Kinematics after(s.mechanism);
@@ -61,7 +61,7 @@ TEST_P(RandomTree, VelocitiesAreRatesOfThePoses) {
 }
 
 TEST_P(RandomTree, AccelerationsAreRatesOfTheVelocities) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   const Eigen::VectorXd vdot = s.random.values(s.mechanism.nv(), 3);
   std::vector<MotionVector> A(s.mechanism.bodies().size());
   compute_accelerations(s.mechanism, s.kinematics, vdot, A);
@@ -82,7 +82,7 @@ TEST_P(RandomTree, AccelerationsAreRatesOfTheVelocities) {
 }
 
 TEST_P(RandomTree, RatesMoveLikeTheManifold) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   const double h = 1e-5;
   Eigen::VectorXd before(s.mechanism.nq());
   Eigen::VectorXd after(s.mechanism.nq());
@@ -99,7 +99,7 @@ TEST_P(RandomTree, RatesMoveLikeTheManifold) {
 }
 
 TEST_P(RandomTree, JacobiansGiveTheVelocities) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   const Vector3 p_BoQ_B = s.random.vector(1);
   Eigen::Matrix3Xd J_point(3, s.mechanism.nv());
   Eigen::Matrix<double, 6, Eigen::Dynamic> J_body(6, s.mechanism.nv());
@@ -114,7 +114,7 @@ TEST_P(RandomTree, JacobiansGiveTheVelocities) {
 }
 
 TEST_P(RandomTree, ForwardDynamicsInvertsInverseDynamics) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   Eigen::VectorXd tau = s.random.values(s.mechanism.nv(), 10);
   Eigen::VectorXd vdot = Eigen::VectorXd::Constant(s.mechanism.nv(), not_a_number);
   ForwardDynamicsWorkspace workspace(s.mechanism);
@@ -132,7 +132,7 @@ TEST_P(RandomTree, ForwardDynamicsInvertsInverseDynamics) {
 }
 
 TEST_P(RandomTree, MassMatrixAndBiasMakeTheEquationsOfMotion) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   const Eigen::VectorXd vdot = s.random.values(s.mechanism.nv(), 3);
   MassMatrixWorkspace workspace(s.mechanism);
   Eigen::MatrixXd M(s.mechanism.nv(), s.mechanism.nv());
@@ -147,7 +147,7 @@ TEST_P(RandomTree, MassMatrixAndBiasMakeTheEquationsOfMotion) {
 
 // Driven velocities: what comes out must satisfy inverse dynamics with the same drive forces.
 TEST_P(RandomTree, HybridDynamicsAgreesWithInverseDynamics) {
-  RandomState s(GetParam(), true);
+  MovingTree s(GetParam(), true);
   ASSERT_FALSE(s.mechanism.driven_velocities().empty());
   Eigen::VectorXd tau = s.random.values(s.mechanism.nv(), 10);
   Eigen::VectorXd vdot = s.random.values(s.mechanism.nv(), 3);
@@ -164,7 +164,7 @@ TEST_P(RandomTree, HybridDynamicsAgreesWithInverseDynamics) {
 
 // Rate of kinetic energy = power of joint forces, external forces and gravity, less the damping.
 TEST_P(RandomTree, PowerBalances) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   const Eigen::VectorXd vdot = s.random.values(s.mechanism.nv(), 3);
   const Eigen::VectorXd tau = s.inverse(vdot);
   const double h = 1e-5;
@@ -184,7 +184,7 @@ TEST_P(RandomTree, PowerBalances) {
 
 // The world carries the weight, the loads and the rate of momentum of the whole tree.
 TEST_P(RandomTree, ReactionOfTheWorldIsTheRateOfMomentum) {
-  RandomState s(GetParam());
+  MovingTree s(GetParam());
   const Eigen::VectorXd vdot = s.random.values(s.mechanism.nv(), 3);
   InverseDynamicsWorkspace workspace(s.mechanism);
   Eigen::VectorXd tau(s.mechanism.nv());

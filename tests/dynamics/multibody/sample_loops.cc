@@ -3,7 +3,7 @@
 namespace blocklift::dynamics::samples {
 namespace {
 
-constexpr double g = 9.81;  // m/s2
+constexpr double gravity = 9.81;  // m/s2
 
 BodyDefinition hinged(const std::string& name, std::string_view parent, const Vector3& p_PJ,
                       double mass, const Vector3& p_BoBcm, double inertia) {
@@ -87,7 +87,7 @@ Mechanism bricard_linkage() {
   const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
   constexpr double side = 0.1;
   MechanismBuilder builder;
-  builder.set_gravity(-g * y);
+  builder.set_gravity(-gravity * y);
   builder.add_body(rod("rod1", world_name, Vector3::Zero(), y, x, side));
   builder.add_body(rod("rod2", "rod1", x, z, -y, side));
   builder.add_body(rod("rod3", "rod2", -y, x, z, side));
@@ -101,7 +101,7 @@ Mechanism four_bar(double crank, double coupler, double rocker, double base, boo
                    double side) {
   const Vector3 x = Vector3::UnitX(), z = Vector3::UnitZ();
   MechanismBuilder builder;
-  builder.set_gravity(-g * Vector3::UnitY());
+  builder.set_gravity(-gravity * Vector3::UnitY());
   BodyDefinition first = rod("crank", world_name, Vector3::Zero(), z, crank * x, side);
   if (driven_crank) first.driven = {true};
   builder.add_body(first);

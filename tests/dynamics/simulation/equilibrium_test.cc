@@ -15,7 +15,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr double g = samples::g;
+using samples::g;
 
 /// A beam (free body) of 10 t on vertical ropes of given places and unstretched lengths, all of
 /// k = 1 MN/m, held at the height 10 m.

@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr double g = samples::g;
+using samples::g;
 
 Eigen::VectorXd at_height(double z) { return Vector3(0, 0, z); }
 

@@ -47,7 +47,7 @@ tuggers:
 simulate: {duration: 2 s, relative_tolerance: 1e-6}
 )";
 
-std::optional<MechanismFile> read(const std::string& text, std::string& complaints) {
+std::optional<MechanismFile> read_floating(const std::string& text, std::string& complaints) {
   const TemporaryFolder folder;
   folder.write("vessels/barge.yaml", barge);
   folder.write("mechanism.yaml", text);
@@ -60,14 +60,14 @@ std::optional<MechanismFile> read(const std::string& text, std::string& complain
 
 MechanismFile sound(const std::string& text) {
   std::string complaints;
-  auto file = read(text, complaints);
+  auto file = read_floating(text, complaints);
   EXPECT_TRUE(file) << complaints;
   return file.value_or(MechanismFile());
 }
 
-std::string complaints_about(const std::string& old_passage, const std::string& new_passage) {
+std::string complaints_of_change(const std::string& old_passage, const std::string& new_passage) {
   std::string complaints;
-  read(with(floating, old_passage, new_passage), complaints);
+  read_floating(with(floating, old_passage, new_passage), complaints);
   return complaints;
 }
 
@@ -273,28 +273,30 @@ TEST(MarineParts, ReadsAMeasuredRecord) {
 
 TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
   EXPECT_THAT(
-      complaints_about("sea:\n  waves: {regular: {amplitude: 0.3 m, period: 8 s, heading: "
-                       "30 deg}, ramp: 10 s}\n  current: {speed: 0.5 m/s, towards: 90 deg}\n",
-                       ""),
+      complaints_of_change("sea:\n  waves: {regular: {amplitude: 0.3 m, period: 8 s, heading: "
+                           "30 deg}, ramp: 10 s}\n  current: {speed: 0.5 m/s, towards: 90 deg}\n",
+                           ""),
       HasSubstr("mechanism.yaml:3:3: error: vessel B1 floats in no sea"));
-  EXPECT_THAT(complaints_about("amplitude: 0.3 m, period: 8 s", "amplitude: 3 m, period: 5 s"),
+  EXPECT_THAT(complaints_of_change("amplitude: 0.3 m, period: 8 s", "amplitude: 3 m, period: 5 s"),
               HasSubstr("mechanism.yaml:3:10: error:"));
-  EXPECT_THAT(complaints_about("amplitude: 0.3 m, period: 8 s", "amplitude: 0.1 m, period: 3 s"),
-              HasSubstr("vessel B1: "));
-  EXPECT_THAT(complaints_about("period: 8 s, ", ""),
+  EXPECT_THAT(
+      complaints_of_change("amplitude: 0.3 m, period: 8 s", "amplitude: 0.1 m, period: 3 s"),
+      HasSubstr("vessel B1: "));
+  EXPECT_THAT(complaints_of_change("period: 8 s, ", ""),
               HasSubstr("needs either its frequency or its period"));
-  EXPECT_THAT(complaints_about("towards: 90 deg", "towards: 90 deg, profile: tidal"),
+  EXPECT_THAT(complaints_of_change("towards: 90 deg", "towards: 90 deg, profile: tidal"),
               HasSubstr("a tidal current needs the depth of the sea"));
-  EXPECT_THAT(complaints_about("heading: 90 deg", "draught: 7 m"),
+  EXPECT_THAT(complaints_of_change("heading: 90 deg", "draught: 7 m"),
               HasSubstr("would float at a draught of 7 m"));
-  EXPECT_THAT(complaints_about("from: {body: B1", "from: {body: B2"),
+  EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: B2"),
               HasSubstr("tugger line T1 ends at body \"B2\", which does not exist"));
-  EXPECT_THAT(complaints_about("model: vessels/barge", "model: vessels/bargo"),
+  EXPECT_THAT(complaints_of_change("model: vessels/barge", "model: vessels/bargo"),
               HasSubstr("did you mean \"vessels/barge\"?"));
-  EXPECT_THAT(complaints_about("regular: {amplitude: 0.3 m, period: 8 s, heading: 30 deg}",
-                               "spectrum: {significant_height: 1 m}"),
+  EXPECT_THAT(complaints_of_change("regular: {amplitude: 0.3 m, period: 8 s, heading: 30 deg}",
+                                   "spectrum: {significant_height: 1 m}"),
               HasSubstr("lacks the key \"peak_period\""));
-  EXPECT_THAT(complaints_about("mast: {", "B1: {"), HasSubstr("has the name of a body or joint"));
+  EXPECT_THAT(complaints_of_change("mast: {", "B1: {"),
+              HasSubstr("has the name of a body or joint"));
 }
 
 // A crane on a vessel lifts a vessel.

@@ -23,7 +23,7 @@ using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 
 template <class Action>
-std::string message_of(const Action& action) {
+std::string message_of_import(const Action& action) {
   try {
     action();
   } catch (const HydrodynamicFileError& error) {
@@ -85,9 +85,9 @@ TEST(Bemio, DeepWaterAndDefects) {
   EXPECT_TRUE(std::isinf(read_bemio("deep.h5").water.depth));
   database.damping[2](3, 4) = std::nan("");
   write_bemio("nan.h5", database);
-  EXPECT_THAT(message_of([] { read_bemio("nan.h5"); }),
+  EXPECT_THAT(message_of_import([] { read_bemio("nan.h5"); }),
               HasSubstr("the damping at 1.1 rad/s is not a number for left roll by left pitch"));
-  EXPECT_THAT(message_of([] { read_bemio("none.h5"); }), HasSubstr("there is no such file"));
+  EXPECT_THAT(message_of_import([] { read_bemio("none.h5"); }), HasSubstr("there is no such file"));
 }
 
 // WAMIT's own scaling: with L = 2 m, rho = 1000 and g = 10, A33 = rho L^3 a, A34 = rho L^4 a,
@@ -152,7 +152,7 @@ TEST(Wamit, SaysWhatIsWrong) {
     folder.write("x.1", radiation);
     std::filesystem::remove("x.3");
     if (!excitation.empty()) folder.write("x.3", excitation);
-    return message_of([] { read_wamit("x", {}); });
+    return message_of_import([] { read_wamit("x", {}); });
   };
   const std::string sound = "8 3 3 1 1\n4 3 3 1 1\n2 3 3 1 1\n";
   EXPECT_THAT(message("8 3 3 1 1\n4 3 3 NaN 1\n"), HasSubstr("x.1:2: \"NaN\" is not finite"));
@@ -165,7 +165,7 @@ TEST(Wamit, SaysWhatIsWrong) {
       HasSubstr("x.3: excitation for 2 of 3 periods and headings: frequencies are missing"));
   EXPECT_THAT(message(sound, "5 0 3 1 0 1 0\n"),
               HasSubstr("the period 5 s is not among those of the .1 file"));
-  EXPECT_THAT(message_of([] { import_hydrodynamics("x.txt", {}); }),
+  EXPECT_THAT(message_of_import([] { import_hydrodynamics("x.txt", {}); }),
               HasSubstr("is none of .h5 (BEMIO), .1, .3, .hst (WAMIT), .nc (Capytaine)"));
 }
 
@@ -256,12 +256,12 @@ TEST(Capytaine, IsReadByTheNamesOfItsDimensions) {
 TEST(Capytaine, SaysWhatIsWrong) {
   const test::TemporaryFolder folder;
   folder.write("old.nc", "CDF\x01 and so on");
-  EXPECT_THAT(message_of([] { read_capytaine("old.nc"); }), HasSubstr("nccopy -k nc4"));
+  EXPECT_THAT(message_of_import([] { read_capytaine("old.nc"); }), HasSubstr("nccopy -k nc4"));
   write_sample_of_capytaine("body.nc");
   hdf5::Handle file(H5Fopen("body.nc", H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
   H5Ldelete(file.get(), "radiation_damping", H5P_DEFAULT);
   file.reset();
-  EXPECT_THAT(message_of([] { read_capytaine("body.nc"); }),
+  EXPECT_THAT(message_of_import([] { read_capytaine("body.nc"); }),
               HasSubstr("\"/radiation_damping\": is not in the file"));
 }
 

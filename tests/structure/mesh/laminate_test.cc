@@ -11,8 +11,8 @@
 namespace blocklift::structure {
 namespace {
 
-constexpr Material steel{"steel", 206e9, 0.3, 7850, 0};
-constexpr Material foam{"foam", 0.1e9, 0.3, 60, 0};
+const Material steel{"steel", 206e9, 0.3, 7850, 0};
+const Material foam{"foam", 0.1e9, 0.3, 60, 0};
 
 TEST(Laminate, OneLayerIsAPlate) {
   const double t = 0.02;

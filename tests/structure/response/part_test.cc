@@ -54,12 +54,12 @@ PartMesh box(Shape shape, int order, const Vector3& size, const std::array<int, 
   return mesh;
 }
 
-const Material steel{"steel", 206e9, 0.3, 7850, 235e6};
+const Material mild_steel{"steel", 206e9, 0.3, 7850, 235e6};
 
 PartModel part(PartMesh mesh) {
   PartModel model;
   model.mesh = std::move(mesh);
-  model.materials = {steel};
+  model.materials = {mild_steel};
   model.material_of_solid.assign(model.mesh.solids.size(), 0);
   return model;
 }
@@ -174,11 +174,12 @@ TEST_P(Kinds, PulledBarIsExact) {
   EXPECT_LT(solution.force_residual, 1e-12);
   EXPECT_LT(solution.moment_residual, 1e-12);
   EXPECT_LT(solution.estimated_error, 1e-8);
-  EXPECT_NEAR(solution.strain_energy, force * force * size.x() / (2 * steel.youngs_modulus * area),
+  EXPECT_NEAR(solution.strain_energy,
+              force * force * size.x() / (2 * mild_steel.youngs_modulus * area),
               1e-8 * solution.strain_energy);
   const PartProbe end = probe_part(model, solution, Vector3(2, 0.11, 0.07));
   EXPECT_TRUE(end.inside);
-  EXPECT_NEAR(end.displacement.x(), force * 2 / (steel.youngs_modulus * area), 1e-12);
+  EXPECT_NEAR(end.displacement.x(), force * 2 / (mild_steel.youngs_modulus * area), 1e-12);
   EXPECT_NEAR(end.stress[0], force / area, 1e-8 * force / area);
   EXPECT_FALSE(probe_part(model, solution, Vector3(2.1, 0.1, 0.1)).inside);
 }
@@ -256,7 +257,7 @@ TEST(Part, CantileverBends) {
   model.surface_loads = {{"tip", "x1", SurfaceLoad::Kind::force, 0, Vector3(0, 0, -1e4)}};
   const PartSolution solution = solve_part(model);
   const double inertia = 0.1 * std::pow(0.2, 3) / 12, shear_area = 5.0 / 6 * 0.02;
-  const double deflection = 1e4 * 8 / (3 * steel.youngs_modulus * inertia) +
+  const double deflection = 1e4 * 8 / (3 * mild_steel.youngs_modulus * inertia) +
                             1e4 * 2 / (model.materials[0].shear_modulus() * shear_area);
   const double found = -probe_part(model, solution, Vector3(2, 0.05, 0.1)).displacement.z();
   EXPECT_NEAR(found, deflection, 0.005 * deflection);
@@ -266,7 +267,7 @@ TEST(Part, CantileverBends) {
 
 TEST(Part, MaterialsMeetWithoutAveraging) {
   PartModel model = part(box(Shape::hexahedra, 2, Vector3(2, 0.3, 0.2), {4, 1, 1}));
-  model.materials.push_back({"soft", steel.youngs_modulus / 2, 0, 1000, 100e6});
+  model.materials.push_back({"soft", mild_steel.youngs_modulus / 2, 0, 1000, 100e6});
   model.materials[0].poisson_ratio = 0;
   for (std::size_t s = 0; s < model.mesh.solids.size(); ++s)
     model.material_of_solid[s] = model.mesh.centre(model.mesh.solids[s]).x() < 1 ? 0 : 1;
@@ -274,7 +275,7 @@ TEST(Part, MaterialsMeetWithoutAveraging) {
   // A given elongation: the force is that of two springs in series, the stress the same in both.
   model.supports.push_back({"end", "x1", {true, false, false}, Vector3(3e-4, 0, 0)});
   const PartSolution solution = solve_part(model);
-  const double stress = 3e-4 / (1 / steel.youngs_modulus + 2 / steel.youngs_modulus);
+  const double stress = 3e-4 / (1 / mild_steel.youngs_modulus + 2 / mild_steel.youngs_modulus);
   EXPECT_NEAR(solution.all.raw_von_mises, stress, 1e-8 * stress);
   EXPECT_NEAR(solution.reactions[1].force.x(), stress * 0.06, 1e-8 * stress);
   EXPECT_GT(static_cast<Eigen::Index>(solution.stress.node.size()), 0);

@@ -17,7 +17,7 @@ namespace blocklift::structure {
 namespace {
 
 /// Closed box of 4 x 2 x 1 m about the frame's origin with a bulkhead, and a lug on its deck.
-Mesh box() {
+Mesh box_with_bulkhead() {
   BlockDescription block;
   block.materials = {testing::steel()};
   const std::array<Interval, 3> all = {{{-2, 2}, {-1, 1}, {-0.5, 0.5}}};
@@ -41,7 +41,7 @@ TEST(ShellRegions, OuterPlatesOfATurnedBoxMakeTheShell) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   for (const double angle : {0.0, 0.5, std::numbers::pi / 4}) {
     X.linear() = Eigen::AngleAxisd(angle, Vector3(0.3, 0.1, 1).normalized()).toRotationMatrix();
-    const ElasticModel model(testing::moved(box(), X), {1, {}});
+    const ElasticModel model(testing::moved(box_with_bulkhead(), X), {1, {}});
     const ShellRegions shell(model, 100);
     std::array<double, 6> areas{};
     for (const ShellRegion& region : shell.regions()) {
@@ -68,7 +68,7 @@ TEST(ShellRegions, OuterPlatesOfATurnedBoxMakeTheShell) {
 }
 
 TEST(ShellRegions, LoadsHaveTheWrenchesOfTheirRegions) {
-  const ElasticModel model(box(), {2, {}});
+  const ElasticModel model(box_with_bulkhead(), {2, {}});
   const ShellRegions shell(model, 0.9);
   const auto count = static_cast<Eigen::Index>(shell.regions().size());
   const Eigen::MatrixXd wrenches = Eigen::MatrixXd::Random(6 * count, 2);

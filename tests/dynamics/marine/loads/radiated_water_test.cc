@@ -27,17 +27,17 @@ using ::testing::HasSubstr;
 using testing::Random;
 using ::testing::ThrowsMessage;
 
-constexpr double density = 1000, gravity = 10;
+constexpr double water_density = 1000, gravity = 10;
 
 /// Two boxes of 8 x 4 x 2 m, half in the water, 10 m apart, tied by the water: made up, with the
 /// structure of a real database. A_inf is `ratio` times the bodies' mass.
 std::shared_ptr<HydrodynamicDatabase> made_up(double ratio) {
   auto database = std::make_shared<HydrodynamicDatabase>();
-  database->water = {.density = density, .gravity = gravity};
+  database->water = {.density = water_density, .gravity = gravity};
   database->body_names = {"A", "B"};
   database->reference_points = {{0, -5, 0}, {0, 5, 0}};
   Random random(7);
-  const double mass = density * 8 * 4 * 1;
+  const double mass = water_density * 8 * 4 * 1;
   Eigen::VectorXd scale(12);
   scale << 1, 1, 1, 2, 2, 2, 1, 1, 1, 2, 2, 2;
   const auto positive = [&] {
@@ -65,12 +65,12 @@ LiftSystem two_boxes(std::shared_ptr<const RadiatedWater> water, const Eigen::Ve
   for (const char* name : {"A", "B"}) {
     builder.add_body({.name = name,
                       .joint = {.kind = JointKind::free},
-                      .mass = density * 8 * 4 * 1,
+                      .mass = water_density * 8 * 4 * 1,
                       .I_BBcm_B = Vector3(60e3, 200e3, 240e3).asDiagonal()});
   }
   const Mechanism mechanism = builder.build();
   const auto sea = std::make_shared<const Sea>(
-      Sea{WaveField(Water{.density = density, .gravity = gravity}), {}});
+      Sea{WaveField(Water{.density = water_density, .gravity = gravity}), {}});
   const auto hull = std::make_shared<const HullClusters>(make_box({8, 4, 2}, {4, 2, 2, 1}));
   ForceElements elements;
   for (const int body : {1, 2}) {
@@ -93,13 +93,13 @@ LiftSystem two_boxes(std::shared_ptr<const RadiatedWater> water, const Eigen::Ve
 
 /// The same, linear: all modes free, for small motions.
 LinearFloatation linear_boxes(const Eigen::VectorXd& heave) {
-  const double mass = density * 8 * 4 * 1;
+  const double mass = water_density * 8 * 4 * 1;
   Eigen::VectorXd M(12), C(12);
   const double GM_T = -0.5 + 4.0 * 4 / 12, GM_L = -0.5 + 8.0 * 8 / 12;
   for (const int i : {0, 6}) {
     M.segment<6>(i) << mass, mass, mass, 60e3, 200e3, 240e3;
-    C.segment<6>(i) << 0, 0, density * gravity * 32, mass * gravity * GM_T, mass * gravity * GM_L,
-        0;
+    C.segment<6>(i) << 0, 0, water_density * gravity * 32, mass * gravity * GM_T,
+        mass * gravity * GM_L, 0;
   }
   LinearFloatation boxes{M.asDiagonal(), C.asDiagonal(), Eigen::VectorXd::Zero(12)};
   boxes.start[2] = heave[0];
@@ -177,7 +177,7 @@ TEST(RadiatedWater, JacobianAndNewtonMatrix) {
 // At rest the water does nothing; heave swings with its infinite-frequency added mass.
 TEST(RadiatedWater, EquilibriumAndPeriods) {
   auto database = made_up(1);
-  const double mass = density * 8 * 4 * 1;
+  const double mass = water_density * 8 * 4 * 1;
   database->infinite_added_mass = mass * Eigen::MatrixXd::Identity(12, 12);
   const auto water = std::make_shared<const RadiatedWater>(
       RadiatedWater::Definition{frames(), database, 1e-3, 100});
@@ -188,7 +188,7 @@ TEST(RadiatedWater, EquilibriumAndPeriods) {
   EXPECT_NEAR(q[2], 0, 1e-8);
   EXPECT_NEAR(q[9], 0, 1e-8);
   const Linearisation modes = linearise(system, 0, solver.workspace());
-  const double heave = std::sqrt(density * gravity * 32 / (2 * mass));
+  const double heave = std::sqrt(water_density * gravity * 32 / (2 * mass));
   int found = 0;
   for (const Mode& mode : modes.modes) {
     if (std::abs(mode.natural_frequency() - heave) < 1e-6 * heave) ++found;
@@ -247,7 +247,7 @@ DiffractionForce::Definition diffraction(const std::vector<WaveComponent>& waves
   d.database = scattering();
   d.database_body = 1;
   d.sea = std::make_shared<const Sea>(
-      Sea{WaveField(Water{.density = density, .gravity = gravity}, waves), {}});
+      Sea{WaveField(Water{.density = water_density, .gravity = gravity}, waves), {}});
   return d;
 }
 

@@ -1,4 +1,4 @@
-// The water's surface marched beside a barge that is carried along and turned: the waves it meets,
+// The water's surface marched beside a barge_off_the_origin that is carried along and turned: the waves it meets,
 // and their force.
 #include <cmath>
 #include <numbers>
@@ -16,7 +16,7 @@ const Water water{1025.0, 9.81};
 
 /// A box of 20 x 8 x 2 m, its middle off the origin, and a surface that is wide enough for its
 /// waves.
-PanelModel barge() {
+PanelModel barge_off_the_origin() {
   const Vector3 middle(3, -2, 0);
   std::vector<WettedBody> bodies{
       {"barge", translate(make_box_hull(20, 8, 2, {10, 4, 1, 1.0}), middle), middle}};
@@ -63,10 +63,10 @@ double apart(DirectRadiation& a, DirectRadiation& b) {
   return difference.cwiseQuotient(largest).maxCoeff();
 }
 
-// What a turned barge elsewhere meets is what it meets at home from the heading against it: exactly
+// What a turned barge_off_the_origin elsewhere meets is what it meets at home from the heading against it: exactly
 // at turns of the grid, to 0.2^2/8 of a panel's share between them.
 TEST(TurningSurface, MeetsWavesUnderTheHeadingAgainstIt) {
-  const PanelModel model = barge();
+  const PanelModel model = barge_off_the_origin();
   const Eigen::Vector2d origin(100, 50), home(3, -2), place(131, 20);
   DirectRadiation turned = meeting(model, wave, origin);
   for (const double turn : {30.0, -150.0, 32.5}) {
@@ -86,7 +86,7 @@ TEST(TurningSurface, MeetsWavesUnderTheHeadingAgainstIt) {
 // Turned by a quarter within half a minute its force neither jumps, nor remembers after a few
 // periods that it turned.
 TEST(TurningSurface, TurnsWithoutAJump) {
-  const PanelModel model = barge();
+  const PanelModel model = barge_off_the_origin();
   const Eigen::Vector2d home(3, -2);
   DirectRadiation turning = meeting(model, wave);
   DirectRadiation turned = meeting(model, wave);
@@ -115,7 +115,7 @@ TEST(TurningSurface, TurnsWithoutAJump) {
   EXPECT_LT(left, 0.02 * largest);  // short waves that this coarse surface keeps: 1.3 %
 }
 
-/// The force on a barge that heaves and surges along itself as it lies at a place under a heading,
+/// The force on a barge_off_the_origin that heaves and surges along itself as it lies at a place under a heading,
 /// in its own axes.
 Eigen::MatrixXd march(const PanelModel& model, DirectRadiation radiation, const Pose& X_WB) {
   MechanismBuilder builder;
@@ -147,9 +147,9 @@ Eigen::MatrixXd march(const PanelModel& model, DirectRadiation radiation, const 
   return force;
 }
 
-// The barge, and the wave with it, turned and carried elsewhere: the same force in her own axes.
+// The barge_off_the_origin, and the wave with it, turned and carried elsewhere: the same force in her own axes.
 TEST(TurningSurface, KeepsTheForceInTheBargesOwnAxes) {
-  const PanelModel model = barge();
+  const PanelModel model = barge_off_the_origin();
   const Eigen::MatrixXd home = march(model, meeting(model, wave), Pose::identity());
   const double turn = 60 * degree;
   const Pose X_WB{rotation_about(Vector3::UnitZ(), turn), {200, -80, 0}};

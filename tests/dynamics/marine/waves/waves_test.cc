@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 constexpr double two_pi = 2 * std::numbers::pi;
-const Water deep = {.density = 1025, .gravity = 9.81};
+const Water deep_sea = {.density = 1025, .gravity = 9.81};
 
 WaveField short_crested(double depth) {
   const Water water = {.density = 1025, .gravity = 9.81, .depth = depth};
@@ -30,7 +30,7 @@ WaveField short_crested(double depth) {
 
 // The paper's wave: 0.628 rad/s is a length of 156 m in deep water.
 TEST(Dispersion, DeepShallowAndBetween) {
-  EXPECT_NEAR(two_pi / calc_wave_number(0.628, deep), 156.3, 0.1);
+  EXPECT_NEAR(two_pi / calc_wave_number(0.628, deep_sea), 156.3, 0.1);
   for (const double depth : {0.1, 1.0, 10.0, 50.0, 1e3, 1e5}) {
     const Water water = {.gravity = 9.81, .depth = depth};
     for (double omega = 1e-3; omega < 20; omega *= 1.3) {
@@ -44,12 +44,12 @@ TEST(Dispersion, DeepShallowAndBetween) {
     }
   }
   EXPECT_NEAR(calc_wave_number(0.01, {.gravity = 9.81, .depth = 1}), 0.01 / std::sqrt(9.81), 1e-6);
-  EXPECT_THROW(calc_wave_number(-1, deep), ModelError);
+  EXPECT_THROW(calc_wave_number(-1, deep_sea), ModelError);
 }
 
 TEST(Waves, RegularWaveIsThatOfThePaper) {
   const double A = 0.5, omega = 0.628, b = std::numbers::pi / 4;
-  const WaveField wave(deep, {{A, omega, b, 0}});
+  const WaveField wave(deep_sea, {{A, omega, b, 0}});
   const double k = omega * omega / 9.81;
   const Vector3 p(30, -12, -4);
   const double t = 3.7;
@@ -150,7 +150,8 @@ TEST(WaveSum, DepthIsWithinTheStatedError) {
 TEST(WaveSum, IsTheSeaForAnyNumber) {
   RandomSource random(6);
   for (const int components : {2, 7, 8, 9, 61, 500}) {
-    const WaveField sea = realise(WaveSpectrum::jonswap(2, 8), deep, {.components = components});
+    const WaveField sea =
+        realise(WaveSpectrum::jonswap(2, 8), deep_sea, {.components = components});
     EXPECT_EQ(sea.has_many_components(), components >= 8);
     for (const std::size_t count : {1U, 7U, 8U, 19U}) {
       std::vector<double> x(count), y(count), z(count), elevation(count), head(count), alone(count);
@@ -194,19 +195,19 @@ TEST(WaveKernel, IsAccurate) {
 }
 
 TEST(Waves, GrowAlongTheRamp) {
-  const WaveField wave(deep, {{1, 1, 0, 0}}, {.start = 10, .duration = 20});
+  const WaveField wave(deep_sea, {{1, 1, 0, 0}}, {.start = 10, .duration = 20});
   EXPECT_EQ(wave.calc_elevation(9, 0, 0), 0);
   EXPECT_NEAR(wave.calc_elevation(20, 0, 0), 0.5 * std::cos(-20), 1e-14);
   EXPECT_NEAR(wave.calc_elevation(31, 0, 0), std::cos(-31), 1e-14);
 }
 
 TEST(Waves, StillWaterAndWrongNumbers) {
-  const WaveField still(deep);
+  const WaveField still(deep_sea);
   EXPECT_EQ(still.calc_elevation(3, 1, 2), 0);
   EXPECT_EQ(still.calc_velocity(3, {1, 2, -3}).norm(), 0);
   EXPECT_THAT(
       [] {
-        WaveField(deep, {{-1, 1, 0, 0}});
+        WaveField(deep_sea, {{-1, 1, 0, 0}});
       },
       ThrowsMessage<ModelError>(HasSubstr("wave component 0 has the amplitude -1")));
   EXPECT_THAT(
@@ -218,14 +219,14 @@ TEST(Waves, StillWaterAndWrongNumbers) {
 
 // 0.142 of 15.6 m (omega 2 rad/s) is 2.2 m.
 TEST(Waves, BreakWhenSteep) {
-  require_not_breaking(WaveField(deep, {{1.0, 2, 0, 0}}));
+  require_not_breaking(WaveField(deep_sea, {{1.0, 2, 0, 0}}));
   EXPECT_THAT(
       [] {
-        require_not_breaking(WaveField(deep, {{1.2, 2, 0, 0}}));
+        require_not_breaking(WaveField(deep_sea, {{1.2, 2, 0, 0}}));
       },
       ThrowsMessage<ModelError>(HasSubstr("breaks: at most 2.1")));
   // Hs 4 m at Tp 8 s: Tz about 6.1 s, steepness 0.07. Hs 6 m: 0.1, too much.
-  const auto sea = [](double Hs) { return realise(WaveSpectrum::jonswap(Hs, 8), deep, {}); };
+  const auto sea = [](double Hs) { return realise(WaveSpectrum::jonswap(Hs, 8), deep_sea, {}); };
   require_not_breaking(sea(4));
   EXPECT_THAT([&] { require_not_breaking(sea(7)); },
               ThrowsMessage<ModelError>(HasSubstr("significant height of 6.9")));
@@ -280,9 +281,9 @@ TEST(WaveSpectrum, TablesAreLinear) {
 
 TEST(Realisation, KeepsTheEnergyAndIsReproducible) {
   const WaveSpectrum spectrum = WaveSpectrum::jonswap(3, 10);
-  const WaveField one = realise(spectrum, deep, {.seed = 7});
-  const WaveField same = realise(spectrum, deep, {.seed = 7});
-  const WaveField other = realise(spectrum, deep, {.seed = 8});
+  const WaveField one = realise(spectrum, deep_sea, {.seed = 7});
+  const WaveField same = realise(spectrum, deep_sea, {.seed = 7});
+  const WaveField other = realise(spectrum, deep_sea, {.seed = 8});
   EXPECT_EQ(one.calc_elevation(12.5, 3, 4), same.calc_elevation(12.5, 3, 4));
   EXPECT_NE(one.calc_elevation(12.5, 3, 4), other.calc_elevation(12.5, 3, 4));
   // 0.1 % of the energy is left out at each end.
@@ -310,7 +311,7 @@ TEST(Realisation, GivesBackARecord) {
       record.elevation.push_back(random.uniform());
       mean += record.elevation.back() / static_cast<double>(count);
     }
-    const WaveField sea = realise(record, deep);
+    const WaveField sea = realise(record, deep_sea);
     for (std::size_t i = 0; i < count; ++i) {
       EXPECT_NEAR(sea.calc_elevation(100 + 0.5 * static_cast<double>(i), 0, 0),
                   record.elevation[i] - mean, 1e-12);
@@ -318,7 +319,7 @@ TEST(Realisation, GivesBackARecord) {
   }
   EXPECT_THAT(
       [] {
-        realise(WaveRecord{.elevation = {1, 2, not_a_number, 3}, .time_step = 1}, deep);
+        realise(WaveRecord{.elevation = {1, 2, not_a_number, 3}, .time_step = 1}, deep_sea);
       },
       ThrowsMessage<ModelError>(HasSubstr("value 2 of a record")));
 }

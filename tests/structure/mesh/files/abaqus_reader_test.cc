@@ -19,19 +19,13 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi;
-
-void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance) {
-  EXPECT_LE((value - expected).norm(), tolerance) << value << "\nis due to be\n" << expected;
-}
-
 const std::string steel = "*MATERIAL, NAME=Steel\n*ELASTIC\n206.e9, .3\n*DENSITY\n7850.,\n";
 const std::string nodes = "*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n3, 2., 2., 0.\n4, 0., 2., 0.\n";
-const std::string square = nodes + "*ELEMENT, TYPE=S4R, ELSET=Plate\n10, 1, 2, 3, 4\n" + steel +
-                           "*SHELL SECTION, ELSET=Plate, MATERIAL=Steel\n.01, 5\n";
+const std::string square_plate = nodes + "*ELEMENT, TYPE=S4R, ELSET=Plate\n10, 1, 2, 3, 4\n" +
+                                 steel + "*SHELL SECTION, ELSET=Plate, MATERIAL=Steel\n.01, 5\n";
 
 TEST(AbaqusReader, PlateWithSetsAndHeading) {
-  const Deck deck = abaqus("*HEADING\nA plate\n** comment\n" + square +
+  const Deck deck = abaqus("*HEADING\nA plate\n** comment\n" + square_plate +
                            "*Nset, nset=Low, generate\n1, 2\n*NSET, NSET=all\nlow, 3,\n4\n");
   EXPECT_EQ(deck.title, "A plate");
   EXPECT_THAT(deck.mesh.shells.at(0).vertices, ElementsAre(0, 1, 3, 2));
@@ -47,7 +41,7 @@ TEST(AbaqusReader, PlateWithSetsAndHeading) {
 
 TEST(AbaqusReader, OffsetsOfShells) {
   const auto offset = [&](const std::string& how) {
-    std::string text = square;
+    std::string text = square_plate;
     text.replace(text.find("MATERIAL=Steel\n.01"), 14, "MATERIAL=Steel, OFFSET=" + how);
     return abaqus(text).mesh.shell_sections.at(0).offset;
   };
@@ -102,8 +96,8 @@ TEST(AbaqusReader, BeamSections) {
   const auto [rectangle, of_rectangle] = beam("RECT", ".1, .02");
   expect_near(rectangle.axis_2, Vector3::UnitY(), 1e-15);
   EXPECT_NEAR(of_rectangle.second_moment_3, 0.02 * 1e-3 / 12, 1e-15);
-  EXPECT_NEAR(beam("PIPE", ".1, .01").second.area, pi * (0.01 - 0.0081), 1e-15);
-  EXPECT_NEAR(beam("CIRC", ".1").second.area, pi * 0.01, 1e-15);
+  EXPECT_NEAR(beam("PIPE", ".1, .01").second.area, std::numbers::pi * (0.01 - 0.0081), 1e-15);
+  EXPECT_NEAR(beam("CIRC", ".1").second.area, std::numbers::pi * 0.01, 1e-15);
   EXPECT_NEAR(beam("BOX", ".1, .2, .01, .01, .01, .01").second.second_moment_2,
               (0.1 * 0.008 - 0.08 * std::pow(0.18, 3)) / 12, 1e-12);
   // An I whose node is at its foot: the centroid is half the height along n2, the world's z.
@@ -201,7 +195,7 @@ TEST(AbaqusReader, MassesAndSprings) {
 }
 
 TEST(AbaqusReader, Couplings) {
-  const Deck deck = abaqus(square + R"(*NODE
+  const Deck deck = abaqus(square_plate + R"(*NODE
 5, 1., 1., 1.
 6, 0., 0., 0.
 *SURFACE, NAME=TOP, TYPE=ELEMENT
@@ -244,7 +238,7 @@ TIE, 6, 1
   EXPECT_EQ(mesh.rigid_links[1].master, 4);
   EXPECT_THAT(mesh.rigid_links[3].slaves, ElementsAre(2));
   EXPECT_THAT(mesh.rigid_links[5].bound, ElementsAre(false, false, true, false, false, false));
-  EXPECT_THAT(complaints_of_abaqus(square + "*MPC\nTIE, 1, 2\n"),
+  EXPECT_THAT(complaints_of_abaqus(square_plate + "*MPC\nTIE, 1, 2\n"),
               HasSubstr("TIE is not known of nodes apart"));
 }
 
@@ -274,7 +268,7 @@ TEST(AbaqusReader, PartsAndInstances) {
 }
 
 TEST(AbaqusReader, StepsGoOnFromOneAnother) {
-  const Deck deck = abaqus(square + R"(*NSET, NSET=TURNED
+  const Deck deck = abaqus(square_plate + R"(*NSET, NSET=TURNED
 4
 *TRANSFORM, NSET=TURNED, TYPE=R
 0., 1., 0., -1., 0., 0.
@@ -324,8 +318,8 @@ Plate, P, 1000.
 TEST(AbaqusReader, IncludesFilesBelowItsFolder) {
   const DeckFolder folder;
   folder.write("deck/nodes.inc", nodes);
-  const auto path =
-      folder.write("deck/main.inp", "*INCLUDE, INPUT=nodes.inc\n" + square.substr(nodes.size()));
+  const auto path = folder.write("deck/main.inp",
+                                 "*INCLUDE, INPUT=nodes.inc\n" + square_plate.substr(nodes.size()));
   EXPECT_EQ(read_abaqus(path, UnitSystem()).mesh.shells.size(), 1U);
   folder.write("out.inc", nodes);
   try {
@@ -363,8 +357,9 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
                            ":13: error: *SHELL SECTION: material GONE does not exist",
                            ":16: error: *BOUNDARY: node 77 does not exist"})
     EXPECT_THAT(text, HasSubstr(line));
-  EXPECT_THAT(complaints_of_abaqus(square, "mm-t-N"), HasSubstr("Is the deck in other units?"));
-  EXPECT_THAT(complaints_of_abaqus(square + "*ELEMENT, TYPE=S3, ELSET=R\n20, 1, 2, 3\n"),
+  EXPECT_THAT(complaints_of_abaqus(square_plate, "mm-t-N"),
+              HasSubstr("Is the deck in other units?"));
+  EXPECT_THAT(complaints_of_abaqus(square_plate + "*ELEMENT, TYPE=S3, ELSET=R\n20, 1, 2, 3\n"),
               HasSubstr("shells have no *SHELL SECTION"));
   EXPECT_THAT(complaints_of_abaqus("hello\n"), HasSubstr("data before the first keyword"));
 }

@@ -25,8 +25,8 @@ std::string complaints(const Read& read) {
   }
 }
 
-void expect_near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance,
-                 const std::string& what) {
+void expect_equal(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance,
+                  const std::string& what) {
   ASSERT_EQ(a.size(), b.size()) << what;
   if (a.size() == 0) return;
   EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance * (1e-12 + a.cwiseAbs().maxCoeff()))
@@ -35,7 +35,7 @@ void expect_near(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tole
       << b;
 }
 
-void expect_near(double a, double b, double tolerance, const std::string& what) {
+void expect_equal(double a, double b, double tolerance, const std::string& what) {
   if (a == b) return;  // infinite ones, too
   EXPECT_NEAR(a, b, tolerance * (std::abs(a) + 1e-12)) << what;
 }
@@ -48,25 +48,25 @@ void expect_same_sections(const Mesh& a, const Mesh& b, double tolerance) {
     EXPECT_EQ(x.vertices, y.vertices) << what;
     EXPECT_EQ(x.label, y.label);
     const ShellSection &p = a.section_of(x), &q = b.section_of(y);
-    expect_near(p.thickness, q.thickness, tolerance, what + " thickness");
-    expect_near(p.offset, q.offset, tolerance, what + " offset");
-    expect_near(p.mass_per_area, q.mass_per_area, tolerance, what + " mass");
+    expect_equal(p.thickness, q.thickness, tolerance, what + " thickness");
+    expect_equal(p.offset, q.offset, tolerance, what + " offset");
+    expect_equal(p.mass_per_area, q.mass_per_area, tolerance, what + " mass");
     const Material &m = a.material_of(x), &n = b.material_of(y);
-    expect_near(m.youngs_modulus, n.youngs_modulus, tolerance, what + " modulus");
-    expect_near(m.poisson_ratio, n.poisson_ratio, tolerance, what + " ratio");
-    expect_near(m.density, n.density, tolerance, what + " density");
+    expect_equal(m.youngs_modulus, n.youngs_modulus, tolerance, what + " modulus");
+    expect_equal(m.poisson_ratio, n.poisson_ratio, tolerance, what + " ratio");
+    expect_equal(m.density, n.density, tolerance, what + " density");
     ASSERT_EQ(p.laminate < 0, q.laminate < 0) << what;
     if (p.laminate >= 0) {
       const Laminate &l = a.laminates[at(p.laminate)], &k = b.laminates[at(q.laminate)];
-      expect_near(l.membrane, k.membrane, tolerance, what + " A");
-      expect_near(l.coupling, k.coupling, tolerance, what + " B");
-      expect_near(l.bending, k.bending, tolerance, what + " D");
-      expect_near(l.shear, k.shear, tolerance, what + " S");
+      expect_equal(l.membrane, k.membrane, tolerance, what + " A");
+      expect_equal(l.coupling, k.coupling, tolerance, what + " B");
+      expect_equal(l.bending, k.bending, tolerance, what + " D");
+      expect_equal(l.shear, k.shear, tolerance, what + " S");
     }
     ASSERT_EQ(x.curvature < 0, y.curvature < 0) << what;
     if (x.curvature >= 0)
-      expect_near(a.curved_shells[at(x.curvature)], b.curved_shells[at(y.curvature)], tolerance,
-                  what + " curvature");
+      expect_equal(a.curved_shells[at(x.curvature)], b.curved_shells[at(y.curvature)], tolerance,
+                   what + " curvature");
   }
 }
 
@@ -82,19 +82,19 @@ void expect_same_beams(const Mesh& a, const Mesh& b, double tolerance) {
     for (std::size_t end = 0; end < 2; ++end)
       EXPECT_LE((x.offset[end] - y.offset[end]).norm(), tolerance) << what << " offset";
     const BeamSection &p = a.section_of(x), &q = b.section_of(y);
-    expect_near(p.area, q.area, tolerance, what + " A");
-    expect_near(p.mass_per_length, q.mass_per_length, tolerance, what + " mass");
+    expect_equal(p.area, q.area, tolerance, what + " A");
+    expect_equal(p.mass_per_length, q.mass_per_length, tolerance, what + " mass");
     if (x.is_rod) continue;
     const Vector3 line = a.vertices[at(x.vertices[1])] - a.vertices[at(x.vertices[0])];
-    expect_near(line.cross(x.axis_2).normalized(), line.cross(y.axis_2).normalized(), tolerance,
-                what + " axis 3");
+    expect_equal(line.cross(x.axis_2).normalized(), line.cross(y.axis_2).normalized(), tolerance,
+                 what + " axis 3");
     const double size = p.second_moment_2 + p.second_moment_3;
     EXPECT_NEAR(p.second_moment_2, q.second_moment_2, tolerance * size) << what;
     EXPECT_NEAR(p.second_moment_3, q.second_moment_3, tolerance * size) << what;
     EXPECT_NEAR(p.product_23, q.product_23, tolerance * size) << what;
     EXPECT_NEAR(p.torsion, q.torsion, tolerance * size) << what;
-    expect_near(p.shear_area_2, q.shear_area_2, tolerance, what + " A_s2");
-    expect_near(p.shear_area_3, q.shear_area_3, tolerance, what + " A_s3");
+    expect_equal(p.shear_area_2, q.shear_area_2, tolerance, what + " A_s2");
+    expect_equal(p.shear_area_3, q.shear_area_3, tolerance, what + " A_s3");
     EXPECT_LE((p.shear_centre - q.shear_centre).norm(), tolerance) << what;
   }
 }
@@ -103,16 +103,16 @@ void expect_same_rest(const Mesh& a, const Mesh& b, double tolerance) {
   ASSERT_EQ(a.masses.size(), b.masses.size());
   for (std::size_t i = 0; i < a.masses.size(); ++i) {
     EXPECT_EQ(a.masses[i].vertex, b.masses[i].vertex);
-    expect_near(a.masses[i].mass, b.masses[i].mass, tolerance, "mass");
-    expect_near(a.masses[i].offset, b.masses[i].offset, tolerance, "offset");
-    expect_near(a.masses[i].inertia, b.masses[i].inertia, tolerance, "inertia");
+    expect_equal(a.masses[i].mass, b.masses[i].mass, tolerance, "mass");
+    expect_equal(a.masses[i].offset, b.masses[i].offset, tolerance, "offset");
+    expect_equal(a.masses[i].inertia, b.masses[i].inertia, tolerance, "inertia");
   }
   ASSERT_EQ(a.rigid_links.size(), b.rigid_links.size());
   for (std::size_t i = 0; i < a.rigid_links.size(); ++i) {
     EXPECT_EQ(a.rigid_links[i].master, b.rigid_links[i].master);
     EXPECT_EQ(a.rigid_links[i].slaves, b.rigid_links[i].slaves);
     EXPECT_EQ(a.rigid_links[i].bound, b.rigid_links[i].bound);
-    expect_near(a.rigid_links[i].axes, b.rigid_links[i].axes, tolerance, "axes of a link");
+    expect_equal(a.rigid_links[i].axes, b.rigid_links[i].axes, tolerance, "axes of a link");
   }
   ASSERT_EQ(a.distributing_links.size(), b.distributing_links.size());
   for (std::size_t i = 0; i < a.distributing_links.size(); ++i) {
@@ -125,11 +125,11 @@ void expect_same_rest(const Mesh& a, const Mesh& b, double tolerance) {
   for (std::size_t i = 0; i < a.springs.size(); ++i) {
     EXPECT_EQ(a.springs[i].vertices, b.springs[i].vertices);
     EXPECT_EQ(a.springs[i].components, b.springs[i].components);
-    expect_near(a.springs[i].stiffness, b.springs[i].stiffness, tolerance, "spring");
+    expect_equal(a.springs[i].stiffness, b.springs[i].stiffness, tolerance, "spring");
     for (std::size_t end = 0; end < 2; ++end) {
       if (a.springs[i].vertices[end] < 0) continue;
-      expect_near(a.springs[i].axes[end], b.springs[i].axes[end], tolerance, "axes of a spring");
-      expect_near(a.springs[i].arms[end], b.springs[i].arms[end], tolerance, "arms of a spring");
+      expect_equal(a.springs[i].axes[end], b.springs[i].axes[end], tolerance, "axes of a spring");
+      expect_equal(a.springs[i].arms[end], b.springs[i].arms[end], tolerance, "arms of a spring");
     }
   }
 }
@@ -176,10 +176,10 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
     return sums;
   };
   for (std::size_t i = 0; i < a.load_cases.size(); ++i) {
-    expect_near(forces(a, a.load_cases[i]), forces(b, b.load_cases[i]), tolerance, "forces");
-    expect_near(pressures(a, a.load_cases[i]), pressures(b, b.load_cases[i]), tolerance,
-                "pressures");
-    expect_near(held(a, a.load_cases[i]), held(b, b.load_cases[i]), tolerance, "supports");
+    expect_equal(forces(a, a.load_cases[i]), forces(b, b.load_cases[i]), tolerance, "forces");
+    expect_equal(pressures(a, a.load_cases[i]), pressures(b, b.load_cases[i]), tolerance,
+                 "pressures");
+    expect_equal(held(a, a.load_cases[i]), held(b, b.load_cases[i]), tolerance, "supports");
   }
 }
 
@@ -225,6 +225,10 @@ const LedgerEntry& entry(const Deck& deck, const std::string& name) {
   for (const LedgerEntry& one : deck.ledger)
     if (one.name == name) return one;
   throw ModelError("the ledger has no " + name);
+}
+
+void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance) {
+  EXPECT_LE((value - expected).norm(), tolerance) << value << "\nis due to be\n" << expected;
 }
 
 void expect_same(const Deck& a, const Deck& b, double tolerance) {

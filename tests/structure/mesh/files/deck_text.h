@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "structure/mesh/files/deck/deck.h"
 
 namespace blocklift::structure::test {
@@ -32,6 +34,9 @@ std::string complaints_of_abaqus(const std::string& text, const std::string& uni
 
 /// What the ledger says of a card.
 const LedgerEntry& entry(const Deck& deck, const std::string& name);
+
+/// Compares two matrices by the norm of their difference.
+void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance);
 
 /// Compares what two decks say: places, cells, sections, links, supports and loads, in their order.
 /// @param tolerance relative

@@ -23,10 +23,6 @@ using testing::Not;
 
 constexpr double pi = std::numbers::pi;
 
-void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance) {
-  EXPECT_LE((value - expected).norm(), tolerance) << value << "\nis due to be\n" << expected;
-}
-
 /// A square of 2 m with one property.
 const std::string square = R"(GRID,1,,0.,0.,0.
 GRID,2,,2.,0.,0.

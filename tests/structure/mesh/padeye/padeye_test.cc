@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-const Material steel{"steel", 206e9, 0.3, 7850, 355e6};
+const Material high_tensile_steel{"steel", 206e9, 0.3, 7850, 355e6};
 
 PadeyeGeometry padeye_with_cheeks() {
   return {0.3, 0.08, 0.131, 0.127, 0.22, 0.042, 0.55, 0.6, 0.6};
@@ -27,7 +27,7 @@ PadeyeGeometry strip() { return {0.1, 0.01, 0.1, 0.1, 0, 0, 0.7, 0.1, 0.1}; }
 PartModel bare_part(const PadeyeGeometry& geometry, int divisions) {
   PartModel part;
   part.mesh = make_part_mesh(make_padeye_mesh(geometry, divisions).mesh);
-  part.materials = {steel};
+  part.materials = {high_tensile_steel};
   part.material_of_solid.assign(part.mesh.solids.size(), 0);
   return part;
 }
@@ -109,7 +109,7 @@ TEST(BearingLoad, RefusesFacesThatCannotBearTheForce) {
 }
 
 TEST(PadeyeModel, CarriesTheForceToItsBase) {
-  const PadeyeModel padeye(padeye_with_cheeks(), steel, 20);
+  const PadeyeModel padeye(padeye_with_cheeks(), high_tensile_steel, 20);
   PadeyeLoad load;
   load.force = {3e5, 1.9e6, -1e5};
   load.gravity_less_acceleration = {0, -9.81, 0};
@@ -125,7 +125,7 @@ TEST(PadeyeModel, CarriesTheForceToItsBase) {
 
 // A base that moves as a rigid body leaves the padeye without stress; what it does besides adds up.
 TEST(PadeyeModel, FollowsItsBase) {
-  const PadeyeModel padeye(padeye_with_cheeks(), steel, 16);
+  const PadeyeModel padeye(padeye_with_cheeks(), high_tensile_steel, 16);
   const auto base_of = [&](const auto& displacement) {
     Eigen::VectorXd u(3 * static_cast<Eigen::Index>(padeye.base_nodes().size()));
     for (std::size_t i = 0; i < padeye.base_nodes().size(); ++i)
@@ -156,7 +156,7 @@ TEST(PadeyeModel, FollowsItsBase) {
 TEST(PadeyeModel, ShankOfAStripIsABar) {
   PadeyeGeometry g = strip();
   g.height = 1.5;
-  const PadeyeModel padeye(g, steel, 24);
+  const PadeyeModel padeye(g, high_tensile_steel, 24);
   PadeyeLoad load;
   load.force = {0, 1e5, 0};
   const PadeyeResult result = padeye.solve(load);
@@ -182,7 +182,7 @@ TEST(PadeyeModel, RoundEndConcentratesMoreThanALongOne) {
   const PadeyeGeometry g = strip();
   double last = 0;
   for (const int divisions : {24, 48}) {
-    const PadeyeModel padeye(g, steel, divisions);
+    const PadeyeModel padeye(g, high_tensile_steel, divisions);
     PadeyeLoad load;
     load.force = {0, 1e5, 0};
     const PadeyeResult result = padeye.solve(load);

@@ -193,7 +193,7 @@ TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
   EXPECT_NEAR(stretch[1] - stretch[0], softening, 0.02 * softening);
 }
 
-std::string refusal(const BlockDescription& block) {
+std::string refusal_of_opening(const BlockDescription& block) {
   try {
     generate_shell_mesh(block);
   } catch (const ModelError& error) {
@@ -205,33 +205,35 @@ std::string refusal(const BlockDescription& block) {
 TEST(ShapedOpeningsErrors, SayWhatIsWrong) {
   BlockDescription block = plate_of(4, 2);
   block.openings = {opening({1, 1.6}, {0.7, 1.3}, 0.4)};
-  EXPECT_THAT(refusal(block), HasSubstr("opening \"hole\": corners of 400 mm radius do not fit "
-                                        "into 600 x 600 mm"));
+  EXPECT_THAT(refusal_of_opening(block),
+              HasSubstr("opening \"hole\": corners of 400 mm radius do not fit "
+                        "into 600 x 600 mm"));
   block.openings = {opening({1, 1.6}, {0.7, 1.3}, 0.3)};
   block.plates.push_back({"web", Axis::x, {1.2}, {{{}, {0, 2}, {0, 1}}}, 0.01, "AH36"});
-  EXPECT_THAT(refusal(block),
+  EXPECT_THAT(refusal_of_opening(block),
               HasSubstr("opening \"hole\" of floor at z = 0 m meets another plate"));
   block = plate_of(4, 2);
   block.openings = {opening({3.5, 4.1}, {0.7, 1.3}, 0.3)};
-  EXPECT_THAT(refusal(block),
+  EXPECT_THAT(refusal_of_opening(block),
               HasSubstr("opening \"hole\" of floor at z = 0 m meets another plate"));
   block.openings = {opening({1, 1.6}, {0.7, 1.3}, 0.3), opening({1.3, 1.9}, {0.7, 1.3}, 0.3)};
-  EXPECT_THAT(refusal(block),
+  EXPECT_THAT(refusal_of_opening(block),
               HasSubstr("opening \"hole\" of floor at z = 0 m meets another plate"));
   block.openings = {opening({1, 1.6}, {0.7, 1.3}, 0.3)};
   block.pads = {{"pad", "floor", Axis::z, 0, {{{0.5, 3}, {0, 2}, {}}}, 0.03, ""}};
-  EXPECT_THAT(refusal(block), HasSubstr("lies in a pad, a lug or another opening"));
+  EXPECT_THAT(refusal_of_opening(block), HasSubstr("lies in a pad, a lug or another opening"));
   block = plate_of(4, 2);
   Opening polygon;
   polygon.name = "hole";
   polygon.plate = "floor";
   polygon.corners = {{1, 1, 0}, {1.5, 1, 0}};
   block.openings = {polygon};
-  EXPECT_THAT(refusal(block), HasSubstr("a polygon has three corners at least, not 2"));
+  EXPECT_THAT(refusal_of_opening(block), HasSubstr("a polygon has three corners at least, not 2"));
   block.openings[0].corners = {{1, 0.5, 0}, {2, 0.5, 0}, {2, 1.5, 0}, {1.9, 0.6, 0}};
-  EXPECT_THAT(refusal(block), HasSubstr("a polygon's sides cannot all be seen from its centre"));
+  EXPECT_THAT(refusal_of_opening(block),
+              HasSubstr("a polygon's sides cannot all be seen from its centre"));
   block.openings[0].corner_radius = 0.1;
-  EXPECT_THAT(refusal(block), HasSubstr("a polygon's corners are not rounded"));
+  EXPECT_THAT(refusal_of_opening(block), HasSubstr("a polygon's corners are not rounded"));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ using testing::expect_conforming;
 using ::testing::HasSubstr;
 using testing::measure;
 
-constexpr double density = 7850;  // kg/m^3
+constexpr double steel_density = 7850;  // kg/m^3
 
 // Flat bar of 150 x 12 mm on its edge.
 constexpr double height = 0.15, width = 0.012;
@@ -70,7 +70,7 @@ TEST(Stiffeners, StandBetweenTheEdgesAtTheirSpacing) {
   check_mesh(mesh);
   EXPECT_THAT(lines_at(mesh, 1.7), ElementsAre(500, 1000, 1500));
   const auto steel = measure(mesh);
-  const double plate = density * 8 * 0.012, bars = density * 3 * 4 * height * width;
+  const double plate = steel_density * 8 * 0.012, bars = steel_density * 3 * 4 * height * width;
   EXPECT_NEAR(steel.mass, plate + bars, 1e-9);
   EXPECT_NEAR(steel.centre.x(), 2, 1e-12);
   EXPECT_NEAR(steel.centre.y(), 1, 1e-12);
@@ -135,7 +135,7 @@ TEST(Stiffeners, EndWithTheirPlateWithinAnother) {
   expect_conforming(mesh);
   EXPECT_TRUE(lines_at(mesh, 2.9).empty());
   EXPECT_THAT(lines_at(mesh, 3.1), ElementsAre(500, 1000, 1500));
-  EXPECT_NEAR(measure(mesh).mass, density * (12 * 0.012 + 9 * height * width), 1e-8);
+  EXPECT_NEAR(measure(mesh).mass, steel_density * (12 * 0.012 + 9 * height * width), 1e-8);
 }
 
 TEST(Stiffeners, StandOnThePositionsThatTheyName) {
@@ -145,7 +145,7 @@ TEST(Stiffeners, StandOnThePositionsThatTheyName) {
   const Mesh mesh = generate_shell_mesh(block);
   expect_conforming(mesh);
   EXPECT_NEAR(measure(mesh).mass - measure(generate_shell_mesh(testing::small_block())).mass,
-              density * 3 * 2 * height * width, 1e-7);
+              steel_density * 3 * 2 * height * width, 1e-7);
   for (const Beam& beam : mesh.beams) EXPECT_EQ(mesh.vertices[at(beam.vertices[0])].x(), 2);
   const std::array<Vector3, 3> supports{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}};
   const auto reactions = samples::weigh(mesh, 2, supports);
