@@ -13,7 +13,6 @@
 namespace blocklift::dynamics {
 namespace {
 
-
 // Lamb, Hydrodynamics, art. 114: added mass of an ellipsoid along the axis i over the displaced
 // mass: k_i = alpha_i/(2 - alpha_i), alpha_i = a b c int_0^inf d lambda/((a_i^2 + lambda) Delta),
 // Delta^2 = (a^2 + lambda)(b^2 + lambda)(c^2 + lambda).
