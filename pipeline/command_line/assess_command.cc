@@ -14,6 +14,7 @@
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/doubts.h"
+#include "pipeline/results/mesh_error.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/standard_summary.h"
 
@@ -149,7 +150,9 @@ void print_details(const BlockRun& block) {
 void print_checks(const Assessment& assessment) {
   fmt::print("\n");
   for (const std::string& reason : verdict_reasons(assessment.checks)) fmt::print("{}\n", reason);
-  fmt::print("verdict: {}\n", assessment.pass() ? "pass" : "FAIL");
+  const std::string indicative = why_indicative(assessment);
+  fmt::print("verdict: {}{}\n", assessment.pass() ? "pass" : "FAIL",
+             indicative.empty() ? "" : ", indicative: " + indicative);
 }
 
 }  // namespace

@@ -228,10 +228,21 @@ struct LoadTable {
   Vector3 direction_at(const std::string& lug) const;
 };
 
+/// What the report says of itself as a document: text as it is given, empty where it is not.
+struct DocumentInCase {
+  std::string project;
+  std::string client;
+  std::string revision;
+  std::string prepared;  ///< by whom, as are the next two
+  std::string checked;
+  std::string approved;
+};
+
 /// A lift case: what is lifted, by what, how, and what is asked. SI units.
 struct LiftCase : MarineParts {
   std::string name;
   std::string title;
+  DocumentInCase document;
   double gravity = std::numeric_limits<double>::quiet_NaN();  ///< m/s^2
   LoadInCase load;
   std::vector<CraneInCase> cranes;

@@ -402,12 +402,25 @@ Format<StageInCase> stage_format() {
   return table.format();
 }
 
+Format<DocumentInCase> document_format() {
+  Table<DocumentInCase> table("document", "What the report says of itself as a document.");
+  table.optional("project", &DocumentInCase::project, text(), "for which the lift is assessed")
+      .optional("client", &DocumentInCase::client, text(), "for whom")
+      .optional("revision", &DocumentInCase::revision, text(), "of the document")
+      .optional("prepared", &DocumentInCase::prepared, text(), "who made it")
+      .optional("checked", &DocumentInCase::checked, text(), "who checked it")
+      .optional("approved", &DocumentInCase::approved, text(), "who approved it");
+  return table.format();
+}
+
 Format<LiftCase> lift_case_format() {
   Table<LiftCase> table("lift case",
                         "What is lifted, by what, how, and what is asked. A case has "
                         "either cranes, ropes and an operation, or a load table.");
   table.required("case", &LiftCase::name, name(), "its name")
       .optional("title", &LiftCase::title, text(), "for people")
+      .by_default("document", &LiftCase::document, document_format(), "{}",
+                  "project, revision and names, in the head of the report's pages")
       .by_default("gravity", &LiftCase::gravity,
                   quantity(Dimension::acceleration, Range::between(1, 100)), "9.80665 m/s^2",
                   "acceleration of gravity; nothing hangs without")

@@ -128,6 +128,8 @@
 ///   energy         (o) {largest_energy_J, largest_imbalance_J, relative_imbalance}
 ///   solver         (o) {any name: number or text}, shown as it stands, underscores as spaces
 ///   timing         (o) {static_s, dynamic_s, simulated_s, assembly_s, factorisation_s, solve_s, report_s, ...}
+///   document       (o) {project, client, revision, prepared, checked, approved}: text, each (o)
+///   indicative     (o) why the verdict is indicative only: a sentence without a full stop
 ///   assumptions    (o) list of text;   warnings (o) list of text
 ///   files          (o) [{name, content}]
 namespace blocklift::pipeline::layout {

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/decimation.h"
 
@@ -354,24 +355,22 @@ json surface(const ResultsReader& results) {
     result["quad_group"] = packed(std::vector<std::uint16_t>(groups.begin(), groups.end()), "u16");
     result["groups"] = results.read_texts(layout::surface_group_names);
   }
+  // What leads the page comes first: the envelope of the whole lift, where there is one.
   json ways = json::object();
-  const std::string first(layout::simultaneous);
-  const std::string second(layout::per_rope_maxima);
-  if (json states = fields(results, first, point_count); !states.empty())
-    ways[first] = std::move(states);
-  if (ways.empty() || shape_bytes + 2 * pair_bytes <= picture_budget) {
-    if (json states = fields(results, second, point_count); !states.empty())
-      ways[second] = std::move(states);
-  } else {
+  bool left_out = false;
+  for (const std::string_view way :
+       {layout::history, layout::simultaneous, layout::per_rope_maxima}) {
+    json states = fields(results, way, point_count);
+    if (states.empty()) continue;
+    if (ways.empty() || shape_bytes + (ways.size() + 1) * pair_bytes <= picture_budget)
+      ways[std::string(way)] = std::move(states);
+    else
+      left_out = true;
+  }
+  if (left_out)
     result["note"] =
-        "To keep this page small the pictures show the simultaneous loads only; the "
-        "per-rope maxima are in the .vtu files.";
-  }
-  const std::string whole(layout::history);
-  if (shape_bytes + (ways.size() + 1) * pair_bytes <= picture_budget) {
-    if (json states = fields(results, whole, point_count); !states.empty())
-      ways[whole] = std::move(states);
-  }
+        "To keep this page small it has not the pictures of all ways to take the loads; the others "
+        "are in results.h5.";
   result["fields"] = std::move(ways);
   return result;
 }
@@ -409,11 +408,16 @@ json case_of(const ResultsReader& results, const json& summary) {
   };
   std::string name = take("name");
   if (name.empty()) name = summary.value("case", "");
+  const std::string yaml =
+      results.has(layout::case_yaml) ? results.read_text(layout::case_yaml) : "";
+  ContentHash hash;
+  hash.add(yaml);
   return {{"name", name},
           {"title", take("title")},
           {"created", take("created")},
           {"program_version", take("program_version")},
-          {"yaml", results.has(layout::case_yaml) ? results.read_text(layout::case_yaml) : ""}};
+          {"hash", yaml.empty() ? "" : hash.digits()},
+          {"yaml", yaml}};
 }
 
 }  // namespace

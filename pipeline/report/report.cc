@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/formats/run_identity.h"
+#include "pipeline/report/front.h"
+#include "pipeline/report/html.h"
 #include "pipeline/report/page_data.h"
 #include "pipeline/report/report_page.h"
 
@@ -39,30 +42,6 @@ void require_known_layout(const ResultsReader& results, const std::filesystem::p
                   path.string(), version, layout::format_version));
 }
 
-/// Text as HTML content or attribute value.
-std::string escape_html(std::string_view text) {
-  std::string escaped;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += letter;
-    }
-  }
-  return escaped;
-}
-
 /// JSON that may stand inside a script element: no "<" can end the element early.
 std::string script_safe(const nlohmann::ordered_json& data) {
   const std::string text =
@@ -78,13 +57,12 @@ std::string script_safe(const nlohmann::ordered_json& data) {
   return safe;
 }
 
-/// The page with its placeholders %TITLE% and %DATA% filled; each stands in it once.
-std::string fill_page(std::string_view page, const std::string& title, const std::string& data) {
+/// The page with its placeholders filled, in their order; each stands in it once.
+std::string fill_page(std::string_view page,
+                      const std::vector<std::pair<std::string_view, std::string>>& contents) {
   std::string filled;
-  filled.reserve(page.size() + data.size());
-  for (const auto& [mark, text] :
-       {std::pair<std::string_view, const std::string&>("%TITLE%", title),
-        std::pair<std::string_view, const std::string&>("%DATA%", data)}) {
+  filled.reserve(page.size() + contents.back().second.size());
+  for (const auto& [mark, text] : contents) {
     const std::size_t at = page.find(mark);
     filled += page.substr(0, at);
     filled += text;
@@ -110,7 +88,12 @@ std::filesystem::path write_report(const std::filesystem::path& folder) {
   }
   const std::string name = data["case"]["name"].get<std::string>();
   std::filesystem::path path = folder / layout::report_file;
-  write_file(path, fill_page(report_page(), escape_html(name), script_safe(data)));
+  write_file(path, fill_page(report_page(), {{"%TITLE%", escape_html(name)},
+                                             {"%MARGINS%", margins_css(data)},
+                                             {"%FRONT%", front_html(data)},
+                                             {"%CHECKS%", checks_html(data)},
+                                             {"%ANNEX%", annex_html(data)},
+                                             {"%DATA%", script_safe(data)}}));
   return path;
 }
 

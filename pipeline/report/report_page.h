@@ -5,8 +5,8 @@
 namespace blocklift::pipeline {
 
 /// The report's page without its data: HTML with style sheet and scripts inlined, and the
-/// placeholders %TITLE% (HTML text) and %DATA% (JSON), in this order. Its definition is generated
-/// at build time from pipeline/report/web/.
+/// placeholders %TITLE% (HTML text), %MARGINS% (CSS), %FRONT%, %CHECKS%, %ANNEX% (HTML) and %DATA%
+/// (JSON), in this order. Its definition is generated at build time from pipeline/report/web/.
 std::string_view report_page();
 
 }  // namespace blocklift::pipeline

@@ -155,6 +155,7 @@ std::string chains(const StandardAssessment& standard) {
 }
 
 std::string revision(const Assessment& assessment) {
+  const DocumentInCase& document = assessment.lift_case.document;
   ContentHash hash;
   hash.add(assessment.lift_case.yaml);
   for (const Chain& chain : assessment.standard->chains) {
@@ -164,11 +165,11 @@ std::string revision(const Assessment& assessment) {
   }
   std::string text = heading("Revision");
   text += table({"revision", "case", "hash of case and factors", "program", "made"},
-                {{"", assessment.lift_case.name, hash.digits(),
+                {{document.revision, assessment.lift_case.name, hash.digits(),
                   fmt::format("Blocklift {}", program_version), creation_time()}});
-  return text +
-         table({"", "name", "date", "signature"},
-               {{"prepared", "", "", ""}, {"checked", "", "", ""}, {"approved", "", "", ""}});
+  return text + table({"", "name", "date", "signature"}, {{"prepared", document.prepared, "", ""},
+                                                          {"checked", document.checked, "", ""},
+                                                          {"approved", document.approved, "", ""}});
 }
 
 }  // namespace

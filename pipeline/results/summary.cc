@@ -14,6 +14,7 @@
 #include "pipeline/results/assumptions.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
+#include "pipeline/results/mesh_error.h"
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/result_file.h"
@@ -426,16 +427,33 @@ void add_motion(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
       solver_json(lift.dynamic_result.statistics, lift.simulated_s(), lift.dynamic_s);
 }
 
+Json document_json(const DocumentInCase& document) {
+  Json json = Json::object();
+  const auto add = [&](const char* key, const std::string& text) {
+    if (!text.empty()) json[key] = text;
+  };
+  add("project", document.project);
+  add("client", document.client);
+  add("revision", document.revision);
+  add("prepared", document.prepared);
+  add("checked", document.checked);
+  add("approved", document.approved);
+  return json;
+}
+
 }  // namespace
 
 Json make_summary(const Assessment& assessment) {
   Json summary{{"case", assessment.lift_case.name},
                {"title", assessment.lift_case.title},
+               {"document", document_json(assessment.lift_case.document)},
                {"program_version", program_version},
                {"created", creation_time()},
                {"verdict", assessment.pass() ? "pass" : "fail"},
                {"verdict_reasons", verdict_reasons(assessment.checks)},
                {"checks", Json::array()}};
+  if (const std::string reason = why_indicative(assessment); !reason.empty())
+    summary["indicative"] = reason;
   for (const Check& check : assessment.checks) summary["checks"].push_back(check_json(check));
   if (assessment.standard) summary["standard"] = standard_json(*assessment.standard);
   const LiftRun* lift = assessment.lift ? &*assessment.lift : nullptr;
@@ -453,6 +471,7 @@ Json make_summary(const Assessment& assessment) {
 Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift) {
   Json summary{{"case", lift_case.name},
                {"title", lift_case.title},
+               {"document", document_json(lift_case.document)},
                {"program_version", program_version},
                {"created", creation_time()}};
   add_loads(lift_case, lift, summary);

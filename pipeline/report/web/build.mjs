@@ -22,11 +22,13 @@ const libraries = Object.keys(JSON.parse(readFileSync("package.json", "utf8")).d
 });
 const listed = libraries.map(({ name, version, license }) => `${name} ${version} (${license} licence)`).join(" and ");
 page = fill(page, "%LICENCES%", `Made by Blocklift (GPL-3.0-or-later), which is free software without any warranty. This page draws with ${listed}.`);
-for (const mark of ["%TITLE%", "%DATA%"]) fill(page, mark, "");
+const marks = ["%TITLE%", "%MARGINS%", "%FRONT%", "%CHECKS%", "%ANNEX%", "%DATA%"];  // as the program fills them
+for (const mark of marks) fill(page, mark, "");
 page = fill(page, "%STYLE%", style.replaceAll("</style", "<\\/style"));
 page = fill(page, "%SCRIPT%", script.replaceAll("</script", "<\\/script").replaceAll("<!--", "\\x3c!--"));
-if (page.indexOf("%TITLE%") > page.indexOf("%DATA%")) throw new Error("%TITLE% must stand before %DATA%");
-if (script.includes("%DATA%") || script.includes("%TITLE%")) throw new Error("the script holds a placeholder");
+const places = marks.map((mark) => page.indexOf(mark));
+if (places.some((place, i) => i > 0 && place < places[i - 1])) throw new Error(`the page must hold ${marks.join(", ")} in this order`);
+if (marks.some((mark) => script.includes(mark) || style.includes(mark))) throw new Error("script or style hold a placeholder");
 
 // Octal escapes: unlike hexadecimal ones they end after three digits.
 const literal = (bytes) => {

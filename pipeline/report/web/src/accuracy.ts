@@ -1,4 +1,5 @@
 // How far the numbers can be trusted, and what they rest on.
+import { addToAnnex } from "./annex";
 import { History, known, PageData, State, states } from "./data";
 import { Child, Column, h, table } from "./dom";
 import { energyPlot } from "./histories";
@@ -37,19 +38,25 @@ export function accuracySection(data: PageData): Section | null {
   const { energy, solver, timing } = data.summary;
   const history: History | null = data.histories.dynamic;
   if (!energy && !solver && !timing && !history?.energy.length) return null;
+  addCost(data);
   const samples = states.filter((state: State) => data.histories[state])
     .map((state) => `${fixed(data.histories[state]!.samples, 0)} ${state}`).join(" and ");
   return {
     id: "accuracy", title: "Accuracy", content: [
       history?.energy.length ? energyPlot(data, history) : null,
-      h("div", { class: "columns" }, energyTable(data),
-        solver && table("Solver", [left("Quantity"), { head: "Value" }],
-          Object.entries(solver).filter(([, value]) => typeof value !== "object").map(([name, value]) => [plain(name), valueText(value)])),
-        timing && table("Computing time", [left("Part"), { head: "s" }],
-          Object.entries(timing).filter(([name, value]) => name !== "simulated_s" && known(value))
-            .map(([name, value]) => [plain(name), significant(value, 3)]))),
+      energyTable(data),
       h("p", { class: "source" }, [samples && `Results hold ${samples} samples.`, speedText(data)].filter(Boolean).join(" "))],
   };
+}
+
+/** What the computation cost, for the annex. */
+function addCost(data: PageData): void {
+  const { solver, timing } = data.summary;
+  if (solver) addToAnnex("Computation", table("Solver", [left("Quantity"), { head: "Value" }],
+    Object.entries(solver).filter(([, value]) => typeof value !== "object").map(([name, value]) => [plain(name), valueText(value)])));
+  if (timing) addToAnnex("Computation", table("Computing time", [left("Part"), { head: "s" }],
+    Object.entries(timing).filter(([name, value]) => name !== "simulated_s" && known(value))
+      .map(([name, value]) => [plain(name), significant(value, 3)])));
 }
 
 export function methodSection(data: PageData): Section {
@@ -70,7 +77,7 @@ export function methodSection(data: PageData): Section {
         + "away rigid motion and carry nothing. Displacements are relative to the rigid motion. The raw peak stress can lie at a sharp corner, "
         + "where it grows with every refinement of the mesh; the checked stress is a mean over squares of 50 x 50 mm, which does not, and is the "
         + "one compared with yield."),
-      h("p", {}, "A utilisation is demand over limit; the verdict is a pass when every check passes. Forces in tonnes are kN divided by 9.80665 m/s²."),
+      h("p", {}, "A utilisation is demand over limit; the verdict is a pass when every check passes. Forces in tonnes (1000 kg) are kN divided by 9.80665 m/s²."),
       (summary.files ?? []).length > 0 && table("Files of this result", [left("File"), left("Content")],
         summary.files!.map((file) => [h("code", {}, file.name), file.content])),
       data.case.yaml && h("details", { class: "case" }, h("summary", {}, "The case file"), h("pre", { tabindex: 0 }, data.case.yaml))],

@@ -2,7 +2,6 @@
 
 export const stateColour = { static: "#2f6396", dynamic: "#d2601a" };
 export const measuredColour = "#1d2329";
-export const stateName = { static: "static", dynamic: "dynamic" };
 
 // The stress scale: lightness rises evenly from dark blue to pale yellow while the hue turns through green,
 // so that equal steps of stress look equal, in print without colour too. Anchors are lightness, chroma and

@@ -1,4 +1,5 @@
 // Small helpers that make elements.
+import { saveTable, tableLines } from "./download";
 
 export type Child = Node | string | null | undefined | false | Child[];
 type Attributes = Record<string, string | number | boolean | null | undefined | ((event: any) => void)>;
@@ -34,33 +35,44 @@ export function append(parent: Node, children: Child[]): void {
 
 export interface Column { head: Child; align?: "left" | "right" | "centre"; title?: string }
 
-/** A table that can be copied as tab-separated text. */
+/** A table that can be copied as tab-separated text and saved as CSV. */
 export function table(caption: string, columns: Column[], rows: Child[][], className = ""): HTMLElement {
   const align = (column: number): string => columns[column].align ?? "right";
   const body = h("table", { class: className },
-    h("caption", {}, h("span", {}, caption), h("button", {
-      class: "copy", type: "button", title: "Copy this table, for a spreadsheet", onclick: (event: MouseEvent) => {
-        const button = event.currentTarget as HTMLButtonElement;
-        copyTable(body as HTMLTableElement, button);
-      },
-    }, "copy")),
-    h("thead", {}, h("tr", {}, columns.map((column, i) =>
-      h("th", { scope: "col", class: align(i), title: column.title }, column.head)))),
+    h("caption", {}, h("span", {}, caption)),
+    h("thead", {}, h("tr", {}, columns.map((column, i) => column.head === ""
+      ? h("td", { class: align(i) }) : h("th", { scope: "col", class: align(i), title: column.title }, column.head)))),
     h("tbody", {}, rows.map((row) => h("tr", {}, row.map((cell, i) =>
       i === 0 ? h("th", { scope: "row", class: align(i) }, cell) : h("td", { class: align(i) }, cell))))));
-  return h("div", { class: "table" }, body);
+  const element = h("div", { class: "table" }, body);
+  equip(element);
+  return element;
+}
+
+/** Gives a table of the page its buttons, and the keyboard a way to scroll it where it is too wide. */
+export function equip(element: HTMLElement): void {
+  const body = element.querySelector("table")!;
+  const caption = body.caption!;
+  const name = caption.textContent ?? "";
+  caption.append(h("button", { class: "copy", type: "button", title: "Copy this table, for a spreadsheet", "aria-label": `Copy: ${name}`,
+    onclick: (event: MouseEvent) => copyTable(body, event.currentTarget as HTMLButtonElement) }, "copy"),
+  h("button", { class: "copy csv", type: "button", title: "Save this table as CSV", "aria-label": `Save as CSV: ${name}`,
+    onclick: () => saveTable(body, name) }, "CSV"));
+  new ResizeObserver(() => {
+    if (element.scrollWidth > element.clientWidth) element.tabIndex = 0;
+    else element.removeAttribute("tabindex");
+  }).observe(element);
 }
 
 function copyTable(element: HTMLTableElement, button: HTMLButtonElement): void {
-  const lines = [...element.rows].map((row) => [...row.cells]
-    .map((cell) => (cell.textContent ?? "").trim().replace(/\u202f/g, "").replace(/\u2212/g, "-")).join("\t"));
+  const text = tableLines(element, (cells) => cells.join("\t"));
   const done = (): void => {
     button.textContent = "copied";
     setTimeout(() => { button.textContent = "copy"; }, 1500);
   };
   const byHand = (): void => {  // pages opened from a disk may lack the clipboard interface
     const area = h("textarea", { class: "off-screen" }) as HTMLTextAreaElement;
-    area.value = lines.join("\n");
+    area.value = text;
     document.body.appendChild(area);
     area.select();
     document.execCommand("copy");
@@ -68,7 +80,7 @@ function copyTable(element: HTMLTableElement, button: HTMLButtonElement): void {
     button.focus();
     done();
   };
-  if (navigator.clipboard) navigator.clipboard.writeText(lines.join("\n")).then(done, byHand);
+  if (navigator.clipboard) navigator.clipboard.writeText(text).then(done, byHand);
   else byHand();
 }
 

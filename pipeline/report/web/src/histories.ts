@@ -3,6 +3,9 @@ import uPlot from "uplot";
 
 import { Clock } from "./clock";
 import { measuredColour, stateColour } from "./colours";
+import { svgButton } from "./download";
+import { onNewColours, paint } from "./paint";
+import { PaperMark, paperPlot } from "./paper_plot";
 import { History, known, PackedSeries, PageData, Series, Stage, stageAt, State, states } from "./data";
 import { h } from "./dom";
 import type { Section } from "./section";
@@ -99,13 +102,13 @@ function stageBands(stages: Stage[], named: boolean): uPlot.Plugin {
         stages.forEach((stage, i) => {
           const left = u.valToPos(stage.start, "x", true);
           const right = u.valToPos(stage.end, "x", true);
-          ctx.fillStyle = i % 2 ? "#eef2f5" : "#e6ecf1";
+          ctx.fillStyle = paint(i % 2 ? "band" : "other-band");
           ctx.fillRect(left, u.bbox.top, right - left, u.bbox.height);
           if (!named) return;
           const inside = Math.min(right, u.bbox.left + u.bbox.width) - Math.max(left, u.bbox.left);
           ctx.font = font(11 * devicePixelRatio);
           if (ctx.measureText(stage.name).width + 8 > inside) return;
-          ctx.fillStyle = "#5a6875";
+          ctx.fillStyle = paint("soft");
           ctx.textAlign = "left";
           ctx.textBaseline = "bottom";
           ctx.fillText(stage.name, Math.max(left, u.bbox.left) + 5 * devicePixelRatio, u.bbox.top + u.bbox.height - 4 * devicePixelRatio);
@@ -128,7 +131,7 @@ function marks(curve: () => Curve, clock: Clock, factor: number, labelled: boole
         ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
         ctx.clip();
         const now = u.valToPos(clock.time, "x", true);
-        ctx.strokeStyle = "#1d2730";
+        ctx.strokeStyle = paint("ink");
         ctx.lineWidth = devicePixelRatio;
         ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
         ctx.beginPath();
@@ -141,8 +144,8 @@ function marks(curve: () => Curve, clock: Clock, factor: number, labelled: boole
           if (!top) continue;
           const x = u.valToPos(top.time, "x", true);
           const y = u.valToPos(top.value * factor, "y", true);
-          ctx.strokeStyle = stateColour[state];
-          ctx.fillStyle = "#ffffff";
+          ctx.strokeStyle = paint(state);
+          ctx.fillStyle = paint("paper");
           ctx.lineWidth = 2 * devicePixelRatio;
           ctx.beginPath();
           ctx.arc(x, y, (labelled ? 4.5 : 3) * devicePixelRatio, 0, 2 * Math.PI);
@@ -157,10 +160,10 @@ function marks(curve: () => Curve, clock: Clock, factor: number, labelled: boole
           ctx.textBaseline = state === "static" ? "top" : "bottom";
           const shift = (rightwards ? 9 : -9) * devicePixelRatio;
           ctx.lineWidth = 4 * devicePixelRatio;
-          ctx.strokeStyle = "rgba(255,255,255,.85)";
+          ctx.strokeStyle = paint("paper");
           const lower = y + (state === "static" ? 6 : -2) * devicePixelRatio;
           ctx.strokeText(text, x + shift, lower);
-          ctx.fillStyle = stateColour[state];
+          ctx.fillStyle = paint(state);
           ctx.fillText(text, x + shift, lower);
         }
         ctx.restore();
@@ -213,8 +216,8 @@ interface PlotSettings {
 function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
   const { host, group, small } = settings;
   const axis: uPlot.Axis = {
-    font: font(small ? 10 : 12), stroke: "#4b5864", grid: { stroke: "rgba(40,60,80,.09)", width: 1 },
-    ticks: { stroke: "rgba(40,60,80,.25)", width: 1, size: 4 },
+    font: font(small ? 10 : 12), stroke: () => paint("soft"), grid: { stroke: () => paint("grid"), width: 1 },
+    ticks: { stroke: () => paint("tick"), width: 1, size: 4 },
   };
   const plot = new uPlot({
     width: Math.max(host.clientWidth, 120), height: settings.height, legend: { show: false }, pxAlign: 0,
@@ -244,6 +247,7 @@ function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
   new ResizeObserver(() => {
     if (host.clientWidth > 0 && host.clientWidth !== plot.width) plot.setSize({ width: host.clientWidth, height: settings.height });
   }).observe(host);
+  onNewColours(() => plot.redraw(false));
   group.add(plot);
   return plot;
 }
@@ -252,10 +256,28 @@ function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
 const drawingOrder: State[] = ["dynamic", "static"];
 const drawn = (curve: Curve): (Series | undefined)[] => [...drawingOrder.map((state) => curve.series[state]), curve.measured];
 const pairSeries = (small: boolean): uPlot.Series[] => [
-  { label: "dynamic", stroke: stateColour.dynamic, width: small ? 0.9 : 1.1, spanGaps: true, points: { show: false } },
-  { label: "static", stroke: stateColour.static, width: small ? 1.3 : 2, spanGaps: true, points: { show: false } },
-  { label: "measured", stroke: measuredColour, width: 0, paths: () => null, points: { show: true, size: small ? 3 : 6, fill: measuredColour } },
+  { label: "dynamic", stroke: () => paint("dynamic"), width: small ? 0.9 : 1.1, spanGaps: true, points: { show: false } },
+  { label: "static", stroke: () => paint("static"), width: small ? 1.3 : 2, spanGaps: true, points: { show: false } },
+  { label: "measured", stroke: () => paint("measured"), width: 0, paths: () => null, points: { show: true, size: small ? 3 : 6, fill: () => paint("measured") } },
 ];
+
+const tensionFactor = 1e-3;  // N to kN
+
+/** A curve pair for paper and files, over the whole lift whatever the page is zoomed to. */
+function onPaper(data: PageData, curve: Curve, clock: Clock, large: boolean, range?: [number, number]): SVGElement {
+  const scaled = (series: Series): Float32Array => series.values.map((value) => value * tensionFactor);
+  const curves = drawingOrder.filter((state) => curve.series[state]).map((state) => ({ name: state, colour: stateColour[state],
+    width: state === "static" ? 1.4 : 0.6, time: curve.series[state]!.time, values: scaled(curve.series[state]!), dots: false }));
+  if (curve.measured) curves.push({ name: "measured" as State, colour: measuredColour, width: 0, time: curve.measured.time,
+    values: scaled(curve.measured), dots: true });
+  const marks = states.filter((state) => curve.peaks[state]).map((state): PaperMark => {
+    const { time, value } = curve.peaks[state]!;
+    return { time, value: value * tensionFactor, colour: stateColour[state], below: state === "static",
+      text: large ? `${state}: ${kilonewtons(value)} kN at ${seconds(time)} s` : undefined };
+  });
+  return paperPlot({ label: `Tension of ${curve.name} over time, static and dynamic`, unit: large ? `${curve.name}: tension, kN` : "kN",
+    start: clock.start, end: clock.end, range, stages: data.stages, curves, marks, size: large ? "large" : "small" });
+}
 
 /** The names of stages as buttons that zoom to them. */
 function stageButtons(data: PageData, group: Group): HTMLElement {
@@ -275,8 +297,8 @@ function readoutText(curve: Curve, stages: Stage[], time: number): string {
   const still = value("static");
   const moving = value("dynamic");
   const parts = [`${seconds(time)} s`, stageAt(stages, time)];
-  if (Number.isFinite(still)) parts.push(`static ${kilonewtons(still)} kN (${tonnesForce(still)} t)`);
-  if (Number.isFinite(moving)) parts.push(`dynamic ${kilonewtons(moving)} kN (${tonnesForce(moving)} t)`);
+  if (Number.isFinite(still)) parts.push(`static ${kilonewtons(still)} kN (${tonnesForce(still)} tonnes)`);
+  if (Number.isFinite(moving)) parts.push(`dynamic ${kilonewtons(moving)} kN (${tonnesForce(moving)} tonnes)`);
   if (Number.isFinite(still) && Number.isFinite(moving) && still > 0) parts.push(change((moving / still - 1) * 100));
   return parts.filter(Boolean).join("   ·   ");
 }
@@ -285,7 +307,7 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
   const curves = curvesOf(data);
   if (curves.length === 0) return null;
   const group = new Group(clock.start, clock.end);
-  const factor = 1e-3;
+  const factor = tensionFactor;
   const ropes = data.summary.ropes ?? [];
   const loudest = [...ropes].sort((a, b) => (b.max_dynamic_tension_N ?? 0) - (a.max_dynamic_tension_N ?? 0))[0];
   let shown = curves.find((curve) => curve.name === loudest?.name) ?? curves[0];
@@ -319,10 +341,12 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
       large.setData(aligned(drawn(curve), factor), false);
       large.setScale("x", { min: min!, max: max! });
     }
+    paper.replaceChildren(onPaper(data, curve, clock, true));
     heading.textContent = `${curve.kind === "rope" ? "Rope" : "Hoist"} ${curve.name}`;
     read(null);
   };
   const heading = h("h3", {}, "");
+  const paper = h("div", { class: "on-paper" });
   const widest: Record<string, number> = {};
   for (const curve of curves) {
     const { low, high } = extent(curve);
@@ -355,11 +379,14 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
   });
 
   const grid = (kind: string): HTMLElement => h("div", { class: "tiles" }, tiles.filter((one) => one.curve.kind === kind)
-    .map((one) => h("div", { class: "tile" }, one.tile, one.plotHost)));
+    .map(({ curve, tile, plotHost }) => {
+      const drawing = onPaper(data, curve, clock, false, sameSpan(curve) as [number, number]);
+      return h("div", { class: "tile" }, tile, svgButton(`tension of ${curve.name}`, () => drawing), plotHost, h("div", { class: "on-paper" }, drawing));
+    }));
   return {
     id: "histories", title: "Rope tensions", content: [
-      h("div", { class: "plot-head" }, heading, legend()),
-      stageButtons(data, group), host, readout,
+      h("div", { class: "plot-head" }, heading, legend(), svgButton("tension", () => onPaper(data, shown, clock, true))),
+      stageButtons(data, group), host, paper, readout,
       h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's instant (dashed). Rings mark the largest values. "
         + "The small plots all span the same number of kN; choose one by its name."),
       measuredText(data) && h("p", {}, measuredText(data)),
@@ -370,7 +397,7 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
 
 function legend(): HTMLElement {
   return h("span", { class: "legend" }, states.map((state) =>
-    h("span", {}, h("i", { style: `background:${stateColour[state]}` }), state)));
+    h("span", {}, h("i", { class: state }), state)));
 }
 
 const palette = ["#2f6396", "#d2601a", "#3f8f5b", "#8d5aa5", "#a8842c", "#c2456b", "#4aa3b5", "#6b7682"];
@@ -381,12 +408,16 @@ function tileOf(data: PageData, group: Group, clock: Clock, settings: {
 }): HTMLElement {
   const { packed, series } = settings;
   const host = h("div", { class: "plot" });
-  const colour = (i: number): string => (packed.length === 1 ? "#4b5864" : palette[i % palette.length]);
+  const colour = (i: number): string => (packed.length === 1 ? "#5f7f9f" : palette[i % palette.length]);
   requestAnimationFrame(() => makePlot({
     host, height: 200, group, clock, unit: settings.unit, small: false, plugins: [stageBands(data.stages, false), ...settings.plugins ?? []],
     series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, spanGaps: true, points: { show: false } })),
   }, aligned(series, settings.factor)));
-  return h("div", { class: "tile" }, h("h4", {}, settings.title), host, packed.length > 1 && h("span", { class: "legend" },
+  const drawing = paperPlot({ label: settings.title, unit: settings.unit, start: clock.start, end: clock.end, stages: data.stages, size: "middle",
+    curves: packed.map((one, i) => ({ name: one.name, colour: colour(i), width: 0.9, time: series[i].time,
+      values: series[i].values.map((value) => value * settings.factor) })) });
+  return h("div", { class: "tile" }, h("h4", {}, settings.title, svgButton(settings.title, () => drawing)), host,
+    h("div", { class: "on-paper" }, drawing), packed.length > 1 && h("span", { class: "legend" },
     packed.map((one, i) => h("span", { title: one.description }, h("i", { style: `background:${colour(i)}` }), settings.label(one)))));
 }
 
@@ -415,7 +446,7 @@ function nowLine(clock: Clock): uPlot.Plugin {
   return { hooks: { draw: (u) => {
     const now = u.valToPos(clock.time, "x", true);
     u.ctx.save();
-    u.ctx.strokeStyle = "#1d2730";
+    u.ctx.strokeStyle = paint("ink");
     u.ctx.lineWidth = devicePixelRatio;
     u.ctx.setLineDash([3 * devicePixelRatio, 3 * devicePixelRatio]);
     u.ctx.beginPath();

@@ -2,9 +2,9 @@
 import * as three from "three";
 
 import { Clock } from "./clock";
-import { stateColour } from "./colours";
 import { PageData, Scene, Series, stageAt, State, states } from "./data";
 import { checkbox, choice, h, slider } from "./dom";
+import { svgButton } from "./download";
 import { elevation, frameOf } from "./elevation";
 import type { Section } from "./section";
 import type { Vibration, VibrationPlayer } from "./modes";
@@ -148,7 +148,7 @@ function tensionPanel(data: PageData, clock: Clock): HTMLElement | null {
   const rows = ropes.map(({ name }) => {
     const curves = { static: series("static", name), dynamic: series("dynamic", name) };
     for (const state of states) for (const value of curves[state]?.values ?? []) top = Math.max(top, value);
-    const bars = { static: h("i", { style: `background:${stateColour.static}` }), dynamic: h("i", { style: `background:${stateColour.dynamic}` }) };
+    const bars = { static: h("i", { class: "static" }), dynamic: h("i", { class: "dynamic" }) };
     const value = h("span", { class: "value" });
     return { curves, bars, value, element: h("div", { class: "rope" }, h("b", {}, name), h("span", { class: "bars" }, bars.static, bars.dynamic), value) };
   });
@@ -161,13 +161,13 @@ function tensionPanel(data: PageData, clock: Clock): HTMLElement | null {
         if (Number.isFinite(now)) last = now;
       }
       value.textContent = Number.isFinite(last) ? `${kilonewtons(last)} kN` : missing;
-      value.title = `${tonnesForce(last)} t`;
+      value.title = `${tonnesForce(last)} tonnes`;
     }
   };
   clock.listen(show);
   show(clock.time);
-  return h("div", { class: "tensions", "aria-label": "Rope tensions at this instant" },
-    h("p", { class: "legend" }, states.map((state) => h("span", {}, h("i", { style: `background:${stateColour[state]}` }), state))),
+  return h("div", { class: "tensions", role: "group", "aria-label": "Rope tensions at this instant" },
+    h("p", { class: "legend" }, states.map((state) => h("span", {}, h("i", { class: state }), state))),
     rows.map((row) => row.element));
 }
 
@@ -220,7 +220,8 @@ export function liftSection(data: PageData, clock: Clock, player: VibrationPlaye
   const drawElevations = (): void => {
     drawings.replaceChildren(...(["side", "front"] as const).map((side) => h("figure", {},
       elevation(scene, bodies(), clock.time, side, frameOf(scene, bodies(), times, side), true) as unknown as HTMLElement,
-      h("figcaption", {}, `${side === "side" ? "Side" : "Front"} elevation at ${seconds(clock.time)} s, ${stageAt(data.stages, clock.time)}`))));
+      h("figcaption", {}, svgButton(`${side} elevation`, () => elevation(scene, bodies(), clock.time, side, frameOf(scene, bodies(), times, side), true)),
+        `${side === "side" ? "Side" : "Front"} elevation at ${seconds(clock.time)} s, ${stageAt(data.stages, clock.time)}`))));
   };
   drawElevations();
 

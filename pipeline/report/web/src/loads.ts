@@ -1,6 +1,7 @@
 // Load tables: largest loads, what the other ropes carry at that instant, hoists and cranes.
 import { Clock } from "./clock";
-import { known, LoadMaxima, PageData, stageAt, State } from "./data";
+import { addToAnnex } from "./annex";
+import { known, LoadMaxima, PageData, stageAt, State, states } from "./data";
 import { Child, Column, h, table } from "./dom";
 import type { Section } from "./section";
 import { change, fixed, kilonewtons, missing, ratio, seconds, share, tonnesForce } from "./numbers";
@@ -25,8 +26,8 @@ function ropeTable(data: PageData, clock: Clock): Child {
   const lugs = ropes.some((rope) => rope.lug);
   const columns: Column[] = [
     { head: "Rope", align: "left" }, ...(lugs ? [{ head: "Lug", align: "left" } as Column] : []),
-    { head: "Static, kN" }, { head: "t" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
-    { head: "Dynamic, kN" }, { head: "t" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
+    { head: "Static, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
+    { head: "Dynamic, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
     { head: "Dynamic / static" },
     ...(broken ? [{ head: "Share of breaking load", title: "largest dynamic tension over breaking load" }] : []),
   ];
@@ -49,8 +50,8 @@ function comparisonTable(data: PageData): Child {
   const ours = new Map((data.summary.ropes ?? []).map((rope) => [rope.name, rope]));
   const columns: Column[] = [
     { head: "Rope", align: "left" },
-    { head: "Static, t" }, { head: "published, t" }, { head: "difference" },
-    { head: "Dynamic, t" }, { head: "published, t" }, { head: "difference" },
+    { head: "Static, tonnes" }, { head: "published, tonnes" }, { head: "difference" },
+    { head: "Dynamic, tonnes" }, { head: "published, tonnes" }, { head: "difference" },
     { head: "Ratio" }, { head: "published" },
   ];
   const rows = comparison.ropes.map((one) => {
@@ -83,9 +84,9 @@ function capacityTable(caption: string, head: string, loads: LoadMaxima[] | unde
   if (!loads?.length) return null;
   const swing = loads.some((load) => known(load.max_swing_rad));
   const capacity = loads.some((load) => known(load.capacity_N));
-  const columns: Column[] = [{ head, align: "left" }, { head: "Static, kN" }, { head: "t" }, { head: "at, s" },
-    { head: "Dynamic, kN" }, { head: "t" }, { head: "at, s" }, { head: "Dynamic / static" },
-    ...(capacity ? [{ head: "Capacity, t" }, { head: "Share of capacity" }] : []),
+  const columns: Column[] = [{ head, align: "left" }, { head: "Static, kN" }, { head: "tonnes" }, { head: "at, s" },
+    { head: "Dynamic, kN" }, { head: "tonnes" }, { head: "at, s" }, { head: "Dynamic / static" },
+    ...(capacity ? [{ head: "Capacity, tonnes" }, { head: "Share of capacity" }] : []),
     ...(swing ? [{ head: "Largest swing,\u00a0°" }] : [])];
   const rows = loads.map((load) => {
     const still = load.max_static_tension_N ?? load.max_static_load_N;
@@ -102,13 +103,13 @@ function capacityTable(caption: string, head: string, loads: LoadMaxima[] | unde
 export function loadsSection(data: PageData, clock: Clock): Section | null {
   if (!data.summary.ropes?.length) return null;
   const moved = data.histories.dynamic !== null;
+  for (const state of states) addToAnnex("Loads", linkedTable(data, clock, state));
   return {
     id: "loads", title: "Loads", content: [
       h("p", { class: "lead" }, moved
         ? "Static: equilibrium of the same operation at the same winch lengths and crane positions, at rest. Dynamic: the integration in time. Each maximum is over the whole operation."
         : "The rope loads were given in the case file; no motion was computed."),
       ropeTable(data, clock), comparisonTable(data),
-      linkedTable(data, clock, "static"), linkedTable(data, clock, "dynamic"),
       capacityTable("Hoists", "Hoist", data.summary.hoists, data, clock),
       capacityTable("Cranes", "Crane", data.summary.cranes, data, clock),
       capacityTable("Links and equalisers of the cranes", "Link", data.summary.loops, data, clock)],

@@ -2,9 +2,9 @@
 
 import { Clock } from "./clock";
 import { PageData, readPageData, states } from "./data";
-import { append, Child, h } from "./dom";
+import { fillAnnex } from "./annex";
+import { append, Child, equip, h } from "./dom";
 import { accuracySection, methodSection } from "./accuracy";
-import { checksSection, verdictSection } from "./verdict";
 import { historiesSection, outputsSection } from "./histories";
 import { liftSection } from "./lift";
 import { loadsSection } from "./loads";
@@ -31,15 +31,23 @@ function show(): void {
   const clock = clockOf(data);
   const vibrations = new VibrationPlayer();
   const report = document.getElementById("report")!;
-  append(report, [verdictSection(data)]);
+  for (const element of report.querySelectorAll<HTMLElement>(".table")) equip(element);
+  let annex = document.getElementById("annex");
+  if (!annex) report.append(annex = h("section", { id: "annex" }, h("h2", {}, "Annex")));
   const makers: (() => Section | null)[] = [
     () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock),
     () => stressSection(data), () => structureSection(data), () => padeyesSection(data),
-    () => standardSection(data), () => checksSection(data),
-    () => accuracySection(data), () => methodSection(data),
+    () => standardSection(data), () => accuracySection(data), () => methodSection(data),
   ];
   const links: Child[] = [h("a", { href: "#verdict" }, data.case.name || "Verdict")];
   let number = 0;
+  const list = (section: Element, title: string): void => {
+    number += 1;
+    section.querySelector("h2")!.prepend(h("span", { class: "number" }, String(number)));
+    links.push(h("a", { href: `#${section.id}` }, h("span", { class: "number" }, `${number} `), title));
+  };
+  const checks = document.getElementById("checks");
+  if (checks) list(checks, "Checks");
   for (const make of makers) {
     let section: Section | null;
     try {
@@ -49,11 +57,13 @@ function show(): void {
       section = { id: `failed-${number + 1}`, title: "A section is missing", content: h("p", {}, `It could not be drawn: ${String(error)}`) };
     }
     if (!section) continue;
-    number += 1;
-    append(report, [h("section", { id: section.id }, h("h2", {}, h("span", { class: "number" }, String(number)), section.title),
-      section.content)]);
-    links.push(h("a", { href: `#${section.id}` }, section.short ?? section.title));
+    const element = h("section", { id: section.id }, h("h2", {}, section.title), section.content);
+    annex.before(element);
+    list(element, section.short ?? section.title);
   }
+  fillAnnex(annex);
+  if (annex.children.length > 1) list(annex, "Annex");
+  else annex.remove();
   append(document.getElementById("contents")!, links);
   document.body.classList.add("ready");
 }

@@ -1,4 +1,4 @@
-// Numbers as an engineer reads them: kN, t, MPa, mm, rounded to what is known.
+// Numbers as an engineer reads them: kN, tonnes, MPa, mm, rounded to what is known.
 import { known } from "./data";
 
 export const missing = "–";
@@ -63,7 +63,7 @@ export function point(metres: unknown): string {
 /** A value of SI unit `unit` in the unit that reports use. */
 export function inReportUnit(value: unknown, unit: string): { text: string; unit: string } {
   const factors: Record<string, [number, string]> = {
-    N: [1e-3, "kN"], Pa: [1e-6, "MPa"], m: [1e3, "mm"], rad: [180 / Math.PI, "°"], kg: [1e-3, "t"], "N m": [1e-3, "kN m"],
+    N: [1e-3, "kN"], Pa: [1e-6, "MPa"], m: [1e3, "mm"], rad: [180 / Math.PI, "°"], kg: [1e-3, "tonnes"], "N m": [1e-3, "kN m"],
   };
   const [factor, name] = factors[unit] ?? [1, unit === "1" ? "" : unit];
   return { text: !known(value) ? missing : name === "kN" ? kilonewtons(value) : significant(value * factor, 3), unit: name };

@@ -52,7 +52,7 @@ export function stressSection(data: PageData): Section | null {
   if (!surface) return null;
   const note = surface.note && h("p", { class: "hint" }, surface.note);
   const fields = surface.fields ?? {};
-  const ways = (["simultaneous", "per_rope_maxima", "history"] as const).filter((way) => fields[way]);
+  const ways = (["history", "simultaneous", "per_rope_maxima"] as const).filter((way) => fields[way]);
   if (!surface.points || ways.length === 0) return note ? { id: "stress", title: "Stress pictures", content: note } : null;
   if (!canDraw()) return { id: "stress", title: "Stress pictures", content: h("p", { class: "hint" },
     "This browser does not draw in three dimensions (WebGL). The figures are in the tables below, the fields in the .vtu files.") };
@@ -91,7 +91,8 @@ function stressPictures(data: PageData, surface: BlockSurface, ways: Way[]): HTM
   };
   const caption = (state: State, field: Field | undefined, pane: StressPane): (Node | string)[] => {
     const figures = structure?.[way]?.[state];
-    const instant = way === "history" ? `largest at each point over all instants; shape${known(field?.time) ? ` at ${seconds(field!.time)} s` : ""}`
+    const worst = `${figures?.rope ? `, most of it from rope ${figures.rope}` : ""}${known(figures?.time_s) ? ` at ${seconds(figures!.time_s)} s` : ""}`;
+    const instant = way === "history" ? `largest of the whole lift at each point; the checked stress${worst}; shape${known(field?.time) ? ` at ${seconds(field!.time)} s` : ""}`
       : field?.rope ? `largest load in ${field.rope}${known(field.time) ? ` at ${seconds(field.time)} s` : ""}` : wayNames[way];
     const checked = known(figures?.checked_von_mises_Pa) ? `checked ${megapascals(figures!.checked_von_mises_Pa)} MPa, ` : "";
     return [h("b", {}, state.charAt(0).toUpperCase() + state.slice(1)), `  ${instant}`, h("br"),
@@ -139,9 +140,18 @@ function stressPictures(data: PageData, surface: BlockSurface, ways: Way[]): HTM
       checkbox("plate edges", true, (on) => { for (const pane of panes) pane.edges.visible = on; viewer.draw(); })),
     h("div", { class: "controls" },
       h("span", { class: "slider" }, deform, factor), cutControls(surface, scale, panes, viewer), groupControls(surface, panes, viewer)),
-    h("figure", { class: "pair" }, h("div", { class: "captions" }, captions), viewer.element, value),
+    h("figure", { class: "pair" }, h("div", { class: "captions" }, captions), viewer.element, value, pictureOnPaper(viewer)),
     legend.element,
   ];
+}
+
+/** The picture for paper: of a fixed shape, with its labels as part of it, taken when the page is about to be printed. */
+function pictureOnPaper(viewer: Viewer): HTMLElement {
+  const host = h("div", { class: "on-paper panes" });
+  const take = (): void => host.replaceChildren(...viewer.picture(520, 400));
+  window.addEventListener("beforeprint", take);
+  window.matchMedia("print").addEventListener("change", (event) => { if (event.matches) take(); });
+  return host;
 }
 
 /** A plane that cuts the block open. */

@@ -1,4 +1,5 @@
 // What the loads do to the block: three ways of taking maxima, lugs, balance, masses.
+import { addToAnnex, folded } from "./annex";
 import { CheckedAccuracy, known, PageData, Structure, StructureWay } from "./data";
 import { Child, Column, h, table } from "./dom";
 import type { Section } from "./section";
@@ -7,7 +8,7 @@ import { change, fixed, megapascals, millimetres, missing, point, scientific, se
 const left = (head: string): Column => ({ head, align: "left" });
 
 /** What the last refinement changed, as the error that stands beside the checked stress. */
-export function accuracyText(accuracy: CheckedAccuracy | undefined): string {
+function accuracyText(accuracy: CheckedAccuracy | undefined): string {
   const steps = accuracy?.steps ?? [];
   if (!accuracy || steps.length === 0) return "";
   if (steps.length === 1) return "one mesh only: how far the stress moves with the mesh is not known";
@@ -25,10 +26,10 @@ function waysTable(data: PageData, structure: Structure): Child {
       megapascals(way.static?.checked_von_mises_Pa), megapascals(way.dynamic?.checked_von_mises_Pa), change(way.stress_increase_percent),
       millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), change(way.deformation_increase_percent)]);
   };
-  row(h("b", {}, "The worst of the instants below"), structure.simultaneous);
-  for (const way of structure.simultaneous_by_rope ?? []) row(`Instant of largest load in ${way.rope ?? missing}`, way);
+  if (structure.history) row(h("b", {}, "The whole lift, every instant"), structure.history);
+  row("The worst of the instants of each rope's largest load", structure.simultaneous);
+  
   row("Per-rope maxima, all at once", structure.per_rope_maxima);
-  row("The whole lift, every instant", structure.history);
   const published = data.summary.comparison;
   if (published && (known(published.stress_increase_percent) || known(published.deformation_increase_percent))) {
     rows.push([h("i", {}, "Published, per-rope maxima"), missing, missing, change(published.stress_increase_percent, 2),
@@ -37,6 +38,17 @@ function waysTable(data: PageData, structure: Structure): Child {
   return table("Checked stress and largest deformation of the block", [left("Loads"),
     { head: "Static, MPa" }, { head: "Dynamic, MPa" }, { head: "Increase" },
     { head: "Static, mm" }, { head: "Dynamic, mm" }, { head: "Increase" }], rows);
+}
+
+/** The instants of each rope's largest load, one by one. */
+function instantsTable(structure: Structure): Child {
+  const ways = structure.simultaneous_by_rope ?? [];
+  if (ways.length === 0) return null;
+  return table("Checked stress and deformation at the instant of each rope's largest load", [left("Rope"),
+    { head: "Static, MPa" }, { head: "Dynamic, MPa" }, { head: "Increase" }, { head: "Static, mm" }, { head: "Dynamic, mm" }, { head: "Increase" }],
+  ways.map((way) => [way.rope ?? missing,
+    megapascals(way.static?.checked_von_mises_Pa), megapascals(way.dynamic?.checked_von_mises_Pa), change(way.stress_increase_percent),
+    millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), change(way.deformation_increase_percent)]));
 }
 
 /** Every instant of the lift: the envelope, what simpler practices make of it, and the wear. */
@@ -98,12 +110,12 @@ function lugsTable(structure: Structure): Child {
 function bucklingTable(structure: Structure): Child {
   const panels = structure.buckling?.panels ?? [];
   if (panels.length === 0) return null;
-  return table(`Panels nearest to buckling, of ${structure.buckling?.panels_looked_at ?? panels.length}, over the whole lift`, [left("Plate"),
-    { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "t, mm" }, { head: "Stress 11, 22, 12, MPa" }, left("State"), { head: "at, s" },
+  return folded("Block", `Panels nearest to buckling, of ${structure.buckling?.panels_looked_at ?? panels.length}, over the whole lift`, [left("Plate"),
+    { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "thickness, mm" }, { head: "Stress 11, 22, 12, MPa" }, left("State"), { head: "at, s" },
     { head: "Elastic utilisation" }, { head: "Johnson-Ostenfeld" }],
-  panels.slice(0, 12).map((panel) => [panel.plate, point(panel.centre_m), panel.field_m?.map((side) => fixed(side, 2)).join(" x ") ?? missing,
+  panels.map((panel) => [panel.plate, point(panel.centre_m), panel.field_m?.map((side) => fixed(side, 2)).join(" x ") ?? missing,
     millimetres(panel.thickness_m), [panel.s11_Pa, panel.s22_Pa, panel.s12_Pa].map(megapascals).join(", "), panel.state ?? missing,
-    seconds(panel.time_s), fixed(panel.elastic_utilisation, 2), fixed(panel.utilisation, 2)]));
+    seconds(panel.time_s), fixed(panel.elastic_utilisation, 2), fixed(panel.utilisation, 2)]), 4);
 }
 
 function balanceTable(structure: Structure): Child {
@@ -137,7 +149,7 @@ function massTable(structure: Structure): Child {
   if (!mass) return null;
   const part = (kilograms: unknown): string =>
     known(kilograms) && known(mass.total_kg) ? fixed(kilograms / mass.total_kg * 100, 1) : missing;
-  return table("Mass of the block", [left("Part"), { head: "t" }, { head: "%" }, { head: "Centre x, y, z, m" }], [
+  return table("Mass of the block", [left("Part"), { head: "tonnes" }, { head: "%" }, { head: "Centre x, y, z, m" }], [
     ["Steel of the mesh", tonnes(mass.steel_kg), part(mass.steel_kg), point(mass.steel_centre_of_mass_m)],
     ["Outfitting, spread over the plates", tonnes(mass.outfitting_kg), part(mass.outfitting_kg), missing],
     [h("b", {}, "Total"), tonnes(mass.total_kg), part(mass.total_kg), point(mass.centre_of_mass_m)]]);
@@ -159,11 +171,14 @@ function modelText(structure: Structure): string {
 export function structureSection(data: PageData): Section | null {
   const structure = data.summary.structure;
   if (!structure) return null;
+  addToAnnex("Block", instantsTable(structure));
+  addToAnnex("Block", placesTable(structure));
+  addToAnnex("Block", balanceTable(structure));
   return {
     id: "structure", title: "Block stress and deformation", short: "Block", content: [
-      h("p", { class: "lead" }, "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
-        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. "
-        + (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : ""), modelText(structure)),
-      waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), placesTable(structure), balanceTable(structure), massTable(structure)],
+      h("p", { class: "lead" }, (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : "")
+        + "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
+        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
+      waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), massTable(structure)],
   };
 }

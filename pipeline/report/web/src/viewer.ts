@@ -2,7 +2,7 @@
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import { h } from "./dom";
+import { h, svg } from "./dom";
 
 export const background = 0xfafbfc;
 
@@ -48,7 +48,12 @@ export class Viewer {
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = paneCount === 1;
     this.controls.addEventListener("change", () => this.draw());
-    canvas.addEventListener("wheel", (event) => event.preventDefault(), { passive: false });
+    // The wheel, and a finger, move the page until the drawing is chosen by a click, a touch or the keyboard.
+    this.controls.enableZoom = false;
+    canvas.style.touchAction = "pan-y";
+    canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+    canvas.addEventListener("focus", () => { this.controls.enableZoom = true; canvas.style.touchAction = "none"; });
+    canvas.addEventListener("blur", () => { this.controls.enableZoom = false; canvas.style.touchAction = "pan-y"; });
     canvas.addEventListener("keydown", (event) => this.key(event));
     new ResizeObserver(() => this.resize()).observe(this.element);
   }
@@ -121,6 +126,11 @@ export class Viewer {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (width === 0 || height === 0) return;
+    this.fit(width, height);
+    this.draw();
+  }
+
+  private fit(width: number, height: number): void {
     this.renderer.setSize(width, height, false);
     const aspect = width / this.panes.length / height;
     const tall = Math.max(this.height, this.wide / aspect);
@@ -129,7 +139,46 @@ export class Viewer {
     this.camera.right = (tall / 2) * aspect;
     this.camera.left = -this.camera.right;
     this.camera.updateProjectionMatrix();
-    this.draw();
+  }
+
+  /** Each pane as a picture of `width` by `height`, its labels drawn in, whatever the size on the screen. */
+  picture(width: number, height: number): HTMLElement[] {
+    this.renderer.setPixelRatio(2);
+    this.fit(width * this.panes.length, height);
+    this.render(width, height);
+    const pictures = this.panes.map(({ labels }, i) => {
+      const copy = h("canvas", { width: 2 * width, height: 2 * height }) as HTMLCanvasElement;
+      copy.getContext("2d")!.drawImage(this.renderer.domElement, 2 * i * width, 0, 2 * width, 2 * height, 0, 0, 2 * width, 2 * height);
+      const texts = labels.filter(({ point, element }) => element.style.display !== "none" && element.textContent && this.place(point).inside)
+        .flatMap(({ point, element }) => {
+          const { x, y } = this.place(point);
+          const [left, top] = [x * width, y * height];
+          const end = x > 0.75 ? "end" : "start";
+          return [svg("circle", { cx: left, cy: top, r: 3, fill: "#111111" }),
+            svg("text", { x: left + (end === "end" ? -7 : 7), y: top - 7, "font-size": 15, "font-weight": 600, "text-anchor": end, fill: "#111111", stroke: "#ffffff",
+              "stroke-width": 4, "paint-order": "stroke" }, element.textContent)];
+        });
+      return h("div", { class: "pane" }, copy, svg("svg", { viewBox: `0 0 ${width} ${height}`, "aria-hidden": "true" }, texts));
+    });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.resize();
+    return pictures;
+  }
+
+  /** Where a point stands in a pane, from 0 to 1 rightwards and downwards. */
+  private place(point: three.Vector3): { x: number; y: number; inside: boolean } {
+    const place = point.clone().project(this.camera);
+    return { x: (place.x + 1) / 2, y: (1 - place.y) / 2, inside: Math.abs(place.x) <= 1 && Math.abs(place.y) <= 1 };
+  }
+
+  private render(paneWidth: number, height: number): void {
+    this.camera.updateMatrixWorld();
+    this.panes.forEach(({ scene }, i) => {
+      this.renderer.setViewport(i * paneWidth, 0, paneWidth, height);
+      this.renderer.setScissor(i * paneWidth, 0, paneWidth, height);
+      this.renderer.setClearColor(background);
+      this.renderer.render(scene, this.camera);
+    });
   }
 
   /** Draws before the browser's next picture; many calls make one. */
@@ -143,17 +192,12 @@ export class Viewer {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (width === 0 || height === 0) return;
     const paneWidth = width / this.panes.length;
-    this.camera.updateMatrixWorld();
-    this.panes.forEach(({ scene, labels }, i) => {
-      this.renderer.setViewport(i * paneWidth, 0, paneWidth, height);
-      this.renderer.setScissor(i * paneWidth, 0, paneWidth, height);
-      this.renderer.setClearColor(background);
-      this.renderer.render(scene, this.camera);
+    this.render(paneWidth, height);
+    this.panes.forEach(({ labels }, i) => {
       for (const { point, element } of labels) {
-        const place = point.clone().project(this.camera);
-        const inside = Math.abs(place.x) <= 1 && Math.abs(place.y) <= 1;
+        const { x, y, inside } = this.place(point);
         element.style.visibility = inside ? "visible" : "hidden";
-        element.style.transform = `translate(${i * paneWidth + (place.x + 1) / 2 * paneWidth}px, ${(1 - place.y) / 2 * height}px)`;
+        element.style.transform = `translate(${(i + x) * paneWidth}px, ${y * height}px)`;
       }
     });
   }

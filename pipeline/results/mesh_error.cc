@@ -1,0 +1,28 @@
+#include "pipeline/results/mesh_error.h"
+
+#include <fmt/format.h>
+
+namespace blocklift::pipeline {
+
+std::string why_indicative(const Assessment& assessment) {
+  if (!assessment.block.model) return {};
+  const structure::CheckedAccuracy& accuracy = assessment.block.accuracy;
+  if (accuracy.steps.size() < 2) {
+    const double error = assessment.block.error.relative;
+    if (!(error > largest_mesh_error)) return {};
+    return fmt::format(
+        "there is one mesh only, and the estimated error of its stress field is {:.0f} % in the "
+        "energy norm",
+        100 * error);
+  }
+  if (accuracy.stress_change() > largest_mesh_error)
+    return fmt::format("the last refinement of the mesh moved the checked stress by {:.0f} %",
+                       100 * accuracy.stress_change());
+  if (accuracy.is_reached) return {};
+  return fmt::format(
+      "the last refinement of the mesh moved the checked stress by {:.1f} %, and the case asks for "
+      "{:.1f} %",
+      100 * accuracy.stress_change(), 100 * assessment.lift_case.structure.accuracy);
+}
+
+}  // namespace blocklift::pipeline
