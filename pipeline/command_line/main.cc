@@ -122,7 +122,8 @@ void add_schema(CLI::App& app) {
   auto manual = std::make_shared<bool>(false);
   auto kind = std::make_shared<std::string>();
   command->add_flag("--manual", *manual, "print a manual in Markdown instead, key by key");
-  command->add_option("--kind", *kind, "only this kind of file")
+  command->add_option("--kind", *kind, "only this kind of file; case is short for lift case")
+      ->transform([](const std::string& given) { return given == "case" ? "lift case" : given; })
       ->check(CLI::IsMember(input_file_kinds()));
   command->callback(
       [manual, kind] { std::cout << (*manual ? markdown_manual(*kind) : json_schema(*kind)); });

@@ -5,9 +5,17 @@
 
 namespace blocklift::pipeline {
 
+/// How far a stage of a run has come, as text: "solving 40 %, 61 s, about 30 s left", with `detail`
+/// behind it.
+///
+/// @param elapsed_s since the program began
+/// @param stage_s since the stage began, from which the rest of the stage is told
+std::string progress_text(const std::string& stage, double fraction, double elapsed_s,
+                          double stage_s, const std::string& detail);
+
 /// One line on a terminal that shows how far a stage of the run has come. It appears once the
 /// program has run for a second and is wiped when the stage ends; it is cut to the terminal's
-/// width, and where standard error is no terminal it never shows.
+/// width. Where standard error is no terminal, a line is written every half minute.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string stage);
@@ -21,6 +29,7 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   std::string stage_;
+  Clock::time_point begun_ = Clock::now();
   Clock::time_point last_shown_;
   bool on_terminal_ = false;
   bool shown_ = false;

@@ -11,17 +11,12 @@ namespace {
 
 using Check = nlohmann::ordered_json;
 
-/// "rope" of "rope R1: tension ..."; "0027/ND: sling" of "0027/ND: sling R1 by ...".
-std::string kind_of(const std::string& name) {
-  const auto first_word = [](const std::string& text) {
-    return text.substr(0, text.find_first_of(" :"));
-  };
-  const std::size_t colon = name.find(": ");
-  if (colon == std::string::npos) return first_word(name);
-  // A standard's name is told from a rope's by what follows: the checks of a standard say "by".
-  const std::string behind = name.substr(colon + 2);
-  return behind.find(" by ") == std::string::npos ? first_word(name)
-                                                  : name.substr(0, colon + 2) + first_word(behind);
+/// "rope" of "rope R1: tension ..."; "0027/ND: sling" of "0027/ND: sling R1 by ...", which is a
+/// check by the standard 0027/ND.
+std::string kind_of(const std::string& name, const std::string& standard) {
+  const std::string mark = standard + ": ";
+  const std::size_t begin = !standard.empty() && name.starts_with(mark) ? mark.size() : 0;
+  return name.substr(0, name.find_first_of(" :", begin));
 }
 
 bool passes(const Check& check) { return check.value("pass", false); }
@@ -39,11 +34,11 @@ bool leads(const Check* a, const Check* b) {
 
 }  // namespace
 
-std::vector<CheckGroup> group_checks(const Check& checks) {
+std::vector<CheckGroup> group_checks(const Check& checks, const std::string& standard) {
   std::vector<CheckGroup> groups;
   std::map<std::string, std::size_t> place;
   for (const Check& check : checks) {
-    const std::string kind = kind_of(check.value("name", ""));
+    const std::string kind = kind_of(check.value("name", ""), standard);
     const auto found = place.emplace(kind, groups.size()).first;
     if (found->second == groups.size()) groups.push_back({kind, {}});
     groups[found->second].checks.push_back(&check);

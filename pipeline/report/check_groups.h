@@ -14,11 +14,13 @@ struct CheckGroup {
 };
 
 /// Checks of summary.json by the kind of what is checked: the first word of a check's name (rope,
-/// hoist, lug, ...), apart for each standard, which stands before it with a colon. Groups are sorted
-/// by what leads in them.
+/// hoist, lug, ...), apart for those by a standard, whose name stands before it with a colon. Groups
+/// are sorted by what leads in them.
 ///
 /// @param checks an array, which must outlive the groups.
-std::vector<CheckGroup> group_checks(const nlohmann::ordered_json& checks);
+/// @param standard the name of the standard of the summary; empty without.
+std::vector<CheckGroup> group_checks(const nlohmann::ordered_json& checks,
+                                     const std::string& standard);
 
 /// The check that leads: one that is not met before those that are, then the most utilised.
 /// Null if there is none.

@@ -279,7 +279,8 @@ std::string checks_html(const Json& data) {
   if (!checks.is_array() || checks.empty()) return "";
   const bool timed = is_timed(checks);
   HtmlRows rows;
-  for (const CheckGroup& group : group_checks(checks)) {
+  for (const CheckGroup& group :
+       group_checks(checks, text_at(at(data["summary"], "standard"), "name"))) {
     const std::size_t failed =
         static_cast<std::size_t>(std::count_if(group.checks.begin(), group.checks.end(),
                                                [](const Json* check) { return !is_met(*check); }));
@@ -304,7 +305,8 @@ std::string annex_html(const Json& data) {
   if (const Json& checks = at(data["summary"], "checks"); checks.is_array() && !checks.empty()) {
     const bool timed = is_timed(checks);
     std::vector<HtmlRows> groups;
-    for (const CheckGroup& group : group_checks(checks)) {
+    for (const CheckGroup& group :
+         group_checks(checks, text_at(at(data["summary"], "standard"), "name"))) {
       HtmlRows rows{group.name, {}};
       for (const Json* check : group.checks) rows.rows.push_back(check_row(*check, timed, ""));
       groups.push_back(std::move(rows));

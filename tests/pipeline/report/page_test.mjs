@@ -14,11 +14,11 @@ if (!browser) {
 }
 
 const sections = {
-  whole: ["lift", "periods", "histories", "loads", "stress", "structure", "standard", "checks", "accuracy", "method"],
-  loads: ["loads", "stress", "structure", "standard", "checks", "method"],
-  motion: ["lift", "periods", "histories", "loads", "checks", "accuracy", "method"],
+  whole: ["checks", "lift", "periods", "histories", "loads", "stress", "structure", "standard", "accuracy", "method", "annex"],
+  loads: ["checks", "loads", "stress", "structure", "standard", "method", "annex"],
+  motion: ["checks", "lift", "periods", "histories", "loads", "accuracy", "method", "annex"],
 };
-const expected = [">988<", "Decisive: ", "A sample &amp; nothing else"];
+const expected = [">988<", "Governing: ", "A sample &amp; nothing else"];
 
 const folder = mkdtempSync(join(tmpdir(), "blocklift-page-"));
 const failures = [];

@@ -187,7 +187,9 @@ void write_sample_result(const std::filesystem::path& folder, const SampleParts&
   writer.write_attribute(layout::case_group, "title", "A sample & nothing else");
   writer.write_text(layout::case_yaml, "case: sample\n", "the case file");
   nlohmann::ordered_json summary{{"case", "sample <lift>"},
+                                 {"document", {{"project", "Sample project"}, {"revision", "B"}}},
                                  {"verdict", "fail"},
+                                 {"indicative", "the mesh is one of samples"},
                                  {"checks",
                                   {{{"name", "Rope R1"},
                                     {"demand", 987654.0},

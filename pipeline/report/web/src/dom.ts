@@ -43,7 +43,7 @@ export function table(caption: string, columns: Column[], rows: Child[][], class
     h("thead", {}, h("tr", {}, columns.map((column, i) => column.head === ""
       ? h("td", { class: align(i) }) : h("th", { scope: "col", class: align(i), title: column.title }, column.head)))),
     h("tbody", {}, rows.map((row) => h("tr", {}, row.map((cell, i) =>
-      i === 0 ? h("th", { scope: "row", class: align(i) }, cell) : h("td", { class: align(i) }, cell))))));
+      i === 0 && cell !== "" ? h("th", { scope: "row", class: align(i) }, cell) : h("td", { class: align(i) }, cell))))));
   const element = h("div", { class: "table" }, body);
   equip(element);
   return element;

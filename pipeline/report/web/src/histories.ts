@@ -416,7 +416,7 @@ function tileOf(data: PageData, group: Group, clock: Clock, settings: {
   const drawing = paperPlot({ label: settings.title, unit: settings.unit, start: clock.start, end: clock.end, stages: data.stages, size: "middle",
     curves: packed.map((one, i) => ({ name: one.name, colour: colour(i), width: 0.9, time: series[i].time,
       values: series[i].values.map((value) => value * settings.factor) })) });
-  return h("div", { class: "tile" }, h("h4", {}, settings.title, svgButton(settings.title, () => drawing)), host,
+  return h("div", { class: "tile" }, h("h3", { class: "tile-title" }, settings.title, svgButton(settings.title, () => drawing)), host,
     h("div", { class: "on-paper" }, drawing), packed.length > 1 && h("span", { class: "legend" },
     packed.map((one, i) => h("span", { title: one.description }, h("i", { style: `background:${colour(i)}` }), settings.label(one)))));
 }
