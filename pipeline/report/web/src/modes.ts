@@ -78,7 +78,7 @@ function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], pl
     period(mode), mode.kind === "neutral" ? missing : significant(mode.frequency_Hz, 3),
     mode.kind === "neutral" ? missing : `${fixed((mode.damping_ratio ?? 0) * 100, 2)}\u202f%`,
     share(mode.elastic_share), mover(mode),
-    ...(play ? [h("button", { type: "button", class: "time", title: "Play this motion in the drawing", onclick: () => play(all.indexOf(mode)) }, "show")] : []),
+    ...(play ? [h("button", { type: "button", class: "time show-mode", title: "Play this motion in the drawing", onclick: () => play(all.indexOf(mode)) }, "show")] : []),
   ]));
 }
 
