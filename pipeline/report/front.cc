@@ -1,8 +1,8 @@
 #include "pipeline/report/front.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
