@@ -394,6 +394,10 @@ class AbaqusText {
     line("*DLOAD, OP=NEW");
     for (const auto& [set, factor] : one.loads)
       write_spread_loads(deck_.load_sets[at(set)], factor);
+    line("*NODE FILE");
+    line("U, RF");
+    line("*EL FILE");
+    line("S");
     line("*END STEP");
   }
 
