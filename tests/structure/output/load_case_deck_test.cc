@@ -237,6 +237,19 @@ TEST(LoadCaseDeck, CalculiXAgreesOnAPlate) {
   EXPECT_LT(difference.reaction, 1e-7);  // digits of their tables
 }
 
+// Where plates meet at an angle, CalculiX joins the solids that it makes of them by rigid bodies,
+// which stiffens coarse meshes: the difference is 10, 4.4, 2.3 and 0.9 % with elements of 0.75,
+// 0.5, 0.3 and 0.15 m, while a higher degree of ours moves it by a tenth of a per cent.
+TEST(LoadCaseDeck, CalculiXAgreesOnABlock) {
+  BlockDescription block = testing::small_block();
+  block.largest_element = 0.3;
+  const ElasticModel model(generate_shell_mesh(block), {2, {}});
+  const UnitResponses responses(model, 1);
+  const Difference difference = compare(responses, pull(model));
+  EXPECT_LT(difference.displacement, 0.03);
+  EXPECT_LT(difference.reaction, 1e-7);
+}
+
 #endif
 
 }  // namespace
