@@ -18,7 +18,7 @@ namespace blocklift::structure {
 namespace {
 
 // Of the largest force times a shell's edge.
-constexpr double small_moment = 1e-3;
+constexpr double small_moment = 1e-2;
 
 /// Shape functions of a deck's shell at a point of the unit square: corners around it, then the
 /// middles of its edges if it is quadratic. Triangles by their areas, the square's third corner and

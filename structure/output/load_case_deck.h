@@ -28,7 +28,7 @@ enum class DeckElements { as_they_are, quadratic };
 ///   the nodes of the deck's shell or beam that it lies on, by that element's shape functions
 ///   (equal virtual work), and as a moment what a curved shell's other shape would lose: resultant
 ///   and moment stay as they are to rounding.
-/// - Moments that are less than a thousandth of the largest nodal force times the edge of a shell
+/// - Moments that are less than a hundredth of the largest nodal force times the edge of a shell
 ///   there (rotary inertia of plates, for one) become forces at that shell's corners.
 /// - Supports: six components of displacement at three corners, which carry nothing.
 ///

@@ -12,7 +12,7 @@
 namespace blocklift::structure {
 namespace {
 
-std::size_t count(const std::string& text, const std::string& word) {
+std::size_t occurrences(const std::string& text, const std::string& word) {
   std::size_t found = 0;
   for (auto place = text.find(word); place != std::string::npos; place = text.find(word, place + 1))
     ++found;
@@ -27,11 +27,12 @@ TEST(FindingPicture, MarksEachPlaceAndDrawsTheOutlineAlone) {
   ASSERT_NE(finding, nullptr);
   const std::string picture = finding_picture(mesh, *finding);
   EXPECT_THAT(picture, ::testing::StartsWith("<svg "));
-  EXPECT_EQ(count(picture, "<circle "), finding->places.size());
-  EXPECT_EQ(count(picture, "<text "), 5U);
+  EXPECT_EQ(occurrences(picture, "<circle "), finding->places.size());
+  EXPECT_EQ(occurrences(picture, "<text "), 5U);
   // Free edges, and the joint of four shells: no other edge is a line.
   const double joint = 1 / (diagnosis.free_edge_length / diagnosis.free_edges);
-  EXPECT_EQ(count(picture, "M"), static_cast<std::size_t>(diagnosis.free_edges + joint + 0.5));
+  EXPECT_EQ(occurrences(picture, "M"),
+            static_cast<std::size_t>(diagnosis.free_edges + joint + 0.5));
   EXPECT_EQ(picture.find("nan"), std::string::npos);
 }
 
