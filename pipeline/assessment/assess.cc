@@ -24,6 +24,7 @@
 #include "pipeline/results/calculation_package.h"
 #include "pipeline/results/history_file.h"
 #include "pipeline/results/lift_scene.h"
+#include "pipeline/results/mesh_page.h"
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/result_file.h"
 #include "pipeline/results/summary.h"
@@ -280,7 +281,8 @@ void require_writable(const fs::path& folder) {
 
 namespace {
 
-fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
+fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
+                         const std::vector<LoadCaseFile>& decks) {
   const Preparation preparation(folder);
   Stopwatch watch;
   const std::string run = new_run_identity();
@@ -303,21 +305,31 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder) {
   write_file(summary_path, summary.dump(2));
   if (assessment.standard)
     write_file(preparation.folder() / package_file, calculation_package(assessment));
+  const bool has_mesh = assessment.lift_case.load.model && assessment.lift_case.load.model->mesh;
+  if (has_mesh)
+    write_file(preparation.folder() / mesh_page_file,
+               mesh_page(*assessment.lift_case.load.model->mesh, assessment.lift_case.title));
+  for (const LoadCaseFile& deck : decks)
+    if (!deck.text.empty()) write_file(preparation.folder() / deck.name, deck.text);
   write_report(preparation.folder());
   summary["timing"]["report_s"] = watch.lap();
   write_file(summary_path, summary.dump(2));
   // Nobody is to sign the calculation of an earlier run.
   std::error_code ignored;
   if (!assessment.standard) fs::remove(folder / package_file, ignored);
+  if (!has_mesh) fs::remove(folder / mesh_page_file, ignored);
+  for (const char* deck : {abaqus_load_cases, nastran_load_cases, load_case_displacements})
+    fs::remove(folder / deck, ignored);
   preparation.move_into_place();
   return folder / layout::report_file;
 }
 
 }  // namespace
 
-fs::path write_results(const Assessment& assessment, const fs::path& folder) {
+fs::path write_results(const Assessment& assessment, const fs::path& folder,
+                       const std::vector<LoadCaseFile>& decks) {
   try {
-    return prepare_results(assessment, folder);
+    return prepare_results(assessment, folder, decks);
   } catch (const fs::filesystem_error& error) {
     throw std::runtime_error(
         fmt::format("{}: cannot write results here: {}", folder.string(), error.code().message()));

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "pipeline/checks/assessment.h"
+#include "pipeline/results/load_case_decks.h"
 
 namespace blocklift::pipeline {
 
@@ -18,8 +20,10 @@ void require_writable(const std::filesystem::path& folder);
 /// Writes results.h5, summary.json, the .vtu files and report.html into a folder (made if missing).
 /// They are prepared aside and moved into place together at the end: whatever goes wrong before,
 /// results that lie there stay as they are.
+/// @param decks are written beside them, where they have a text; decks of an earlier run go.
 /// @returns the path of report.html.
 std::filesystem::path write_results(const Assessment& assessment,
-                                    const std::filesystem::path& folder);
+                                    const std::filesystem::path& folder,
+                                    const std::vector<LoadCaseFile>& decks = {});
 
 }  // namespace blocklift::pipeline

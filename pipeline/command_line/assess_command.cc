@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/doubts.h"
+#include "pipeline/results/load_case_decks.h"
 #include "pipeline/results/mesh_error.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/standard_summary.h"
@@ -155,9 +157,17 @@ void print_checks(const Assessment& assessment) {
              indicative.empty() ? "" : ", indicative: " + indicative);
 }
 
+void print_decks(const std::vector<LoadCaseFile>& files, const std::filesystem::path& folder) {
+  if (files.empty()) fmt::print("no decks: the load has no block whose stress is asked\n");
+  for (const LoadCaseFile& file : files)
+    fmt::print("{}\n", file.refusal.empty()
+                           ? "load cases: " + (folder / file.name).string()
+                           : fmt::format("{} is not written: {}", file.name, file.refusal));
+}
+
 }  // namespace
 
-int assess_case(const std::string& path, const std::optional<std::string>& output) {
+int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks) {
   LiftCase lift_case = read_lift_case(path);
   const std::filesystem::path folder =
       output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
@@ -175,9 +185,11 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
       std::move(lift_case), [&](const std::string& stage, double fraction,
                                 const std::string& detail) { line.show(stage, fraction, detail); });
   line.show("writing results", 0, "");
+  std::vector<LoadCaseFile> files;
+  if (decks) files = load_case_files(assessment);
   const std::filesystem::path report = [&] {
     const HeldSignals until_all_is_in_place;
-    return write_results(assessment, folder);
+    return write_results(assessment, folder, files);
   }();
   line.finish();
 
@@ -199,6 +211,7 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   }
   if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
   print_checks(assessment);
+  if (decks) print_decks(files, folder);
   fmt::print("report: {}\n", report.string());
   return assessment.pass() ? exit_code::done : exit_code::lift_fails;
 }

@@ -36,7 +36,11 @@ void add_assess(CLI::App& app, int& code) {
   command->add_option("CASE", *path, "case file, or folder with a case.yaml")->required();
   command->add_option("-o,--output", *output,
                       "folder of the results (results/<name of the case> if not given)");
-  command->callback([path, output, &code] { code = assess_case(*path, *output); });
+  auto decks = std::make_shared<bool>(false);
+  command->add_flag("--decks", *decks,
+                    "write the governing load cases for other solvers as well: load-cases.inp "
+                    "(Abaqus, CalculiX) and load-cases.bdf (Nastran)");
+  command->callback([path, output, decks, &code] { code = assess_case(*path, *output, *decks); });
 }
 
 void add_stress(CLI::App& app, int& code) {
@@ -113,7 +117,11 @@ void add_validate(CLI::App& app, int& code) {
   auto files = std::make_shared<std::vector<std::string>>();
   command->add_option("CASE", *files, "case file, folder with a case.yaml, or model file")
       ->required();
-  command->callback([files, &code] { code = validate_files(*files); });
+  auto pictures = std::make_shared<std::optional<std::string>>();
+  command->add_option("--pictures", *pictures,
+                      "folder for a page of each block's mesh, with pictures of what was found in "
+                      "it");
+  command->callback([files, pictures, &code] { code = validate_files(*files, *pictures); });
 }
 
 void add_schema(CLI::App& app) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,13 +14,16 @@
 #include "pipeline/build/build_mechanism.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/document.h"
+#include "pipeline/files/block_model.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case.h"
 #include "pipeline/files/operation_schedule.h"
 #include "pipeline/files/part_file.h"
+#include "pipeline/formats/atomic_file.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/part/part_assessment.h"
+#include "pipeline/results/mesh_page.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -44,7 +48,8 @@ std::string summary_of(const LiftCase& lift_case) {
 
 /// Reads one file of whatever kind; what it is, if it is sound.
 std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
-                                    Diagnostics& diagnostics) {
+                                    Diagnostics& diagnostics,
+                                    std::shared_ptr<const BlockModel>& block) {
   const std::size_t errors_before = diagnostics.error_count();
   const auto if_sound = [&](std::string summary) -> std::optional<std::string> {
     if (diagnostics.error_count() > errors_before) return std::nullopt;
@@ -69,7 +74,7 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
         count(crane->drives.size(), "drive"), count(crane->hoists.size(), "hoist")));
   }
   if (kind == FileKind::block) {
-    const auto block = library.read_block(path, diagnostics);
+    block = library.read_block(path, diagnostics);
     if (!block || diagnostics.error_count() > errors_before) return std::nullopt;
     check_block_model(*block, path.string(), diagnostics);
     return if_sound(block->mesh ? fmt::format("block of a mesh with {}\n{}",
@@ -107,6 +112,7 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   }
   const std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
   if (!lift_case) return std::nullopt;
+  block = lift_case->load.model;
   if (lift_case->has_structure()) {
     check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
   }
@@ -116,17 +122,33 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   return if_sound(std::move(summary));
 }
 
+/// Writes what was found in a block's mesh into a folder.
+void draw(const BlockModel& block, const fs::path& file, const fs::path& folder) {
+  const std::string page =
+      block.mesh ? mesh_page(*block.mesh, block.title.empty() ? file.string() : block.title) : "";
+  if (page.empty()) return;
+  fs::path name = fs::is_directory(file) ? fs::absolute(file).lexically_normal() : file;
+  if (!name.has_filename()) name = name.parent_path();
+  fs::create_directories(folder);
+  const fs::path path = folder / (name.stem().string() + ".html");
+  write_file(path, page);
+  std::cout << fmt::format("pictures: {}\n", path.string());
+}
+
 }  // namespace
 
-int validate_files(const std::vector<std::string>& files) {
+int validate_files(const std::vector<std::string>& files,
+                   const std::optional<std::string>& pictures) {
   Diagnostics all;
   std::set<std::string> said;
   for (const std::string& file : files) {
     // Each by itself: what is wrong with one, or with a model of it, must not hush up another.
     Diagnostics own;
     ModelLibrary library = ModelLibrary::of_installation();
-    if (const auto summary = validate(file, library, own))
+    std::shared_ptr<const BlockModel> block;
+    if (const auto summary = validate(file, library, own, block))
       std::cout << fmt::format("{}: valid, {}\n", shown_path(file), *summary);
+    if (pictures && block) draw(*block, file, *pictures);
     for (const Diagnostic& error : own.errors()) {
       const std::string place = fmt::format("{}:{}:{}", error.mark.file ? *error.mark.file : "",
                                             error.mark.line, error.mark.column);

@@ -1,13 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace blocklift::pipeline {
 
 /// `blocklift validate FILE...`: reads lift cases and model files with everything that they name,
-/// and says what is wrong with them, on standard error. Writes no file.
+/// and says what is wrong with them, on standard error.
+/// @param pictures folder that receives a page for each block of a mesh, of what was found in it,
+///   <name of the file>.html; none: no file is written.
 /// @returns the exit code: 0 if all are sound, 2 if any is not.
-int validate_files(const std::vector<std::string>& files);
+int validate_files(const std::vector<std::string>& files,
+                   const std::optional<std::string>& pictures);
 
 }  // namespace blocklift::pipeline

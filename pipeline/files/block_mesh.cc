@@ -102,7 +102,7 @@ class MeshReader {
         std::make_shared<const structure::Diagnosis>(structure::diagnose(deck->mesh));
     check_diagnosis(*deck);
     for (LugModel& lug : block_.lugs) put(lug, *deck);
-    if (diagnostics_.error_count() == before) mesh_model_.deck = deck;
+    mesh_model_.deck = deck;
   }
 
  private:

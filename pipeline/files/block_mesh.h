@@ -24,7 +24,8 @@ struct MeshModel {
   bool leave_solids_out = false;
   Mark place;
 
-  /// What was read, its mesh with the block's lugs; null if it could not be.
+  /// What was read, its mesh with the block's lugs; null if it could not be. It may be one that
+  /// cannot be lifted: the diagnostics say so, and pictures show it.
   std::shared_ptr<const structure::Deck> deck = nullptr;
   std::shared_ptr<const structure::Diagnosis> diagnosis = nullptr;
 };

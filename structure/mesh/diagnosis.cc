@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <unordered_map>
 
 #include <Eigen/Eigenvalues>
@@ -106,6 +107,21 @@ class Doctor {
         if (v >= 0) used_[at(v)] = 1;
     for (const SurfacePoint& point : mesh_.surface_points) used_[at(point.vertex)] = 1;
     for (const PointMass& mass : mesh_.masses) used_[at(mass.vertex)] = 1;
+    find_middles();
+  }
+
+  /// Middles of quadratic shells' edges belong to them, though they are no corners.
+  void find_middles() {
+    std::set<std::array<double, 3>> middles;
+    for (const Eigen::Matrix3Xd& points : mesh_.curved_shells)
+      if (points.cols() == 9)
+        for (const Eigen::Index i : {1, 3, 5, 7})
+          middles.insert({points(0, i), points(1, i), points(2, i)});
+    if (middles.empty()) return;
+    for (std::size_t v = 0; v < used_.size(); ++v) {
+      const Vector3& place = mesh_.vertices[v];
+      if (middles.count({place.x(), place.y(), place.z()}) > 0) used_[v] = 1;
+    }
   }
 
   void check_sections() {

@@ -8,6 +8,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/system/held_points.h"
 
 namespace blocklift::structure {
 
@@ -29,7 +30,8 @@ int own_unknown(const Space& space, int freedom) {
   return end - begin == 1 && begin->weight == 1 ? begin->unknown : -1;
 }
 
-/// Nodes whose displacements are unknowns.
+}  // namespace
+
 std::vector<int> free_nodes(const Space& space) {
   std::vector<int> nodes;
   for (int node = 0; node < space.node_count(); ++node)
@@ -39,31 +41,26 @@ std::vector<int> free_nodes(const Space& space) {
   return nodes;
 }
 
-}  // namespace
-
-std::vector<FixedUnknown> statically_determinate_support(const Space& space) {
-  const std::vector<int> candidates = free_nodes(space);
-  if (candidates.size() < 3) throw ModelError("the mesh has too few nodes to be held");
-  Eigen::Matrix3Xd nodes(3, static_cast<Eigen::Index>(candidates.size()));
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    nodes.col(static_cast<Eigen::Index>(i)) = space.nodes().col(candidates[i]);
-  const Vector3 middle = nodes.rowwise().mean();
-  std::array<Eigen::Index, 3> node{};
-  (nodes.colwise() - middle).colwise().squaredNorm().maxCoeff(&node[0]);
-  const Vector3 a = nodes.col(node[0]);
-  const double length = std::sqrt((nodes.colwise() - a).colwise().squaredNorm().maxCoeff(&node[1]));
-  const Vector3 along = (nodes.col(node[1]) - a).normalized();
+std::vector<HeldComponent> hold_points(const Eigen::Matrix3Xd& points) {
+  if (points.cols() < 3) throw ModelError("the mesh has too few nodes to be held");
+  const Vector3 middle = points.rowwise().mean();
+  std::array<Eigen::Index, 3> point{};
+  (points.colwise() - middle).colwise().squaredNorm().maxCoeff(&point[0]);
+  const Vector3 a = points.col(point[0]);
+  const double length =
+      std::sqrt((points.colwise() - a).colwise().squaredNorm().maxCoeff(&point[1]));
+  const Vector3 along = (points.col(point[1]) - a).normalized();
   const double distance =
-      ((nodes.colwise() - a) - along * (along.transpose() * (nodes.colwise() - a)))
+      ((points.colwise() - a) - along * (along.transpose() * (points.colwise() - a)))
           .colwise()
           .norm()
-          .maxCoeff(&node[2]);
+          .maxCoeff(&point[2]);
   if (!(distance > 1e-9 * length)) throw ModelError("all nodes of the mesh lie on one line");
 
   Eigen::Matrix<double, 6, 6> rows;
   for (int axis = 0; axis < 3; ++axis) rows.row(axis) = rigid_row(Vector3::Zero(), axis, length);
   const auto candidate = [&](int c) {
-    return rigid_row(nodes.col(node[c < 3 ? 1 : 2]) - a, c % 3, length);
+    return rigid_row(points.col(point[c < 3 ? 1 : 2]) - a, c % 3, length);
   };
   double best = -1;
   std::array<int, 3> chosen{};
@@ -79,12 +76,20 @@ std::vector<FixedUnknown> statically_determinate_support(const Space& space) {
         best = smallest;
         chosen = {i, j, k};
       }
+  std::vector<HeldComponent> support;
+  for (int axis = 0; axis < 3; ++axis) support.push_back({static_cast<int>(point[0]), axis});
+  for (const int c : chosen) support.push_back({static_cast<int>(point[c < 3 ? 1 : 2]), c % 3});
+  return support;
+}
+
+std::vector<FixedUnknown> statically_determinate_support(const Space& space) {
+  const std::vector<int> candidates = free_nodes(space);
+  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    places.col(static_cast<Eigen::Index>(i)) = space.nodes().col(candidates[i]);
   std::vector<FixedUnknown> support;
-  const auto hold = [&](Eigen::Index at_node, int axis) {
-    support.push_back({own_unknown(space, 6 * candidates[at(at_node)] + axis), 0});
-  };
-  for (int axis = 0; axis < 3; ++axis) hold(node[0], axis);
-  for (const int c : chosen) hold(node[c < 3 ? 1 : 2], c % 3);
+  for (const HeldComponent& held : hold_points(places))
+    support.push_back({own_unknown(space, 6 * candidates[at(held.point)] + held.axis), 0});
   return support;
 }
 

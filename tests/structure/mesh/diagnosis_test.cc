@@ -79,6 +79,18 @@ TEST(Diagnosis, UnconnectedParts) {
   EXPECT_EQ(diagnose(mesh).parts, 1);
 }
 
+TEST(Diagnosis, MiddlesOfQuadraticShellsBelongToThem) {
+  Mesh mesh = plate(1, 1);
+  Eigen::Matrix3Xd points(3, 9);
+  for (int i = 0; i < 9; ++i) points.col(i) = Vector3(0.5 * (i % 3), 0.5 * (i / 3), 0);
+  mesh.curved_shells.push_back(points);
+  mesh.shells[0].curvature = 0;
+  for (const int i : {1, 3, 5, 7}) mesh.vertices.push_back(points.col(i));
+  EXPECT_EQ(count(diagnose(mesh), "unused vertices"), 0);
+  mesh.vertices.emplace_back(0.3, 0.3, 0);
+  EXPECT_EQ(count(diagnose(mesh), "unused vertices"), 1);
+}
+
 TEST(Diagnosis, DuplicatedVerticesAndCells) {
   Mesh mesh = plate(2, 1);
   // The second shell gets vertices of its own along the seam.

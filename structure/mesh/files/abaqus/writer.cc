@@ -19,12 +19,16 @@ namespace blocklift::structure {
 
 namespace {
 
-/// The fewest digits that say a number exactly; never an integer, which some fields would be read
-/// as.
+/// The fewest digits that say a number exactly, or as many as fit in a field's twenty characters;
+/// never an integer, which some fields would be read as.
 std::string exact(double value) {
+  constexpr std::size_t widest = 20;
   std::array<char, 40> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  std::string text(buffer.data(), end);
+  char* const end = buffer.data() + buffer.size();
+  std::string text(buffer.data(), std::to_chars(buffer.data(), end, value).ptr);
+  for (int digits = 16; text.size() > widest; --digits)
+    text.assign(buffer.data(),
+                std::to_chars(buffer.data(), end, value, std::chars_format::general, digits).ptr);
   if (text.find_first_of(".e") == std::string::npos) text += '.';
   return text;
 }
@@ -394,6 +398,10 @@ class AbaqusText {
     line("*DLOAD, OP=NEW");
     for (const auto& [set, factor] : one.loads)
       write_spread_loads(deck_.load_sets[at(set)], factor);
+    line("*NODE FILE");
+    line("U, RF");
+    line("*EL FILE");
+    line("S");
     line("*END STEP");
   }
 

@@ -105,7 +105,11 @@ void take_stock_of_nastran_cards(NastranModel& model) {
                                           "shells and beams of them");
       continue;
     }
-    if (const auto found = left_out.find(card.name); found != left_out.end())
+    if (card.name == "CSHEAR" || card.name == "PSHEAR")
+      model.log.complain(card.line, card.name +
+                                        ": a panel that bears shear alone is no plate; make it a "
+                                        "CQUAD4, or CRODs across its corners");
+    else if (const auto found = left_out.find(card.name); found != left_out.end())
       model.log.leave_out(card.name, found->second);
     else
       model.log.complain(card.line, fmt::format("the card {} is not known here: what it says would "

@@ -105,6 +105,8 @@ class NastranText {
     out_.line("SOL 101");
     out_.line("CEND");
     if (!deck_.title.empty()) out_.line("TITLE = " + deck_.title);
+    for (const char* result : {"DISPLACEMENT", "SPCFORCES", "STRESS"})
+      out_.line(std::string(result) + " = ALL");
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) {
       const DeckLoadCase& one = deck_.load_cases[i];
       out_.line(fmt::format("SUBCASE {}", one.label > 0 ? one.label : static_cast<long>(i) + 1));

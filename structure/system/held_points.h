@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/space/space.h"
+
+namespace blocklift::structure {
+
+/// A component of the displacement that is held at one of several points.
+struct HeldComponent {
+  int point = 0;  ///< place among the points
+  int axis = 0;
+};
+
+/// 3-2-1 support at points: three far apart, six components that remove the rigid motions and
+/// nothing else. The first point is held along x, y, z; of the components at the other two, those
+/// three are held that best resist the rigid motions (largest smallest singular value).
+/// @param points columns, m.
+/// @throws ModelError if there are fewer than three, or all of them lie on one line.
+std::vector<HeldComponent> hold_points(const Eigen::Matrix3Xd& points);
+
+/// Nodes whose displacements follow no others'.
+std::vector<int> free_nodes(const Space& space);
+
+}  // namespace blocklift::structure
