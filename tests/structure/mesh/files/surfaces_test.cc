@@ -63,16 +63,16 @@ SurfaceReading reading_of(const std::string& units, double size = 0) {
 }
 
 /// The plates of a file, all of one thickness.
-Mesh plates_of(const std::string& path, const SurfaceReading& reading, double thickness) {
+Mesh plates_of(const std::string& path, const SurfaceReading& reading, double plate_thickness) {
   Deck deck = read_surfaces(path, reading);
   deck.mesh.materials = {plain_steel()};
   for (const std::string& group : deck.groups_without_thickness)
-    give_thickness(deck.mesh, group, thickness, 0);
+    give_thickness(deck.mesh, group, plate_thickness, 0);
   check_mesh(deck.mesh);
   return deck.mesh;
 }
 
-std::string error_of(const std::string& path, const SurfaceReading& reading) {
+std::string reading_error(const std::string& path, const SurfaceReading& reading) {
   try {
     read_surfaces(path, reading);
   } catch (const DeckError& error) {
@@ -86,10 +86,10 @@ void draw_plate() {
   occ::synchronize();
 }
 
-constexpr double pressure = 1e3, thickness = 0.01;  // Pa, m
+constexpr double plate_pressure = 1e3, plate_thickness = 0.01;  // Pa, m
 
 /// Deflection of the middle of a plate of 1 m by 1 m, simply supported, under pressure.
-double deflection(const Mesh& mesh) {
+double middle_deflection(const Mesh& mesh) {
   const Space space(mesh, {3, {}});
   const auto on = [](double x) { return std::min(std::abs(x), std::abs(x - 1)) < 1e-6; };
   std::vector<FixedUnknown> fixed;
@@ -98,7 +98,7 @@ double deflection(const Mesh& mesh) {
   testing::hold(
       space, [&](const Vector3& p) { return on(p.y()) && !on(p.x()); }, {0, 1, 2, 4, 5}, fixed);
   const Eigen::VectorXd load =
-      testing::area_load(space, [](const Vector3&) { return Vector3(0, 0, -pressure); });
+      testing::area_load(space, [](const Vector3&) { return Vector3(0, 0, -plate_pressure); });
   const Eigen::VectorXd motion = testing::solve(space, load, fixed);
   return -testing::displacement_at(space, motion, {0.5, 0.5, 0}).z();
 }
@@ -108,9 +108,9 @@ double deflection(const Mesh& mesh) {
 // where the deflection is less by no more than (pi h / 2)^2 / 4 for h = 0.1 m.
 TEST_F(Surfaces, APlateBendsAlikeByMeshGeometryAndPlates) {
   const Material steel = plain_steel();
-  const double stiffness = steel.youngs_modulus * std::pow(thickness, 3) /
+  const double stiffness = steel.youngs_modulus * std::pow(plate_thickness, 3) /
                            (12 * (1 - steel.poisson_ratio * steel.poisson_ratio));
-  const double expected = 0.004062 * pressure / stiffness;
+  const double expected = 0.004062 * plate_pressure / stiffness;
   const std::string msh = made("plate.msh", [] {
     draw_plate();
     gmsh::model::mesh::setTransfiniteAutomatic();
@@ -122,13 +122,14 @@ TEST_F(Surfaces, APlateBendsAlikeByMeshGeometryAndPlates) {
   const std::string step = made("plate.step", draw_plate);
   BlockDescription block;
   block.materials = {steel};
-  block.plates = {{"plate", Axis::z, {0}, {{{0, 1}, {0, 1}, {0, 0}}}, thickness, steel.name}};
+  block.plates = {{"plate", Axis::z, {0}, {{{0, 1}, {0, 1}, {0, 0}}}, plate_thickness, steel.name}};
   block.largest_element = 0.125;
   const double tolerance = 0.012 * expected;
-  EXPECT_NEAR(deflection(plates_of(msh, reading_of("mm-t-N"), thickness)), expected, tolerance);
-  EXPECT_NEAR(deflection(plates_of(step, reading_of("mm-t-N", 0.1), thickness)), expected,
+  EXPECT_NEAR(middle_deflection(plates_of(msh, reading_of("mm-t-N"), plate_thickness)), expected,
               tolerance);
-  EXPECT_NEAR(deflection(generate_shell_mesh(block)), expected, tolerance);
+  EXPECT_NEAR(middle_deflection(plates_of(step, reading_of("mm-t-N", 0.1), plate_thickness)),
+              expected, tolerance);
+  EXPECT_NEAR(middle_deflection(generate_shell_mesh(block)), expected, tolerance);
 }
 
 // A quarter of a cylinder: the arc's quadratic chords are off by (angle / 2)^4 / 45 or so.
@@ -140,11 +141,11 @@ TEST_F(Surfaces, AQuarterOfACylinderWeighsWhatItWeighs) {
     occ::extrude({{1, arc}}, 0, 0, length, out);
     occ::synchronize();
   });
-  const Mesh mesh = plates_of(file, reading_of("m-kg-N", 0.5), thickness);
+  const Mesh mesh = plates_of(file, reading_of("m-kg-N", 0.5), plate_thickness);
   EXPECT_FALSE(mesh.curved_shells.empty());
   const auto mass = mass_properties(mesh);
   const double expected =
-      plain_steel().density * thickness * length * radius * std::numbers::pi / 2;
+      plain_steel().density * plate_thickness * length * radius * std::numbers::pi / 2;
   EXPECT_NEAR(mass.mass, expected, 1e-5 * expected);
   const double centre = 2 * radius / std::numbers::pi;
   EXPECT_LT((mass.centre - Vector3(centre, centre, length / 2)).norm(), 1e-4);
@@ -166,10 +167,10 @@ TEST_F(Surfaces, PlatesAreCutAtTheirJoints) {
   SurfaceReading reading = reading_of("mm-t-N", 0.5);
   reading.sizes.at_places = 0.1;
   reading.sizes.places = {Vector3(3, 1, 0.8)};
-  const Mesh mesh = plates_of(file, reading, thickness);
+  const Mesh mesh = plates_of(file, reading, plate_thickness);
   for (const int part : connected_parts(mesh)) EXPECT_LE(part, 0);
   EXPECT_NEAR(mass_properties(mesh).mass,
-              plain_steel().density * thickness * (8 + 2 * 1.2 + 2 * 0.8), 1e-6);
+              plain_steel().density * plate_thickness * (8 + 2 * 1.2 + 2 * 0.8), 1e-6);
   const auto longest_near = [&](const Vector3& place) {
     double longest = 0;
     for (const Shell& shell : mesh.shells)
@@ -245,48 +246,50 @@ TEST_F(Surfaces, LinesOfAGroupWithASectionAreBars) {
     EXPECT_THAT(deck.groups_without_thickness, ::testing::ElementsAre("surface group 7"));
     EXPECT_THAT(deck.groups_without_section, ::testing::ElementsAre("bar"));
     deck.mesh.materials = {plain_steel()};
-    give_thickness(deck.mesh, "surface group 7", thickness, 0);
+    give_thickness(deck.mesh, "surface group 7", plate_thickness, 0);
     const Profile bar = flat_bar(0.15, 0.012);
     Mesh other = deck.mesh;
     EXPECT_THROW(give_profile(other, "bar", bar, {0, 1, 0}, 0), ModelError);
     give_profile(deck.mesh, "bar", bar, {0, 0, -1}, 0);
     check_mesh(deck.mesh);
     for (const Beam& beam : deck.mesh.beams)
-      EXPECT_NEAR(beam.offset[0].z(), -thickness / 2 - 0.075, 1e-12);
+      EXPECT_NEAR(beam.offset[0].z(), -plate_thickness / 2 - 0.075, 1e-12);
     EXPECT_NEAR(mass_properties(deck.mesh).mass,
-                plain_steel().density * (4 * thickness + 2 * 0.15 * 0.012), 1e-6);
+                plain_steel().density * (4 * plate_thickness + 2 * 0.15 * 0.012), 1e-6);
     EXPECT_EQ(deck.mesh.surface_points.empty(), order == 1);
   }
 }
 
 TEST_F(Surfaces, SaysWhatIsWrong) {
   const std::string plate = made("plate.step", draw_plate);
-  EXPECT_THAT(error_of(plate, reading_of("m-kg-N", 0.1)),
+  EXPECT_THAT(reading_error(plate, reading_of("m-kg-N", 0.1)),
               HasSubstr("the file says that its lengths are in units of 0.001 m"));
-  EXPECT_THAT(error_of(plate, reading_of("mm-t-N", 1e-6)), HasSubstr("is the size or the file's"));
+  EXPECT_THAT(reading_error(plate, reading_of("mm-t-N", 1e-6)),
+              HasSubstr("is the size or the file's"));
   const std::string solid = made("solid.step", [] {
     occ::addBox(0, 0, 0, 1, 1, 1);
     occ::synchronize();
   });
-  EXPECT_THAT(error_of(solid, reading_of("mm-t-N", 0.1)), HasSubstr("the file has 1 solid, and"));
+  EXPECT_THAT(reading_error(solid, reading_of("mm-t-N", 0.1)),
+              HasSubstr("the file has 1 solid, and"));
   SurfaceReading without = reading_of("mm-t-N", 0.1);
   without.leave_solids_out = true;
-  EXPECT_THAT(error_of(solid, without), HasSubstr("there are no surfaces"));
+  EXPECT_THAT(reading_error(solid, without), HasSubstr("there are no surfaces"));
   std::ifstream file(plate);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string cut = written("cut.step", text.substr(0, text.size() / 2));
-  EXPECT_NE(error_of(cut, reading_of("mm-t-N", 0.1)), "");
-  EXPECT_NE(error_of(written("empty.brep", ""), reading_of("mm-t-N", 0.1)), "");
+  EXPECT_NE(reading_error(cut, reading_of("mm-t-N", 0.1)), "");
+  EXPECT_NE(reading_error(written("empty.brep", ""), reading_of("mm-t-N", 0.1)), "");
   const std::string twice = made("twice.msh", [] {
     draw_plate();
     for (const char* name : {"deck", "plate"})
       gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {1}), name);
     gmsh::model::mesh::generate(2);
   });
-  EXPECT_THAT(error_of(twice, reading_of("mm-t-N")), HasSubstr("of which none is given"));
+  EXPECT_THAT(reading_error(twice, reading_of("mm-t-N")), HasSubstr("of which none is given"));
   SurfaceReading chosen = reading_of("mm-t-N");
   chosen.given.plates = {"deck"};
-  EXPECT_EQ(error_of(twice, chosen), "");
+  EXPECT_EQ(reading_error(twice, chosen), "");
 }
 
 TEST_F(Surfaces, UnitsThatFilesDeclare) {
