@@ -27,12 +27,18 @@ using dynamics::Pose;
 BoxShape drawn_box(const BlockModel& block) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
   Vector3 high = -low;
-  if (block.mesh)
-    for (const Vector3& vertex : block.mesh->deck->mesh.vertices) {
-      low = low.cwiseMin(vertex);
-      high = high.cwiseMax(vertex);
+  const auto include = [&](const std::vector<Vector3>& points) {
+    for (const Vector3& point : points) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
     }
+  };
+  if (block.mesh) include(block.mesh->deck->mesh.vertices);
   for (const PlateModel& plate : block.plates) {
+    if (plate.corners) include(plate.corners->value);
+    if (plate.edges)
+      for (const EdgeModel& edge : plate.edges->value) include(edge.points);
+    if (plate.is_free()) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<Eigen::Index>(axis);
       const auto widen = [&](double value) {

@@ -17,6 +17,22 @@ std::array<structure::Interval, 3> intervals_of(const Extents& extents) {
 
 structure::Axis axis_of(std::size_t axis) { return static_cast<structure::Axis>(axis); }
 
+structure::FreePlate describe_free_plate(const PlateModel& plate, const std::string& material) {
+  structure::FreePlate described;
+  described.name = plate.name.value;
+  described.thickness = plate.thickness;
+  described.material = material;
+  if (plate.corners) {
+    described.corners = plate.corners->value;
+    return described;
+  }
+  for (std::size_t i = 0; i < described.edges.size(); ++i) {
+    const EdgeModel& edge = plate.edges->value[i];
+    described.edges[i] = {edge.points, edge.is_arc};
+  }
+  return described;
+}
+
 structure::Stiffeners describe_stiffeners(const PlateModel& plate) {
   const StiffenersModel& row = *plate.stiffeners;
   structure::Stiffeners stiffeners;
@@ -48,12 +64,22 @@ structure::BlockDescription describe_block(const BlockModel& model, const std::s
   for (const PlateModel& plate : model.plates) {
     const std::string& material =
         plate.material.value.empty() ? model.materials.front().name.value : plate.material.value;
+    if (plate.is_free()) {
+      block.free_plates.push_back(describe_free_plate(plate, material));
+      continue;
+    }
     block.plates.push_back({plate.name.value, axis_of(plate.normal), plate.at,
                             intervals_of(plate.extent), plate.thickness, material});
     if (plate.stiffeners && plate.stiffeners->profile)
       block.stiffeners.push_back(describe_stiffeners(plate));
   }
   for (const OpeningModel& opening : model.openings) {
+    if (const PlateModel* plate = model.find_plate(opening.plate.value);
+        plate && plate->is_free()) {
+      block.free_openings.push_back({opening.name.value, opening.plate.value, opening.corners,
+                                     opening.centres, opening.radius ? opening.radius->value : 0});
+      continue;
+    }
     block.openings.push_back(
         {opening.name.value, opening.plate.value, opening.at, intervals_of(opening.extent),
          opening.corner_radius ? opening.corner_radius->value : 0, opening.corners});

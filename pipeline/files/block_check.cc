@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "pipeline/files/block_model.h"
@@ -100,6 +101,46 @@ bool share_an_area(const Extents& first, const Extents& second, std::size_t norm
   return true;
 }
 
+/// Unit normal of a polygon; not finite if it has no area.
+Vector3 normal_of(const std::vector<Vector3>& corners) {
+  Vector3 area = Vector3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    area += (corners[i] - corners[0]).cross(corners[(i + 1) % corners.size()] - corners[0]);
+  return area / area.norm();
+}
+
+/// Greatest distance of points from a polygon's plane, m.
+double distance_from_plane(const std::vector<Vector3>& corners,
+                           const std::vector<Vector3>& points) {
+  const Vector3 normal = normal_of(corners);
+  double farthest = 0;
+  for (const Vector3& point : points)
+    farthest = std::max(farthest, std::abs(normal.dot(point - corners[0])));
+  return farthest;
+}
+
+constexpr double in_plane = 1e-3;  // m
+constexpr std::size_t fewest_corners = 3;
+
+void check_free_plates(const BlockModel& block, Reading& reading) {
+  for (const PlateModel& plate : block.plates) {
+    if (!plate.corners || plate.corners->value.size() < fewest_corners) continue;
+    const std::vector<Vector3>& corners = plate.corners->value;
+    if (!normal_of(corners).allFinite()) {
+      reading.error(plate.corners->mark, "the corners of plate " + plate.name.value +
+                                             " lie on one line, or their sides cross");
+      continue;
+    }
+    const double farthest = distance_from_plane(corners, corners);
+    if (farthest > in_plane)
+      reading.error(plate.corners->mark,
+                    fmt::format("the corners of plate {} are not in one plane: one lies {:.3g} mm "
+                                "off it",
+                                plate.name.value, 1000 * farthest),
+                    {"a twisted plate is given by two edges"});
+  }
+}
+
 /// Two plates in one place would be one plate of unknown thickness: the mesh has room for one.
 void check_overlaps(const BlockModel& block, Reading& reading) {
   for (std::size_t j = 1; j < block.plates.size(); ++j) {
@@ -160,11 +201,50 @@ void check_shape(const OpeningModel& opening, const PlateModel& plate, const std
   }
 }
 
+/// An opening in a plate of any orientation: a polygon, or a radius about one or two centres.
+void check_free_opening(const OpeningModel& opening, const PlateModel& plate, Reading& reading) {
+  const std::string user = "opening " + opening.name.value;
+  if (!plate.corners) {
+    reading.error(opening.name.mark,
+                  user + " is in plate " + plate.name.value + ", which is ruled between edges",
+                  {"openings are cut into plane plates"});
+    return;
+  }
+  const bool has_extent = std::any_of(opening.extent.begin(), opening.extent.end(),
+                                      [](const auto& extent) { return extent.has_value(); });
+  const bool is_round = !opening.centres.empty() && opening.radius;
+  if (has_extent || opening.corner_radius || !opening.at.empty() ||
+      opening.corners.empty() != is_round || opening.centres.empty() != !opening.radius) {
+    reading.error(opening.name.mark,
+                  fmt::format("{} is in plate {}, which is given by its corners, and lacks a shape "
+                              "of its own or has a rectangle's keys",
+                              user, plate.name.value),
+                  {"give its corners, or centres (one of a circle, two of a slot) and radius"});
+    return;
+  }
+  if (plate.corners->value.size() < fewest_corners) return;
+  for (const auto* points : {&opening.corners, &opening.centres})
+    if (const double off = distance_from_plane(plate.corners->value, *points); off > in_plane)
+      reading.error(opening.name.mark,
+                    fmt::format("{} has a point {:.3g} mm off the plane of plate "
+                                "{}",
+                                user, 1000 * off, plate.name.value));
+}
+
 void check_openings(const BlockModel& block, Reading& reading) {
   for (const OpeningModel& opening : block.openings) {
     const std::string user = "opening " + opening.name.value;
     const PlateModel* plate = look_up(opening.plate, block.plates, user, "plate", reading);
     if (!plate) continue;
+    if (plate->is_free()) {
+      check_free_opening(opening, *plate, reading);
+      continue;
+    }
+    if (!opening.centres.empty() || opening.radius)
+      reading.error(opening.name.mark,
+                    fmt::format("{} has centres or a radius, and plate {} is a rectangle", user,
+                                plate->name.value),
+                    {"give its extents and a corner_radius"});
     check_shape(opening, *plate, user, reading);
     for (std::size_t axis = 0; axis < 3 && opening.corners.empty(); ++axis) {
       if (axis != plate->normal && !opening.extent[axis]) {
@@ -192,6 +272,13 @@ void check_pads(const BlockModel& block, Reading& reading) {
     }
     const PlateModel* plate = look_up(pad.plate, block.plates, user, "plate", reading);
     if (!plate) continue;
+    if (plate->is_free()) {
+      reading.error(pad.name.mark,
+                    fmt::format("{} is on plate {}, which is no rectangle normal to an axis", user,
+                                plate->name.value),
+                    {"pads and lugs stand on such plates"});
+      continue;
+    }
     if (pad.normal != plate->normal) {
       reading.error(pad.name.mark, fmt::format("{} is normal to {}, but its plate {} to {}", user,
                                                axis_name(pad.normal), plate->name.value,
@@ -291,11 +378,12 @@ void check_mesh_block(const BlockModel& block, Reading& reading) {
       reading.error(lug.name.mark,
                     fmt::format("lug {} stands on a pad, and {}", lug.name.value, why),
                     {"give its pin, a node, or a set of the deck"});
-  if (!block.materials.empty() && block.mesh->thicknesses.empty())
+  if (!block.materials.empty() && block.mesh->thicknesses.empty() && block.mesh->groups.empty() &&
+      !is_bare(*block.mesh))
     reading.error(
         block.materials.front().name.mark,
         fmt::format("material {}: the deck has its own", block.materials.front().name.value),
-        {"a material is given for thicknesses that the deck lacks alone"});
+        {"a material is given for groups without properties alone"});
 }
 
 }  // namespace
@@ -312,11 +400,12 @@ void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
     return;
   }
   if (block.plates.empty())
-    reading.error(mark, "the block has no plates", {"give plates, or the mesh of a deck"});
+    reading.error(mark, "the block has no plates", {"give plates, or a mesh"});
   if (block.materials.empty())
     reading.error(mark, reading.owner() + " lacks the key \"materials\"",
                   {"it is what plates are made of"});
   check_plates(block, reading);
+  check_free_plates(block, reading);
   check_overlaps(block, reading);
   check_openings(block, reading);
   check_pads(block, reading);

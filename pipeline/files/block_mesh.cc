@@ -13,6 +13,8 @@
 #include "structure/error.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/nastran/reader.h"
+#include "structure/mesh/files/surfaces/cad_file.h"
+#include "structure/mesh/files/surfaces/surface_reader.h"
 #include "structure/mesh/lug_on_mesh.h"
 
 namespace blocklift::pipeline {
@@ -91,7 +93,7 @@ class MeshReader {
     const std::size_t before = diagnostics_.error_count();
     const auto deck = std::make_shared<Deck>();
     if (!read_deck(*deck)) return;
-    give_thicknesses(*deck);
+    give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
     let_go(*deck);
     if (deck->mesh.shells.empty())
@@ -115,18 +117,25 @@ class MeshReader {
     const fs::path path = named.is_absolute() ? named : folder_ / named;
     const std::string ending = lower_case(named.extension().string());
     const bool is_nastran = ending == ".bdf" || ending == ".nas" || ending == ".dat";
-    if (!is_nastran && ending != ".inp") {
-      complain(fmt::format("\"{}\" is no deck that is known by its ending", named.string()),
-               {"Nastran decks end in .bdf, .nas or .dat, Abaqus decks in .inp"});
+    const bool is_bare_file = is_bare(mesh_model_);
+    if (!is_nastran && !is_bare_file && ending != ".inp") {
+      complain(fmt::format("\"{}\" is no file that is known by its ending", named.string()),
+               {"Nastran decks end in .bdf, .nas or .dat, Abaqus decks in .inp, meshes of Gmsh in "
+                ".msh, CAD surfaces in .step, .stp, .iges, .igs or .brep"});
       return false;
     }
+    if (!check_sizes(structure::is_cad_file(named.string()))) return false;
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
       complain(fmt::format("there is no file \"{}\"", shown_path(path)),
-               {"a deck's name counts from the folder of the block's file"});
+               {"its name counts from the folder of the block's file"});
       return false;
     }
     try {
+      if (is_bare_file) {
+        deck = structure::read_surfaces(shown_path(path), surface_reading());
+        return true;
+      }
       const structure::UnitSystem units = structure::unit_system(mesh_model_.units.value);
       const structure::DeckOptions options{.leave_solids_out = mesh_model_.leave_solids_out};
       deck = is_nastran ? structure::read_nastran(shown_path(path), units, options)
@@ -139,6 +148,53 @@ class MeshReader {
       complain(wrong.what());
     }
     return false;
+  }
+
+  /// Sizes are those of elements that are made here.
+  bool check_sizes(bool is_geometry) {
+    const auto& size = mesh_model_.element_size;
+    const auto& at_lugs = mesh_model_.element_size_at_lugs;
+    if (is_geometry && !size) {
+      complain("surfaces are meshed here, and no element_size is given",
+               {"such as element_size: 250 mm; smaller ones follow at openings and lugs"});
+      return false;
+    }
+    for (const auto& given : {size, at_lugs})
+      if (given && !is_geometry)
+        diagnostics_.error(given->mark,
+                           mesh_model_.file.value + " is a mesh and keeps its elements",
+                           {"element sizes are those of CAD surfaces"});
+    if (size && at_lugs && at_lugs->value > size->value)
+      diagnostics_.error(at_lugs->mark,
+                         fmt::format("elements are {:.4g} m at lugs and {:.4g} m elsewhere",
+                                     at_lugs->value, size->value),
+                         {"those at lugs are the smaller ones"});
+    return is_geometry || (!size && !at_lugs);
+  }
+
+  structure::SurfaceReading surface_reading() const {
+    structure::SurfaceReading reading;
+    reading.units = units_of_length();
+    reading.leave_solids_out = mesh_model_.leave_solids_out;
+    for (const auto& group : mesh_model_.groups)
+      (group.section ? reading.given.bars : reading.given.plates).push_back(group.name.value);
+    if (!mesh_model_.element_size) return reading;
+    constexpr double share_at_lugs = 1.0 / 3;
+    reading.sizes.largest = mesh_model_.element_size->value;
+    reading.sizes.at_places = mesh_model_.element_size_at_lugs
+                                  ? mesh_model_.element_size_at_lugs->value
+                                  : share_at_lugs * reading.sizes.largest;
+    for (const LugModel& lug : block_.lugs)
+      if (lug.pin.value.allFinite()) reading.sizes.places.push_back(lug.pin.value);
+    return reading;
+  }
+
+  /// The units, of which a bare file's may be a length alone.
+  structure::UnitSystem units_of_length() const {
+    const std::string& name = mesh_model_.units.value;
+    for (const char* system : {"m-kg-N", "mm-t-N", "in-lbf", "ft-slug-lbf"})
+      if (std::string(system).starts_with(name + "-")) return structure::unit_system(system);
+    return structure::unit_system(name);
   }
 
   /// Vertices whose displacement something holds in all directions.
@@ -193,45 +249,6 @@ class MeshReader {
           {deck.path.string(), fmt::format("{} masses, {:.4g} t, are at nodes that nothing carries "
                                            "in every direction, and are left out",
                                            kept - masses.size(), loose / 1000)});
-  }
-
-  /// Groups that the deck gives no thickness have one of the block's file, of its only material.
-  void give_thicknesses(Deck& deck) {
-    const std::vector<std::string>& groups = deck.groups_without_thickness;
-    for (const auto& given : mesh_model_.thicknesses)
-      if (std::find(groups.begin(), groups.end(), given.name.value) == groups.end())
-        diagnostics_.error(
-            given.name.mark,
-            fmt::format("the deck has no group \"{}\" without a thickness", given.name.value),
-            {groups.empty() ? "all of its plates have one"
-                            : names_hint("groups without are", groups, given.name.value)});
-    if (groups.empty()) return;
-    std::vector<std::string> missing;
-    for (const std::string& group : groups)
-      if (!find_by_name(mesh_model_.thicknesses, group)) missing.push_back(group);
-    if (!missing.empty() || block_.materials.size() != 1) {
-      complain(fmt::format("the deck gives no thickness to its groups {}", list_of_names(groups)),
-               {"give each one under mesh: thicknesses: {name: 12 mm}, and their material, one, "
-                "under materials"});
-      return;
-    }
-    Mesh& mesh = deck.mesh;
-    const MaterialModel& steel = block_.materials.front();
-    const auto material = static_cast<int>(mesh.materials.size());
-    mesh.materials.push_back({steel.name.value, steel.youngs_modulus, steel.poisson_ratio,
-                              steel.density, steel.yield_stress});
-    const auto first = static_cast<int>(mesh.shell_sections.size());
-    for (const auto& given : mesh_model_.thicknesses)
-      mesh.shell_sections.push_back({.thickness = given.value.value, .material = material});
-    for (structure::Shell& shell : mesh.shells) {
-      if (shell.section >= 0) continue;
-      structure::Group& group = mesh.groups[static_cast<std::size_t>(
-          mesh.regions[static_cast<std::size_t>(shell.region)].group)];
-      group.material = material;
-      for (std::size_t i = 0; i < mesh_model_.thicknesses.size(); ++i)
-        if (mesh_model_.thicknesses[i].name.value == group.name)
-          shell.section = first + static_cast<int>(i);
-    }
   }
 
   void give_yield_stress(Mesh& mesh) {
@@ -345,33 +362,60 @@ Format<MeshModel> mesh_model_format() {
   Table<MeshModel> table(
       "mesh",
       "A deck of Nastran or Abaqus: shells, beams, masses, links, springs with their properties. "
-      "Its "
-      "loads and supports are not those of a lift, and are left out; cards that are not used are "
-      "listed, and what cannot be honoured is an error with its line.");
+      "Its loads and supports are not those of a lift, and are left out; cards that are not used "
+      "are listed, and what cannot be honoured is an error with its line. Or a mesh of Gmsh, whose "
+      "physical groups are plates and bars, or surfaces of CAD, which are cut at their joints and "
+      "meshed here; their properties are given by groups.");
   table
       .required("file", &MeshModel::file, text(),
-                "from the folder of this file on: Nastran (.bdf, .nas, .dat) or Abaqus (.inp)")
+                "from the folder of this file on: Nastran (.bdf, .nas, .dat), Abaqus (.inp), Gmsh "
+                "(.msh), CAD surfaces (.step, .stp, .iges, .igs, .brep)")
       .required("units", &MeshModel::units,
                 choice<std::string>({{"m-kg-N", "m-kg-N"},
                                      {"mm-t-N", "mm-t-N"},
                                      {"in-lbf", "in-lbf"},
                                      {"in-slinch-lbf", "in-slinch-lbf"},
-                                     {"ft-slug-lbf", "ft-slug-lbf"}}),
-                "of the deck: length, mass, force; seconds are those of time")
+                                     {"ft-slug-lbf", "ft-slug-lbf"},
+                                     {"m", "m"},
+                                     {"mm", "mm"},
+                                     {"in", "in"},
+                                     {"ft", "ft"}}),
+                "of the deck: length, mass, force; seconds are those of time; of a mesh of Gmsh or "
+                "CAD surfaces the length alone")
       .optional("yield_stress", &MeshModel::yield_stress,
                 quantity(Dimension::stress, Range::positive()),
                 "smallest yield stress of materials that the deck gives none")
+      .optional("groups", &MeshModel::groups, mesh_groups_format(),
+                "whose plates or bars have no property in the file: name: 12 mm, or a table")
       .optional("thicknesses", &MeshModel::thicknesses,
                 names_to(located(quantity(Dimension::length, Range::positive()))),
-                "of groups whose plates have no property in the deck")
+                "the same for plates of the block's only material")
       .by_default("leave_solids_out", &MeshModel::leave_solids_out, boolean(), "false",
-                  "lift without the deck's solid elements rather than refuse it")
+                  "lift without the file's solids rather than refuse it")
+      .optional("element_size", &MeshModel::element_size,
+                located(quantity(Dimension::length, Range::positive())),
+                "longest edge of the elements that CAD surfaces are meshed with; circles have 24 "
+                "elements and more")
+      .optional("element_size_at_lugs", &MeshModel::element_size_at_lugs,
+                located(quantity(Dimension::length, Range::positive())),
+                "about the pins of lugs; a third of element_size if left out")
       .place(&MeshModel::place);
   return table.format();
 }
 
+bool is_bare(const MeshModel& mesh) {
+  const std::string& file = mesh.file.value;
+  return structure::is_cad_file(file) || lower_case(fs::path(file).extension().string()) == ".msh";
+}
+
 void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics) {
   if (!block.mesh || block.mesh->file.value.empty() || block.mesh->units.value.empty()) return;
+  for (const auto& given : block.mesh->thicknesses) {
+    MeshGroupModel group;
+    group.name = given.name;
+    group.thickness = given.value.value;
+    block.mesh->groups.push_back(std::move(group));
+  }
   MeshReader(block, folder, diagnostics).read();
 }
 
@@ -392,11 +436,12 @@ std::string describe_block_mesh(const MeshModel& mesh) {
   if (!mesh.deck || !mesh.diagnosis) return {};
   const Deck& deck = *mesh.deck;
   std::string text = fmt::format(
-      "deck {}: {} nodes, {} shells, {} beams, {} masses, {} links, {} springs; {:.6g} t at "
+      "{} {}: {} nodes, {} shells, {} beams, {} masses, {} links, {} springs; {:.6g} t at "
       "({:.4g}, {:.4g}, {:.4g}) m\n",
-      mesh.file.value, deck.mesh.vertices.size(), deck.mesh.shells.size(), deck.mesh.beams.size(),
-      deck.mesh.masses.size(), deck.mesh.rigid_links.size() + deck.mesh.distributing_links.size(),
-      deck.mesh.springs.size(), mesh.diagnosis->mass.mass / 1000, mesh.diagnosis->mass.centre.x(),
+      is_bare(mesh) ? "mesh of" : "deck", mesh.file.value, deck.mesh.vertices.size(),
+      deck.mesh.shells.size(), deck.mesh.beams.size(), deck.mesh.masses.size(),
+      deck.mesh.rigid_links.size() + deck.mesh.distributing_links.size(), deck.mesh.springs.size(),
+      mesh.diagnosis->mass.mass / 1000, mesh.diagnosis->mass.centre.x(),
       mesh.diagnosis->mass.centre.y(), mesh.diagnosis->mass.centre.z());
   for (const structure::LedgerEntry& entry : unused_cards(mesh))
     text += fmt::format("  {}: {} of {} used{}{}\n", entry.name, entry.used, entry.read,

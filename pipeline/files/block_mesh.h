@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/declaration/format.h"
+#include "pipeline/files/mesh_groups.h"
 #include "structure/mesh/diagnosis.h"
 #include "structure/mesh/files/deck/deck.h"
 
@@ -15,13 +16,17 @@ namespace blocklift::pipeline {
 
 struct BlockModel;
 
-/// A deck of Nastran or Abaqus that a block is read from, in place of plates.
+/// A file that a block is read from, in place of plates: a deck of Nastran or Abaqus, a mesh of
+/// Gmsh, or surfaces of CAD, which are meshed here.
 struct MeshModel {
   Located<std::string> file;  ///< as the block's file names it
   Located<std::string> units;
   std::optional<double> yield_stress;               ///< of materials that have none there, Pa
-  std::vector<Named<Located<double>>> thicknesses;  ///< of groups that have none there, m
+  std::vector<MeshGroupModel> groups;               ///< that have no properties there
+  std::vector<Named<Located<double>>> thicknesses;  ///< such groups with a thickness alone, m
   bool leave_solids_out = false;
+  std::optional<Located<double>> element_size;          ///< of CAD surfaces, m
+  std::optional<Located<double>> element_size_at_lugs;  ///< m
   Mark place;
 
   /// What was read, its mesh with the block's lugs; null if it could not be. It may be one that
@@ -32,7 +37,10 @@ struct MeshModel {
 
 Format<MeshModel> mesh_model_format();
 
-/// Reads the deck of a block that names one, puts the block's lugs on it, and looks it over. All
+/// Is the file one without properties of its own: a mesh of Gmsh or CAD surfaces?
+bool is_bare(const MeshModel& mesh);
+
+/// Reads the file of a block that names one, puts the block's lugs on it, and looks it over. All
 /// that is wrong is said by the deck's own files and lines, or by the block's.
 /// @param folder of the block's file.
 void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,

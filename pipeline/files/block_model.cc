@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/declaration/table.h"
-#include "structure/error.h"
+#include "pipeline/files/profile_format.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -142,65 +142,6 @@ Format<MaterialModel> material_format() {
   return table.format();
 }
 
-/// A stiffener's profile as the file writes it: one of the shapes.
-struct WrittenProfile {
-  std::optional<std::array<double, 2>> flat_bar, bulb_flat;
-  std::optional<std::array<double, 4>> angle_bar, tee_bar;
-
-  /// @throws structure::ModelError if there is none of these measures.
-  std::optional<structure::Profile> build() const {
-    if (flat_bar) return structure::flat_bar((*flat_bar)[0], (*flat_bar)[1]);
-    if (bulb_flat) return structure::bulb_flat((*bulb_flat)[0], (*bulb_flat)[1]);
-    const auto of_four = [](const auto& make, const std::array<double, 4>& measures) {
-      return make(measures[0], measures[1], measures[2], measures[3]);
-    };
-    if (angle_bar) return of_four(structure::angle_bar, *angle_bar);
-    if (tee_bar) return of_four(structure::tee_bar, *tee_bar);
-    return std::nullopt;
-  }
-};
-
-void check_profile(const WrittenProfile& written, Reading& reading, const Mark& mark) {
-  const int shapes = int{written.flat_bar.has_value()} + int{written.bulb_flat.has_value()} +
-                     int{written.angle_bar.has_value()} + int{written.tee_bar.has_value()};
-  if (shapes != 1) {
-    reading.error(
-        mark,
-        fmt::format("the profile of {} has {} shapes, and one is due", reading.owner(), shapes),
-        {"flat_bar, bulb_flat, angle_bar or tee_bar"});
-    return;
-  }
-  try {
-    written.build();
-  } catch (const structure::ModelError& error) {
-    reading.error(mark, error.what());
-  }
-}
-
-Format<std::optional<structure::Profile>> profile_format() {
-  const auto length = quantity(Dimension::length, Range::positive());
-  Table<WrittenProfile> table("profile", "Of a stiffener, by its measures from the plate on.");
-  table
-      .optional("flat_bar", &WrittenProfile::flat_bar, array_of<double, 2>(length),
-                "[height, thickness]")
-      .optional("bulb_flat", &WrittenProfile::bulb_flat, array_of<double, 2>(length),
-                "[height, thickness], nominal; the bulb is that of EN 10067")
-      .optional("angle_bar", &WrittenProfile::angle_bar, array_of<double, 4>(length),
-                "[height, web, width, flange]: height over the flange, thicknesses of web and "
-                "flange")
-      .optional("tee_bar", &WrittenProfile::tee_bar, array_of<double, 4>(length),
-                "[height, web, width, flange], likewise")
-      .rule(check_profile);
-  return converted<WrittenProfile, std::optional<structure::Profile>>(
-      table.format(), [](const WrittenProfile& written) -> std::optional<structure::Profile> {
-        try {
-          return written.build();
-        } catch (const structure::ModelError&) {
-          return std::nullopt;  // complained about by the rule
-        }
-      });
-}
-
 void check_stiffeners(const StiffenersModel& row, Reading& reading, const Mark& mark) {
   if (row.profile || (!row.first && row.material.value.empty())) return;
   reading.error(mark, reading.owner() + " has a place or a material, but no profile",
@@ -229,7 +170,7 @@ Format<StiffenersModel> stiffeners_format() {
   return table.format();
 }
 
-Format<PlateModel> plate_format() {
+Format<PlateModel> rectangle_format() {
   Table<Written<PlateModel>> table("plate",
                                    "Equal flat rectangular plates, one at each position "
                                    "along their normal; the thickness lies half on each "
@@ -253,6 +194,58 @@ Format<PlateModel> plate_format() {
   return taken(table);
 }
 
+Format<EdgeModel> edge_format() {
+  Table<EdgeModel> arc("arc", "A part of a circle by three of its points.");
+  arc.required("arc", &EdgeModel::points, list_of(position_format(), 3, 3),
+               "its first point, one on the way, and its last");
+  const auto curved = converted<EdgeModel, EdgeModel>(arc.format(), [](EdgeModel edge) {
+    edge.is_arc = true;
+    return edge;
+  });
+  const auto straight = converted<std::vector<Vector3>, EdgeModel>(
+      list_of(position_format(), 2), [](const std::vector<Vector3>& points) {
+        return EdgeModel{points, false};
+      });
+  return by_shape<EdgeModel>(std::nullopt, straight, curved);
+}
+
+/// A plate of any orientation.
+Format<PlateModel> free_plate_format() {
+  Table<PlateModel> table("plate",
+                          "One plate of any orientation: plane, by its corners in order (brackets, "
+                          "sloping plates), or ruled between two edges that run the same way (a "
+                          "bilge between two arcs, a twisted plate). It is joined to what it "
+                          "meets, crosses or ends on in the middle planes.");
+  table
+      .optional("corners", &PlateModel::corners, located(list_of(position_format(), 3)),
+                "of a plane polygon, in order around it")
+      .optional("edges", &PlateModel::edges, located(list_of(edge_format(), 2, 2)),
+                "two, each a list of points or {arc: [first, through, last]}")
+      .required("thickness", &PlateModel::thickness, quantity(Dimension::length, Range::positive()),
+                "of the plate, half on each side")
+      .optional("material", &PlateModel::material, reference(),
+                "one of the block's materials; may be left out if there is one only")
+      .rule([](const PlateModel& plate, Reading& reading, const Mark& mark) {
+        if (plate.corners && plate.edges)
+          reading.error(mark, reading.owner() + " has corners and also edges",
+                        {"give its corners, or the two edges between which it is ruled"});
+      });
+  return table.format();
+}
+
+/// Rectangles normal to an axis, or one plate of any orientation, told apart by their keys.
+Format<PlateModel> plate_format() {
+  const Format<PlateModel> rectangle = rectangle_format(), free = free_plate_format();
+  auto description = std::make_shared<ValueDescription>();
+  description->kind = ValueDescription::Kind::any_of;
+  description->alternatives = {rectangle.description, free.description};
+  return {description,
+          [rectangle, free](const YAML::Node& node, Reading& reading, PlateModel& plate) {
+            const bool is_free = node.IsMap() && (node["corners"] || node["edges"]);
+            return (is_free ? free : rectangle).read(node, reading, plate);
+          }};
+}
+
 Format<OpeningModel> opening_format() {
   Table<Written<OpeningModel>> table("opening",
                                      "A hole through the named plates: a rectangle, which may "
@@ -269,7 +262,11 @@ Format<OpeningModel> opening_format() {
                 "shorter one a slot")
       .optional("corners", &OpeningModel::corners, list_of(position_format(), 3),
                 "of a polygon, in order, in place of the extents; all its sides can be seen from "
-                "its centre");
+                "its centre")
+      .optional("centres", &OpeningModel::centres, list_of(position_format(), 1, 2),
+                "in a plate by its corners: one of a circle, two of a slot's ends")
+      .optional("radius", &OpeningModel::radius,
+                located(quantity(Dimension::length, Range::positive())), "about the centres");
   return taken(table);
 }
 
@@ -383,7 +380,7 @@ std::vector<std::string> BlockModel::lug_names() const {
 Format<BlockModel> block_model_format() {
   Table<BlockModel> table("block",
                           "A stiffened block in its own frame: x along, y across, z up; of "
-                          "flat plates, or the mesh of one from a deck. Where the plates "
+                          "flat plates, or the mesh of one from a file. Where the plates "
                           "weigh less than the stated mass, the rest is outfitting, spread "
                           "over them so that mass and centre of mass agree.");
   table
@@ -391,7 +388,7 @@ Format<BlockModel> block_model_format() {
                 "what this file describes")
       .optional("title", &BlockModel::title, text(), "for people")
       .optional("materials", &BlockModel::materials, named_tables(material_format()),
-                "what plates are made of; a mesh brings its own")
+                "what plates are made of; a deck brings its own")
       .optional("mass", &BlockModel::mass, quantity(Dimension::mass, Range::positive()),
                 "in the lift, outfitting included; that of the plates if left out")
       .optional("centre_of_mass", &BlockModel::centre_of_mass, position_format(),
@@ -399,7 +396,7 @@ Format<BlockModel> block_model_format() {
       .optional("plates", &BlockModel::plates, named_tables(plate_format()),
                 "decks, shells, frames, girders, stiffeners")
       .optional("mesh", &BlockModel::mesh, mesh_model_format(),
-                "in place of plates: a deck of Nastran or Abaqus")
+                "in place of plates: a deck of Nastran or Abaqus, a mesh of Gmsh, CAD surfaces")
       .optional("openings", &BlockModel::openings, named_tables(opening_format()),
                 "holes in plates")
       .optional("pads", &BlockModel::pads, named_tables(pad_format()),

@@ -43,16 +43,29 @@ struct StiffenersModel {
   Located<std::string> material;  ///< empty: that of the plate
 };
 
-/// Equal plates, one at each of several positions along their common normal.
+/// Edge of a plate: straight pieces from point to point, or an arc from the first of three points
+/// through the second to the third, m.
+struct EdgeModel {
+  std::vector<Vector3> points;
+  bool is_arc = false;
+};
+
+/// Equal plates, one at each of several positions along their common normal; or one of any
+/// orientation, by its corners or between two edges.
 struct PlateModel : Rectangle {
   Located<std::string> name;
   std::vector<double> at;  ///< positions of the mid-planes, m
   double thickness = std::numeric_limits<double>::quiet_NaN();
   Located<std::string> material;  ///< the block's only one where the file names none
   std::optional<StiffenersModel> stiffeners;
+  std::optional<Located<std::vector<Vector3>>> corners;  ///< of a plane polygon, in order, m
+  std::optional<Located<std::vector<EdgeModel>>> edges;  ///< two, between which the plate is ruled
+
+  bool is_free() const { return corners || edges; }
 };
 
-/// Hole in plates: a rectangle, whose corners may be rounded, or a polygon.
+/// Hole in plates: a rectangle, whose corners may be rounded, or a polygon; in a plate by its
+/// corners a polygon, a circle or a slot.
 struct OpeningModel {
   Located<std::string> name;
   Located<std::string> plate;
@@ -60,6 +73,8 @@ struct OpeningModel {
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
   std::optional<Located<double>> corner_radius;  ///< m
   std::vector<Vector3> corners;                  ///< of a polygon, in place of the extent, m
+  std::vector<Vector3> centres;                  ///< of a circle (one) or a slot's ends (two), m
+  std::optional<Located<double>> radius;         ///< about the centres, m
 };
 
 /// Thickened region of a plate around a lug.

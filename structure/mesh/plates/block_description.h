@@ -37,6 +37,32 @@ struct Plate {
   std::string material;            ///< name of one of BlockDescription::materials
 };
 
+/// Edge of a plate: straight pieces from point to point, or the arc from the first of three points
+/// through the second to the third, m.
+struct PlateEdge {
+  std::vector<Vector3> points;
+  bool is_arc = false;
+};
+
+/// Plate of any orientation: a plane polygon by its corners, or the ruled surface between two edges
+/// (straight lines join points of equal share: a bilge, a twisted plate). Its thickness lies half
+/// on each side of it; it is joined to what it meets, crosses or ends on within 0.1 mm.
+struct FreePlate {
+  std::string name;
+  std::vector<Vector3> corners;    ///< in order around it, m; empty: by its edges
+  std::array<PlateEdge, 2> edges;  ///< that run the same way
+  double thickness = 0;            ///< m
+  std::string material;            ///< name of one of BlockDescription::materials
+};
+
+/// Hole through a plane free plate: a polygon, a circle (one centre), or a slot (two).
+struct FreeOpening {
+  std::string name;
+  std::string plate;
+  std::vector<Vector3> corners, centres;  ///< one of them empty, m
+  double radius = 0;                      ///< m
+};
+
 /// Hole through plates: a rectangle, whose corners may be rounded, or a polygon. It cuts the named
 /// plates only: what crosses a rectangle stays; other shapes lie between what joins or divides
 /// their plate.
@@ -92,12 +118,14 @@ struct Lug {
   Vector3 p_BPin = Vector3::Zero();
 };
 
-/// Stiffened block of flat plates, as a block file describes it.
+/// Stiffened block of plates, as a block file describes it.
 struct BlockDescription {
   std::string name;
   std::vector<Material> materials;
   std::vector<Plate> plates;
+  std::vector<FreePlate> free_plates;
   std::vector<Opening> openings;
+  std::vector<FreeOpening> free_openings;
   std::vector<Pad> pads;
   std::vector<Lug> lugs;
   std::vector<Stiffeners> stiffeners;

@@ -50,6 +50,7 @@ void check_names(const BlockDescription& block) {
     }
   };
   check("plate", block.plates);
+  check("plate", block.free_plates);
   check("pad", block.pads);
   check("lug", block.lugs);
   check("row of stiffeners", block.stiffeners);
@@ -303,7 +304,8 @@ int owner(const std::vector<Sheet>& sheets, const std::vector<int>& candidates) 
 }
 
 std::vector<Sheet> spread_into_sheets(const BlockDescription& block) {
-  if (block.plates.empty()) throw ModelError("block \"" + block.name + "\" has no plates");
+  if (block.plates.empty() && block.free_plates.empty())
+    throw ModelError("block \"" + block.name + "\" has no plates");
   check_names(block);
   for (const Material& material : block.materials) check_material(material);
   std::vector<Sheet> sheets;

@@ -15,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/plates/cell_maker.h"
+#include "structure/mesh/plates/free_plates.h"
 #include "structure/mesh/plates/sheet_grid.h"
 #include "structure/mesh/plates/sheets.h"
 
@@ -40,27 +41,43 @@ void add_groups_and_regions(const BlockDescription& block, const std::vector<She
   for (const auto& pad : block.pads) mesh.groups.push_back({pad.name, 0});
   for (const auto& lug : block.lugs) mesh.groups.push_back({lug.name, 0});
   for (const auto& row : block.stiffeners) mesh.groups.push_back({row.name, 0});
+  for (const auto& plate : block.free_plates)
+    mesh.groups.push_back({plate.name, place_of_material(block, plate.name, plate.material)});
   for (const Sheet& sheet : sheets) {
     mesh.groups[at(sheet.group)].material = sheet.material;
     mesh.regions.push_back({sheet.name, sheet.group, sheet.rank == SheetRank::lug});
   }
+  const int first_free = static_cast<int>(mesh.groups.size() - block.free_plates.size());
+  for (std::size_t i = 0; i < block.free_plates.size(); ++i)
+    mesh.regions.push_back({block.free_plates[i].name, first_free + static_cast<int>(i), false});
 }
 
-/// Place of a sheet's thickness and material among the mesh's sections.
-int section_of(const Sheet& sheet, Mesh& mesh) {
+/// Place of a thickness and material among the mesh's sections.
+int section_of(double thickness, int material, Mesh& mesh) {
   const auto known = std::find_if(
       mesh.shell_sections.begin(), mesh.shell_sections.end(), [&](const ShellSection& section) {
-        return section.thickness == sheet.thickness && section.material == sheet.material;
+        return section.thickness == thickness && section.material == material;
       });
   const auto place = static_cast<int>(known - mesh.shell_sections.begin());
-  if (known == mesh.shell_sections.end())
-    mesh.shell_sections.push_back({sheet.thickness, sheet.material, 0});
+  if (known == mesh.shell_sections.end()) mesh.shell_sections.push_back({thickness, material, 0});
   return place;
 }
 
-/// Makes the beams of the stiffeners, with a region for each row on each sheet.
-void add_beams(const BlockDescription& block, const SheetGrid& grid, CellMaker& maker, Mesh& mesh) {
-  const int first_group = static_cast<int>(mesh.groups.size() - block.stiffeners.size());
+int section_of(const Sheet& sheet, Mesh& mesh) {
+  return section_of(sheet.thickness, sheet.material, mesh);
+}
+
+struct PatternedSpan {
+  StiffenerSpan span;
+  Beam pattern;  ///< all but vertices and label
+};
+
+/// The beams of the stiffeners, with a region for each row on each sheet.
+std::vector<PatternedSpan> beams_of(const BlockDescription& block, const SheetGrid& grid,
+                                    Mesh& mesh) {
+  std::vector<PatternedSpan> beams;
+  const int first_group =
+      static_cast<int>(mesh.groups.size() - block.stiffeners.size() - block.free_plates.size());
   std::map<std::pair<int, int>, int> regions;   // (row, sheet)
   std::map<std::pair<int, int>, int> sections;  // (row, material)
   for (const StiffenerSpan& span : grid.stiffener_spans()) {
@@ -91,8 +108,9 @@ void add_beams(const BlockDescription& block, const SheetGrid& grid, CellMaker& 
     const Vector3 offset =
         (span.thickness / 2 + row.centroid[0]) * beam.axis_2 + row.centroid[1] * axis_3;
     beam.offset = {offset, offset};
-    maker.add(span, beam);
+    beams.push_back({span, beam});
   }
+  return beams;
 }
 
 /// Numbers of the parts that hang together along edges, a panel each.
@@ -206,11 +224,45 @@ void add_lifting_points(const BlockDescription& block, const SheetGrid& grid,
   }
 }
 
+Vector3 place_in(const SheetGrid& grid, const Place& planes) {
+  return {grid.planes(0)[at(planes[0])], grid.planes(1)[at(planes[1])],
+          grid.planes(2)[at(planes[2])]};
+}
+
+/// With plates of any orientation: cut and meshed together with the grid's panels.
+Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
+                               const std::vector<SheetPanel>& panels) {
+  Mesh parts;
+  add_groups_and_regions(block, grid.sheets(), parts);
+  std::vector<BeamLine> lines;
+  for (const PatternedSpan& beam : beams_of(block, grid, parts))
+    lines.push_back(
+        {place_in(grid, beam.span.lower), place_in(grid, beam.span.upper), beam.pattern});
+  Mesh mesh = mesh_with_free_plates(block, grid, panels, lines);
+  mesh.materials = std::move(parts.materials);
+  mesh.groups = std::move(parts.groups);
+  mesh.regions = std::move(parts.regions);
+  mesh.beam_sections = std::move(parts.beam_sections);
+  const auto sheets = static_cast<int>(grid.sheets().size());
+  for (Shell& shell : mesh.shells) {
+    if (shell.region < sheets) {
+      shell.section = section_of(grid.sheets()[at(shell.region)], mesh);
+      continue;
+    }
+    const FreePlate& plate = block.free_plates[at(shell.region - sheets)];
+    shell.section = section_of(plate.thickness, mesh.group_of_region(shell.region).material, mesh);
+  }
+  require_one_part(mesh);
+  add_lifting_points(block, grid, panels, mesh);
+  return mesh;
+}
+
 }  // namespace
 
 Mesh generate_shell_mesh(const BlockDescription& block) {
   const SheetGrid grid(spread_into_sheets(block));
   const std::vector<SheetPanel> panels = grid.panels();
+  if (!block.free_plates.empty()) return generate_with_free_plates(block, grid, panels);
   check_joined(grid, panels);
   Mesh mesh;
   add_groups_and_regions(block, grid.sheets(), mesh);
@@ -219,7 +271,7 @@ Mesh generate_shell_mesh(const BlockDescription& block) {
     if (panel.frame < 0) maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
   for (const HoleFrame& frame : grid.frames())
     maker.add(frame, section_of(grid.sheets()[at(frame.sheet)], mesh));
-  add_beams(block, grid, maker, mesh);
+  for (const PatternedSpan& beam : beams_of(block, grid, mesh)) maker.add(beam.span, beam.pattern);
   add_lifting_points(block, grid, panels, mesh);
   return mesh;
 }

@@ -101,6 +101,46 @@ TEST(BlockKeys, OpeningsOfAnyShape) {
   EXPECT_NEAR(hole("x: [1 m, 2 m], y: [1 m, 1.6 m], corner_radius: 0.3 m"), slot, 0.1 * slot);
 }
 
+/// A deck with a bilge and a bracket, whose keys may be replaced.
+std::string bilge_with(const std::string& bracket, const std::string& openings = "") {
+  return deck_with(
+      "}\n  bilge: {thickness: 10 mm, edges: [{arc: [[0 m, 3 m, 1 m], [0 m, 3.70710678 m, "
+      "1.29289322 m], [0 m, 4 m, 2 m]]}, {arc: [[4 m, 3 m, 1 m], [4 m, 3.70710678 m, "
+      "1.29289322 m], [4 m, 4 m, 2 m]]}]}\n  bracket: {thickness: 10 mm, " +
+          bracket,
+      openings.empty() ? "" : "openings:\n  hole: {plate: bracket, " + openings + "}\n");
+}
+
+const char* const bracket = "corners: [[2 m, 0 m, 1 m], [2 m, 2 m, 1 m], [2 m, 0 m, 3 m]]";
+
+TEST(BlockKeys, PlatesOfAnyOrientation) {
+  const auto area = [](const structure::Mesh& mesh) {
+    return structure::mass_properties(mesh).mass / (density * 0.01);
+  };
+  const double whole = 12 + 4 * std::numbers::pi / 2 + 2;
+  EXPECT_NEAR(area(mesh_of(bilge_with(bracket))), whole, 1e-3);
+  const double hole =
+      area(mesh_of(bilge_with(bracket, "centres: [[2 m, 0.6 m, 1.6 m]], radius: 200 mm")));
+  EXPECT_NEAR(hole, whole - std::numbers::pi * 0.04, 1e-3);
+}
+
+TEST(BlockKeys, SaysWhatIsWrongWithPlatesOfAnyOrientation) {
+  const auto complaints = [](const std::string& keys, const std::string& opening = "") {
+    return read(bilge_with(keys, opening)).complaints;
+  };
+  EXPECT_THAT(complaints("corners: [[2 m, 0 m, 1 m], [2 m, 2 m, 1 m], [2 m, 0 m, 3 m], "
+                         "[2.1 m, 0 m, 2 m]]"),
+              HasSubstr("the corners of plate bracket are not in one plane"));
+  EXPECT_THAT(complaints("edges: [[[0 m, 0 m, 1 m], [1 m, 0 m, 1 m]]]"), HasSubstr("block.yaml:"));
+  EXPECT_THAT(complaints(std::string(bracket) + ", edges: [[[0 m, 0 m, 1 m], [1 m, 0 m, 1 m]], "
+                                                "[[0 m, 0 m, 2 m], [1 m, 0 m, 2 m]]]"),
+              HasSubstr("has corners and also edges"));
+  EXPECT_THAT(complaints(bracket, "y: [0.2 m, 0.4 m], z: [1.2 m, 1.4 m]"),
+              HasSubstr("give its corners, or centres"));
+  EXPECT_THAT(complaints(bracket, "centres: [[2.2 m, 0.6 m, 1.6 m]], radius: 200 mm"),
+              HasSubstr("200 mm off the plane"));
+}
+
 TEST(BlockKeys, SaysWhatIsWrong) {
   const auto complaints = [](const std::string& keys, const std::string& opening = "") {
     return read(deck_with(keys, opening.empty()

@@ -88,7 +88,7 @@ TEST_F(MeshCommand, BadDecksAreRefusedWithTheirLine) {
        "the block weighs 8.6e+05 t if units are mm-t-N"},
       {"block.yaml", "mm-t-N", "m-kg-N", "box.bdf:469", "Is the deck in other units?"},
       {"block.yaml", "yield_stress: 355 MPa", "yield_stress: 355 MPa, thicknesses: {a: 3 mm}",
-       "block.yaml:3", "the deck has no group \"a\" without a thickness"}};
+       "block.yaml:3", "box.bdf has no group \"a\" without a thickness"}};
   for (const Spoiled& one : all) {
     const fs::path path = fs::path("mesh-lift") / one.file;
     const std::string before = text_of_file(path);

@@ -158,7 +158,7 @@ TEST(BlockMesh, WhatIsWrongIsSaidWithFileAndLine) {
   say("mesh: {file: box.bdf, units: mm-t-N}\n", "", "", "the deck gives no yield stress of");
   say("mesh: {file: box.bdf, units: m-kg-N, yield_stress: 355 MPa}\n", "", "",
       "Is the deck in other units?");
-  say("mesh: {file: box.step, units: m-kg-N}\n", "", "", "is no deck that is known by its ending");
+  say("mesh: {file: box.stl, units: m-kg-N}\n", "", "", "is no file that is known by its ending");
   say("mesh: {file: none.bdf, units: m-kg-N}\n", "", "", "there is no file \"none.bdf\"");
   say(mesh +
           "lugs: {L1: {pad: p, normal: z, at: 0 m, x: [0 m, 1 m], y: [0 m, 1 m], thickness: "

@@ -101,7 +101,7 @@ struct NamedSet {
   std::vector<int> vertices, shells, beams;
 };
 
-/// What a Nastran or Abaqus deck holds, in SI units, the user's numbers beside it.
+/// What a deck of Nastran or Abaqus, a mesh of Gmsh or a geometry holds, in SI units, the user's numbers beside it.
 ///
 /// Vertices and cells are in the order of the file. Materials lack a yield stress where the deck
 /// gives none (0); shells whose property is nowhere lack a section (-1) if the deck has no
@@ -118,6 +118,7 @@ struct Deck {
   std::vector<LedgerEntry> ledger;  ///< by name
   std::vector<DeckRemark> remarks;
   std::vector<std::string> groups_without_thickness;
+  std::vector<std::string> groups_without_section;  ///< of beams whose section is -1 likewise
 };
 
 struct DeckOptions {

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/declaration/format.h"
+#include "structure/mesh/files/deck/deck.h"
+#include "structure/mesh/sections.h"
+
+namespace blocklift::pipeline {
+
+struct BlockModel;
+
+/// What the plates or bars of one group of a mesh are, where its file does not say it.
+struct MeshGroupModel {
+  Located<std::string> name;
+  std::optional<double> thickness;            ///< of plates, m
+  std::optional<structure::Profile> section;  ///< of bars
+  std::optional<Vector3> towards;             ///< the section stands, a unit vector
+  Located<std::string> material;              ///< empty: the block's only one
+};
+
+/// Groups by their names, each a table, or a thickness alone.
+Format<std::vector<MeshGroupModel>> mesh_groups_format();
+
+/// Gives plates and bars without properties those of the block's file. Complains of groups that
+/// lack them, that are given and not there, and of materials that the block does not have.
+void give_properties(const BlockModel& block, structure::Deck& deck, Diagnostics& diagnostics);
+
+}  // namespace blocklift::pipeline

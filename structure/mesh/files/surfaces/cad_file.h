@@ -1,0 +1,32 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "structure/mesh/files/surfaces/fragments.h"
+
+namespace blocklift::structure {
+
+/// Is a file geometry that OpenCASCADE reads, by its ending: .step, .stp, .iges, .igs, .brep?
+bool is_cad_file(const std::string& path);
+
+/// Unit of length that a STEP or IGES file declares, m; 0: none, as in BREP files.
+double declared_length(const std::string& path);
+
+/// What a geometry has for a block.
+struct CadSurfaces {
+  double length = 1;                  ///< of the unit of the model's coordinates, m
+  std::map<int, std::string> groups;  ///< of surfaces, by tag
+  int solids_left_out = 0;
+};
+
+/// Imports a file into Gmsh's current model. Solids are removed with their faces, or refused.
+///
+/// The group of a surface is the last part of its label in the file, else its colour ("colour
+/// #ff0000"), else "surface 3".
+/// @param length of the unit that the user says the file has, m.
+/// @throws ModelError if the file declares another unit, cannot be read, or has no surfaces.
+CadSurfaces open_cad_file(const std::string& path, double length, bool leave_solids_out);
+
+}  // namespace blocklift::structure

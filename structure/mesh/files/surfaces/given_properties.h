@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "structure/mesh/mesh.h"
+#include "structure/mesh/sections.h"
+
+namespace blocklift::structure {
+
+/// Gives the shells of a group that have no section one.
+void give_thickness(Mesh& mesh, const std::string& group, double thickness, int material);
+
+/// Gives the beams of a group that have no section a profile, which stands towards a direction.
+///
+/// Its foot is on the faces of the plates along whose edges the beams lie and whose normal is
+/// within 45 degrees of that direction; else on the nodes.
+/// @throws ModelError naming a beam that runs along the direction.
+void give_profile(Mesh& mesh, const std::string& group, const Profile& profile,
+                  const Vector3& towards, int material);
+
+}  // namespace blocklift::structure

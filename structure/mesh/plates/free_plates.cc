@@ -1,0 +1,339 @@
+#include "structure/mesh/plates/free_plates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "structure/child_process.h"
+#include "structure/error.h"
+#include "structure/index.h"
+#include "structure/mesh/files/gmsh_session.h"
+#include "structure/mesh/files/surfaces/cell_collector.h"
+#include "structure/mesh/files/surfaces/deck_packet.h"
+#include "structure/mesh/files/surfaces/fragments.h"
+#include "structure/mesh/files/surfaces/surface_mesher.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+namespace occ = gmsh::model::occ;
+
+constexpr double joint_tolerance = 1e-4;  // m
+constexpr double out_of_plane = 1e-3;     // m, that is taken as plane
+constexpr double share_at_lugs = 1.0 / 3;
+constexpr double seconds_to_mesh = 1800, most_memory = 8e9;  // s, bytes
+
+/// Unit normal of a plane polygon by its area vector.
+Vector3 normal_of(const std::vector<Vector3>& corners) {
+  Vector3 area = Vector3::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    area += (corners[i] - corners[0]).cross(corners[(i + 1) % corners.size()] - corners[0]);
+  return area.normalized();
+}
+
+Vector3 centre_of_arc(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 u = b - a, v = c - a, n = u.cross(v);
+  if (n.norm() < 1e-9 * u.norm() * v.norm())
+    throw ModelError("the three points of an arc lie on one line");
+  return a + (v.squaredNorm() * n.cross(u) + u.squaredNorm() * v.cross(n)) / (2 * n.squaredNorm());
+}
+
+/// Draws points, lines and surfaces; those that lie in one place are one.
+class Drawing {
+ public:
+  int point(const Vector3& place) {
+    std::array<long, 3> key{};
+    for (int i = 0; i < 3; ++i) key[at(i)] = std::lround(place[i] / joint_tolerance);
+    const auto [known, is_new] = points_.try_emplace(key, 0);
+    if (is_new) known->second = occ::addPoint(place.x(), place.y(), place.z());
+    return known->second;
+  }
+
+  int line(const Vector3& from, const Vector3& to) {
+    const int a = point(from), b = point(to);
+    const auto [known, is_new] = lines_.try_emplace(std::minmax({a, b}), 0);
+    if (is_new) known->second = occ::addLine(a, b);
+    return known->second;
+  }
+
+  /// In two halves: each is less than half a turn.
+  void arc(const Vector3& from, const Vector3& through, const Vector3& to,
+           std::vector<int>& curves) {
+    const Vector3 centre = centre_of_arc(from, through, to);
+    const int middle = occ::addPoint(centre.x(), centre.y(), centre.z());
+    curves.push_back(occ::addCircleArc(point(from), middle, point(through)));
+    curves.push_back(occ::addCircleArc(point(through), middle, point(to)));
+  }
+
+  std::vector<int> polygon(const std::vector<Vector3>& corners) {
+    std::vector<int> curves;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      curves.push_back(line(corners[i], corners[(i + 1) % corners.size()]));
+    return curves;
+  }
+
+  /// @param loops the outer one first.
+  static int plane(const std::vector<std::vector<int>>& loops) {
+    std::vector<int> tags;
+    for (const auto& curves : loops) tags.push_back(occ::addCurveLoop(curves));
+    return occ::addPlaneSurface(tags);
+  }
+
+  int wire(const PlateEdge& edge) {
+    std::vector<int> curves;
+    if (edge.is_arc)
+      arc(edge.points[0], edge.points[1], edge.points[2], curves);
+    else
+      for (std::size_t i = 0; i + 1 < edge.points.size(); ++i)
+        curves.push_back(line(edge.points[i], edge.points[i + 1]));
+    return occ::addWire(curves);
+  }
+
+ private:
+  std::map<std::array<long, 3>, int> points_;
+  std::map<std::pair<int, int>, int> lines_;
+};
+
+class BlockDrawing {
+ public:
+  BlockDrawing(const BlockDescription& block, const SheetGrid& grid,
+               const std::vector<SheetPanel>& panels, const std::vector<BeamLine>& beams)
+      : block_(block), grid_(grid), panels_(panels), beams_(beams) {}
+
+  Mesh mesh() {
+    const GmshSession session;
+    for (const SheetPanel& panel : panels_)
+      if (panel.frame < 0) owners_[{2, draw(panel)}] = panel.owner;
+    for (const HoleFrame& frame : grid_.frames()) owners_[{2, draw(frame)}] = frame.sheet;
+    for (std::size_t i = 0; i < block_.free_plates.size(); ++i)
+      draw(block_.free_plates[i], first_free() + static_cast<int>(i));
+    // Beams have numbers of their own kind.
+    for (std::size_t b = 0; b < beams_.size(); ++b)
+      owners_[{1, drawing_.line(beams_[b].from, beams_[b].to)}] = static_cast<int>(b);
+    const EntityRegions regions = cut();
+    SurfaceSizes sizes;
+    sizes.largest = block_.largest_element;
+    sizes.at_places = share_at_lugs * sizes.largest;
+    for (const Lug& lug : block_.lugs) sizes.places.push_back(lug.p_BPin);
+    mesh_surfaces(sizes, 1);
+    Deck deck;
+    collect_cells(regions, 1, deck);
+    return std::move(deck.mesh);
+  }
+
+ private:
+  int first_free() const { return static_cast<int>(grid_.sheets().size()); }
+
+  std::string name_of_owner(int owner) const {
+    return owner < first_free() ? grid_.sheets()[at(owner)].name
+                                : block_.free_plates[at(owner - first_free())].name;
+  }
+
+  Vector3 place(const std::array<int, 3>& planes) const {
+    return {grid_.planes(0)[at(planes[0])], grid_.planes(1)[at(planes[1])],
+            grid_.planes(2)[at(planes[2])]};
+  }
+
+  int draw(const SheetPanel& panel) {
+    const std::size_t u = at((panel.normal + 1) % 3);
+    auto right = panel.lower, left = panel.upper;
+    right[u] = panel.upper[u];
+    left[u] = panel.lower[u];
+    return Drawing::plane(
+        {drawing_.polygon({place(panel.lower), place(right), place(panel.upper), place(left)})});
+  }
+
+  int draw(const HoleFrame& frame) {
+    const Sheet& sheet = grid_.sheets()[at(frame.sheet)];
+    std::vector<Vector3> around;
+    for (const auto& planes : grid_.points_around(frame)) around.push_back(place(planes));
+    const HoleOutline& outline = frame.cutout.outline;
+    const auto on_sheet = [&](int piece, double share) {
+      const Eigen::Vector2d point = outline.point(piece, share);
+      Vector3 there = Vector3::Zero();
+      there[sheet.normal] = sheet.position;
+      there[(sheet.normal + 1) % 3] = point[0];
+      there[(sheet.normal + 2) % 3] = point[1];
+      return there;
+    };
+    std::vector<int> hole;
+    for (int i = 0; i < outline.pieces(); ++i) {
+      if (outline.is_straight(i))
+        hole.push_back(drawing_.line(on_sheet(i, 0), on_sheet(i, 1)));
+      else
+        drawing_.arc(on_sheet(i, 0), on_sheet(i, 0.5), on_sheet(i, 1), hole);
+    }
+    return Drawing::plane({drawing_.polygon(around), hole});
+  }
+
+  void draw(const FreePlate& plate, int owner) {
+    try {
+      if (!plate.corners.empty()) {
+        std::vector<std::vector<int>> loops{drawing_.polygon(plate.corners)};
+        for (const FreeOpening& opening : block_.free_openings)
+          if (opening.plate == plate.name) loops.push_back(draw(opening, plate));
+        owners_[{2, Drawing::plane(loops)}] = owner;
+        return;
+      }
+      gmsh::vectorpair made;
+      const std::vector<int> wires{drawing_.wire(plate.edges[0]), drawing_.wire(plate.edges[1])};
+      occ::addThruSections(wires, made, -1, false, true);
+      for (const auto& [dimension, tag] : made)
+        if (dimension == 2) owners_[{2, tag}] = owner;
+    } catch (const std::string& error) {
+      throw ModelError(fmt::format("plate \"{}\" cannot be made: {}", plate.name, error));
+    } catch (const ModelError& error) {
+      throw ModelError(fmt::format("plate \"{}\": {}", plate.name, error.what()));
+    }
+  }
+
+  std::vector<int> draw(const FreeOpening& opening, const FreePlate& plate) {
+    if (!opening.corners.empty()) return drawing_.polygon(opening.corners);
+    const Vector3 normal = normal_of(plate.corners);
+    const Vector3& first = opening.centres.front();
+    const Vector3& last = opening.centres.back();
+    Vector3 along = last - first;
+    if (opening.centres.size() == 1) along = normal.unitOrthogonal();
+    along.normalize();
+    const Vector3 side = opening.radius * normal.cross(along), end = opening.radius * along;
+    std::vector<int> curves;
+    drawing_.arc(last - side, last + end, last + side, curves);
+    if (opening.centres.size() > 1) curves.push_back(drawing_.line(last + side, first + side));
+    drawing_.arc(first + side, first - end, first - side, curves);
+    if (opening.centres.size() > 1) curves.push_back(drawing_.line(first - side, last - side));
+    return curves;
+  }
+
+  EntityRegions cut() {
+    EntityRegions regions;
+    for (const auto& [piece, owners] : cut_at_joints(owners_, joint_tolerance)) {
+      if (piece.first == 1) {
+        regions.curves[piece.second] = owners.front();
+        continue;
+      }
+      if (owners.size() > 1)
+        throw ModelError(
+            fmt::format("plate \"{}\" lies upon {}; where a plate is thicker, divide "
+                        "it",
+                        name_of_owner(owners.back()), name_of_owner(owners.front())));
+      regions.surfaces[piece.second] = owners.front();
+    }
+    return regions;
+  }
+
+  const BlockDescription& block_;
+  const SheetGrid& grid_;
+  const std::vector<SheetPanel>& panels_;
+  const std::vector<BeamLine>& beams_;
+  Drawing drawing_;
+  std::map<Entity, int> owners_;
+};
+
+void check_free_plate(const FreePlate& plate) {
+  if (plate.corners.empty()) return;
+  const Vector3 normal = normal_of(plate.corners);
+  if (!normal.allFinite() || plate.corners.size() < 3)
+    throw ModelError(fmt::format("plate \"{}\" has no area", plate.name));
+  for (const Vector3& corner : plate.corners) {
+    const double distance = std::abs(normal.dot(corner - plate.corners[0]));
+    if (distance > out_of_plane)
+      throw ModelError(
+          fmt::format("the corners of plate \"{}\" are not in one plane: one lies {:.3g} "
+                      "mm off; a twisted plate is given by two edges",
+                      plate.name, 1000 * distance));
+  }
+}
+
+/// Turns a shell over: its normal points the other way.
+void turn_over(Shell& shell, Mesh& mesh) {
+  std::swap(shell.vertices[0], shell.vertices[1]);
+  if (shell.vertices[2] != shell.vertices[3]) std::swap(shell.vertices[2], shell.vertices[3]);
+  if (shell.curvature < 0) return;
+  Eigen::Matrix3Xd& points = mesh.curved_shells[at(shell.curvature)];
+  for (Eigen::Index row = 0; row < 3; ++row) points.col(3 * row).swap(points.col(3 * row + 2));
+}
+
+void order_normals(const SheetGrid& grid, Mesh& mesh) {
+  const auto sheets = static_cast<int>(grid.sheets().size());
+  for (Shell& shell : mesh.shells) {
+    if (shell.region >= sheets) continue;
+    const auto corner = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
+    const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    if (normal[grid.sheets()[at(shell.region)].normal] < 0) turn_over(shell, mesh);
+  }
+}
+
+/// From 1, as of blocks without free plates.
+void number(Mesh& mesh) {
+  long label = 0;
+  for (Shell& shell : mesh.shells) shell.label = ++label;
+  for (Beam& beam : mesh.beams) beam.label = ++label;
+  mesh.vertex_labels.clear();
+}
+
+}  // namespace
+
+Mesh mesh_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
+                           const std::vector<SheetPanel>& panels,
+                           const std::vector<BeamLine>& beams) {
+  for (const FreePlate& plate : block.free_plates) check_free_plate(plate);
+  try {
+    Packet packet = in_child_process(
+        [&] {
+          Packet result;
+          try {
+            Deck deck;
+            deck.mesh = BlockDrawing(block, grid, panels, beams).mesh();
+            put_surfaces(deck, result);
+          } catch (const std::string& error) {
+            throw ModelError("the block's plates cannot be meshed: " + error);
+          }
+          return result;
+        },
+        {seconds_to_mesh, most_memory});
+    Mesh mesh = take_surfaces(packet).mesh;
+    for (Beam& beam : mesh.beams) {
+      const std::array<int, 2> vertices = beam.vertices;
+      beam = beams[at(beam.region)].pattern;
+      beam.vertices = vertices;
+    }
+    order_normals(grid, mesh);
+    number(mesh);
+    return mesh;
+  } catch (const ChildDied& death) {
+    throw ModelError(
+        fmt::format("the program that cuts the block's plates at their joints {}", death.what()));
+  }
+}
+
+void require_one_part(const Mesh& mesh) {
+  const std::vector<int> part = connected_parts(mesh);
+  std::map<int, double> areas;
+  std::map<int, std::set<std::string>> names;
+  for (const Shell& shell : mesh.shells) {
+    const int of_shell = part[at(shell.vertices[0])];
+    areas[of_shell] += std::pow(longest_edge(mesh, shell), 2);
+    names[of_shell].insert(mesh.regions[at(shell.region)].name);
+  }
+  if (areas.size() < 2) return;
+  const auto largest = std::max_element(
+      areas.begin(), areas.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::set<std::string> loose;
+  for (const auto& [number, of_part] : names)
+    if (number != largest->first) loose.insert(of_part.begin(), of_part.end());
+  throw ModelError(fmt::format(
+      "not joined to the rest of the block: {}; extend them until they reach the middle plane of "
+      "another plate",
+      fmt::join(loose, ", ")));
+}
+
+}  // namespace blocklift::structure

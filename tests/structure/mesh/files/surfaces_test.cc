@@ -1,0 +1,308 @@
+// Meshes of Gmsh and CAD surfaces as plates and bars.
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/verification/models/shells/shell_models.h"
+#include "structure/index.h"
+#include "structure/mesh/files/gmsh_session.h"
+#include "structure/mesh/files/surfaces/cad_file.h"
+#include "structure/mesh/files/surfaces/given_properties.h"
+#include "structure/mesh/files/surfaces/surface_reader.h"
+#include "structure/mesh/mass_properties.h"
+#include "structure/mesh/plates/shell_generator.h"
+#include "structure/mesh/sections.h"
+
+namespace blocklift::structure {
+namespace {
+
+namespace fs = std::filesystem;
+namespace occ = gmsh::model::occ;
+using ::testing::HasSubstr;
+using testing::plain_steel;
+
+class Surfaces : public ::testing::Test {
+ protected:
+  Surfaces()
+      : folder_(fs::temp_directory_path() / ("blocklift-surfaces-" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~Surfaces() override { fs::remove_all(folder_); }
+
+  /// A file of what `draw` draws in Gmsh.
+  std::string made(const std::string& name, const std::function<void()>& draw) const {
+    const GmshSession session;
+    draw();
+    gmsh::write((folder_ / name).string());
+    return (folder_ / name).string();
+  }
+  std::string written(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+
+ private:
+  fs::path folder_;
+};
+
+SurfaceReading reading_of(const std::string& units, double size = 0) {
+  SurfaceReading reading;
+  reading.units = unit_system(units);
+  reading.sizes.largest = size;
+  return reading;
+}
+
+/// The plates of a file, all of one thickness.
+Mesh plates_of(const std::string& path, const SurfaceReading& reading, double plate_thickness) {
+  Deck deck = read_surfaces(path, reading);
+  deck.mesh.materials = {plain_steel()};
+  for (const std::string& group : deck.groups_without_thickness)
+    give_thickness(deck.mesh, group, plate_thickness, 0);
+  check_mesh(deck.mesh);
+  return deck.mesh;
+}
+
+std::string reading_error(const std::string& path, const SurfaceReading& reading) {
+  try {
+    read_surfaces(path, reading);
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void draw_plate() {
+  occ::addRectangle(0, 0, 0, 1000, 1000);
+  occ::synchronize();
+}
+
+constexpr double plate_pressure = 1e3, plate_thickness = 0.01;  // Pa, m
+
+/// Deflection of the middle of a plate of 1 m by 1 m, simply supported, under pressure.
+double middle_deflection(const Mesh& mesh) {
+  const Space space(mesh, {3, {}});
+  const auto on = [](double x) { return std::min(std::abs(x), std::abs(x - 1)) < 1e-6; };
+  std::vector<FixedUnknown> fixed;
+  testing::hold(
+      space, [&](const Vector3& p) { return on(p.x()); }, {0, 1, 2, 3, 5}, fixed);
+  testing::hold(
+      space, [&](const Vector3& p) { return on(p.y()) && !on(p.x()); }, {0, 1, 2, 4, 5}, fixed);
+  const Eigen::VectorXd load =
+      testing::area_load(space, [](const Vector3&) { return Vector3(0, 0, -plate_pressure); });
+  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+  return -testing::displacement_at(space, motion, {0.5, 0.5, 0}).z();
+}
+
+// Timoshenko and Woinowsky-Krieger (1959), table 8: w = 0.00406 q a^4 / D. Shear adds
+// 0.0737 q a^2 / (5/6 G t), a thousandth; the node nearest to the middle is within h / 2 of it,
+// where the deflection is less by no more than (pi h / 2)^2 / 4 for h = 0.1 m.
+TEST_F(Surfaces, APlateBendsAlikeByMeshGeometryAndPlates) {
+  const Material steel = plain_steel();
+  const double stiffness = steel.youngs_modulus * std::pow(plate_thickness, 3) /
+                           (12 * (1 - steel.poisson_ratio * steel.poisson_ratio));
+  const double expected = 0.004062 * plate_pressure / stiffness;
+  const std::string msh = made("plate.msh", [] {
+    draw_plate();
+    gmsh::model::mesh::setTransfiniteAutomatic();
+    gmsh::option::setNumber("Mesh.MeshSizeMax", 125);
+    gmsh::option::setNumber("Mesh.RecombineAll", 1);
+    gmsh::model::mesh::generate(2);
+    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {1}), "plate");
+  });
+  const std::string step = made("plate.step", draw_plate);
+  BlockDescription block;
+  block.materials = {steel};
+  block.plates = {{"plate", Axis::z, {0}, {{{0, 1}, {0, 1}, {0, 0}}}, plate_thickness, steel.name}};
+  block.largest_element = 0.125;
+  const double tolerance = 0.012 * expected;
+  EXPECT_NEAR(middle_deflection(plates_of(msh, reading_of("mm-t-N"), plate_thickness)), expected,
+              tolerance);
+  EXPECT_NEAR(middle_deflection(plates_of(step, reading_of("mm-t-N", 0.1), plate_thickness)),
+              expected, tolerance);
+  EXPECT_NEAR(middle_deflection(generate_shell_mesh(block)), expected, tolerance);
+}
+
+// A quarter of a cylinder: the arc's quadratic chords are off by (angle / 2)^4 / 45 or so.
+TEST_F(Surfaces, AQuarterOfACylinderWeighsWhatItWeighs) {
+  constexpr double radius = 2, length = 3;
+  const std::string file = made("bilge.brep", [] {
+    const int arc = occ::addCircle(0, 0, 0, radius, -1, 0, std::numbers::pi / 2);
+    gmsh::vectorpair out;
+    occ::extrude({{1, arc}}, 0, 0, length, out);
+    occ::synchronize();
+  });
+  const Mesh mesh = plates_of(file, reading_of("m-kg-N", 0.5), plate_thickness);
+  EXPECT_FALSE(mesh.curved_shells.empty());
+  const auto mass = mass_properties(mesh);
+  const double expected =
+      plain_steel().density * plate_thickness * length * radius * std::numbers::pi / 2;
+  EXPECT_NEAR(mass.mass, expected, 1e-5 * expected);
+  const double centre = 2 * radius / std::numbers::pi;
+  EXPECT_LT((mass.centre - Vector3(centre, centre, length / 2)).norm(), 1e-4);
+}
+
+// A web that crosses a deck and one that ends on it: what meets shares nodes.
+TEST_F(Surfaces, PlatesAreCutAtTheirJoints) {
+  const std::string file = made("joints.step", [] {
+    occ::addRectangle(0, 0, 0, 4000, 2000);
+    const auto upright = [](double x, double low, double high) {
+      const int plate = occ::addRectangle(low, 0, 0, high - low, 2000);
+      occ::rotate({{2, plate}}, 0, 0, 0, 0, 1, 0, -std::numbers::pi / 2);
+      occ::translate({{2, plate}}, x, 0, 0);
+    };
+    upright(1000, -500, 700);
+    upright(3000, 0, 800);
+    occ::synchronize();
+  });
+  SurfaceReading reading = reading_of("mm-t-N", 0.5);
+  reading.sizes.at_places = 0.1;
+  reading.sizes.places = {Vector3(3, 1, 0.8)};
+  const Mesh mesh = plates_of(file, reading, plate_thickness);
+  for (const int part : connected_parts(mesh)) EXPECT_LE(part, 0);
+  EXPECT_NEAR(mass_properties(mesh).mass,
+              plain_steel().density * plate_thickness * (8 + 2 * 1.2 + 2 * 0.8), 1e-6);
+  const auto longest_near = [&](const Vector3& place) {
+    double longest = 0;
+    for (const Shell& shell : mesh.shells)
+      if ((position(mesh, shell, {0.5, 0.5}) - place).norm() < 0.3)
+        longest = std::max(longest, longest_edge(mesh, shell));
+    return longest;
+  };
+  EXPECT_LT(longest_near({3, 1, 0.8}), 0.2);
+  EXPECT_GT(longest_near({0.5, 0.5, 0}), 0.3);
+}
+
+// An open box of five plates of three thicknesses, with the units and groups of a file.
+TEST_F(Surfaces, ABoxFromStepWeighsAsThatOfPlates) {
+  const std::string file = made("box.step", [] {
+    const auto plate = [](double x, double y, double width, double height, double turn,
+                          const Vector3& axis) {
+      const int tag = occ::addRectangle(0, 0, 0, width, height);
+      occ::rotate({{2, tag}}, 0, 0, 0, axis.x(), axis.y(), axis.z(), turn);
+      occ::translate({{2, tag}}, x, y, 0);
+    };
+    const double quarter = std::numbers::pi / 2;
+    plate(0, 0, 4000, 3000, 0, Vector3::UnitX());
+    plate(0, 0, 4000, 1500, quarter, Vector3::UnitX());
+    plate(0, 3000, 4000, 1500, quarter, Vector3::UnitX());
+    plate(0, 0, 1500, 3000, -quarter, Vector3::UnitY());
+    plate(4000, 0, 1500, 3000, -quarter, Vector3::UnitY());
+    occ::synchronize();
+  });
+  Deck deck = read_surfaces(file, reading_of("mm-t-N", 0.5));
+  deck.mesh.materials = {plain_steel()};
+  EXPECT_THAT(
+      deck.groups_without_thickness,
+      ::testing::ElementsAre("surface 1", "surface 2", "surface 3", "surface 4", "surface 5"));
+  for (const std::string& group : deck.groups_without_thickness)
+    give_thickness(deck.mesh, group,
+                   group == "surface 1" ? 0.02 : (group < "surface 4" ? 0.015 : 0.012), 0);
+  check_mesh(deck.mesh);
+  const std::string steel = plain_steel().name;
+  BlockDescription block;
+  block.materials = {plain_steel()};
+  block.plates = {{"bottom", Axis::z, {0}, {{{0, 4}, {0, 3}, {0, 0}}}, 0.02, steel},
+                  {"sides", Axis::y, {0, 3}, {{{0, 4}, {0, 0}, {0, 1.5}}}, 0.015, steel},
+                  {"ends", Axis::x, {0, 4}, {{{0, 0}, {0, 3}, {0, 1.5}}}, 0.012, steel}};
+  block.largest_element = 0.5;
+  const auto of_file = mass_properties(deck.mesh);
+  const auto of_plates = mass_properties(generate_shell_mesh(block));
+  EXPECT_NEAR(of_file.mass, of_plates.mass, 1e-9 * of_plates.mass);
+  EXPECT_LT((of_file.centre - of_plates.centre).norm(), 1e-9);
+  for (const int part : connected_parts(deck.mesh)) EXPECT_LE(part, 0);
+}
+
+// A deck whose edge in its middle is a bar of its own group, 2 m long.
+TEST_F(Surfaces, LinesOfAGroupWithASectionAreBars) {
+  for (const int order : {1, 2}) {
+    const std::string file = made("bars.msh", [order] {
+      const int left = occ::addRectangle(0, 0, 0, 1, 2), right = occ::addRectangle(1, 0, 0, 1, 2);
+      gmsh::vectorpair out;
+      std::vector<gmsh::vectorpair> of_input;
+      occ::fragment({{2, left}}, {{2, right}}, out, of_input);
+      occ::synchronize();
+      gmsh::vectorpair middle;
+      gmsh::model::getEntitiesInBoundingBox(0.9, -0.1, -0.1, 1.1, 2.1, 0.1, middle, 1);
+      gmsh::model::addPhysicalGroup(2, {1, 2}, 7);
+      gmsh::model::setPhysicalName(1, gmsh::model::addPhysicalGroup(1, {middle[0].second}), "bar");
+      gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+      gmsh::model::mesh::generate(2);
+      gmsh::model::mesh::setOrder(order);
+    });
+    SurfaceReading reading = reading_of("m-kg-N");
+    EXPECT_TRUE(read_surfaces(file, reading).mesh.beams.empty());
+    reading.given.bars = {"bar"};
+    Deck deck = read_surfaces(file, reading);
+    EXPECT_THAT(deck.groups_without_thickness, ::testing::ElementsAre("surface group 7"));
+    EXPECT_THAT(deck.groups_without_section, ::testing::ElementsAre("bar"));
+    deck.mesh.materials = {plain_steel()};
+    give_thickness(deck.mesh, "surface group 7", plate_thickness, 0);
+    const Profile bar = flat_bar(0.15, 0.012);
+    Mesh other = deck.mesh;
+    EXPECT_THROW(give_profile(other, "bar", bar, {0, 1, 0}, 0), ModelError);
+    give_profile(deck.mesh, "bar", bar, {0, 0, -1}, 0);
+    check_mesh(deck.mesh);
+    for (const Beam& beam : deck.mesh.beams)
+      EXPECT_NEAR(beam.offset[0].z(), -plate_thickness / 2 - 0.075, 1e-12);
+    EXPECT_NEAR(mass_properties(deck.mesh).mass,
+                plain_steel().density * (4 * plate_thickness + 2 * 0.15 * 0.012), 1e-6);
+    EXPECT_EQ(deck.mesh.surface_points.empty(), order == 1);
+  }
+}
+
+TEST_F(Surfaces, SaysWhatIsWrong) {
+  const std::string plate = made("plate.step", draw_plate);
+  EXPECT_THAT(reading_error(plate, reading_of("m-kg-N", 0.1)),
+              HasSubstr("the file says that its lengths are in units of 0.001 m"));
+  EXPECT_THAT(reading_error(plate, reading_of("mm-t-N", 1e-6)),
+              HasSubstr("is the size or the file's"));
+  const std::string solid = made("solid.step", [] {
+    occ::addBox(0, 0, 0, 1, 1, 1);
+    occ::synchronize();
+  });
+  EXPECT_THAT(reading_error(solid, reading_of("mm-t-N", 0.1)),
+              HasSubstr("the file has 1 solid, and"));
+  SurfaceReading without = reading_of("mm-t-N", 0.1);
+  without.leave_solids_out = true;
+  EXPECT_THAT(reading_error(solid, without), HasSubstr("there are no surfaces"));
+  std::ifstream file(plate);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string cut = written("cut.step", text.substr(0, text.size() / 2));
+  EXPECT_NE(reading_error(cut, reading_of("mm-t-N", 0.1)), "");
+  EXPECT_NE(reading_error(written("empty.brep", ""), reading_of("mm-t-N", 0.1)), "");
+  const std::string twice = made("twice.msh", [] {
+    draw_plate();
+    for (const char* name : {"deck", "plate"})
+      gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {1}), name);
+    gmsh::model::mesh::generate(2);
+  });
+  EXPECT_THAT(reading_error(twice, reading_of("mm-t-N")), HasSubstr("of which none is given"));
+  SurfaceReading chosen = reading_of("mm-t-N");
+  chosen.given.plates = {"deck"};
+  EXPECT_EQ(reading_error(twice, chosen), "");
+}
+
+TEST_F(Surfaces, UnitsThatFilesDeclare) {
+  EXPECT_EQ(declared_length(written("a.stp", "#1=(SI_UNIT($,.METRE.));")), 1);
+  EXPECT_EQ(declared_length(written("b.stp",
+                                    "CONVERSION_BASED_UNIT('INCH',#2) "
+                                    "SI_UNIT(.MILLI.,.METRE.)")),
+            0.0254);
+  const std::string global = ",,4HA,;B,6Hb.iges,1Hc,1Hd,32,308,15,308,15,,1.,6,1HM,1,0.01;";
+  EXPECT_EQ(declared_length(
+                written("c.igs", global + std::string(72 - global.size(), ' ') + "G0000001\n")),
+            1);
+}
+
+}  // namespace
+}  // namespace blocklift::structure
