@@ -1,5 +1,7 @@
 #include "pipeline/command_line/assess_command.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -47,6 +49,11 @@ std::string ratio_text(double dynamic, double at_rest) {
   return at_rest > 0 ? fmt::format("{:.3f}", dynamic / at_rest) : "-";
 }
 
+/// Three digits of the largest load, tonnes, and tenths of a tonne at least.
+int decimals_of_loads(double largest) {
+  return largest > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(largest))), 1, 6) : 1;
+}
+
 void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   const auto at_rest = dynamics::find_largest_tensions(lift.static_history);
   const auto in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
@@ -59,11 +66,14 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   };
   fmt::print("\n{:<8}{:>10}{:>10}{:>10}   {}\n", "rope", "static t", "dynamic t", "ratio",
              lift_case.compare ? "published static, dynamic t" : "");
+  double largest = 0;
+  for (const auto& rope : in_motion) largest = std::max(largest, rope.tension / newton_per_tonne);
+  const int decimals = decimals_of_loads(largest);
   for (const LiftRope& line : lift.model.ropes) {
     const auto rope = static_cast<std::size_t>(line.rope);
     const std::string& name = line.name;
-    fmt::print("{:<8}{:>10.1f}{:>10.1f}{:>10}", name, at_rest[rope].tension / newton_per_tonne,
-               in_motion[rope].tension / newton_per_tonne,
+    fmt::print("{:<8}{:>10.{}f}{:>10.{}f}{:>10}", name, at_rest[rope].tension / newton_per_tonne,
+               decimals, in_motion[rope].tension / newton_per_tonne, decimals,
                ratio_text(in_motion[rope].tension, at_rest[rope].tension));
     if (const PublishedLoads* figures = published(name);
         figures && figures->static_load && figures->dynamic_load) {
