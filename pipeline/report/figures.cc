@@ -58,7 +58,9 @@ std::string kilonewtons(const Value& newtons) {
 std::string tonnes(const Value& newtons) {
   const auto number = number_of(newtons);
   if (!number) return missing;
-  return fixed_text(*number / newton_per_tonne, std::abs(*number) < 1e8 ? 1 : 0);
+  const double size = std::abs(*number);
+  if (size < 1e5) return significant_text(*number / newton_per_tonne, 3);
+  return fixed_text(*number / newton_per_tonne, size < 1e8 ? 1 : 0);
 }
 
 std::string megapascals(const Value& pascals) { return significant(pascals, 3, 1e-6); }

@@ -39,8 +39,11 @@ export function scientific(value: unknown, decimals = 1): string {
 
 export const kilonewtons = (newtons: unknown): string =>
   known(newtons) ? significant(newtons / 1e3, Math.abs(newtons) < 1e5 ? 3 : 4 - Number(Math.abs(newtons) < 1e6)) : missing;
-export const tonnesForce = (newtons: unknown): string =>
-  known(newtons) ? fixed(newtons / 1e3 / standardGravity, Math.abs(newtons) < 1e8 ? 1 : 0) : missing;
+export function tonnesForce(newtons: unknown): string {
+  if (!known(newtons)) return missing;
+  const tonnes = newtons / 1e3 / standardGravity, size = Math.abs(newtons);
+  return size < 1e5 ? significant(tonnes, 3) : fixed(tonnes, size < 1e8 ? 1 : 0);
+}
 export const tonnes = (kilograms: unknown): string =>
   known(kilograms) ? significant(kilograms / 1e3, 4) : missing;
 export const megapascals = (pascals: unknown): string => known(pascals) ? significant(pascals / 1e6, 3) : missing;
