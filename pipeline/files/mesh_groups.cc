@@ -28,11 +28,6 @@ void check_group(const MeshGroupModel& group, Reading& reading, const Mark& mark
         reading.owner() + (group.section ? " has a section, but not towards what it stands"
                                          : " has \"towards\", but no section"),
         {"such as section: {flat_bar: [150 mm, 12 mm]}, towards: [0, 0, -1]"});
-  if (group.thickness.value_or(0) > thickest)
-    reading.error(mark,
-                  fmt::format("plates of {} are {:.4g} m thick: is the unit mistaken?",
-                              reading.owner(), *group.thickness),
-                  {"plates are up to 1 m thick; millimetres are written as 20 mm"});
 }
 
 class PropertyGiver {
@@ -80,6 +75,15 @@ class PropertyGiver {
                       group.name.value, what),
           {groups.empty() ? fmt::format("all that may have a {} have one", what)
                           : names_hint("groups without are", groups, group.name.value)});
+    if (group.thickness.value_or(0) > thickest)
+      diagnostics_.error(group.name.mark,
+                         fmt::format("plates of group {} are {:.4g} m thick: is the unit mistaken?",
+                                     group.name.value, *group.thickness),
+                         {"plates are up to 1 m thick; millimetres are written as 20 mm"});
+    check_material(group);
+  }
+
+  void check_material(const MeshGroupModel& group) {
     const std::string& material = group.material.value;
     if (material.empty() && block_.materials.size() != 1)
       diagnostics_.error(
