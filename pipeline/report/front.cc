@@ -210,7 +210,7 @@ std::string block_figures(const Json& summary) {
     const Json& still = at(way, "static");
     const Json& moving = at(way, "dynamic");
     const auto lines = [](const std::string& first, const std::string& second) {
-      return second.empty() ? first : first + "<br>" + second;
+      return second.empty() ? first : fmt::format("{}<br>{}", first, second);
     };
     std::string html = figure_html(
         std::string("Block stress increase") + of_names[i],
