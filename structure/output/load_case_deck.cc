@@ -85,8 +85,9 @@ class DeckMaker {
       if (shell.curvature < 0 && !are_all) continue;
       Eigen::Matrix3Xd points(3, 9);
       const Shell& original = given.shells[at(&shell - mesh_.shells.data())];
-      for (int i = 0; i < 9; ++i)
-        points.col(i) = position(given, original, {0.5 * (i % 3), 0.5 * (i / 3)});
+      for (int row = 0; row < 3; ++row)
+        for (int i = 0; i < 3; ++i)
+          points.col(3 * row + i) = position(given, original, {0.5 * i, 0.5 * row});
       shell.curvature = static_cast<int>(mesh_.curved_shells.size());
       mesh_.curved_shells.push_back(std::move(points));
     }
