@@ -42,6 +42,10 @@ inline Outcome run_command(const std::string& command_line) {
   return outcome;
 }
 
+/// Pattern of what a program may write to its standard error where nobody watches: lines of
+/// progress, half a minute apart, and nothing else.
+inline constexpr const char* only_progress = "([^\n\r]+ [0-9]+ %, [^\n\r]+\n)*";
+
 /// Runs a program with arguments as the shell reads them.
 inline Outcome run_program(const std::string& program, const std::string& arguments) {
   return run_command("'" + program + "' " + arguments);
