@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,7 +14,6 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
-#include "pipeline/command_line/progress_bar.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/report.h"
@@ -21,6 +22,9 @@
 #include "pipeline/results/mesh_error.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/standard_summary.h"
+#include "pipeline/terminal/progress_bar.h"
+#include "pipeline/terminal/run_log.h"
+#include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 
@@ -44,15 +48,20 @@ class ProgressLine {
   std::unique_ptr<ProgressBar> bar_;
 };
 
-/// "-" for a rope that is slack at rest.
-std::string ratio_text(double dynamic, double at_rest) {
-  return at_rest > 0 ? fmt::format("{:.3f}", dynamic / at_rest) : "-";
+/// None for a rope that is slack at rest.
+double ratio_of(double dynamic, double at_rest) {
+  return at_rest > 0 ? dynamic / at_rest : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Three digits of the largest load, tonnes, and tenths of a tonne at least.
-int decimals_of_loads(double largest) {
-  return largest > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(largest))), 1, 6) : 1;
+/// "1400 (+0.3 %)": a published load and how far ours is off.
+std::string published_text(const std::optional<double>& published, double ours) {
+  if (!published) return "-";
+  return fmt::format("{} ({:+.1f} %)", format_figure(*published / newton_per_tonne, 3),
+                     100 * (ours / *published - 1));
 }
+
+/// "+23.2".
+std::string change_text(double percent) { return fmt::format("{:+.1f}", percent); }
 
 void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   const auto at_rest = dynamics::find_largest_tensions(lift.static_history);
@@ -64,33 +73,31 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
     }
     return nullptr;
   };
-  fmt::print("\n{:<8}{:>10}{:>10}{:>10}   {}\n", "rope", "static t", "dynamic t", "ratio",
-             lift_case.compare ? "published static, dynamic t" : "");
-  double largest = 0;
-  for (const auto& rope : in_motion) largest = std::max(largest, rope.tension / newton_per_tonne);
-  const int decimals = decimals_of_loads(largest);
+  std::vector<TableColumn> columns = {{"rope"}, {"static t", 4}, {"dynamic t", 4}, {"ratio", 4}};
+  if (lift_case.compare) {
+    columns.push_back({"published static t"});
+    columns.push_back({"dynamic t"});
+  }
+  TextTable table(std::move(columns));
   for (const LiftRope& line : lift.model.ropes) {
     const auto rope = static_cast<std::size_t>(line.rope);
-    const std::string& name = line.name;
-    fmt::print("{:<8}{:>10.{}f}{:>10.{}f}{:>10}", name, at_rest[rope].tension / newton_per_tonne,
-               decimals, in_motion[rope].tension / newton_per_tonne, decimals,
-               ratio_text(in_motion[rope].tension, at_rest[rope].tension));
-    if (const PublishedLoads* figures = published(name);
-        figures && figures->static_load && figures->dynamic_load) {
-      fmt::print("   {:.0f} ({:+.1f} %), {:.0f} ({:+.1f} %)",
-                 *figures->static_load / newton_per_tonne,
-                 100 * (at_rest[rope].tension / *figures->static_load - 1),
-                 *figures->dynamic_load / newton_per_tonne,
-                 100 * (in_motion[rope].tension / *figures->dynamic_load - 1));
+    const double still = at_rest[rope].tension, moving = in_motion[rope].tension;
+    std::vector<TextTable::Cell> row = {line.name, still / newton_per_tonne,
+                                        moving / newton_per_tonne, ratio_of(moving, still)};
+    if (const PublishedLoads* figures = published(line.name)) {
+      row.emplace_back(published_text(figures->static_load, still));
+      row.emplace_back(published_text(figures->dynamic_load, moving));
     }
-    fmt::print("\n");
+    table.add_row(std::move(row));
   }
+  fmt::print("\n{}", table.text());
 }
 
 /// The load's own slow motions at the start, and what the integration cost.
 void print_motion(const LiftRun& lift) {
   if (!lift.natural_modes.empty()) {
-    fmt::print("\n{}\n", describe_natural_periods(lift.natural_modes.front()));
+    fmt::print("\n");
+    print_wrapped(describe_natural_periods(lift.natural_modes.front()));
   }
   const dynamics::IntegrationStatistics& cost = lift.dynamic_result.statistics;
   fmt::print("time integration: {} steps, {} right-hand sides, {} Jacobians\n", cost.steps,
@@ -99,80 +106,121 @@ void print_motion(const LiftRun& lift) {
 }
 
 void print_block(const BlockAssessment& block, const HistoryAssessment* history) {
-  const auto print_way = [](const char* name, const LoadComparison& way) {
-    fmt::print("{:<28}{:>8.1f}{:>8.1f} MPa ({:+.1f} %){:>8.1f}{:>8.1f} mm ({:+.1f} %)\n", name,
-               way.static_state.result.checked_von_mises.value / 1e6,
-               way.dynamic_state.result.checked_von_mises.value / 1e6,
-               way.stress_increase_percent(), 1e3 * way.static_displacement,
-               1e3 * way.dynamic_displacement, way.deformation_increase_percent());
+  TextTable table({{"block"},
+                   {"static MPa", 4},
+                   {"dyn. MPa", 4},
+                   {"%", 3},
+                   {"static mm", 4},
+                   {"dyn. mm", 4},
+                   {"%", 3}});
+  const auto add_way = [&](const char* name, const LoadComparison& way) {
+    table.add_row({name, way.static_state.result.checked_von_mises.value / 1e6,
+                   way.dynamic_state.result.checked_von_mises.value / 1e6,
+                   change_text(way.stress_increase_percent()), 1e3 * way.static_displacement,
+                   1e3 * way.dynamic_displacement,
+                   change_text(way.deformation_increase_percent())});
   };
-  fmt::print("\nblock, static and dynamic    checked von Mises            displacement\n");
   if (block.simultaneous_by_rope.empty()) {
-    print_way("loads of the table", block.simultaneous);
-    return;
+    add_way("loads of the table", block.simultaneous);
+  } else {
+    add_way("simultaneous", block.simultaneous);
+    add_way("ropes at their maxima", block.per_rope_maxima);
   }
-  print_way("simultaneous", block.simultaneous);
-  print_way("every rope at its maximum", block.per_rope_maxima);
-  if (!history) return;
-  const HistoryState &at_rest = history->static_state, &in_motion = history->dynamic_state;
-  fmt::print("{:<28}{:>8.1f}{:>8.1f} MPa ({:+.1f} %){:>8.1f}{:>8.1f} mm ({:+.1f} %)\n",
-             "the whole lift", at_rest.checked_von_mises.at.value / 1e6,
-             in_motion.checked_von_mises.at.value / 1e6, history->stress_increase_percent(),
-             1e3 * at_rest.displacement.at.value, 1e3 * in_motion.displacement.at.value,
-             history->deformation_increase_percent());
-  fmt::print(
-      "every rope at its maximum gives {:+.1f} % of the largest stress, {:+.1f} % where it is "
-      "furthest off\n",
-      history->per_rope_maxima.largest_percent, history->per_rope_maxima.worst_percent);
+  if (history && !block.simultaneous_by_rope.empty()) {
+    const HistoryState &at_rest = history->static_state, &in_motion = history->dynamic_state;
+    table.add_row({"the whole lift", at_rest.checked_von_mises.at.value / 1e6,
+                   in_motion.checked_von_mises.at.value / 1e6,
+                   change_text(history->stress_increase_percent()),
+                   1e3 * at_rest.displacement.at.value, 1e3 * in_motion.displacement.at.value,
+                   change_text(history->deformation_increase_percent())});
+  }
+  fmt::print("\nchecked von Mises stress and displacement, at rest and in motion\n{}",
+             table.text());
+  if (history && !block.simultaneous_by_rope.empty())
+    print_wrapped(fmt::format(
+        "every rope at its maximum gives {:+.1f} % of the largest stress, {:+.1f} % where it is "
+        "furthest off",
+        history->per_rope_maxima.largest_percent, history->per_rope_maxima.worst_percent));
 }
 
 void print_accuracy(const structure::CheckedAccuracy& accuracy) {
   if (accuracy.steps.size() < 2) {
-    fmt::print("checked stress of one mesh only: how far it moves with the mesh is not known\n");
+    print_wrapped("checked stress of one mesh only: how far it moves with the mesh is not known");
     return;
   }
-  fmt::print(
+  print_wrapped(fmt::format(
       "the last of {} meshes moved the checked stress by {:.1f} % and its increase by {:.1f} "
-      "points{}\n",
+      "points{}",
       accuracy.steps.size(), 100 * accuracy.stress_change(), 100 * accuracy.increase_change(),
-      accuracy.is_reached ? "" : ": the accuracy that is asked for is not reached");
+      accuracy.is_reached ? "" : ": the accuracy that is asked for is not reached"));
+}
+
+void print_padeyes(const std::vector<PadeyeAssessment>& padeyes) {
+  if (padeyes.empty()) return;
+  TextTable table({{"padeye"},
+                   {"plate MPa", 4},
+                   {"cheeks MPa", 4},
+                   {"worst use", 3},
+                   {"by the formula"},
+                   {"governing state"}});
+  for (const PadeyeAssessment& padeye : padeyes) {
+    const PadeyeState& state = padeye.governing_state();
+    const structure::PadeyeFormula& worst = padeye.worst_formula().formula;
+    table.add_row({padeye.lug, state.result.main_plate.checked_von_mises.value / 1e6,
+                   state.result.cheeks.checked_von_mises.value / 1e6, worst.utilisation, worst.name,
+                   state.name});
+  }
+  fmt::print("\n{}", table.text());
 }
 
 void print_details(const BlockRun& block) {
   print_accuracy(block.accuracy);
-  fmt::print("estimated error of the stress field {:.1f} % in the energy norm, most of it in {}\n",
-             100 * block.error.relative, block.error.worst_part);
+  print_wrapped(fmt::format(
+      "estimated error of the stress field {:.1f} % in the energy norm, most of it in {}",
+      100 * block.error.relative, block.error.worst_part));
   if (!block.buckling.panels.empty()) {
     const BuckledPanel& worst = block.buckling.panels.front();
-    fmt::print("nearest to buckling of {} panels: {:.2f} (elastic {:.2f}) in {}\n",
-               block.buckling.panels.size(), worst.worst.utilisation.critical,
-               worst.worst.utilisation.elastic, worst.panel.plate);
+    print_wrapped(fmt::format("nearest to buckling of {} panels: {:.2f} (elastic {:.2f}) in {}",
+                              block.buckling.panels.size(), worst.worst.utilisation.critical,
+                              worst.worst.utilisation.elastic, worst.panel.plate));
   }
-  for (const PadeyeAssessment& padeye : block.padeyes.padeyes) {
-    const PadeyeState& state = padeye.governing_state();
-    fmt::print(
-        "padeye {:<6}{:>8.1f} MPa in the main plate,{:>7.1f} in the cheek plates ({}); worst "
-        "formula {:.2f}, {}\n",
-        padeye.lug, state.result.main_plate.checked_von_mises.value / 1e6,
-        state.result.cheeks.checked_von_mises.value / 1e6, state.name,
-        padeye.worst_formula().formula.utilisation, padeye.worst_formula().formula.name);
-  }
+  print_padeyes(block.padeyes.padeyes);
 }
 
 void print_checks(const Assessment& assessment) {
   fmt::print("\n");
-  for (const std::string& reason : verdict_reasons(assessment.checks)) fmt::print("{}\n", reason);
+  for (const std::string& reason : verdict_reasons(assessment.checks)) print_wrapped(reason);
   const std::string indicative = why_indicative(assessment);
-  fmt::print("verdict: {}{}\n", assessment.pass() ? "pass" : "FAIL",
-             indicative.empty() ? "" : ", indicative: " + indicative);
+  const std::string verdict = fmt::format("verdict: {}{}", assessment.pass() ? "pass" : "FAIL",
+                                          indicative.empty() ? "" : ", indicative: " + indicative);
+  print_wrapped(verdict);
+  log_entry(verdict);
 }
 
 void print_decks(const std::vector<LoadCaseFile>& files, const std::filesystem::path& folder) {
+  if (is_quiet()) return;
   if (files.empty()) fmt::print("no decks: the load has no block whose stress is asked\n");
   for (const LoadCaseFile& file : files)
     fmt::print("{}\n", file.refusal.empty()
                            ? "load cases: " + (folder / file.name).string()
                            : fmt::format("{} is not written: {}", file.name, file.refusal));
+}
+
+void print_results(const Assessment& assessment) {
+  if (is_quiet()) return;
+  fmt::print("{}\n", assessment.lift_case.title);
+  if (const auto& block = assessment.lift_case.load.model; block && block->mesh)
+    fmt::print("\n{}", describe_block_mesh(*block->mesh));
+  if (assessment.lift) {
+    print_loads(*assessment.lift, assessment.lift_case);
+    print_motion(*assessment.lift);
+  }
+  if (assessment.block.model) {
+    print_block(assessment.block.assessment,
+                assessment.block.history ? &*assessment.block.history : nullptr);
+    print_details(assessment.block);
+  }
+  if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
 }
 
 }  // namespace
@@ -203,32 +251,21 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   }();
   line.finish();
 
-  fmt::print("{}\n", assessment.lift_case.title);
-  if (const auto& block = assessment.lift_case.load.model; block && block->mesh)
-    fmt::print("\n{}", describe_block_mesh(*block->mesh));
-  if (assessment.lift) {
-    print_loads(*assessment.lift, assessment.lift_case);
-    print_motion(*assessment.lift);
-  }
-  if (assessment.block.model) {
-    print_block(assessment.block.assessment,
-                assessment.block.history ? &*assessment.block.history : nullptr);
-    print_details(assessment.block);
-  }
+  print_results(assessment);
   if (assessment.lift) {
     for (const std::string& doubt : list_doubts(assessment.lift_case, *assessment.lift))
-      fmt::print("warning: {}\n", doubt);
+      say_warning(doubt);
   }
-  if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
   print_checks(assessment);
   if (decks) print_decks(files, folder);
-  fmt::print("report: {}\n", report.string());
+  if (!is_quiet()) fmt::print("report: {}\n", report.string());
   return assessment.pass() ? exit_code::done : exit_code::lift_fails;
 }
 
 int report_results(const std::string& folder) {
   try {
-    fmt::print("report: {}\n", write_report(folder).string());
+    const std::filesystem::path report = write_report(folder);
+    if (!is_quiet()) fmt::print("report: {}\n", report.string());
   } catch (const ResultsError& error) {
     fmt::print(stderr, "blocklift: error: {}\n", error.what());
     return exit_code::wrong_input;

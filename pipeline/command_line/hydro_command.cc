@@ -12,11 +12,13 @@
 
 #include "dynamics/errors.h"
 #include "pipeline/command_line/exit_code.h"
-#include "pipeline/command_line/progress_bar.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
+#include "pipeline/terminal/progress_bar.h"
+#include "pipeline/terminal/run_log.h"
+#include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -33,15 +35,17 @@ fs::path output_of(const HydroOptions& options, const HydrodynamicProblem& probl
 
 void print_panels(const HydrodynamicState& state) {
   const dynamics::Symmetry& symmetry = state.model->symmetry();
-  fmt::print(
-      "draught {:.3f} m: {} panels on the bodies, {} on the surface{}; {:.2f} GB of memory\n",
+  const std::string panels = fmt::format(
+      "draught {:.3f} m: {} panels on the bodies, {} on the surface{}; {:.2f} GB of memory",
       state.draught, state.model->body_mesh().size(), state.model->surface_mesh().size(),
       symmetry.x && symmetry.y   ? ", a quarter of all"
       : symmetry.x || symmetry.y ? ", a half of all"
                                  : "",
       state.bytes / 1e9);
+  log_entry(panels);
+  if (!is_quiet()) print_wrapped(panels);
   const std::string doubt = doubt_about_coupling(*state.model, state.settings.frequencies.back());
-  if (!doubt.empty()) fmt::print("warning: {}\n", doubt);
+  if (!doubt.empty()) say_warning(doubt);
   std::fflush(stdout);
 }
 
@@ -112,6 +116,7 @@ int compute_vessel(const HydroOptions& options) {
   if (!known || !fs::exists(page_of(output))) {
     write_file(page_of(output), hydrodynamic_page(file, problem->title, masses));
   }
+  if (is_quiet()) return exit_code::done;
   fmt::print("{}\n{}\n", problem->title, hydrodynamic_table(file, masses));
   fmt::print("{}: {}\n{}\n", known ? "already computed" : "database", output.string(),
              page_of(output).string());
@@ -138,6 +143,7 @@ int convert(const HydroOptions& options) {
   if (!options.export_format) {
     write_hydrodynamic_file(output, file);
     write_file(page_of(output), hydrodynamic_page(file, file.origin, {}));
+    if (is_quiet()) return exit_code::done;
     fmt::print("{}\ndatabase: {}\n{}\n", hydrodynamic_table(file, {}), output.string(),
                page_of(output).string());
     return exit_code::done;

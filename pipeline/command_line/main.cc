@@ -21,6 +21,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/schema.h"
 #include "pipeline/formats/hdf5_exit.h"
+#include "pipeline/terminal/run_log.h"
 #include "pipeline/version.h"
 #include "structure/process_group.h"
 
@@ -148,6 +149,23 @@ void add_verify(CLI::App& app, int& code) {
   command->callback([options, &code] { code = verify(*options); });
 }
 
+/// How much is said, of each command that runs or reads something; the log begins before the
+/// command does.
+void add_log_options(CLI::App& app, LogChoice& choice, const std::vector<std::string>& arguments) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == "schema") continue;
+    CLI::Option* quiet = command->add_flag(
+        "-q,--quiet", choice.quiet, "print nothing but warnings, errors and verdicts; no progress");
+    command
+        ->add_flag("-v,--verbose", choice.verbose,
+                   "say on standard error what is found, begun and done")
+        ->excludes(quiet);
+    command->add_option("--log", choice.file,
+                        "file to which the run's steps, times, warnings and errors are appended");
+    command->parse_complete_callback([&] { begin_log(choice, arguments); });
+  }
+}
+
 /// Pages about the command line itself, which the installation asks for; not in the help.
 void add_pages(CLI::App& app) {
   CLI::App* command = app.add_subcommand("pages", "Print the completion for bash or the man page");
@@ -200,6 +218,9 @@ int run(int argc, char** argv) {
   add_report(app, code);
   add_schema(app);
   add_verify(app, code);
+  LogChoice log;
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  add_log_options(app, log, arguments);
   add_pages(app);
   if (is_unknown_command(app, argc, argv)) return exit_code::wrong_input;
   try {
@@ -218,21 +239,33 @@ bool all_is_printed() {
   return false;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  return_freed_memory();
-  leave_no_files_to_hdf5();
-  use_all_of_the_processor(argc, argv);
+/// Runs a command; what it throws is printed, entered in the log and made an exit code.
+int run_and_report(int argc, char** argv) {
   try {
     const int code = run(argc, argv);
     if (!all_is_printed() && code == exit_code::done) return exit_code::run_failed;
     return code;
   } catch (const InputError& error) {
     std::fputs(error.what(), stderr);
+    log_error(error.what());
+    return exit_code::wrong_input;
+  } catch (const LogError& error) {
+    std::fprintf(stderr, "blocklift: error: %s\n", error.what());
     return exit_code::wrong_input;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "blocklift: error: %s\n", error.what());
+    log_error(error.what());
     return exit_code::run_failed;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return_freed_memory();
+  leave_no_files_to_hdf5();
+  use_all_of_the_processor(argc, argv);
+  const int code = run_and_report(argc, argv);
+  end_log(code);
+  return code;
 }

@@ -9,7 +9,6 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
-#include "pipeline/command_line/progress_bar.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/formats/atomic_file.h"
@@ -18,6 +17,9 @@
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
+#include "pipeline/terminal/progress_bar.h"
+#include "pipeline/terminal/run_log.h"
+#include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 
@@ -54,6 +56,7 @@ void print_statistics(const dynamics::IntegrationStatistics& statistics, double 
 }
 
 void print_files(const fs::path& folder, bool csv) {
+  if (is_quiet()) return;
   fmt::print("results: {}\n", (folder / "results.h5").string());
   if (csv) fmt::print("table: {}\n", (folder / "results.csv").string());
   fmt::print("report: {}\n", (folder / "report.html").string());
@@ -72,33 +75,58 @@ void print_rope_use(const MechanismFile& file, const MechanismRun& run) {
   }
 }
 
+void print_mechanism(const MechanismFile& file, const MechanismRun& run) {
+  if (is_quiet()) return;
+  for (const std::string& finding : run.findings) print_wrapped("loops: " + finding);
+  fmt::print("{}\n\n{}\n", file.title.empty() ? file.name : file.title,
+             extremes_table(run.time(), run.outputs));
+  print_rope_use(file, run);
+  if (!run.natural_modes.empty()) {
+    print_wrapped(describe_natural_periods(run.natural_modes.front()));
+  }
+  fmt::print("{}", straying_notice(record_radiation(run.mechanism, run.result.history)));
+  print_statistics(run.result.statistics, run.elapsed);
+}
+
 int simulate_mechanism(const SimulateOptions& options) {
   ModelLibrary library = ModelLibrary::of_installation();
   Diagnostics diagnostics;
   const auto file = read_mechanism(options.path, library, diagnostics);
   if (!file) throw InputError(diagnostics);
   const fs::path folder = result_folder(options, file->name);
-  for (const std::string& note : file->notes) fmt::print("note: {}\n", note);
+  if (!is_quiet())
+    for (const std::string& note : file->notes) print_wrapped("note: " + note);
   auto bar = std::make_unique<ProgressBar>("time integration");
   const MechanismRun run = run_mechanism(*file, [&](double fraction, double time) {
     bar->show(fraction, fmt::format("t = {:.3g} s", time));
   });
   bar.reset();
-  for (const std::string& finding : run.findings) fmt::print("loops: {}\n", finding);
   {
     const HeldSignals until_all_is_in_place;
     write_mechanism_results(*file, run, folder, options.csv);
   }
-  fmt::print("{}\n\n{}\n", file->title.empty() ? file->name : file->title,
-             extremes_table(run.time(), run.outputs));
-  print_rope_use(*file, run);
-  if (!run.natural_modes.empty()) {
-    fmt::print("{}\n", describe_natural_periods(run.natural_modes.front()));
-  }
-  fmt::print("{}", straying_notice(record_radiation(run.mechanism, run.result.history)));
-  print_statistics(run.result.statistics, run.elapsed);
+  print_mechanism(*file, run);
   print_files(folder, options.csv);
   return exit_code::done;
+}
+
+void print_lift(const LiftSimulation& simulation) {
+  if (is_quiet()) return;
+  fmt::print("{}\n\n", simulation.lift_case.title);
+  const auto at_rest = dynamics::find_largest_tensions(simulation.run.static_history);
+  const auto in_motion = dynamics::find_largest_tensions(simulation.run.dynamic_history());
+  TextTable table({{"rope"}, {"static t", 4}, {"at s", 4}, {"dynamic t", 4}, {"at s", 4}});
+  for (std::size_t i = 0; i < at_rest.size(); ++i)
+    table.add_row({simulation.run.static_history.ropes[i].name,
+                   at_rest[i].tension / newton_per_tonne, at_rest[i].time,
+                   in_motion[i].tension / newton_per_tonne, in_motion[i].time});
+  fmt::print("{}\n", table.text());
+  if (!simulation.run.natural_modes.empty()) {
+    print_wrapped(describe_natural_periods(simulation.run.natural_modes.front()));
+  }
+  fmt::print("{}", straying_notice(
+                       record_radiation(simulation.run.model, simulation.run.dynamic_history())));
+  print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
 }
 
 int simulate_lift_case(const SimulateOptions& options) {
@@ -128,24 +156,9 @@ int simulate_lift_case(const SimulateOptions& options) {
     const HeldSignals until_all_is_in_place;
     write_lift_simulation(simulation, folder, options.csv);
   }
-  fmt::print("{}\n\n", simulation.lift_case.title);
-  const auto at_rest = dynamics::find_largest_tensions(simulation.run.static_history);
-  const auto in_motion = dynamics::find_largest_tensions(simulation.run.dynamic_history());
-  fmt::print("{:<16}{:>12}{:>10}{:>12}{:>10}\n", "rope", "static t", "at s", "dynamic t", "at s");
-  for (std::size_t i = 0; i < at_rest.size(); ++i) {
-    fmt::print("{:<16}{:>12.1f}{:>10.1f}{:>12.1f}{:>10.1f}\n",
-               simulation.run.static_history.ropes[i].name, at_rest[i].tension / newton_per_tonne,
-               at_rest[i].time, in_motion[i].tension / newton_per_tonne, in_motion[i].time);
-  }
-  fmt::print("\n");
-  if (!simulation.run.natural_modes.empty()) {
-    fmt::print("{}\n", describe_natural_periods(simulation.run.natural_modes.front()));
-  }
-  fmt::print("{}", straying_notice(
-                       record_radiation(simulation.run.model, simulation.run.dynamic_history())));
   for (const std::string& doubt : list_doubts(simulation.lift_case, simulation.run))
-    fmt::print("warning: {}\n", doubt);
-  print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
+    say_warning(doubt);
+  print_lift(simulation);
   print_files(folder, options.csv);
   return exit_code::done;
 }

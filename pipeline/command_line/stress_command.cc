@@ -1,99 +1,139 @@
 #include "pipeline/command_line/stress_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/part/part_assessment.h"
+#include "pipeline/terminal/run_log.h"
+#include "pipeline/terminal/text_table.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {
 
 namespace {
 
-void print_probe(const std::string& name, const structure::PartProbe& probe) {
-  if (!probe.inside) {
-    fmt::print("{:<18}{:>9.4g}{:>9.4g}{:>9.4g}   outside\n", name, probe.point.x(), probe.point.y(),
-               probe.point.z());
-    return;
+std::string point_text(const structure::Vector3& point) {
+  // A sum with 0 makes 0 of -0.
+  return fmt::format("{:.4g}, {:.4g}, {:.4g}", point.x() + 0.0, point.y() + 0.0, point.z() + 0.0);
+}
+
+void print_probes(const std::vector<ProbeResult>& probes) {
+  if (probes.empty()) return;
+  TextTable table({{"probe"},
+                   {"at x, y, z, m"},
+                   {"u_x mm", 4},
+                   {"u_y mm", 4},
+                   {"u_z mm", 4},
+                   {"s_xx MPa", 4},
+                   {"s_yy", 4},
+                   {"s_zz", 4},
+                   {"s_xy", 4},
+                   {"s_yz", 4},
+                   {"s_zx", 4},
+                   {"v. Mises", 4}});
+  for (const ProbeResult& probe : probes) {
+    for (const structure::PartProbe& point : probe.points) {
+      std::vector<TextTable::Cell> row = {probe.name, point_text(point.point)};
+      if (!point.inside) {
+        row.emplace_back("outside");
+      } else {
+        for (int a = 0; a < 3; ++a) row.emplace_back(1e3 * point.displacement[a]);
+        for (int c = 0; c < 6; ++c) row.emplace_back(point.stress[c] / 1e6);
+        row.emplace_back(structure::von_mises(point.stress) / 1e6);
+      }
+      table.add_row(std::move(row));
+    }
   }
-  fmt::print("{:<18}{:>9.4g}{:>9.4g}{:>9.4g}", name, probe.point.x(), probe.point.y(),
-             probe.point.z());
-  for (int a = 0; a < 3; ++a) fmt::print("{:>10.4g}", 1e3 * probe.displacement[a]);
-  for (int c = 0; c < 6; ++c) fmt::print("{:>10.4g}", probe.stress[c] / 1e6);
-  fmt::print("{:>10.4g}\n", structure::von_mises(probe.stress) / 1e6);
+  fmt::print("\n{}", table.text());
+}
+
+void print_formulas(const std::vector<PadeyeFormulaAtWorst>& formulas) {
+  TextTable table({{"hand formula"}, {"demand", 1}, {"limit", 1}, {""}, {"use", 3}, {"source"}});
+  for (const PadeyeFormulaAtWorst& at_worst : formulas) {
+    const structure::PadeyeFormula& formula = at_worst.formula;
+    const std::string unit = formula.unit;
+    const double scale = unit == "Pa" ? 1e6 : unit == "N" ? 1e3 : unit == "m" ? 1e-3 : 1;
+    const char* shown = unit == "Pa" ? "MPa" : unit == "N" ? "kN" : unit == "m" ? "mm" : "";
+    table.add_row({formula.name, format_figure(formula.demand / scale),
+                   format_figure(formula.limit / scale), shown, formula.utilisation,
+                   formula.source});
+  }
+  fmt::print("{}", table.text());
 }
 
 void print_padeye(const PartPadeye& padeye) {
   const structure::Vector3& force = padeye.force_P;
   fmt::print("\npadeye under {:.6g}, {:.6g}, {:.6g} kN\n", force.x() / 1e3, force.y() / 1e3,
              force.z() / 1e3);
-  fmt::print("{:<52}{:>12}{:>12}   {:<4}{:>10}   {}\n", "hand formula", "demand", "limit", "",
-             "utilised", "source");
-  for (const PadeyeFormulaAtWorst& at_worst : padeye.formulas) {
-    const structure::PadeyeFormula& formula = at_worst.formula;
-    const std::string unit = formula.unit;
-    const double scale = unit == "Pa" ? 1e6 : unit == "N" ? 1e3 : unit == "m" ? 1e-3 : 1;
-    fmt::print("{:<52}{:>12.4g}{:>12.4g}   {:<4}{:>10.3f}   {}\n", formula.name,
-               formula.demand / scale, formula.limit / scale,
-               unit == "Pa"  ? "MPa"
-               : unit == "N" ? "kN"
-               : unit == "m" ? "mm"
-                             : "",
-               formula.utilisation, formula.source);
-  }
-  fmt::print("{:<24}{:>24}{:>24}{:>20}\n", "finite elements", "checked von Mises MPa",
-             "largest von Mises MPa", "of yield, checked");
-  const auto print_plate = [&](const char* name, const structure::PadeyePlateStress& plate) {
-    fmt::print("{:<24}{:>24.4g}{:>24.4g}{:>20.3f}\n", name, plate.checked_von_mises.value / 1e6,
-               plate.peak_von_mises.value / 1e6,
-               plate.checked_von_mises.value / padeye.input.material.yield_stress);
+  print_formulas(padeye.formulas);
+  TextTable table({{"von Mises MPa"}, {"checked", 4}, {"largest", 4}, {"checked of yield", 3}});
+  const auto add_plate = [&](const char* name, const structure::PadeyePlateStress& plate) {
+    table.add_row({name, plate.checked_von_mises.value / 1e6, plate.peak_von_mises.value / 1e6,
+                   plate.checked_von_mises.value / padeye.input.material.yield_stress});
   };
-  print_plate("main plate", padeye.stress.main_plate);
-  if (padeye.input.geometry.has_cheeks()) print_plate("cheek plates", padeye.stress.cheeks);
+  add_plate("main plate", padeye.stress.main_plate);
+  if (padeye.input.geometry.has_cheeks()) add_plate("cheek plates", padeye.stress.cheeks);
+  fmt::print("\n{}", table.text());
 }
 
 void print_refinement(const PartAssessment& assessment) {
   if (!assessment.file.accuracy && !assessment.file.checked_stress) return;
-  fmt::print("\n{:<12}{:>12}{:>12}{:>12}{:>15}{:>12}{:>12}\n", "elements", "order", "unknowns",
-             "error %", "v. Mises MPa", "+- MPa", "checked %");
+  TextTable table({{"elements", 12},
+                   {"order", 1},
+                   {"unknowns", 12},
+                   {"error %", 3},
+                   {"v. Mises MPa", 5},
+                   {"+- MPa", 3},
+                   {"checked %", 3}});
   for (const RefinementStep& step : assessment.refinement)
-    fmt::print("{:<12}{:>12}{:>12}{:>12.3g}{:>15.5g}{:>12.3g}{:>12.3g}\n", step.elements,
-               step.element_order, step.unknowns, 100 * step.estimated_error, step.von_mises / 1e6,
-               step.von_mises_error / 1e6, 100 * step.checked_error);
+    table.add_row({std::to_string(step.elements), std::to_string(step.element_order),
+                   std::to_string(step.unknowns), 100 * step.estimated_error, step.von_mises / 1e6,
+                   step.von_mises_error / 1e6, 100 * step.checked_error});
+  fmt::print("\n{}", table.text());
+}
+
+void print_groups(const structure::PartSolution& solution) {
+  TextTable table({{"group"}, {"von Mises MPa", 4}, {"displaced mm", 4}, {"at x, y, z, m"}});
+  for (const structure::PartGroupResult& group : solution.groups)
+    table.add_row(
+        {group.group, group.von_mises / 1e6, 1e3 * group.displacement, point_text(group.point)});
+  fmt::print("\n{}", table.text());
+}
+
+void print_hot_spots(const std::vector<HotSpotResult>& hot_spots) {
+  if (hot_spots.empty()) return;
+  TextTable table({{"hot spot"}, {"across MPa", 5}, {"principal MPa", 5}, {"governing MPa", 5}});
+  for (const HotSpotResult& spot : hot_spots)
+    table.add_row({spot.name, spot.stress.normal / 1e6, spot.stress.principal / 1e6,
+                   spot.stress.governing / 1e6});
+  fmt::print("\n{}", table.text());
+}
+
+/// Force, N, of loads and supports.
+void print_forces(const PartAssessment& assessment) {
+  TextTable table({{"force on the part"}, {"x N", 6}, {"y N", 6}, {"z N", 6}});
+  const auto add_force = [&](const std::string& name, const Eigen::Vector3d& force) {
+    table.add_row({name, force.x(), force.y(), force.z()});
+  };
+  add_force("loads", assessment.solution.applied.force);
+  for (std::size_t s = 0; s < assessment.model.supports.size(); ++s)
+    add_force(assessment.model.supports[s].name, assessment.solution.reactions[s].force);
+  fmt::print("\n{}", table.text());
 }
 
 void print_solution(const PartAssessment& assessment) {
   const structure::PartSolution& solution = assessment.solution;
-  fmt::print("\n{:<18}{:>14}{:>14}   {}\n", "group", "von Mises MPa", "displaced mm",
-             "at x, y, z, m");
-  for (const structure::PartGroupResult& group : solution.groups)
-    fmt::print("{:<18}{:>14.4g}{:>14.4g}   {:.4g}, {:.4g}, {:.4g}\n", group.group,
-               group.von_mises / 1e6, 1e3 * group.displacement, group.point.x(), group.point.y(),
-               group.point.z());
-  if (!assessment.probes.empty())
-    fmt::print(
-        "\n{:<18}{:>9}{:>9}{:>9}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n",
-        "probe", "x m", "y m", "z m", "u_x mm", "u_y mm", "u_z mm", "s_xx MPa", "s_yy", "s_zz",
-        "s_xy", "s_yz", "s_zx", "v. Mises");
-  for (const ProbeResult& probe : assessment.probes)
-    for (const structure::PartProbe& point : probe.points) print_probe(probe.name, point);
-  if (!assessment.hot_spots.empty())
-    fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "hot spot", "across MPa", "principal MPa",
-               "governing MPa");
-  for (const HotSpotResult& spot : assessment.hot_spots)
-    fmt::print("{:<18}{:>14.5g}{:>14.5g}{:>14.5g}\n", spot.name, spot.stress.normal / 1e6,
-               spot.stress.principal / 1e6, spot.stress.governing / 1e6);
-  fmt::print("\n{:<18}{:>14}{:>14}{:>14}\n", "force on the part", "x N", "y N", "z N");
-  const auto print_force = [](const std::string& name, const Eigen::Vector3d& force) {
-    fmt::print("{:<18}{:>14.6g}{:>14.6g}{:>14.6g}\n", name, force.x(), force.y(), force.z());
-  };
-  print_force("loads", solution.applied.force);
-  for (std::size_t s = 0; s < assessment.model.supports.size(); ++s)
-    print_force(assessment.model.supports[s].name, solution.reactions[s].force);
+  print_groups(solution);
+  print_probes(assessment.probes);
+  print_hot_spots(assessment.hot_spots);
+  print_forces(assessment);
   if (assessment.padeye) print_padeye(*assessment.padeye);
   print_refinement(assessment);
   const structure::SolverAccount& solver = solution.solver;
@@ -101,35 +141,39 @@ void print_solution(const PartAssessment& assessment) {
              solver.iterations > 0 ? fmt::format(", {} iterations", solver.iterations) : "",
              solver.processes > 1 ? fmt::format(", {} processes", solver.processes) : "",
              solver.iterations == 0 ? fmt::format(", {:.2g} GB", solver.factor_bytes / 1e9) : "");
-  fmt::print(
-      "estimated error of the stress field {:.1f} %, of the largest stress {:.4g} MPa; "
-      "balance to {:.0e}\n",
-      100 * solution.estimated_error, solution.all.von_mises_error / 1e6,
-      std::max(solution.force_residual, solution.moment_residual));
+  print_wrapped(fmt::format(
+      "estimated error of the stress field {:.1f} %, of the largest stress {} MPa; balance to "
+      "{:.0e}",
+      100 * solution.estimated_error, format_figure(solution.all.von_mises_error / 1e6),
+      std::max(solution.force_residual, solution.moment_residual)));
 }
 
 void print_modes(const structure::NaturalModes& modes) {
-  fmt::print("\n{:<18}{:>14}{:>14}\n", "natural mode", "frequency Hz", "period s");
+  TextTable table({{"natural mode"}, {"frequency Hz", 1}, {"period s", 1}, {""}});
   for (Eigen::Index m = 0; m < modes.frequencies.size(); ++m) {
     const double frequency = modes.frequencies[m];
     if (m < modes.rigid_motions)
-      fmt::print("{:<18}{:>14}{:>14}   rigid motion\n", m + 1, 0, "-");
+      table.add_row({std::to_string(m + 1), "0", "-", "rigid motion"});
     else
-      fmt::print("{:<18}{:>14.6g}{:>14.4g}\n", m + 1, frequency, 1 / frequency);
+      table.add_row(
+          {std::to_string(m + 1), format_figure(frequency, 6), format_figure(1 / frequency)});
   }
+  fmt::print("\n{}", table.text());
 }
 
 void print_references(const PartAssessment& assessment, const PartReferences& references) {
-  fmt::print("\n{:<28}{:>14}{:>14}{:>10}   {}\n", "reference", "published", "computed", "off",
-             references.source);
+  TextTable table({{"reference"}, {"published", 1}, {"computed", 1}, {"off %", 3}});
   for (const PartReference& figure : references.figures) {
     const double computed = figure_of(assessment, figure), published = figure.value.value.value;
-    fmt::print("{:<28}{:>14.6g}{:>14.6g}{:>8.2f} %\n", name_of(figure), published, computed,
-               100 * (computed / published - 1));
+    table.add_row({name_of(figure), format_figure(published, 6), format_figure(computed, 6),
+                   fmt::format("{:.2f}", 100 * (computed / published - 1))});
   }
+  fmt::print("\n{}", table.text());
+  print_wrapped("published: " + references.source);
 }
 
 void print_table(const PartAssessment& assessment) {
+  if (is_quiet()) return;
   fmt::print("{}\n", assessment.file.title.empty() ? assessment.file.name : assessment.file.title);
   fmt::print("{} solid elements, {} unknowns, {:.6g} kg\n", assessment.model.mesh.solids.size(),
              3 * assessment.model.mesh.nodes.cols(), assessment.mass.mass);
@@ -153,7 +197,7 @@ int stress_of(const StressOptions& options, structure::PartTeam* team) {
   const PartAssessment assessment = assess_part(std::move(*file), team);
   write_part_results(assessment, folder, options.calculix, team);
   print_table(assessment);
-  fmt::print("results: {}\n", folder.string());
+  if (!is_quiet()) fmt::print("results: {}\n", folder.string());
   return exit_code::done;
 }
 

@@ -24,6 +24,7 @@
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/results/mesh_page.h"
+#include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -146,7 +147,8 @@ int validate_files(const std::vector<std::string>& files,
     Diagnostics own;
     ModelLibrary library = ModelLibrary::of_installation();
     std::shared_ptr<const BlockModel> block;
-    if (const auto summary = validate(file, library, own, block))
+    const auto summary = validate(file, library, own, block);
+    if (summary && !is_quiet())
       std::cout << fmt::format("{}: valid, {}\n", shown_path(file), *summary);
     if (pictures && block) draw(*block, file, *pictures);
     for (const Diagnostic& error : own.errors()) {
@@ -157,6 +159,7 @@ int validate_files(const std::vector<std::string>& files,
     }
   }
   std::cerr << all.to_text();
+  if (all.has_errors()) log_error(all.to_text());
   return all.has_errors() ? exit_code::wrong_input : exit_code::done;
 }
 

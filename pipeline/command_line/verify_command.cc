@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/command_line/exit_code.h"
-#include "pipeline/command_line/progress_bar.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/model_library.h"
+#include "pipeline/terminal/progress_bar.h"
+#include "pipeline/terminal/run_log.h"
+#include "pipeline/terminal/text_table.h"
 #include "pipeline/verification/suite/suite.h"
 
 namespace blocklift::pipeline {
@@ -48,18 +50,17 @@ void complain(const std::string& pattern, const std::vector<VerificationCase>& s
   }
 }
 
-constexpr const char* columns = "{:<24}{:<64}{:>10} {:>18} {:>18} {:>10} {:>10}  {:<5} {}\n";
-
-void print_head() {
-  fmt::print(columns, "case", "quantity", "unit", "reference", "computed", "error", "tolerance", "",
-             "source");
-}
-
+/// A figure with what it is held against: three lines, for the texts are long.
 void print_row(const std::string& name, const VerificationRow& row) {
-  fmt::print(columns, name, row.quantity, row.unit, fmt::format("{:.12g}", row.reference),
-             fmt::format("{:.12g}", row.computed), fmt::format("{:.2e}", row.error),
-             fmt::format("{:.2e}", row.tolerance), row.pass() ? "pass" : "FAIL", row.source);
-  if (!row.note.empty()) fmt::print("    {}\n", row.note);
+  if (is_quiet() && row.pass()) return;
+  print_wrapped(fmt::format("{}  {}: {}{}", row.pass() ? "pass" : "FAIL", name, row.quantity,
+                            row.unit.empty() ? "" : ", " + row.unit));
+  fmt::print("      {:.10g}, reference {:.10g}; error {:.1e} of {:.1e} allowed\n", row.computed,
+             row.reference, row.error, row.tolerance);
+  for (const std::string& line : wrap_text(row.source, terminal_width - 6))
+    fmt::print("      {}\n", line);
+  for (const std::string& line : wrap_text(row.note, terminal_width - 6))
+    if (!line.empty()) fmt::print("      {}\n", line);
   std::fflush(stdout);
 }
 
@@ -77,7 +78,6 @@ int run_cases(const std::vector<VerificationCase>& cases, bool json) {
   const auto start = std::chrono::steady_clock::now();
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   std::size_t rows = 0, failed = 0;
-  if (!json) print_head();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const VerificationCase& entry = cases[i];
     const std::vector<VerificationRow> found = [&] {

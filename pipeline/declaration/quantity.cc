@@ -350,11 +350,14 @@ double parse_number(std::string_view text) {
 
 std::string format_quantity(double in_si, Dimension dimension) {
   if (dimension == Dimension::ratio) return fmt::format("{:.6g}", in_si);
-  if (dimension == Dimension::angle) {
-    return fmt::format("{:.6g} deg", in_si * 180.0 / 3.14159265358979323846);
-  }
-  if (dimension == Dimension::speed) return fmt::format("{:.6g} m/min", in_si * 60);
-  return fmt::format("{:.6g} {}", in_si, text_of(dimension).si_unit);
+  const DimensionText& text = text_of(dimension);
+  const std::string unit = text.example.substr(text.example.find(' ') + 1);
+  const double in_its_unit = in_si / parse_quantity("1 " + unit, dimension);
+  // "0.05 kg", not "5e-05 t": large units are for what is large.
+  const bool larger_than_si = std::abs(in_its_unit) < std::abs(in_si);
+  if (larger_than_si && std::abs(in_its_unit) < 0.1)
+    return fmt::format("{:.6g} {}", in_si, text.si_unit);
+  return fmt::format("{:.6g} {}", in_its_unit, unit);
 }
 
 }  // namespace blocklift::pipeline

@@ -120,8 +120,9 @@ std::string what_is_due(const std::vector<Dimension>& allowed);
 /// Reads a plain finite number; the whole text must be the number. @throws QuantityError.
 double parse_number(std::string_view text);
 
-/// A value in SI units as a reader of messages likes it: "12 m", "3 m/min", "45 deg"; six digits at
-/// most.
+/// A value in SI units as a writer of input would say it, in the unit of the dimension's example:
+/// "12 m", "3 m/min", "45 deg", "0.5 deg/s", "860 t", "250 kN"; what is small beside that unit in
+/// SI's. Six digits at most.
 std::string format_quantity(double in_si, Dimension dimension);
 
 /// "a length", "a length or an angle", "a length, an angle or a force".

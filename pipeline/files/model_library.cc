@@ -11,6 +11,7 @@
 
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/reading.h"
+#include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -83,6 +84,9 @@ void add_models(const fs::path& folder, const std::string& kind, std::vector<std
   }
 }
 
+/// The name without its folders.
+std::string last_part(const std::string& name) { return fs::path(name).filename().string(); }
+
 std::vector<fs::path> folders_of(const std::string& list) {
   std::vector<fs::path> folders;
   std::istringstream stream(list);
@@ -127,9 +131,29 @@ std::vector<fs::path> ModelLibrary::files_of(const std::string& group,
   return files;
 }
 
+std::string ModelLibrary::hint_of_name(const std::string& name, const std::string& kind,
+                                       const Folders& beside) const {
+  const std::vector<std::string> known = names_of_kind(kind, beside);
+  const bool without_folder = name.find('/') == std::string::npos;
+  std::vector<std::string> shown = known;
+  if (kind == "standard" && without_folder)
+    for (std::string& one : shown)
+      if (one.starts_with("standards/")) one = last_part(one);
+  const std::string hint = names_hint(fmt::format("the {} models are", kind), shown, name);
+  if (!nearest_name(name, shown).empty()) return hint;
+  // The folder may be wrong, or missing, and the name right.
+  std::vector<std::string> last_parts;
+  for (const std::string& one : known) last_parts.push_back(last_part(one));
+  const std::string near = nearest_name(last_part(name), last_parts);
+  const auto found = std::find(last_parts.begin(), last_parts.end(), near);
+  if (near.empty() || found == last_parts.end()) return hint;
+  return fmt::format("{}; did you mean \"{}\"?", hint,
+                     known[static_cast<std::size_t>(found - last_parts.begin())]);
+}
+
 fs::path ModelLibrary::find(const Located<std::string>& name, const std::string& kind,
-                            const fs::path& beside, Diagnostics& diagnostics) const {
-  std::vector<fs::path> places = {beside};
+                            const Folders& beside, Diagnostics& diagnostics) const {
+  std::vector<fs::path> places = beside;
   places.insert(places.end(), model_folders_.begin(), model_folders_.end());
   const bool is_short = kind == "standard" && name.value.find('/') == std::string::npos;
   if (is_short)
@@ -138,7 +162,9 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
     const fs::path model = place / name.value;
     for (const fs::path& file :
          {model, fs::path(model.string() + ".yaml"), model / (kind + ".yaml")}) {
-      if (is_file(file)) return file.lexically_normal();
+      if (!is_file(file)) continue;
+      log_entry(fmt::format("{} model \"{}\" is {}", kind, name.value, shown_path(file)));
+      return file.lexically_normal();
     }
   }
   std::vector<std::string> looked_in;
@@ -148,21 +174,25 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
       looked_in.push_back(shown);
     }
   }
-  std::vector<std::string> known = names_of_kind(kind, beside);
-  if (is_short)
-    for (std::string& one : known)
-      if (one.starts_with("standards/")) one = one.substr(std::string("standards/").size());
+  std::vector<std::string> hints = {hint_of_name(name.value, kind, beside),
+                                    "looked for in " + list_of_names(looked_in)};
+  for (const std::string other : {"crane", "block", "rope", "vessel", "standard"}) {
+    if (other == kind) continue;
+    const std::vector<std::string> others = names_of_kind(other, beside);
+    if (std::find(others.begin(), others.end(), name.value) != others.end())
+      hints.push_back(fmt::format("\"{}\" is a {}", name.value, other));
+  }
   diagnostics.error(name.mark, fmt::format("there is no {} model \"{}\"", kind, name.value),
-                    {names_hint(fmt::format("the {} models are", kind), known, name.value),
-                     "looked for in " + list_of_names(looked_in)});
+                    std::move(hints));
   return {};
 }
 
 std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
-                                                     const fs::path& beside) const {
+                                                     const Folders& beside) const {
   std::vector<std::string> names;
   for (const fs::path& folder : model_folders_) add_models(folder, kind, names);
-  add_models(beside.empty() ? fs::path(".") : beside, kind, names);
+  for (const fs::path& folder : beside)
+    add_models(folder.empty() ? fs::path(".") : folder, kind, names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -172,21 +202,21 @@ std::shared_ptr<const CraneModel> ModelLibrary::load_crane(const Located<std::st
                                                            const fs::path& beside,
                                                            Diagnostics& diagnostics,
                                                            const ParameterValues& parameters) {
-  const fs::path file = find(name, "crane", beside, diagnostics);
-  return file.empty() ? nullptr : read_crane(file, diagnostics, parameters);
+  const fs::path file = find(name, "crane", {beside}, diagnostics);
+  return file.empty() ? nullptr : read_crane(file, diagnostics, parameters, beside);
 }
 
 std::shared_ptr<const BlockModel> ModelLibrary::load_block(const Located<std::string>& name,
                                                            const fs::path& beside,
                                                            Diagnostics& diagnostics) {
-  const fs::path file = find(name, "block", beside, diagnostics);
+  const fs::path file = find(name, "block", {beside}, diagnostics);
   return file.empty() ? nullptr : read_block(file, diagnostics);
 }
 
 std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::string>& name,
                                                         const fs::path& beside,
                                                         Diagnostics& diagnostics) {
-  const fs::path file = find(name, "vessel", beside, diagnostics);
+  const fs::path file = find(name, "vessel", {beside}, diagnostics);
   if (file.empty()) return nullptr;
   const auto known = vessels_.find(file);
   if (known != vessels_.end()) return known->second;
@@ -194,8 +224,8 @@ std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::strin
   return vessels_[file] = vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
 }
 
-RopeModel ModelLibrary::resolve(const RopeChoice& choice, const fs::path& beside,
-                                Diagnostics& diagnostics) {
+RopeModel ModelLibrary::resolve_among(const RopeChoice& choice, const Folders& beside,
+                                      Diagnostics& diagnostics) {
   if (choice.keys) return *choice.keys;
   if (!choice.model_name || choice.model_name->value.empty()) return {};
   const fs::path file = find(*choice.model_name, "rope", beside, diagnostics);
@@ -206,7 +236,8 @@ RopeModel ModelLibrary::resolve(const RopeChoice& choice, const fs::path& beside
 
 std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
                                                            Diagnostics& diagnostics,
-                                                           const ParameterValues& parameters) {
+                                                           const ParameterValues& parameters,
+                                                           const std::optional<fs::path>& of_case) {
   std::string key = file.string();
   for (const Named<Located<Measure>>& parameter : parameters) {
     key += fmt::format("\n{} = {:a}", parameter.name.value, parameter.value.value.value);
@@ -216,9 +247,10 @@ std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
   std::shared_ptr<CraneModel> crane =
       read_model(file, "crane", crane_model_format(), diagnostics, parameters);
   if (crane) {
-    for (HoistModel& hoist : crane->hoists) {
-      hoist.rope = resolve(hoist.rope_choice, file.parent_path(), diagnostics);
-    }
+    Folders beside = {file.parent_path()};
+    if (of_case) beside.push_back(*of_case);
+    for (HoistModel& hoist : crane->hoists)
+      hoist.rope = resolve_among(hoist.rope_choice, beside, diagnostics);
   }
   return cranes_[key] = crane;
 }
@@ -243,7 +275,7 @@ std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
 std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<std::string>& name,
                                                                  const fs::path& beside,
                                                                  Diagnostics& diagnostics) {
-  const fs::path file = find(name, "standard", beside, diagnostics);
+  const fs::path file = find(name, "standard", {beside}, diagnostics);
   return file.empty() ? nullptr : read_standard(file, diagnostics);
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace blocklift::pipeline {
 /// Finds and reads model files by name.
 ///
 /// A model `cranes/goliath-600t` of the kind crane is one of the files, in this order of places and
-/// names: in the folder of the file that names it, then in each folder of models,
+/// names: in the folder of the file that names it, for a crane's rope in the folder of the case that
+/// names the crane, then in each folder of models,
 ///   cranes/goliath-600t, cranes/goliath-600t.yaml, cranes/goliath-600t/crane.yaml.
 /// A standard's name may do without its folder: nd-0027 is standards/nd-0027.
 /// Each file is read once, however often it is named; a crane once for each set of parameters.
@@ -59,19 +61,23 @@ class ModelLibrary {
                                                      Diagnostics& diagnostics);
   /// The rope that is chosen by name or by its keys. @returns an empty rope if there is none.
   RopeModel resolve(const RopeChoice& choice, const std::filesystem::path& beside,
-                    Diagnostics& diagnostics);
+                    Diagnostics& diagnostics) {
+    return resolve_among(choice, {beside}, diagnostics);
+  }
 
   /// The file of a vessel: vessel.yaml in its folder. Empty after a complaint.
   std::filesystem::path find_vessel(const Located<std::string>& name,
                                     const std::filesystem::path& beside,
                                     Diagnostics& diagnostics) const {
-    return find(name, "vessel", beside, diagnostics);
+    return find(name, "vessel", {beside}, diagnostics);
   }
 
   /// Reads a crane's file itself, with the ropes that it names.
-  std::shared_ptr<const CraneModel> read_crane(const std::filesystem::path& file,
-                                               Diagnostics& diagnostics,
-                                               const ParameterValues& parameters = {});
+  /// @param of_case the folder of the case that names the crane, if there is one.
+  std::shared_ptr<const CraneModel> read_crane(
+      const std::filesystem::path& file, Diagnostics& diagnostics,
+      const ParameterValues& parameters = {},
+      const std::optional<std::filesystem::path>& of_case = std::nullopt);
   std::shared_ptr<const BlockModel> read_block(const std::filesystem::path& file,
                                                Diagnostics& diagnostics);
   std::shared_ptr<const RopeModel> read_rope(const std::filesystem::path& file,
@@ -80,11 +86,18 @@ class ModelLibrary {
                                                      Diagnostics& diagnostics);
 
  private:
+  using Folders = std::vector<std::filesystem::path>;
+
+  RopeModel resolve_among(const RopeChoice& choice, const Folders& beside,
+                          Diagnostics& diagnostics);
   /// The file of a model; empty after a complaint.
+  /// @param beside folders that come before those of models.
   std::filesystem::path find(const Located<std::string>& name, const std::string& kind,
-                             const std::filesystem::path& beside, Diagnostics& diagnostics) const;
-  std::vector<std::string> names_of_kind(const std::string& kind,
-                                         const std::filesystem::path& beside) const;
+                             const Folders& beside, Diagnostics& diagnostics) const;
+  std::vector<std::string> names_of_kind(const std::string& kind, const Folders& beside) const;
+  /// What may have been meant by a name that no model of the kind has; empty if nothing is near.
+  std::string hint_of_name(const std::string& name, const std::string& kind,
+                           const Folders& beside) const;
 
   std::vector<std::filesystem::path> model_folders_;
   std::map<std::string, std::shared_ptr<const CraneModel>> cranes_;  ///< by file and parameters

@@ -9,6 +9,7 @@
 #include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/hydrodynamics/line_chart.h"
+#include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -40,67 +41,71 @@ std::vector<std::size_t> chosen_frequencies(const HydrodynamicDatabase& database
   return chosen;
 }
 
-std::string head(const std::string& what) {
-  std::string line = fmt::format("  {:<28}", what);
-  for (const char* const name : mode_names) line += fmt::format("{:>11}", name);
-  return line + "\n";
-}
+/// A table with a column for each motion of a body.
+class ModeTable {
+ public:
+  explicit ModeTable(const std::string& what) : table_(columns(what)) {}
 
-template <class Value>
-std::string row(const std::string& label, Eigen::Index first, const Value& value) {
-  std::string line = fmt::format("  {:<28}", label);
-  for (Eigen::Index m = first; m < first + modes_per_body; ++m) {
-    const double x = value(m);
-    line += std::isfinite(x) ? fmt::format("{:>11.4g}", x) : fmt::format("{:>11}", "-");
+  template <class Value>
+  void add(const std::string& label, Eigen::Index first, const Value& value) {
+    std::vector<TextTable::Cell> row = {label};
+    for (Eigen::Index m = first; m < first + modes_per_body; ++m) row.emplace_back(value(m));
+    table_.add_row(std::move(row));
   }
-  return line + "\n";
+  std::string text() const { return "\n" + table_.text(); }
+
+ private:
+  static std::vector<TableColumn> columns(const std::string& what) {
+    std::vector<TableColumn> columns = {{what}};
+    for (const char* const name : mode_names) columns.push_back({name, 4});
+    return columns;
+  }
+
+  TextTable table_;
+};
+
+std::string frequency_label(const HydrodynamicDatabase& database, std::size_t k) {
+  return fmt::format("{:.3f} rad/s", database.frequencies[k]);
 }
 
 /// Added mass and damping (t, t m2; t/s, t m2/s) of one body.
 std::string radiation_table(const HydrodynamicDatabase& database, Eigen::Index first) {
-  std::string text = head("added mass, t, t m2");
+  ModeTable mass("added mass, t, t m2"), damping("damping, t/s, t m2/s");
   for (const std::size_t k : chosen_frequencies(database)) {
-    text += row(fmt::format("{:.3f} rad/s", database.frequencies[k]), first,
-                [&](Eigen::Index m) { return database.added_mass[k](m, m) / 1e3; });
+    const std::string label = frequency_label(database, k);
+    mass.add(label, first, [&](Eigen::Index m) { return database.added_mass[k](m, m) / 1e3; });
+    damping.add(label, first, [&](Eigen::Index m) { return database.damping[k](m, m) / 1e3; });
   }
-  text += row("infinite", first,
-              [&](Eigen::Index m) { return database.infinite_added_mass(m, m) / 1e3; });
-  text += head("damping, t/s, t m2/s");
-  for (const std::size_t k : chosen_frequencies(database)) {
-    text += row(fmt::format("{:.3f} rad/s", database.frequencies[k]), first,
-                [&](Eigen::Index m) { return database.damping[k](m, m) / 1e3; });
-  }
-  return text;
+  mass.add("infinite", first,
+           [&](Eigen::Index m) { return database.infinite_added_mass(m, m) / 1e3; });
+  return mass.text() + damping.text();
 }
 
 /// How far the panels are from fine enough; empty where it is not known.
 std::string panel_table(const HydrodynamicDatabase& database, Eigen::Index first) {
   if (database.change_from_coarser.size() == 0) return {};
-  return head("accuracy of the panels, %") +
-         row("error at most, by coarser ones", first,
-             [&](Eigen::Index m) { return 100.0 * database.change_from_coarser[m]; });
+  ModeTable table("error of panels, %");
+  table.add("at most, by coarser ones", first,
+            [&](Eigen::Index m) { return 100.0 * database.change_from_coarser[m]; });
+  return table.text();
 }
 
 /// Excitation (kN/m, kN) and response (m/m, deg/m): the largest over all headings.
 std::string wave_table(const HydrodynamicDatabase& database,
                        const std::vector<MatrixXcd>& responses, Eigen::Index first) {
   if (database.headings.empty()) return {};
-  std::string text = head("excitation, kN/m, kN m/m");
+  ModeTable excitation("excitation, kN/m, kN m/m"), response("response, m/m, deg/m");
   for (const std::size_t k : chosen_frequencies(database)) {
     const MatrixXcd X = database.excitation(k);
-    text += row(fmt::format("{:.3f} rad/s, largest heading", database.frequencies[k]), first,
-                [&](Eigen::Index m) { return X.row(m).cwiseAbs().maxCoeff() / 1e3; });
+    excitation.add(frequency_label(database, k), first,
+                   [&](Eigen::Index m) { return X.row(m).cwiseAbs().maxCoeff() / 1e3; });
+    if (responses.empty()) continue;
+    response.add(frequency_label(database, k), first, [&](Eigen::Index m) {
+      return responses[k].row(m).cwiseAbs().maxCoeff() / (is_rotation(m) ? degree : 1.0);
+    });
   }
-  if (responses.empty()) return text;
-  text += head("response, m/m, deg/m");
-  for (const std::size_t k : chosen_frequencies(database)) {
-    text +=
-        row(fmt::format("{:.3f} rad/s, largest heading", database.frequencies[k]), first,
-            [&](Eigen::Index m) {
-              return responses[k].row(m).cwiseAbs().maxCoeff() / (is_rotation(m) ? degree : 1.0);
-            });
-  }
-  return text;
+  const std::string text = excitation.text() + (responses.empty() ? "" : response.text());
+  return "\nthe largest over all headings:" + text;
 }
 
 /// Responses of a draught; none without masses or stiffness.
@@ -204,9 +209,10 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
                           name_of_state(file, s), database.displaced_volumes[body]);
       const Eigen::Index first = Eigen::Index{modes_per_body} * b;
       if (!responses.empty()) {
-        text += head("");
-        text += row("natural period alone, s", first,
+        ModeTable periods("natural period, s");
+        periods.add("alone", first,
                     [&](Eigen::Index m) { return calc_natural_period(database, masses[s], m); });
+        text += periods.text();
       }
       text += panel_table(database, first) + radiation_table(database, first) +
               wave_table(database, responses, first);

@@ -8,6 +8,7 @@
 #include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
+#include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 MechanismRun run_mechanism(const MechanismFile& file,
@@ -73,26 +74,20 @@ std::string csv_text(const Eigen::VectorXd& time, const std::vector<OutputSeries
 }
 
 std::string extremes_table(const Eigen::VectorXd& time, const std::vector<OutputSeries>& outputs) {
-  std::size_t width = 6;
-  for (const OutputSeries& series : outputs) {
-    for (std::size_t i = 0; i < series.columns.size(); ++i) {
-      width = std::max(width, series.column_name(i).size());
-    }
-  }
-  std::string text = fmt::format("{:<{}}  {:<8}{:>14}{:>12}{:>14}{:>12}\n", "output", width, "unit",
-                                 "smallest", "at s", "largest", "at s");
+  TextTable table(
+      {{"output"}, {"unit"}, {"smallest", 1}, {"at s", 5}, {"largest", 1}, {"at s", 5}});
   for (const OutputSeries& series : outputs) {
     for (std::size_t i = 0; i < series.columns.size(); ++i) {
       const auto column = series.values.col(static_cast<Eigen::Index>(i));
       Eigen::Index low = 0, high = 0;
       const double smallest = column.minCoeff(&low);
       const double largest = column.maxCoeff(&high);
-      text +=
-          fmt::format("{:<{}}  {:<8}{:>14.6g}{:>12.6g}{:>14.6g}{:>12.6g}\n", series.column_name(i),
-                      width, series.columns[i].unit, smallest, time[low], largest, time[high]);
+      // Rows have units of their own, so that no decimals serve them all.
+      table.add_row({series.column_name(i), series.columns[i].unit, format_figure(smallest, 6),
+                     time[low], format_figure(largest, 6), time[high]});
     }
   }
-  return text;
+  return table.text();
 }
 
 }  // namespace blocklift::pipeline

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -21,6 +22,7 @@ using test::TemporaryFolder;
 using test::text_of_file;
 using test::with;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Outcome run(const std::string& arguments) {
   return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
@@ -70,6 +72,40 @@ TEST_F(AssessCommand, PutsResultsWhereItIsTold) {
   EXPECT_THAT(outcome.out, HasSubstr("report: my lifts/first/report.html\n"));
   EXPECT_TRUE(fs::exists("my lifts/first/results.h5"));
   EXPECT_FALSE(fs::exists("results"));
+}
+
+TEST_F(AssessCommand, SaysLittleOrMoreOrKeepsALog) {
+  const Outcome quiet = run("assess lift -q --log run.log");
+  EXPECT_EQ(quiet.exit_code, 0) << quiet.err;
+  EXPECT_TRUE(quiet.out.ends_with("\nverdict: pass\n")) << quiet.out;
+  EXPECT_THAT(quiet.out, Not(HasSubstr("R1")));
+  EXPECT_TRUE(quiet.err.empty()) << quiet.err;
+  const std::string log = text_of_file("run.log");
+  for (const char* entry :
+       {"crane model \"gantry\" is lift/gantry/crane.yaml\n", "time integration begins\n",
+        "verdict: pass\n", "info: exit code 0 after "})
+    EXPECT_THAT(log, HasSubstr(entry));
+
+  change("case.yaml", "rope_safety_factor: 5", "rope_safety_facto: 5");
+  const Outcome wrong = run("validate lift -v --log run.log");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("crane model \"gantry\" is lift/gantry/crane.yaml\n"));
+  EXPECT_TRUE(text_of_file("run.log").starts_with(log));
+  EXPECT_THAT(text_of_file("run.log"), HasSubstr("has no key \"rope_safety_facto\""));
+
+  EXPECT_EQ(run("assess lift -q -v").exit_code, 2);
+  const Outcome nowhere = run("assess lift --log /proc/nowhere/log");
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("the log \"/proc/nowhere/log\" cannot be written"));
+}
+
+TEST_F(AssessCommand, KeepsToEightyColumns) {
+  for (const char* const arguments : {"assess lift", "simulate lift"}) {
+    std::istringstream lines(run(arguments).out);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(line.size(), 80U) << arguments << ": " << line;
+    fs::remove_all("results");
+  }
 }
 
 TEST_F(AssessCommand, TellsALiftThatFailsByItsExitCode) {

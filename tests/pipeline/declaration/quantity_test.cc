@@ -133,6 +133,16 @@ RC_GTEST_PROP(QuantityProperty, RefusesEveryOtherDimension, ()) {
   RC_ASSERT_THROWS_AS(parse_quantity(text_of(found).example, due), QuantityError);
 }
 
+TEST(Quantity, IsWrittenInTheUnitsOfInput) {
+  EXPECT_EQ(format_quantity(0.01, Dimension::angular_speed), "0.572958 deg/s");
+  EXPECT_EQ(format_quantity(860e3, Dimension::mass), "860 t");
+  EXPECT_EQ(format_quantity(25, Dimension::mass), "25 kg");
+  EXPECT_EQ(format_quantity(9806.65, Dimension::load), "1 t");
+  EXPECT_EQ(format_quantity(355e6, Dimension::stress), "355 MPa");
+  EXPECT_EQ(format_quantity(0.05, Dimension::speed), "3 m/min");
+  EXPECT_EQ(format_quantity(0, Dimension::force), "0 kN");
+}
+
 RC_GTEST_PROP(QuantityProperty, ReadsItsOwnExamplesAndOutput, ()) {
   const int last = static_cast<int>(Dimension::mass_per_length);
   const auto dimension = static_cast<Dimension>(*rc::gen::inRange(0, last + 1));

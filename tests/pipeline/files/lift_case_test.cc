@@ -95,6 +95,22 @@ TEST(LiftCaseErrors, MissingModel) {
             "1 error\n");
 }
 
+TEST(LiftCaseErrors, MissingModelWithAnotherFolderOrKind) {
+  EXPECT_EQ(complaints_about_case("from: C1.left, to: L1, model: ropes/tackle",
+                                  "from: C1.left, to: L1, model: slings/tacle"),
+            "case.yaml:9:38: error: there is no rope model \"slings/tacle\"\n"
+            "    the rope models are ropes/tackle; did you mean \"ropes/tackle\"?\n"
+            "    looked for in .\n"
+            "1 error\n");
+  EXPECT_EQ(complaints_about_case("from: C1.left, to: L1, model: ropes/tackle",
+                                  "from: C1.left, to: L1, model: gantry"),
+            "case.yaml:9:38: error: there is no rope model \"gantry\"\n"
+            "    the rope models are ropes/tackle\n"
+            "    looked for in .\n"
+            "    \"gantry\" is a crane\n"
+            "1 error\n");
+}
+
 TEST(LiftCaseErrors, ModelOfAnotherKind) {
   SampleLift lift;
   lift.crane = test::sample_rope;
@@ -262,7 +278,7 @@ TEST(LiftCaseErrors, CraneWhosePartsDoNotFit) {
             "travel slides\n"
             "gantry/crane.yaml:22:11: error: there is no rope model \"ropes/takle\"\n"
             "    the rope models are ropes/tackle; did you mean \"ropes/tackle\"?\n"
-            "    looked for in gantry\n"
+            "    looked for in gantry, .\n"
             "4 errors\n");
 }
 

@@ -15,7 +15,8 @@ std::string progress_text(const std::string& stage, double fraction, double elap
 
 /// One line on a terminal that shows how far a stage of the run has come. It appears once the
 /// program has run for a second and is wiped when the stage ends; it is cut to the terminal's
-/// width. Where standard error is no terminal, a line is written every half minute.
+/// width. Where standard error is no terminal, a line is written every half minute. Quiet runs show
+/// nothing. The log (run_log.h) holds when each stage began and what it took.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string stage);

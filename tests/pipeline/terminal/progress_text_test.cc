@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "pipeline/command_line/progress_bar.h"
+#include "pipeline/terminal/progress_bar.h"
 
 namespace blocklift::pipeline {
 namespace {

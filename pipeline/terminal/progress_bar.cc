@@ -1,4 +1,4 @@
-#include "pipeline/command_line/progress_bar.h"
+#include "pipeline/terminal/progress_bar.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -8,6 +8,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {
 
@@ -53,23 +55,28 @@ std::string progress_text(const std::string& stage, double fraction, double elap
 }
 
 ProgressBar::ProgressBar(std::string stage)
-    : stage_(std::move(stage)), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+    : stage_(std::move(stage)), on_terminal_(isatty(STDERR_FILENO) == 1) {
+  log_entry(stage_ + " begins");
+}
 
 ProgressBar::~ProgressBar() {
   if (shown_) fmt::print(stderr, "\r\033[K");
+  log_entry(fmt::format("{} took {:.1f} s", stage_, seconds_between(begun_, Clock::now())));
 }
 
 void ProgressBar::show(double fraction, const std::string& detail) {
   const Clock::time_point now = Clock::now();
   const std::string text = progress_text(stage_, fraction, seconds_between(program_start, now),
                                          seconds_between(begun_, now), detail);
-  if (!on_terminal_) {
-    if (now - last_line < between_lines) return;
+  if (now - last_line >= between_lines) {
     last_line = now;
-    fmt::print(stderr, "{}\n", text);
-    std::fflush(stderr);
-    return;
+    log_entry(text);
+    if (!on_terminal_ && !is_quiet()) {
+      fmt::print(stderr, "{}\n", text);
+      std::fflush(stderr);
+    }
   }
+  if (!on_terminal_ || is_quiet()) return;
   if (now - program_start < silence || (shown_ && now - last_shown_ < refresh)) return;
   last_shown_ = now;
   shown_ = true;
