@@ -228,6 +228,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     assessment.checks = check_lift(the_case, *assessment.lift);
   }
   if (!block.responses) respond();
+  block.first_elastic_period = find_first_elastic_period(*block.responses);
   if (assessment.lift) {
     assess_lifted_block(the_case, *assessment.lift, progress, block);
   } else {
@@ -281,23 +282,24 @@ void require_writable(const fs::path& folder) {
 
 namespace {
 
+/// The block's and the padeyes' fields for ParaView.
+void write_pictures(const BlockRun& block, const fs::path& folder) {
+  if (!block.model) return;
+  const LoadComparison& pictured = block.assessment.simultaneous;
+  structure::write_vtu(folder / "block-static.vtu", *block.responses, pictured.static_state.load);
+  structure::write_vtu(folder / "block-dynamic.vtu", *block.responses, pictured.dynamic_state.load);
+  for (const PadeyeAssessment& padeye : block.padeyes.padeyes)
+    structure::write_part_vtu(folder / padeye_file(padeye), padeye.model->part(),
+                              padeye.model->as_part(padeye.governing_state().result));
+}
+
 fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
                          const std::vector<LoadCaseFile>& decks) {
   const Preparation preparation(folder);
   Stopwatch watch;
   const std::string run = new_run_identity();
   write_result_file(assessment, run, preparation.folder() / layout::results_file);
-  if (assessment.block.model) {
-    const LoadComparison& pictured = assessment.block.assessment.simultaneous;
-    const structure::UnitResponses& responses = *assessment.block.responses;
-    structure::write_vtu(preparation.folder() / "block-static.vtu", responses,
-                         pictured.static_state.load);
-    structure::write_vtu(preparation.folder() / "block-dynamic.vtu", responses,
-                         pictured.dynamic_state.load);
-    for (const PadeyeAssessment& padeye : assessment.block.padeyes.padeyes)
-      structure::write_part_vtu(preparation.folder() / padeye_file(padeye), padeye.model->part(),
-                                padeye.model->as_part(padeye.governing_state().result));
-  }
+  write_pictures(assessment.block, preparation.folder());
 
   nlohmann::ordered_json summary = make_summary(assessment);
   summary[layout::run] = run;

@@ -22,6 +22,7 @@ namespace blocklift::pipeline {
 struct BlockRun {
   std::unique_ptr<structure::ElasticModel> model;
   std::unique_ptr<structure::UnitResponses> responses;
+  double first_elastic_period = 0;  ///< of the free block, s; on the mesh that was begun with
   BlockAssessment assessment;
   std::optional<HistoryAssessment> history;  ///< every sample of the lift; none for a load table
   structure::CheckedAccuracy accuracy;       ///< of the checked stress

@@ -49,12 +49,6 @@ void evaluate(const structure::StressRecovery& recovery, std::vector<BlockState>
   }
 }
 
-// To about a thousandth.
-double first_elastic_period(const structure::UnitResponses& responses) {
-  return 2 * std::numbers::pi /
-         structure::find_free_modes(responses, 1, 0.03).angular_frequencies[0];
-}
-
 LoadComparison compare(BlockState static_state, BlockState dynamic_state) {
   LoadComparison comparison;
   comparison.static_displacement = static_state.result.displacement.value;
@@ -95,6 +89,12 @@ double LoadComparison::deformation_increase_percent() const {
   return percent_above(dynamic_displacement, static_displacement);
 }
 
+double find_first_elastic_period(const structure::UnitResponses& responses) {
+  constexpr double residual = 0.1;  // its square is the error
+  return 2 * std::numbers::pi /
+         structure::find_free_modes(responses, 1, residual).angular_frequencies[0];
+}
+
 BlockAssessment assess_block(const structure::UnitResponses& responses,
                              const structure::StressRecovery& recovery,
                              const BlockAttachment& attachment, const BlockHistory& static_history,
@@ -131,7 +131,6 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
     assessment.simultaneous_by_rope.push_back(
         compare(std::move(states[i]), std::move(states[i + 1])));
   assessment.simultaneous = largest_of(assessment.simultaneous_by_rope);
-  assessment.first_elastic_period = first_elastic_period(responses);
   assessment.evaluation_s = watch.lap();
   return assessment;
 }
@@ -152,7 +151,6 @@ BlockAssessment assess_load_table(const structure::UnitResponses& responses,
   BlockAssessment assessment;
   assessment.per_rope_maxima = compare(std::move(states[0]), std::move(states[1]));
   assessment.simultaneous = assessment.per_rope_maxima;
-  assessment.first_elastic_period = first_elastic_period(responses);
   assessment.evaluation_s = watch.lap();
   return assessment;
 }

@@ -47,7 +47,6 @@ struct BlockAssessment {
   LoadComparison per_rope_maxima;  ///< every rope at its own largest load, all at once
   std::vector<LoadComparison> simultaneous_by_rope;  ///< the instant of each rope's largest load
   LoadComparison simultaneous;                       ///< the larger over the instants of all ropes
-  double first_elastic_period = 0;                   ///< of the free block, s
   double evaluation_s = 0;                           ///< wall-clock time
 };
 
@@ -55,6 +54,10 @@ struct BlockAssessment {
 inline constexpr double largest_balance_residual = 1e-8;
 /// Largest reaction of the 3-2-1 support, over the block's weight.
 inline constexpr double largest_reaction = 1e-6;
+
+/// Of the free block, s: to about a hundredth, for it tells fast loads from slow ones. A period
+/// belongs to the whole block and is nearly that of finer meshes.
+double find_first_elastic_period(const structure::UnitResponses& responses);
 
 /// Evaluates the load cases of a lift.
 /// @throws std::runtime_error if a load case is not in balance to largest_balance_residual or a

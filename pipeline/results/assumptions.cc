@@ -155,7 +155,7 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
       "Inertia relief: the first elastic period of the free block is about {:.2f} s; loads that "
       "rise within a few of these periods shake the block itself, which is not part of the "
       "figures.",
-      assessment.block.assessment.first_elastic_period));
+      assessment.block.first_elastic_period));
   list.push_back(fmt::format(
       "Of {:.1f} t, {:.1f} t are steel of the model; the remaining {:.1f} t of outfitting are "
       "spread over the plates with a density linear in place (factor {:.2f} to {:.2f} of the "

@@ -286,7 +286,7 @@ Json structure_json(const Assessment& assessment) {
             {"mesh_size_m", assessment.lift_case.structure.largest_element},
             {"material", material.name},
             {"yield_Pa", material.yield_stress},
-            {"first_elastic_period_s", block.first_elastic_period},
+            {"first_elastic_period_s", assessment.block.first_elastic_period},
             {"per_rope_maxima", way_json(block.per_rope_maxima)},
             {"simultaneous", way_json(block.simultaneous)},
             {"simultaneous_by_rope", by_rope},

@@ -1,11 +1,13 @@
 #include "pipeline/lift/block_assessment.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "pipeline/checks/lift_checks.h"
+#include "structure/response/flexibility.h"
 #include "tests/pipeline/small_lift.h"
 
 namespace blocklift::pipeline {
@@ -69,7 +71,12 @@ TEST_F(SmallLiftBlock, HeadlineIsTheLargerOverAllRopes) {
               100 * (in_motion_stress / at_rest_stress - 1), 1e-9);
   EXPECT_NEAR(block.simultaneous.deformation_increase_percent(),
               100 * (in_motion_shift / at_rest_shift - 1), 1e-9);
-  EXPECT_GT(block.first_elastic_period, 0);
+}
+
+TEST_F(SmallLiftBlock, FirstPeriodIsThatOfTheModesToAHundredth) {
+  const double exact =
+      2 * std::numbers::pi / structure::find_free_modes(*responses_, 1).angular_frequencies[0];
+  EXPECT_NEAR(find_first_elastic_period(*responses_), exact, 0.01 * exact);
 }
 
 TEST_F(SmallLiftBlock, AMotionThatDoesNotBelongToTheForcesIsRefused) {
