@@ -16,6 +16,7 @@
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/report/lift_frames.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/load_case_decks.h"
@@ -262,10 +263,14 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   return assessment.pass() ? exit_code::done : exit_code::lift_fails;
 }
 
-int report_results(const std::string& folder) {
+int report_results(const std::string& folder, const std::optional<int>& frames) {
   try {
     const std::filesystem::path report = write_report(folder);
     if (!is_quiet()) fmt::print("report: {}\n", report.string());
+    if (frames) {
+      const std::filesystem::path lift = write_lift_frames(folder, *frames);
+      if (!is_quiet()) fmt::print("ParaView: {}\n", lift.string());
+    }
   } catch (const ResultsError& error) {
     fmt::print(stderr, "blocklift: error: {}\n", error.what());
     return exit_code::wrong_input;

@@ -13,7 +13,8 @@ namespace blocklift::pipeline {
 int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks);
 
 /// `blocklift report FOLDER`: makes report.html again from the results in a folder.
+/// @param frames so many instants for ParaView, too.
 /// @returns the exit code: 2 if there are no results that can be read.
-int report_results(const std::string& folder);
+int report_results(const std::string& folder, const std::optional<int>& frames);
 
 }  // namespace blocklift::pipeline

@@ -95,7 +95,18 @@ void add_report(CLI::App& app, int& code) {
       app.add_subcommand("report", "Make report.html again from the results in a folder");
   auto folder = std::make_shared<std::string>();
   command->add_option("RESULT", *folder, "folder with results.h5 and summary.json")->required();
-  command->callback([folder, &code] { code = report_results(*folder); });
+  auto paraview = std::make_shared<bool>(false);
+  auto frames = std::make_shared<int>(60);
+  CLI::Option* with_frames =
+      command->add_flag("--paraview", *paraview,
+                        "write lift.pvd as well: cranes, ropes and block in time, for ParaView");
+  command->add_option("--frames", *frames, "how many instants, evenly spread")
+      ->needs(with_frames)
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  command->callback([=, &code] {
+    code = report_results(*folder, *paraview ? std::optional<int>(*frames) : std::nullopt);
+  });
 }
 
 void add_simulate(CLI::App& app, int& code) {

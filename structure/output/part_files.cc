@@ -1,6 +1,5 @@
 #include "structure/output/part_files.h"
 
-#include <bit>
 #include <cctype>
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/output/vtk_array.h"
+#include "structure/output/vtk_grid.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
@@ -58,12 +58,6 @@ std::string name_of(std::string text) {
   for (char& c : text)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return text;
-}
-
-void open_vtk_file(std::ofstream& file, const char* type) {
-  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\""
-       << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-       << "\" header_type=\"UInt64\">\n";
 }
 
 /// The solids of a part on points of which each is at a node.
@@ -116,7 +110,7 @@ void write_grid(std::ofstream& file, const PartModel& model, const Grid& grid) {
   for (const int element : model.mesh.solids) types.push_back(vtk_type(model.mesh.kind(element)));
   for (const Material& one : model.materials) materials.push_back(one.name);
   const Eigen::Map<const Eigen::VectorXd> places(model.mesh.nodes.data(), model.mesh.nodes.size());
-  open_vtk_file(file, "UnstructuredGrid");
+  file << vtk_head("UnstructuredGrid");
   file << "<UnstructuredGrid>\n<FieldData>\n";
   write_names(file, "material_names", materials);
   file << "</FieldData>\n<Piece NumberOfPoints=\"" << grid.node.size() << "\" NumberOfCells=\""
@@ -179,7 +173,7 @@ void write_part_modes_vtu(const std::string& path, const PartModel& model,
 
 void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
   std::ofstream file(path);
-  open_vtk_file(file, "PUnstructuredGrid");
+  file << vtk_head("PUnstructuredGrid");
   file << "<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n"
           "<PDataArray type=\"Float32\" NumberOfComponents=\"3\"/>\n</PPoints>\n"
           "<PPointData Scalars=\"von_mises\" Vectors=\"displacement\">\n"

@@ -1,7 +1,6 @@
 #include "structure/output/vtu.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include "structure/index.h"
 #include "structure/output/divided_cell.h"
 #include "structure/output/vtk_array.h"
+#include "structure/output/vtk_grid.h"
 #include "structure/response/beam_stress.h"
 #include "structure/response/shell_stress.h"
 
@@ -160,10 +160,7 @@ void write_vtu(const std::string& path, const UnitResponses& responses, const Lo
   const Eigen::VectorXd motion = responses.without_rigid_motion(responses.displacement(load_case));
   const Content content = Collector(responses.model().space(), motion).collect();
   std::ofstream file(path, std::ios::binary);
-  file
-      << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""
-      << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
-      << "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
+  file << vtk_head("UnstructuredGrid") << "<UnstructuredGrid>\n<FieldData>\n";
   write_names(file, "load_case", {load_case.name});
   write_names(file, "group_names", names_of(mesh.groups));
   write_names(file, "material_names", names_of(mesh.materials));

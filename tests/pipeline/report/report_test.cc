@@ -18,6 +18,7 @@
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/decimation.h"
+#include "pipeline/report/lift_frames.h"
 #include "pipeline/report/page_data.h"
 #include "tests/pipeline/report/sample_result.h"
 
@@ -99,9 +100,8 @@ class Report : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-/// Numbers of a packed array of 32-bit floats.
-std::vector<float> floats_of(const json& packed) {
-  const std::string text = packed["data"].get<std::string>();
+/// Bytes of a text in base64.
+std::string decoded(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
   unsigned bits = 0;
@@ -114,9 +114,26 @@ std::vector<float> floats_of(const json& packed) {
     bits -= 8;
     bytes += static_cast<char>(group >> bits & 255U);
   }
+  return bytes;
+}
+
+std::vector<float> floats_in(const std::string& bytes) {
   std::vector<float> numbers(bytes.size() / sizeof(float));
   std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
   return numbers;
+}
+
+/// Numbers of a packed array of 32-bit floats.
+std::vector<float> floats_of(const json& packed) {
+  return floats_in(decoded(packed["data"].get<std::string>()));
+}
+
+/// The numbers of an array of a file of VTK, behind the count of their bytes.
+std::vector<float> vtk_floats(const std::filesystem::path& file, const std::string& name) {
+  const std::string text = read_file(file);
+  const std::size_t array = text.find("Name=\"" + name + "\"");
+  const std::size_t begin = text.find('>', array) + 1;
+  return floats_in(decoded(text.substr(begin, text.find('<', begin) - begin)).substr(8));
 }
 
 TEST_F(Report, HoldsTheWholeResultInOneFile) {
@@ -149,6 +166,35 @@ TEST_F(Report, ThinsHistoriesButKeepsTheLargestValueAndItsTime) {
       static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
   EXPECT_FLOAT_EQ(values[top], 987654.0F);
   EXPECT_NEAR(time[top], 43.21, 1e-4);
+}
+
+TEST_F(Report, WritesTheLiftInTimeForParaView) {
+  write_sample_result(folder_);
+  EXPECT_EQ(write_lift_frames(folder_, 3), folder_ / "lift.pvd");
+  const std::string collection = read_file(folder_ / "lift.pvd");
+  EXPECT_THAT(collection, AllOf(HasSubstr("timestep=\"50\""), HasSubstr("block-0002.vtu")));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "lift-frames"), {}), 6);
+  // The sample's block rises by 0.05 m/s from 3 m; its rope R1 ends at (0, 2, 2) in it.
+  const auto cranes = vtk_floats(folder_ / "lift-frames/cranes-0001.vtu", "points");
+  ASSERT_EQ(cranes.size(), 3U * (8 + 2 + 2));
+  EXPECT_THAT(std::vector(cranes.begin(), cranes.begin() + 3), ElementsAre(-5.0F, 1.0F, 29.0F));
+  EXPECT_THAT(std::vector(cranes.begin() + 27, cranes.begin() + 30), ElementsAre(0.0F, 2.0F, 7.5F));
+  const auto tension = vtk_floats(folder_ / "lift-frames/cranes-0000.vtu", "tension");
+  EXPECT_THAT(tension, ElementsAre(0.0F, 5e5F, 5e5F));
+  const auto block = vtk_floats(folder_ / "lift-frames/block-0002.vtu", "points");
+  const ResultsReader results(folder_ / layout::results_file);
+  const Array<double> points = results.read(layout::surface_points);
+  ASSERT_EQ(block.size(), points.values.size());
+  EXPECT_FLOAT_EQ(block[2], static_cast<float>(points(0, 2) + 8.0));
+
+  write_lift_frames(folder_, 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "lift-frames"), {}), 4);
+}
+
+TEST_F(Report, HasNoFramesOfWhatDoesNotMove) {
+  write_sample_result(folder_, {.motion = false});
+  EXPECT_THROW(write_lift_frames(folder_, 3), ResultsError);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "lift.pvd"));
 }
 
 TEST_F(Report, TakesTheOutputsOfAMechanismByColumns) {
