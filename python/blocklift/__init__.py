@@ -1,0 +1,32 @@
+"""Heavy lifts from Python: read, change and run cases, and have the results as arrays.
+
+    import blocklift
+
+    case = blocklift.Case("cases/goliath-turnover")
+    case.set("wind.speed", "12 m/s")
+    result = case.assess()
+    print(result.verdict, result.stress_increase)
+    tension = result.history("dynamic").tension.sel(rope="R3")
+
+The package runs the program `blocklift` in a process of its own (see :func:`executable`) and reads
+the files that it writes. All numbers are in SI units; arrays carry theirs in the attribute `units`.
+"""
+
+from .case import Case
+from .errors import Complaint, InputError, RunError
+from .hydrodynamics import Hydrodynamics, hydro
+from .program import executable, schema, version
+from .results import Result
+
+__all__ = [
+    "Case",
+    "Complaint",
+    "Hydrodynamics",
+    "InputError",
+    "Result",
+    "RunError",
+    "executable",
+    "hydro",
+    "schema",
+    "version",
+]

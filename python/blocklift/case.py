@@ -1,0 +1,177 @@
+"""Lift cases and mechanisms: read, changed, checked and run."""
+
+from __future__ import annotations
+
+import contextlib
+import difflib
+import os
+import re
+import shutil
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from ruamel.yaml import YAML
+
+from .errors import Complaint, InputError
+from .program import run
+from .results import Result
+
+_yaml = YAML()
+_yaml.preserve_quotes = True
+_yaml.width = 4096
+_INDEX = re.compile(r"\[(\d+)\]")
+
+
+class Case:
+    """A case, or a mechanism, as its file says it, to be changed in memory.
+
+    `data` is the file's content, nested dictionaries and lists whose quantities are texts with
+    their unit ("10 m"). The file itself stays as it is until :meth:`save`.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        """Reads a file, or the `case.yaml` or `mechanism.yaml` of a folder.
+
+        Raises FileNotFoundError if there is none, InputError if it is no YAML.
+        """
+        self.file = _file_of(Path(path))
+        try:
+            self.data: dict[str, Any] = _yaml.load(self.file.read_text(encoding="utf-8"))
+        except Exception as error:  # of ruamel's many
+            mark = getattr(error, "problem_mark", None)
+            raise InputError([Complaint(str(self.file), mark.line + 1 if mark else None,
+                                        mark.column + 1 if mark else None,
+                                        str(getattr(error, "problem", error)))]) from error
+        self._begun_with = _text_of(self.data)
+
+    @property
+    def name(self) -> str:
+        """What the file calls it."""
+        return str(self.data.get("case") or self.data.get("mechanism") or self.file.parent.name)
+
+    def get(self, key: str) -> Any:
+        """The value of a key: "ropes.R1.length", "operation[2].moves[0].speed".
+
+        Raises KeyError, with near names, if a part of it is not there.
+        """
+        value: Any = self.data
+        for part in _parts(key):
+            value = _step(value, part, key)
+        return value
+
+    def set(self, key: str, value: Any) -> None:
+        """Changes a value, or adds a key to a part that is there. Quantities are texts with their
+        unit: `case.set("ropes.R1.length", "10.05 m")`.
+
+        Raises KeyError, with near names, if a part before the last is not there.
+        """
+        *way, last = _parts(key)
+        place: Any = self.data
+        for part in way:
+            place = _step(place, part, key)
+        if isinstance(last, int):
+            _step(place, last, key)
+        elif not isinstance(place, dict):
+            raise KeyError(f'{key}: there are no keys in what stands before "{last}"')
+        place[last] = value
+
+    def save(self, path: str | os.PathLike[str] | None = None) -> Path:
+        """Writes the file, in place or under another name. Models are looked for beside it."""
+        target = Path(path) if path is not None else self.file
+        target.parent.mkdir(parents=True, exist_ok=True)
+        beside = target.with_name(f".{target.name}.part")
+        beside.write_text(_text_of(self.data), encoding="utf-8")
+        beside.replace(target)
+        return target
+
+    def validate(self) -> None:
+        """Reads the case with all that it names. Raises InputError with every mistake."""
+        with self._on_disk() as file:
+            self._run(["validate", file], file)
+
+    def assess(self, output: str | os.PathLike[str] | None = None, *, decks: bool = False) -> Result:
+        """The whole lift: motion, stress, checks. A lift that fails its checks is a result.
+
+        output: folder of the results, results/<name> if not given.
+        decks: write the governing load cases for other solvers, too.
+
+        Raises InputError, RunError.
+        """
+        folder = Path(output) if output is not None else Path("results") / self.name
+        with self._on_disk() as file:
+            self._run(["assess", file, "--output", folder, *(["--decks"] if decks else [])], file)
+        return Result(folder)
+
+    def simulate(self, output: str | os.PathLike[str] | None = None) -> Result:
+        """The motion alone. Raises InputError, RunError."""
+        folder = Path(output) if output is not None else Path("results") / self.name
+        with self._on_disk() as file:
+            self._run(["simulate", file, "--output", folder], file)
+        return Result(folder)
+
+    def _run(self, arguments: list[str | os.PathLike[str]], file: Path) -> str:
+        try:
+            return run(arguments)
+        except InputError as error:
+            # Complaints name the case's own file and not the copy that was run.
+            own = [Complaint(str(self.file) if Path(one.file) == file else one.file, one.line,
+                             one.column, one.message, one.hints) for one in error.complaints]
+            raise InputError(own) from None
+
+    @contextlib.contextmanager
+    def _on_disk(self) -> Iterator[Path]:
+        """The file, or, where it was changed, a copy of its folder with the changes."""
+        text = _text_of(self.data)
+        if text == self._begun_with:
+            yield self.file
+            return
+        with tempfile.TemporaryDirectory(prefix="blocklift-") as folder:
+            copy = Path(folder) / "case"
+            shutil.copytree(self.file.parent, copy, ignore=shutil.ignore_patterns("results", ".*"))
+            (copy / self.file.name).write_text(text, encoding="utf-8")
+            yield copy / self.file.name
+
+
+def _file_of(path: Path) -> Path:
+    if path.is_file():
+        return path
+    for name in ("case.yaml", "mechanism.yaml"):
+        if (path / name).is_file():
+            return path / name
+    raise FileNotFoundError(f"{path}: no such file, and no folder with a case.yaml")
+
+
+def _text_of(data: Any) -> str:
+    import io
+
+    text = io.StringIO()
+    _yaml.dump(data, text)
+    return text.getvalue()
+
+
+def _parts(key: str) -> list[str | int]:
+    parts: list[str | int] = []
+    for piece in key.split("."):
+        name = piece.split("[", 1)[0]
+        if name:
+            parts.append(name)
+        parts.extend(int(index) for index in _INDEX.findall(piece))
+    if not parts:
+        raise KeyError("the key is empty")
+    return parts
+
+
+def _step(value: Any, part: str | int, key: str) -> Any:
+    if isinstance(part, int):
+        if not isinstance(value, list) or part >= len(value):
+            count = len(value) if isinstance(value, list) else 0
+            raise KeyError(f"{key}: there is no [{part}]; the list has {count}")
+        return value[part]
+    if not isinstance(value, dict) or part not in value:
+        names = [str(name) for name in value] if isinstance(value, dict) else []
+        near = difflib.get_close_matches(part, names, 1)
+        meant = f'; did you mean "{near[0]}"?' if near else f"; its keys are {', '.join(names)}"
+        raise KeyError(f'{key}: there is no "{part}"{meant if names else ""}')
+    return value[part]

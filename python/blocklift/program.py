@@ -1,0 +1,67 @@
+"""The program `blocklift`, run as a process."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from .errors import InputError, RunError, complaints_of
+
+_DONE, _RUN_FAILED, _WRONG_INPUT, _LIFT_FAILS = range(4)
+
+
+def executable() -> Path:
+    """The program: what the variable BLOCKLIFT names, or `blocklift` of the PATH, or that of a
+    build beside this package.
+
+    Raises FileNotFoundError if there is none.
+    """
+    named = os.environ.get("BLOCKLIFT")
+    if named:
+        if not Path(named).is_file():
+            raise FileNotFoundError(f'BLOCKLIFT names "{named}", which is no file')
+        return Path(named)
+    found = shutil.which("blocklift")
+    if found:
+        return Path(found)
+    built = Path(__file__).resolve().parents[2] / "build" / "release" / "blocklift"
+    if built.is_file():
+        return built
+    raise FileNotFoundError(
+        "the program blocklift is not on the PATH; let the variable BLOCKLIFT name it")
+
+
+def run(arguments: Sequence[str | os.PathLike[str]],
+        environment: dict[str, str] | None = None) -> str:
+    """Runs the program to its end.
+
+    Returns what it printed; a lift that fails its checks is no error here.
+
+    Raises InputError for wrong input, RunError if the run fails.
+    """
+    done = subprocess.run([executable(), *map(os.fspath, arguments)], capture_output=True,
+                          text=True, check=False, env={**os.environ, **(environment or {})})
+    if done.returncode in (_DONE, _LIFT_FAILS):
+        return done.stdout
+    if done.returncode == _WRONG_INPUT:
+        complaints = complaints_of(done.stderr)
+        if complaints:
+            raise InputError(complaints)
+        raise ValueError(done.stderr.strip())
+    raise RunError(done.stderr.strip() or f"blocklift ended by signal {-done.returncode}")
+
+
+def version() -> str:
+    """Version of the program."""
+    return run(["--version"]).split()[-1]
+
+
+def schema(kind: str | None = None) -> dict[str, Any]:
+    """JSON schema of the input files, or of one kind: "case", "crane", "block", ..."""
+    loaded: dict[str, Any] = json.loads(run(["schema", *(["--kind", kind] if kind else [])]))
+    return loaded

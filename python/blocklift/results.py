@@ -1,0 +1,210 @@
+"""What a run wrote, as arrays with units."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+    import xarray
+
+_NEWTON_PER_TONNE = 9806.65
+_SIX = ["rx", "ry", "rz", "x", "y", "z"]
+_POSE = ["x", "y", "z", "qw", "qx", "qy", "qz"]
+
+
+class Result:
+    """A folder of results, of an assessed or simulated lift or of a mechanism."""
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        """Raises FileNotFoundError if the folder has no results, ValueError if its files belong
+        to different runs."""
+        self.folder = Path(folder)
+        path = self.folder / "summary.json"
+        if not path.is_file():
+            raise FileNotFoundError(f"{self.folder}: there is no summary.json in it")
+        #: All figures, as docs/results.md names them.
+        self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        with self._file() as file:
+            run = file["case"].attrs.get("run", "") if "case" in file else ""
+            run = run.decode() if isinstance(run, bytes) else run
+        if run and self.summary.get("run") and run != self.summary["run"]:
+            raise ValueError(f"{self.folder}: results.h5 and summary.json belong to different runs")
+
+    def __repr__(self) -> str:
+        verdict = f", {self.verdict}" if self.verdict else ""
+        return f"<Result of {self.summary.get('case', '?')}{verdict}, {self.folder}>"
+
+    def _file(self) -> h5py.File:
+        return h5py.File(self.folder / "results.h5", "r")
+
+    @property
+    def verdict(self) -> str | None:
+        """"pass" or "fail"; None of what was only simulated."""
+        return self.summary.get("verdict")
+
+    @property
+    def passed(self) -> bool:
+        """Does the lift pass all its checks? Raises ValueError if it was only simulated."""
+        if self.verdict is None:
+            raise ValueError("the lift was simulated, not assessed: it has no verdict")
+        return self.verdict == "pass"
+
+    @property
+    def stress_increase(self) -> float:
+        """By how much motion raises the block's largest checked stress over the whole lift, 1.
+
+        Raises KeyError without a block whose stress was asked.
+        """
+        return self._increase("stress_increase_percent")
+
+    @property
+    def deformation_increase(self) -> float:
+        """The same of the largest displacement."""
+        return self._increase("deformation_increase_percent")
+
+    def _increase(self, name: str) -> float:
+        structure = self.summary["structure"]
+        return float((structure.get("history") or structure["simultaneous"])[name]) / 100
+
+    @property
+    def checks(self) -> pandas.DataFrame:
+        """A check a row: demand, limit, unit, utilisation, pass."""
+        return self._table("checks")
+
+    @property
+    def ropes(self) -> pandas.DataFrame:
+        """A rope a row: largest tension at rest and in motion, their instants and ratio."""
+        return self._table("ropes")
+
+    def _table(self, name: str) -> pandas.DataFrame:
+        import pandas
+
+        table = pandas.DataFrame(self.summary.get(name, []))
+        return table.set_index("name") if "name" in table else table
+
+    def history(self, state: str = "dynamic") -> xarray.Dataset:
+        """The lift at rest ("static": equilibria) or in motion ("dynamic") over time.
+
+        Variables, as far as the run has them: tension and elongation (time, rope), hoist_tension,
+        hoist_length (time, hoist), pose (time, body, x y z qw qx qy qz), velocity and acceleration
+        (time, body, rx ry rz x y z; in the world), drive_position, drive_force (time, drive),
+        energy (time, term).
+
+        Raises KeyError if the run has no such history.
+        """
+        import xarray
+
+        with self._file() as file:
+            if state not in file:
+                raise KeyError(f'{self.folder}: there is no history "{state}"')
+            group = file[state]
+            time = ("time", group["time"][:], _attributes(group["time"]))
+            variables: dict[str, Any] = {}
+            for kind, of, members in (
+                ("ropes", "rope", {"tension": "tension", "elongation": "elongation"}),
+                ("hoists", "hoist", {"tension": "hoist_tension", "length": "hoist_length",
+                                     "elongation": "hoist_elongation", "swing": "hoist_swing"}),
+                ("bodies", "body", {"pose": "pose", "velocity": "velocity",
+                                    "acceleration": "acceleration"}),
+                ("drives", "drive", {"position": "drive_position", "force": "drive_force"}),
+            ):
+                for member, variable in members.items():
+                    array = _gather(group, kind, member, of)
+                    if array is not None:
+                        variables[variable] = array
+            if "energy" in group:
+                terms = list(group["energy"])
+                variables["energy"] = xarray.DataArray(
+                    np.stack([group["energy"][term][:] for term in terms], axis=1),
+                    dims=("time", "term"), coords={"term": terms}, attrs={"units": "J"})
+            return xarray.Dataset(variables, coords={"time": time})
+
+    def outputs(self) -> xarray.Dataset:
+        """What a mechanism's file asks for, over time. Raises KeyError if there is nothing."""
+        import xarray
+
+        with self._file() as file:
+            if "outputs" not in file:
+                raise KeyError(f"{self.folder}: these results have no outputs")
+            variables = {}
+            for name, data in file["outputs"].items():
+                values = data[:]
+                columns = data.attrs.get("columns", "")
+                columns = columns.decode() if isinstance(columns, bytes) else columns
+                if values.ndim == 1 or values.shape[1] == 1:
+                    variables[name] = ("time", values.reshape(len(values)), _attributes(data))
+                    continue
+                labels = [label.strip() for label in columns.split(",")]
+                if len(labels) != values.shape[1]:
+                    labels = [str(column) for column in range(values.shape[1])]
+                variables[name] = xarray.DataArray(
+                    values, dims=("time", f"{name}_column"),
+                    coords={f"{name}_column": labels}, attrs=_attributes(data))
+            return xarray.Dataset(variables, coords={"time": ("time", file["time"][:])})
+
+    def surface(self) -> dict[str, npt.NDArray[Any]]:
+        """The block's surface: points (n, 3), m, in its frame, quads (m, 4), indices, and the
+        largest von Mises stress of each point over the lift, Pa, `static` and `dynamic`.
+
+        Raises KeyError without a block whose stress was asked.
+        """
+        with self._file() as file:
+            surface = file["structure/surface"]
+            arrays = {"points": surface["points"][:], "quads": surface["quads"][:]}
+            way = "history" if "structure/history/dynamic" in file else "simultaneous"
+            for state in ("static", "dynamic"):
+                arrays[state] = file[f"structure/{way}/{state}/von_mises"][:]
+            return arrays
+
+    def to_dataframe(self, state: str = "dynamic") -> pandas.DataFrame:
+        """Tensions over time, N: a rope a column."""
+        frame = self.history(state).tension.to_pandas()
+        frame.columns.name = "rope"
+        return frame
+
+    def plot_tensions(self, ax: matplotlib.axes.Axes | None = None,
+                      state: str = "dynamic") -> matplotlib.axes.Axes:
+        """Draws the ropes' tensions over time, t."""
+        if ax is None:
+            import matplotlib.pyplot
+
+            ax = matplotlib.pyplot.subplots()[1]
+        for name, tension in self.to_dataframe(state).items():
+            ax.plot(tension.index, tension / _NEWTON_PER_TONNE, label=name, linewidth=0.8)
+        ax.set_xlabel("time, s")
+        ax.set_ylabel("tension, t")
+        ax.legend()
+        return ax
+
+
+def _attributes(data: h5py.Dataset) -> dict[str, str]:
+    def text(value: Any) -> str:
+        return value.decode() if isinstance(value, bytes) else str(value)
+
+    return {name: text(data.attrs[name]) for name in ("units", "description") if name in data.attrs}
+
+
+def _gather(group: h5py.Group, kind: str, member: str, of: str) -> xarray.DataArray | None:
+    """One array of the member of all objects of a kind that have it."""
+    import xarray
+
+    names = [name for name in group.get(kind, {}) if member in group[kind][name]]
+    if not names:
+        return None
+    values = np.stack([group[kind][name][member][:] for name in names], axis=1)
+    dims: list[str] = ["time", of]
+    coords: dict[str, Any] = {of: names}
+    if values.ndim == 3:
+        dims.append("coordinate" if member == "pose" else "component")
+        coords[dims[-1]] = _POSE if member == "pose" else _SIX
+    return xarray.DataArray(values, dims=dims, coords=coords,
+                            attrs=_attributes(group[kind][names[0]][member]))

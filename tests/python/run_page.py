@@ -1,0 +1,21 @@
+"""Runs the Python examples of a page of the documentation, one after another, in a temporary
+folder that holds the small lift as `my-lift`."""
+
+import os
+import re
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+examples = re.findall(r"^```python\n(.*?)^```", Path(sys.argv[1]).read_text(encoding="utf-8"),
+                      re.DOTALL | re.MULTILINE)
+assert examples, "the page has no examples"
+with tempfile.TemporaryDirectory() as folder:
+    shutil.copytree(os.environ["BLOCKLIFT_SMALL_LIFT"], Path(folder) / "my-lift")
+    os.chdir(folder)
+    names = {}
+    for number, example in enumerate(examples, 1):
+        print(f"-- example {number}")
+        exec(compile(example, f"example {number}", "exec"), names)  # the page's own text
+    os.chdir("/")

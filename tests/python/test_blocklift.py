@@ -1,0 +1,154 @@
+"""The Python package on the small lift, through the program that was built."""
+
+import os
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import blocklift
+
+SMALL_LIFT = Path(os.environ["BLOCKLIFT_SMALL_LIFT"])
+MECHANISMS = Path(os.environ["BLOCKLIFT_MECHANISMS"])
+
+
+class InATemporaryFolder(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+        self._before = os.getcwd()
+        self.addCleanup(os.chdir, self._before)
+        os.chdir(self._folder.name)
+        shutil.copytree(SMALL_LIFT, "lift")
+
+
+class CaseTest(InATemporaryFolder):
+    def test_reads_and_changes_values_by_their_keys(self):
+        case = blocklift.Case("lift")
+        self.assertEqual(case.name, "small-lift")
+        self.assertEqual(case.get("ropes.R1.to"), "L1")
+        self.assertEqual(case.get("operation[0].stage"), case.data["operation"][0]["stage"])
+        with self.assertRaisesRegex(KeyError, 'did you mean "ropes"'):
+            case.get("rope.R1.length")
+        with self.assertRaisesRegex(KeyError, r"there is no \[77\]"):
+            case.get("operation[77].stage")
+        with self.assertRaisesRegex(KeyError, "there are no keys"):
+            case.set("title.of", "it")
+
+    def test_saves_what_was_changed_and_keeps_comments(self):
+        text = Path("lift/case.yaml").read_text(encoding="utf-8")
+        Path("lift/case.yaml").write_text("# of the yard\n" + text, encoding="utf-8")
+        case = blocklift.Case("lift")
+        case.set("title", "Another lift")
+        case.save("lift/other.yaml")
+        saved = Path("lift/other.yaml").read_text(encoding="utf-8")
+        self.assertTrue(saved.startswith("# of the yard\n"))
+        self.assertEqual(blocklift.Case("lift/other.yaml").get("title"), "Another lift")
+        blocklift.Case("lift/other.yaml").validate()
+
+    def test_complains_with_file_and_line(self):
+        case = blocklift.Case("lift")
+        case.validate()
+        case.set("ropes.R1.to", "L11")
+        with self.assertRaises(blocklift.InputError) as caught:
+            case.validate()
+        complaint = caught.exception.complaints[0]
+        self.assertEqual(complaint.file, str(case.file))
+        self.assertIn("L11", complaint.message)
+        line = Path("lift/case.yaml").read_text(encoding="utf-8").splitlines()[complaint.line - 1]
+        self.assertIn("R1", line)
+        self.assertTrue(complaint.hints)
+        Path("lift/case.yaml").write_text("case: [", encoding="utf-8")
+        with self.assertRaises(blocklift.InputError):
+            blocklift.Case("lift")
+
+    def test_a_file_that_is_not_there(self):
+        with self.assertRaises(FileNotFoundError):
+            blocklift.Case("nowhere")
+        with self.assertRaises(FileNotFoundError):
+            blocklift.Result("lift")
+
+
+class ResultTest(InATemporaryFolder):
+    def test_an_assessment_as_arrays(self):
+        result = blocklift.Case("lift").assess("out")
+        self.assertTrue(result.passed)
+        self.assertTrue(0 < result.stress_increase < 0.2)
+        motion = result.history("dynamic")
+        self.assertEqual(list(motion.rope.values), ["R1", "R2", "R3", "R4"])
+        self.assertEqual(motion.tension.attrs["units"], "N")
+        # The summary's largest tension is that of the history.
+        for rope, row in result.ropes.iterrows():
+            self.assertAlmostEqual(float(motion.tension.sel(rope=rope).max()),
+                                   row["max_dynamic_tension_N"], delta=1e-6)
+        # Velocities are the slopes of the places.
+        height = motion.pose.sel(body="load", coordinate="z")
+        slope = np.gradient(height.values, motion.time.values)
+        speed = motion.velocity.sel(body="load", component="z").values
+        self.assertLess(np.abs(slope - speed)[2:-2].max(), 0.02 * np.abs(speed).max())
+        self.assertEqual(result.to_dataframe().shape, (motion.sizes["time"], 4))
+        self.assertIn("utilisation", result.checks)
+        surface = result.surface()
+        self.assertEqual(surface["points"].shape[1], 3)
+        self.assertLess(surface["quads"].max(), len(surface["points"]))
+        self.assertEqual(len(surface["dynamic"]), len(surface["points"]))
+        with self.assertRaises(KeyError):
+            result.history("yesterday")
+        with self.assertRaises(KeyError):
+            result.outputs()
+
+    def test_a_changed_case_gives_other_loads_and_leaves_the_file_alone(self):
+        before = Path("lift/case.yaml").read_text(encoding="utf-8")
+        case = blocklift.Case("lift")
+        calm = case.simulate("calm").history("static").tension.isel(time=0)
+        for stage in range(len(case.data["ropes"])):
+            name = list(case.data["ropes"])[stage]
+            case.set(f"ropes.{name}.length", case.get(f"ropes.{name}.length"))
+        case.set("gravity", "19.6133 m/s^2")
+        heavy = case.simulate("heavy").history("static").tension.isel(time=0)
+        ratio = float(heavy.sum() / calm.sum())
+        self.assertAlmostEqual(ratio, 2, delta=0.02)
+        self.assertEqual(Path("lift/case.yaml").read_text(encoding="utf-8"), before)
+
+    def test_a_lift_that_fails_is_a_result(self):
+        case = blocklift.Case("lift")
+        case.set("checks.rope_safety_factor", 1000)
+        result = case.assess("out")
+        self.assertFalse(result.passed)
+        self.assertEqual(result.verdict, "fail")
+
+    def test_files_of_different_runs_are_refused(self):
+        case = blocklift.Case("lift")
+        case.simulate("one")
+        case.simulate("two")
+        shutil.copy("one/summary.json", "two/summary.json")
+        with self.assertRaisesRegex(ValueError, "different runs"):
+            blocklift.Result("two")
+
+    def test_a_mechanism(self):
+        result = blocklift.Case(MECHANISMS / "slider-crank").simulate("crank")
+        outputs = result.outputs()
+        # A crank of 0.2 m and a rod of 0.5 m.
+        self.assertAlmostEqual(float(outputs.slider.max() - outputs.slider.min()), 0.4, places=3)
+        with self.assertRaises(ValueError):
+            result.passed
+
+    def test_draws_tensions(self):
+        import matplotlib
+
+        matplotlib.use("Agg")
+        axes = blocklift.Case("lift").simulate("out").plot_tensions()
+        self.assertEqual(len(axes.lines), 4)
+        self.assertEqual(axes.get_ylabel(), "tension, t")
+
+
+class ProgramTest(unittest.TestCase):
+    def test_knows_its_version_and_the_schema(self):
+        self.assertRegex(blocklift.version(), r"^\d+\.\d+")
+        self.assertIn("properties", str(blocklift.schema("case")))
+
+
+if __name__ == "__main__":
+    unittest.main()
