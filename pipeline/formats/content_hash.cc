@@ -1,21 +1,33 @@
 #include "pipeline/formats/content_hash.h"
 
+#include <xxhash.h>
+
 #include <bit>
-#include <cstdio>
+#include <new>
+
+#include <fmt/format.h>
 
 namespace blocklift::pipeline {
 
-void ContentHash::add_bytes(std::uint64_t bytes) {
-  constexpr std::uint64_t prime = 0x100000001b3;
-  for (int byte = 0; byte < 8; ++byte) {
-    const std::uint64_t value = (bytes >> (8 * byte)) & 0xff;
-    first_ = (first_ ^ value) * prime;
-    second_ = (second_ ^ (0xff - value)) * prime;
-  }
+namespace {
+
+/// Bytes in the order of little-endian machines, wherever this runs.
+template <typename Number>
+Number in_order(Number number) {
+  if constexpr (std::endian::native == std::endian::little) return number;
+  return static_cast<Number>(__builtin_bswap64(static_cast<std::uint64_t>(number)));
+}
+
+}  // namespace
+
+void ContentHash::Free::operator()(XXH3_state_s* state) const { XXH3_freeState(state); }
+
+ContentHash::ContentHash() : state_(XXH3_createState()) {
+  if (!state_ || XXH3_128bits_reset(state_.get()) == XXH_ERROR) throw std::bad_alloc();
 }
 
 void ContentHash::add(double number) {
-  add_bytes(std::bit_cast<std::uint64_t>(number == 0.0 ? 0.0 : number));
+  add(std::bit_cast<std::int64_t>(number == 0.0 ? 0.0 : number));
 }
 
 void ContentHash::add(std::span<const double> numbers) {
@@ -23,18 +35,19 @@ void ContentHash::add(std::span<const double> numbers) {
   for (const double number : numbers) add(number);
 }
 
-void ContentHash::add(std::int64_t number) { add_bytes(static_cast<std::uint64_t>(number)); }
+void ContentHash::add(std::int64_t number) {
+  const std::int64_t bytes = in_order(number);
+  XXH3_128bits_update(state_.get(), &bytes, sizeof bytes);
+}
 
 void ContentHash::add(std::string_view text) {
   add(static_cast<std::int64_t>(text.size()));
-  for (const char letter : text) add_bytes(static_cast<unsigned char>(letter));
+  XXH3_128bits_update(state_.get(), text.data(), text.size());
 }
 
 std::string ContentHash::digits() const {
-  char text[33];
-  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(first_),
-                static_cast<unsigned long long>(second_));
-  return text;
+  const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 }  // namespace blocklift::pipeline

@@ -1,18 +1,22 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
+struct XXH3_state_s;
+
 namespace blocklift::pipeline {
 
-/// Fingerprint of what a computation depends on, to know its result again: two hashes of 64 bits by
-/// the method of Fowler, Noll and Vo (FNV-1a), the second of the bytes turned over. The same
-/// content in the same order gives the same text on every machine; it is no protection against
+/// Fingerprint of what a computation depends on, to know its result again: XXH3 of 128 bits. The
+/// same content in the same order gives the same text on every machine; it is no protection against
 /// forgery.
 class ContentHash {
  public:
+  ContentHash();
+
   /// Numbers by their bits; 0 and -0 are the same.
   void add(double number);
   void add(std::span<const double> numbers);
@@ -24,10 +28,10 @@ class ContentHash {
   std::string digits() const;
 
  private:
-  void add_bytes(std::uint64_t bytes);
-
-  std::uint64_t first_ = 0xcbf29ce484222325;
-  std::uint64_t second_ = 0x84222325cbf29ce4;
+  struct Free {
+    void operator()(XXH3_state_s* state) const;
+  };
+  std::unique_ptr<XXH3_state_s, Free> state_;
 };
 
 }  // namespace blocklift::pipeline

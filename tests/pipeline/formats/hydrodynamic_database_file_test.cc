@@ -206,6 +206,8 @@ TEST(ContentHash, TellsContentsApart) {
   EXPECT_NE(digits(std::string_view("ab"), std::string_view("c")),
             digits(std::string_view("a"), std::string_view("bc")));
   EXPECT_EQ(digits(0.0), digits(-0.0));
+  // Databases on disk are known by it.
+  EXPECT_EQ(digits(1.5, std::string_view("ab")), "e79904cf8ddf099bb926d80d5eccccb9");
 }
 
 }  // namespace
