@@ -11,10 +11,14 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_bar.h"
+#include "pipeline/comparison/expected_figures.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/formats/summary_file.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/load_case_decks.h"
@@ -177,7 +181,10 @@ void print_decks(const std::vector<LoadCaseFile>& files, const std::filesystem::
 
 }  // namespace
 
-int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks) {
+int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks,
+                const std::optional<std::string>& expect) {
+  std::vector<ExpectedFigure> expected;
+  if (expect) expected = read_expected_figures(*expect);
   LiftCase lift_case = read_lift_case(path);
   const std::filesystem::path folder =
       output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
@@ -222,8 +229,10 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
   print_checks(assessment);
   if (decks) print_decks(files, folder);
+  const bool as_expected =
+      !expect || figures_are_held(expected, read_summary(folder / layout::summary_file));
   fmt::print("report: {}\n", report.string());
-  return assessment.pass() ? exit_code::done : exit_code::lift_fails;
+  return assessment.pass() && as_expected ? exit_code::done : exit_code::lift_fails;
 }
 
 int report_results(const std::string& folder) {

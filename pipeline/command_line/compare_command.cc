@@ -1,0 +1,30 @@
+#include "pipeline/command_line/compare_command.h"
+
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/command_line/exit_code.h"
+#include "pipeline/comparison/comparison.h"
+#include "pipeline/formats/atomic_file.h"
+
+namespace blocklift::pipeline {
+
+int compare(const CompareOptions& options) {
+  std::vector<Tolerance> tolerances;
+  if (options.tolerance) tolerances = read_tolerances(*options.tolerance);
+  const ResultComparison comparison =
+      compare_results(read_compared_results({options.results.begin(), options.results.end()}),
+                      std::move(tolerances));
+  if (options.page) write_file(*options.page, comparison_page(comparison));
+  if (options.json)
+    fmt::print("{}\n", comparison_json(comparison).dump(2));
+  else
+    fmt::print("{}", comparison_text(comparison));
+  if (options.page && !options.json) fmt::print("\npage: {}\n", *options.page);
+  return comparison.moved.empty() ? exit_code::done : exit_code::lift_fails;
+}
+
+}  // namespace blocklift::pipeline
