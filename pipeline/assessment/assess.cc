@@ -76,6 +76,7 @@ void write_result_file(const Assessment& assessment, const std::string& run, con
   ResultsWriter file(path);
   write_case(file, assessment.lift_case.name, assessment.lift_case.title, assessment.lift_case.yaml,
              run);
+  write_models(file, assessment.lift_case.model_texts);
   if (assessment.lift) {
     const dynamics::LiftSystem& system = assessment.lift->model.system;
     const Scene scene = make_scene(assessment.lift->model, lugs_of(assessment));

@@ -13,9 +13,13 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/comparison/expected_figures.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/formats/summary_file.h"
 #include "pipeline/report/lift_frames.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/doubts.h"
@@ -226,7 +230,10 @@ void print_results(const Assessment& assessment) {
 
 }  // namespace
 
-int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks) {
+int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks,
+                const std::optional<std::string>& expect) {
+  std::vector<ExpectedFigure> expected;
+  if (expect) expected = read_expected_figures(*expect);
   LiftCase lift_case = read_lift_case(path);
   const std::filesystem::path folder =
       output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
@@ -259,8 +266,10 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   }
   print_checks(assessment);
   if (decks) print_decks(files, folder);
+  const bool as_expected =
+      !expect || figures_are_held(expected, read_summary(folder / layout::summary_file));
   if (!is_quiet()) fmt::print("report: {}\n", report.string());
-  return assessment.pass() ? exit_code::done : exit_code::lift_fails;
+  return assessment.pass() && as_expected ? exit_code::done : exit_code::lift_fails;
 }
 
 int report_results(const std::string& folder, const std::optional<int>& frames) {

@@ -10,9 +10,12 @@
 
 #include "pipeline/command_line/assess_command.h"
 #include "pipeline/command_line/command_pages.h"
+#include "pipeline/command_line/compare_command.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/hydro_command.h"
+#include "pipeline/command_line/new_command.h"
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/simulate_command.h"
 #include "pipeline/command_line/stress_command.h"
@@ -21,6 +24,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/schema.h"
 #include "pipeline/formats/hdf5_exit.h"
+#include "pipeline/templates/new_case.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/version.h"
 #include "structure/process_group.h"
@@ -41,7 +45,49 @@ void add_assess(CLI::App& app, int& code) {
   command->add_flag("--decks", *decks,
                     "write the governing load cases for other solvers as well: load-cases.inp "
                     "(Abaqus, CalculiX) and load-cases.bdf (Nastran)");
-  command->callback([path, output, decks, &code] { code = assess_case(*path, *output, *decks); });
+  auto expect = std::make_shared<std::optional<std::string>>();
+  command->add_option("--expect", *expect,
+                      "file of figures that the lift is held to (\"expect\" writes one); exit code "
+                      "3 if one is off");
+  command->callback([path, output, decks, expect, &code] {
+    code = assess_case(*path, *output, *decks, *expect);
+  });
+}
+
+void add_compare(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "compare", "Lay results beside each other: input that differs, loads, stress, checks");
+  auto options = std::make_shared<CompareOptions>();
+  command
+      ->add_option("RESULTS", options->results,
+                   "folders of results, or cases that were assessed into results/; changes count "
+                   "from the first")
+      ->required()
+      ->expected(2, CLI::detail::expected_max_vector_size);
+  command->add_option(
+      "--tolerance", options->tolerance,
+      "how far figures may move, figure=tolerance,... or a YAML file of such lines; "
+      "exit code 3 if one moves further");
+  command->add_flag("--json", options->json, "print JSON");
+  command->add_option("-o,--output", options->page,
+                      "write a page as well: tables, and tensions over each other");
+  command->callback([options, &code] { code = compare(*options); });
+}
+
+void add_expect(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "expect", "Write the figures of a lift with tolerances, for \"assess --expect\"");
+  auto options = std::make_shared<ExpectOptions>();
+  command
+      ->add_option("RESULT", options->result,
+                   "folder of results, or a case that was assessed into results/")
+      ->required();
+  command->add_option("-o,--output", options->file,
+                      "the file of figures (standard output if not given)");
+  command->add_flag("--renew", options->renew,
+                    "keep the file's figures, tolerances and reasons; take new values where they "
+                    "are off");
+  command->callback([options, &code] { code = expect(*options); });
 }
 
 void add_stress(CLI::App& app, int& code) {
@@ -107,6 +153,18 @@ void add_report(CLI::App& app, int& code) {
   command->callback([=, &code] {
     code = report_results(*folder, *paraview ? std::optional<int>(*frames) : std::nullopt);
   });
+}
+
+void add_new(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "new", "Write a commented case that runs, to begin with, into a new folder");
+  auto kind = std::make_shared<std::string>();
+  auto folder = std::make_shared<std::string>();
+  command->add_option("KIND", *kind, "what is begun")
+      ->required()
+      ->check(CLI::IsMember(template_kinds()));
+  command->add_option("FOLDER", *folder, "the new folder; its name becomes the case's")->required();
+  command->callback([kind, folder, &code] { code = write_new(*kind, *folder); });
 }
 
 void add_simulate(CLI::App& app, int& code) {
@@ -222,6 +280,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   int code = exit_code::done;
   add_assess(app, code);
+  add_compare(app, code);
+  add_expect(app, code);
+  add_new(app, code);
   add_simulate(app, code);
   add_validate(app, code);
   add_stress(app, code);

@@ -6,6 +6,7 @@
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/reading.h"
 #include "pipeline/files/lift_case_check.h"
+#include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/series_file.h"
 
 namespace blocklift::pipeline {
@@ -136,6 +137,7 @@ const RopeInCase* LiftCase::find_rope(const std::string& rope) const {
 std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& library,
                                        Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();
+  library.forget_found();
   const fs::path file = case_file(path, diagnostics);
   if (file.empty()) return std::nullopt;
   const std::optional<Document> document = load_document(file, diagnostics);
@@ -155,6 +157,8 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
     check_loops_at_start(lift_case, diagnostics);
   }
   if (diagnostics.error_count() > errors_before) return std::nullopt;
+  for (const FoundModel& model : library.found())
+    lift_case.model_texts.push_back({model.name, read_file(model.file)});
   return lift_case;
 }
 

@@ -238,6 +238,12 @@ struct DocumentInCase {
   std::string approved;
 };
 
+/// A model file as it stands, with the name that a case, or a model of it, calls it by.
+struct ModelText {
+  std::string name;
+  std::string text;
+};
+
 /// A lift case: what is lifted, by what, how, and what is asked. SI units.
 struct LiftCase : MarineParts {
   std::string name;
@@ -258,8 +264,9 @@ struct LiftCase : MarineParts {
   std::optional<Comparison> compare;
   std::optional<LoadTable> load_table;
   Mark place;
-  std::string yaml;            ///< the case file as it stands
-  std::filesystem::path file;  ///< where it is
+  std::string yaml;                    ///< the case file as it stands
+  std::filesystem::path file;          ///< where it is
+  std::vector<ModelText> model_texts;  ///< of the models that it is made of
 
   /// Is the load a block whose stress is asked?
   bool has_structure() const { return load.model != nullptr; }

@@ -187,6 +187,15 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
   return {};
 }
 
+fs::path ModelLibrary::find_and_note(const Located<std::string>& name, const std::string& kind,
+                                     const Folders& beside, Diagnostics& diagnostics) {
+  fs::path file = find(name, kind, beside, diagnostics);
+  const bool is_known = std::any_of(found_.begin(), found_.end(),
+                                    [&](const FoundModel& model) { return model.file == file; });
+  if (!file.empty() && !is_known) found_.push_back({name.value, file});
+  return file;
+}
+
 std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
                                                      const Folders& beside) const {
   std::vector<std::string> names;
@@ -202,21 +211,21 @@ std::shared_ptr<const CraneModel> ModelLibrary::load_crane(const Located<std::st
                                                            const fs::path& beside,
                                                            Diagnostics& diagnostics,
                                                            const ParameterValues& parameters) {
-  const fs::path file = find(name, "crane", {beside}, diagnostics);
+  const fs::path file = find_and_note(name, "crane", {beside}, diagnostics);
   return file.empty() ? nullptr : read_crane(file, diagnostics, parameters, beside);
 }
 
 std::shared_ptr<const BlockModel> ModelLibrary::load_block(const Located<std::string>& name,
                                                            const fs::path& beside,
                                                            Diagnostics& diagnostics) {
-  const fs::path file = find(name, "block", {beside}, diagnostics);
+  const fs::path file = find_and_note(name, "block", {beside}, diagnostics);
   return file.empty() ? nullptr : read_block(file, diagnostics);
 }
 
 std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::string>& name,
                                                         const fs::path& beside,
                                                         Diagnostics& diagnostics) {
-  const fs::path file = find(name, "vessel", {beside}, diagnostics);
+  const fs::path file = find_and_note(name, "vessel", {beside}, diagnostics);
   if (file.empty()) return nullptr;
   const auto known = vessels_.find(file);
   if (known != vessels_.end()) return known->second;
@@ -228,7 +237,7 @@ RopeModel ModelLibrary::resolve_among(const RopeChoice& choice, const Folders& b
                                       Diagnostics& diagnostics) {
   if (choice.keys) return *choice.keys;
   if (!choice.model_name || choice.model_name->value.empty()) return {};
-  const fs::path file = find(*choice.model_name, "rope", beside, diagnostics);
+  const fs::path file = find_and_note(*choice.model_name, "rope", beside, diagnostics);
   if (file.empty()) return {};
   const std::shared_ptr<const RopeModel> rope = read_rope(file, diagnostics);
   return rope ? *rope : RopeModel{};
@@ -275,7 +284,7 @@ std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
 std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<std::string>& name,
                                                                  const fs::path& beside,
                                                                  Diagnostics& diagnostics) {
-  const fs::path file = find(name, "standard", {beside}, diagnostics);
+  const fs::path file = find_and_note(name, "standard", {beside}, diagnostics);
   return file.empty() ? nullptr : read_standard(file, diagnostics);
 }
 

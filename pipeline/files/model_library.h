@@ -16,6 +16,12 @@
 
 namespace blocklift::pipeline {
 
+/// A model file that was found by its name.
+struct FoundModel {
+  std::string name;  ///< as the file that names it writes it
+  std::filesystem::path file;
+};
+
 /// Finds and reads model files by name.
 ///
 /// A model `cranes/goliath-600t` of the kind crane is one of the files, in this order of places and
@@ -72,6 +78,11 @@ class ModelLibrary {
     return find(name, "vessel", {beside}, diagnostics);
   }
 
+  /// The models that were found since they were last forgotten, each file once, in the order of
+  /// their first naming. Ropes of a crane that was read before are not among them.
+  const std::vector<FoundModel>& found() const { return found_; }
+  void forget_found() { found_.clear(); }
+
   /// Reads a crane's file itself, with the ropes that it names.
   /// @param of_case the folder of the case that names the crane, if there is one.
   std::shared_ptr<const CraneModel> read_crane(
@@ -94,12 +105,16 @@ class ModelLibrary {
   /// @param beside folders that come before those of models.
   std::filesystem::path find(const Located<std::string>& name, const std::string& kind,
                              const Folders& beside, Diagnostics& diagnostics) const;
+  /// The same; keeps the file in mind as one that was found.
+  std::filesystem::path find_and_note(const Located<std::string>& name, const std::string& kind,
+                                      const Folders& beside, Diagnostics& diagnostics);
   std::vector<std::string> names_of_kind(const std::string& kind, const Folders& beside) const;
   /// What may have been meant by a name that no model of the kind has; empty if nothing is near.
   std::string hint_of_name(const std::string& name, const std::string& kind,
                            const Folders& beside) const;
 
   std::vector<std::filesystem::path> model_folders_;
+  std::vector<FoundModel> found_;
   std::map<std::string, std::shared_ptr<const CraneModel>> cranes_;  ///< by file and parameters
   std::map<std::filesystem::path, std::shared_ptr<const BlockModel>> blocks_;
   std::map<std::filesystem::path, std::shared_ptr<const RopeModel>> ropes_;

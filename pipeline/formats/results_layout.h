@@ -16,6 +16,8 @@
 ///   /case                              attributes name, title, created (ISO 8601), program_version,
 ///                                      run (o): the same in summary.json of the same run
 ///   /case/yaml                         text of the case file
+///   /case/models                   (o) names   texts [m], as the case names them   contents   texts [m],
+///                                      the model files as they stood
 ///   /operation/stage_names         (o) texts [s]
 ///   /operation/stage_start             s [s]      /operation/stage_end   s [s]
 ///   /static, /dynamic              (o) the two histories, alike inside:
@@ -144,6 +146,8 @@ inline constexpr double format_version = 2;
 inline constexpr std::string_view case_group = "/case";
 inline constexpr std::string_view run = "run";
 inline constexpr std::string_view case_yaml = "/case/yaml";
+inline constexpr std::string_view model_names = "/case/models/names";
+inline constexpr std::string_view model_contents = "/case/models/contents";
 
 inline constexpr std::string_view stage_names = "/operation/stage_names";
 inline constexpr std::string_view stage_start = "/operation/stage_start";

@@ -422,6 +422,17 @@ json case_of(const ResultsReader& results, const json& summary) {
 
 }  // namespace
 
+nlohmann::ordered_json tension_series(const ResultsReader& results, std::string_view group) {
+  json list = json::array();
+  if (!results.has(join(group, "time"))) return list;
+  const std::vector<double> time = results.read(join(group, "time")).values;
+  for (const char* things : {"ropes", "hoists"})
+    for (json& one :
+         series_of_things(results, join(group, things), {{"tension", small_history_buckets}}, time))
+      list.push_back(std::move(one));
+  return list;
+}
+
 std::string base64(std::span<const unsigned char> bytes) {
   static constexpr char digits[] =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

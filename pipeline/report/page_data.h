@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -32,6 +33,11 @@ namespace blocklift::pipeline {
 /// @throws ResultsError if the file lacks what it must have or its parts do not fit together.
 nlohmann::ordered_json make_page_data(const ResultsReader& results,
                                       const nlohmann::ordered_json& summary);
+
+/// Tensions of ropes and hoists in one history, as series of the page: a list of {name, quantity,
+/// units, description, time, values}. Empty if there is no such history.
+/// @param group layout::static_history or layout::dynamic_history
+nlohmann::ordered_json tension_series(const ResultsReader& results, std::string_view group);
 
 /// Base64 (RFC 4648) of bytes.
 std::string base64(std::span<const unsigned char> bytes);

@@ -124,6 +124,16 @@ void write_case(ResultsWriter& file, const std::string& name, const std::string&
   file.write_text(layout::case_yaml, yaml, "the case file");
 }
 
+void write_models(ResultsWriter& file, const std::vector<ModelText>& models) {
+  std::vector<std::string> names, contents;
+  for (const ModelText& model : models) {
+    names.push_back(model.name);
+    contents.push_back(model.text);
+  }
+  file.write_texts(layout::model_names, names, "names of the models that the case is made of");
+  file.write_texts(layout::model_contents, contents, "the model files as they stood");
+}
+
 void write_operation(ResultsWriter& file, const dynamics::Operation& operation) {
   std::vector<std::string> names;
   std::vector<double> start, end;

@@ -39,6 +39,8 @@ std::string creation_time();
 /// @param run identity of the run (new_run_identity), which its summary carries too.
 void write_case(ResultsWriter& file, const std::string& name, const std::string& title,
                 const std::string& yaml, const std::string& run);
+/// The model files of a case, beside its own.
+void write_models(ResultsWriter& file, const std::vector<ModelText>& models);
 void write_operation(ResultsWriter& file, const dynamics::Operation& operation);
 /// @param group layout::static_history or layout::dynamic_history
 void write_history(ResultsWriter& file, std::string_view group, const dynamics::LiftSystem& system,

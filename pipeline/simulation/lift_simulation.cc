@@ -82,6 +82,7 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   ResultsWriter file(aside / layout::results_file);
   const std::string run = new_run_identity();
   write_case(file, lift_case.name, lift_case.title, lift_case.yaml, run);
+  write_models(file, lift_case.model_texts);
   write_operation(file, system.operation());
   write_history(file, layout::static_history, system, simulation.run.static_history, scene);
   write_history(file, layout::dynamic_history, system, simulation.run.dynamic_history(), scene);

@@ -1,19 +1,19 @@
-// Bundles the page and writes it as a C++ source that defines report_page(), and the licences of what is bundled.
+// Bundles the pages and writes them as a C++ source that defines report_page() and comparison_page_template(), and
+// the licences of what is bundled.
 //   node build.mjs report_page.cc notice.txt
 import { readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
 const common = { bundle: true, minify: true, write: false, target: "es2020", charset: "utf8", legalComments: "eof" };
-const script = (await build({ ...common, entryPoints: ["src/main.ts"], format: "iife" })).outputFiles[0].text;
+const bundle = async (entry) => (await build({ ...common, entryPoints: [entry], format: "iife" })).outputFiles[0].text;
 const style = (await build({ ...common, entryPoints: ["src/style.css"] })).outputFiles[0].text;
 
 // A "</script" inside a string of the bundle would end the element that holds it.
 const fill = (text, mark, content) => {
   const parts = text.split(mark);
-  if (parts.length !== 2) throw new Error(`page.html must hold ${mark} exactly once`);
+  if (parts.length !== 2) throw new Error(`a page must hold ${mark} exactly once`);
   return parts[0] + content + parts[1];
 };
-let page = readFileSync("src/page.html", "utf8");
 
 // What is in the page beside our own: the libraries that package.json depends on.
 const libraries = Object.keys(JSON.parse(readFileSync("package.json", "utf8")).dependencies).map((name) => {
@@ -21,14 +21,22 @@ const libraries = Object.keys(JSON.parse(readFileSync("package.json", "utf8")).d
   return { name, version, license, homepage, text: readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim() };
 });
 const listed = libraries.map(({ name, version, license }) => `${name} ${version} (${license} licence)`).join(" and ");
-page = fill(page, "%LICENCES%", `Made by Blocklift (GPL-3.0-or-later), which is free software without any warranty. This page draws with ${listed}.`);
-const marks = ["%TITLE%", "%MARGINS%", "%FRONT%", "%CHECKS%", "%ANNEX%", "%DATA%"];  // as the program fills them
-for (const mark of marks) fill(page, mark, "");
-page = fill(page, "%STYLE%", style.replaceAll("</style", "<\\/style"));
-page = fill(page, "%SCRIPT%", script.replaceAll("</script", "<\\/script").replaceAll("<!--", "\\x3c!--"));
-const places = marks.map((mark) => page.indexOf(mark));
-if (places.some((place, i) => i > 0 && place < places[i - 1])) throw new Error(`the page must hold ${marks.join(", ")} in this order`);
-if (marks.some((mark) => script.includes(mark) || style.includes(mark))) throw new Error("script or style hold a placeholder");
+// A page with script, style and licences in it, and its marks left for the program, which fills them in this order.
+const makePage = async (html, entry, marks, draws) => {
+  const script = await bundle(entry);
+  let page = readFileSync(html, "utf8");
+  page = fill(page, "%LICENCES%", `Made by Blocklift (GPL-3.0-or-later), which is free software without any warranty.${draws}`);
+  for (const mark of marks) fill(page, mark, "");
+  page = fill(page, "%STYLE%", style.replaceAll("</style", "<\\/style"));
+  page = fill(page, "%SCRIPT%", script.replaceAll("</script", "<\\/script").replaceAll("<!--", "\\x3c!--"));
+  const places = marks.map((mark) => page.indexOf(mark));
+  if (places.some((place, i) => i > 0 && place < places[i - 1])) throw new Error(`the page must hold ${marks.join(", ")} in this order`);
+  if (marks.some((mark) => script.includes(mark) || style.includes(mark))) throw new Error("script or style hold a placeholder");
+  return page;
+};
+const report = await makePage("src/page.html", "src/main.ts", ["%TITLE%", "%MARGINS%", "%FRONT%", "%CHECKS%", "%ANNEX%", "%DATA%"],
+  ` This page draws with ${listed}.`);
+const comparison = await makePage("src/comparison.html", "src/comparison.ts", ["%TITLE%", "%CONTENT%", "%DATA%"], "");
 
 // Octal escapes: unlike hexadecimal ones they end after three digits.
 const literal = (bytes) => {
@@ -40,9 +48,12 @@ const literal = (bytes) => {
   }
   return `"${text}"`;
 };
-const bytes = Buffer.from(page, "utf8");
-const lines = [];
-for (let at = 0; at < bytes.length; at += 4096) lines.push("    " + literal(bytes.subarray(at, at + 4096)));
+const lines = (page) => {
+  const bytes = Buffer.from(page, "utf8");
+  const texts = [];
+  for (let at = 0; at < bytes.length; at += 4096) texts.push("    " + literal(bytes.subarray(at, at + 4096)));
+  return texts.join("\n");
+};
 writeFileSync(
   process.argv[2],
   `// Generated from pipeline/report/web.
@@ -50,11 +61,14 @@ writeFileSync(
 
 namespace blocklift::pipeline {
 namespace {
-constexpr char page[] =
-${lines.join("\n")};
+constexpr char report_html[] =
+${lines(report)};
+constexpr char comparison_html[] =
+${lines(comparison)};
 }  // namespace
 
-std::string_view report_page() { return {page, sizeof(page) - 1}; }
+std::string_view report_page() { return {report_html, sizeof(report_html) - 1}; }
+std::string_view comparison_page_template() { return {comparison_html, sizeof(comparison_html) - 1}; }
 
 }  // namespace blocklift::pipeline
 `,

@@ -260,7 +260,7 @@ TEST_F(AssessCommand, TellsWrongUseByItsExitCode) {
   EXPECT_EQ(
       unknown.err,
       "blocklift: error: there is no command \"asess\"\n"
-      "    the commands are assess, simulate, validate, stress, hydro, report, schema, verify; did "
+      "    the commands are assess, compare, expect, new, simulate, validate, stress, hydro, report, schema, verify; did "
       "you mean \"assess\"?\n");
   const Outcome option = run("assess lift --fast");
   EXPECT_EQ(option.exit_code, 2);

@@ -1,0 +1,155 @@
+#include "pipeline/comparison/compared_result.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/declaration/document.h"
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results_store.h"
+#include "pipeline/formats/run_identity.h"
+#include "pipeline/formats/summary_file.h"
+#include "pipeline/report/input_values.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+void complain(Diagnostics& diagnostics, const fs::path& path, std::string message,
+              std::vector<std::string> hints = {}) {
+  diagnostics.error({std::make_shared<const std::string>(shown_path(path)), 0, 0},
+                    std::move(message), std::move(hints));
+}
+
+std::vector<InputText> read_input(const ResultsReader& results) {
+  std::vector<InputText> input;
+  if (results.has(layout::case_yaml)) input.push_back({"", results.read_text(layout::case_yaml)});
+  if (!results.has(layout::model_names)) return input;
+  const std::vector<std::string> names = results.read_texts(layout::model_names);
+  const std::vector<std::string> contents = results.read_texts(layout::model_contents);
+  for (std::size_t i = 0; i < std::min(names.size(), contents.size()); ++i)
+    input.push_back({names[i], contents[i]});
+  return input;
+}
+
+std::optional<ComparedResult> read_folder(const fs::path& folder, Diagnostics& diagnostics) {
+  try {
+    ComparedResult result;
+    result.folder = folder;
+    result.summary = read_summary(folder / layout::summary_file);
+    const ResultsReader results(folder / layout::results_file);
+    if (const std::string mixed = mixed_runs(results, result.summary); !mixed.empty()) {
+      complain(diagnostics, folder, mixed);
+      return std::nullopt;
+    }
+    result.input = read_input(results);
+    result.has_models = results.has(layout::model_names);
+    return result;
+  } catch (const ResultsError& error) {
+    complain(diagnostics, folder, error.what());
+    return std::nullopt;
+  }
+}
+
+std::string name_of_case(const Document& document) {
+  const YAML::Node name = document.root.IsMap() ? document.root["case"] : YAML::Node();
+  return name && name.IsScalar() ? name.Scalar() : std::string();
+}
+
+bool say_the_same(const std::string& yaml, const std::string& other) {
+  const auto values = list_input_values(yaml);
+  const auto others = list_input_values(other);
+  return std::equal(values.begin(), values.end(), others.begin(), others.end(),
+                    [](const InputValue& a, const InputValue& b) {
+                      return a.key == b.key && a.value == b.value;
+                    });
+}
+
+/// The results that a case was assessed into.
+std::optional<ComparedResult> read_case(const fs::path& file, Diagnostics& diagnostics) {
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  const std::string name = name_of_case(*document);
+  if (name.empty()) {
+    complain(diagnostics, file, "is neither a folder of results nor a lift case");
+    return std::nullopt;
+  }
+  const fs::path folder = fs::path("results") / name;
+  const std::string how = fmt::format("run \"blocklift assess {}\" first", shown_path(file));
+  if (!is_there(folder / layout::summary_file)) {
+    complain(diagnostics, file,
+             fmt::format("the case has no results: {} holds none", folder.string()),
+             {how + ", or name the folder of its results"});
+    return std::nullopt;
+  }
+  std::optional<ComparedResult> result = read_folder(folder, diagnostics);
+  if (result && (result->input.empty() || !say_the_same(result->input[0].yaml, document->text))) {
+    complain(
+        diagnostics, file,
+        fmt::format("the case was changed after its results in {} were computed", folder.string()),
+        {how + ", or name the folder to take the results as they are"});
+    return std::nullopt;
+  }
+  return result;
+}
+
+std::optional<ComparedResult> read_result(const fs::path& path, Diagnostics& diagnostics) {
+  std::optional<ComparedResult> result;
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    result = read_case(path, diagnostics);
+  } else if (is_there(path / layout::summary_file)) {
+    result = read_folder(path, diagnostics);
+  } else if (is_there(path / "case.yaml")) {
+    result = read_case(path / "case.yaml", diagnostics);
+  } else {
+    complain(diagnostics, path, "this folder has neither results nor a case",
+             {"results are a folder with summary.json and results.h5, a case one with case.yaml"});
+  }
+  if (result) {
+    fs::path name = path.lexically_normal();
+    if (!name.has_filename()) name = name.parent_path();
+    result->name = name.filename() == "case.yaml" ? name.parent_path().filename().string()
+                                                  : name.filename().string();
+    if (result->name.empty() || result->name == ".")
+      result->name = result->summary.value("case", path.string());
+  }
+  return result;
+}
+
+/// Results of one name are told apart by their whole paths.
+void tell_apart(const std::vector<fs::path>& paths, std::vector<ComparedResult>& results) {
+  std::vector<std::string> names;
+  for (const ComparedResult& result : results) names.push_back(result.name);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    if (std::count(names.begin(), names.end(), names[i]) > 1)
+      results[i].name = paths[i].lexically_normal().string();
+}
+
+}  // namespace
+
+ComparedResult read_compared_result(const fs::path& path) {
+  return read_compared_results({path}).front();
+}
+
+std::vector<ComparedResult> read_compared_results(const std::vector<fs::path>& paths) {
+  Diagnostics diagnostics;
+  std::vector<ComparedResult> results;
+  for (const fs::path& path : paths)
+    if (auto result = read_result(path, diagnostics)) results.push_back(std::move(*result));
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  tell_apart(paths, results);
+  return results;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,174 @@
+#include "pipeline/comparison/expected_figures.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "pipeline/comparison/summary_figures.h"
+#include "pipeline/declaration/document.h"
+#include "pipeline/declaration/table.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void check_figure(const ExpectedFigure& figure, Reading& reading, const Mark& mark) {
+  const int requirements = int{figure.value.has_value()} + int{figure.equals.has_value()} +
+                           int{figure.at_least.has_value()} + int{figure.at_most.has_value()} +
+                           int{figure.magnitude_at_most.has_value()};
+  if (requirements != 1)
+    reading.error(mark,
+                  fmt::format("figure {} has {} requirements", figure.path,
+                              requirements == 0 ? "no" : "several"),
+                  {"one of value, equals, at_least, at_most and magnitude_at_most is due"});
+  const int tolerances =
+      int{figure.tolerance.has_value()} + int{figure.absolute_tolerance.has_value()};
+  if (figure.value && tolerances != 1)
+    reading.error(mark,
+                  fmt::format("the value of {} has {}", figure.path,
+                              tolerances == 0 ? "no tolerance" : "two tolerances"),
+                  {"tolerance (a share of the value) or absolute_tolerance (in its unit) is due"});
+  if (!figure.value && tolerances > 0)
+    reading.error(mark, fmt::format("figure {} has a tolerance and no value", figure.path));
+}
+
+Format<ExpectedFigure> expected_figure_format() {
+  return Table<ExpectedFigure>("expected figure",
+                               "A figure of summary.json that a lift is held to.")
+      .required("figure", &ExpectedFigure::path, text(),
+                "its place in summary.json, with dots between keys and names of rows")
+      .optional("value", &ExpectedFigure::value, number(), "what it is to be")
+      .optional("tolerance", &ExpectedFigure::tolerance, number(Range::not_negative()),
+                "how far from the value it may be, as a share of the value")
+      .optional("absolute_tolerance", &ExpectedFigure::absolute_tolerance,
+                number(Range::not_negative()), "the same in the figure's unit")
+      .optional("equals", &ExpectedFigure::equals, text(), "what it is to be, exactly")
+      .optional("at_least", &ExpectedFigure::at_least, number(), "its smallest value")
+      .optional("at_most", &ExpectedFigure::at_most, number(), "its largest value")
+      .optional("magnitude_at_most", &ExpectedFigure::magnitude_at_most,
+                number(Range::not_negative()), "its largest size, either sign")
+      .required("reason", &ExpectedFigure::reason, text(), "why it is held, and to this tolerance")
+      .rule(check_figure)
+      .format();
+}
+
+std::string text_of_value(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+double allowed_difference(const ExpectedFigure& figure) {
+  return figure.tolerance ? *figure.tolerance * std::abs(*figure.value)
+                          : *figure.absolute_tolerance;
+}
+
+/// What is wrong with a figure, in words; nothing if it is held.
+std::optional<std::string> complaint_about(const ExpectedFigure& figure, const Json* found) {
+  if (!found) return "is not in the summary";
+  const auto differs = [&](const std::string& wanted) {
+    return fmt::format("is {} instead of {}", found->dump(), wanted);
+  };
+  if (figure.equals) {
+    if (text_of_value(*found) == *figure.equals) return std::nullopt;
+    return differs(*figure.equals);
+  }
+  if (!found->is_number()) return differs("a number");
+  const auto number = found->get<double>();
+  if (figure.at_least && !(number >= *figure.at_least))
+    return differs(fmt::format("at least {}", *figure.at_least));
+  if (figure.at_most && !(number <= *figure.at_most))
+    return differs(fmt::format("at most {}", *figure.at_most));
+  if (figure.magnitude_at_most && !(std::abs(number) <= *figure.magnitude_at_most))
+    return differs(fmt::format("at most {} either way", *figure.magnitude_at_most));
+  if (figure.value && !(std::abs(number - *figure.value) <= allowed_difference(figure)))
+    return differs(fmt::format("{} to {:.4g}", *figure.value, allowed_difference(figure)));
+  return std::nullopt;
+}
+
+/// To six digits: more would feign a precision that nobody needs.
+double rounded(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
+
+/// A scalar as it stands in a file: a number, true, false, or else a text.
+Json scalar_json(const std::string& written) {
+  Json value = Json::parse(written, nullptr, false);
+  return value.is_number() || value.is_boolean() ? value : Json(written);
+}
+
+}  // namespace
+
+std::vector<ExpectedFigure> read_expected_figures(const std::filesystem::path& file) {
+  Diagnostics diagnostics;
+  std::vector<ExpectedFigure> figures;
+  if (const auto document = load_document(file, diagnostics)) {
+    Reading reading(*document, diagnostics);
+    list_of(expected_figure_format(), 1).read(document->root, reading, figures);
+  }
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  return figures;
+}
+
+std::vector<BrokenFigure> find_broken_figures(const std::vector<ExpectedFigure>& figures,
+                                              const Json& summary) {
+  std::vector<BrokenFigure> broken;
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    if (const auto complaint = complaint_about(figures[i], find_figure(summary, figures[i].path)))
+      broken.push_back({i, *complaint});
+  return broken;
+}
+
+std::vector<ExpectedFigure> expect_figures(const Json& summary) {
+  std::vector<ExpectedFigure> expected;
+  for (const SummaryFigure& figure : list_figures(summary)) {
+    const Json& found = *find_figure(summary, figure.path);
+    ExpectedFigure one;
+    one.path = figure.path;
+    one.reason = figure.tolerance.reason;
+    if (found.is_number()) {
+      one.value = rounded(found.get<double>());
+      if (figure.tolerance.relative > 0)
+        one.tolerance = figure.tolerance.relative;
+      else
+        one.absolute_tolerance = figure.tolerance.absolute;
+    } else {
+      one.equals = text_of_value(found);
+    }
+    expected.push_back(std::move(one));
+  }
+  return expected;
+}
+
+std::vector<BrokenFigure> renew_figures(std::vector<ExpectedFigure>& figures, const Json& summary) {
+  std::vector<BrokenFigure> renewed;
+  for (BrokenFigure& broken : find_broken_figures(figures, summary)) {
+    ExpectedFigure& figure = figures[broken.index];
+    const Json* found = find_figure(summary, figure.path);
+    if (!figure.value || !found || !found->is_number()) continue;
+    figure.value = rounded(found->get<double>());
+    renewed.push_back(std::move(broken));
+  }
+  return renewed;
+}
+
+std::string expected_figures_text(const std::vector<ExpectedFigure>& figures) {
+  std::string text = "[\n";
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const ExpectedFigure& figure = figures[i];
+    Json row{{"figure", figure.path}};
+    const auto add = [&](const char* key, const std::optional<double>& value) {
+      if (value) row[key] = *value;
+    };
+    add("value", figure.value);
+    if (figure.equals) row["equals"] = scalar_json(*figure.equals);
+    add("at_least", figure.at_least);
+    add("at_most", figure.at_most);
+    add("magnitude_at_most", figure.magnitude_at_most);
+    add("tolerance", figure.tolerance);
+    add("absolute_tolerance", figure.absolute_tolerance);
+    row["reason"] = figure.reason;
+    text += "  " + row.dump() + (i + 1 < figures.size() ? ",\n" : "\n");
+  }
+  return text + "]\n";
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,183 @@
+#include "pipeline/comparison/comparison.h"
+
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/declaration/diagnostics.h"
+#include "tests/pipeline/comparison/sample_folder.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using nlohmann::ordered_json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// Folders "before" and "after": R1 pulls 10 % more in motion, the stress increases by a point more,
+/// one key of the case and one of its block differ.
+class ComparedFolders : public ::testing::Test {
+ protected:
+  ComparedFolders() {
+    test::write_sample_folder("before", test::sample_summary(),
+                              "case: two-ropes\nsettle: 3 s\ngravity: 9.81 m/s^2\n",
+                              "kind: block\nmass: 8 t\n");
+    ordered_json after = test::sample_summary();
+    after["ropes"][0]["max_dynamic_tension_N"] = 121e3;
+    after["structure"]["simultaneous"]["stress_increase_percent"] = 13.0;
+    test::write_sample_folder("after", after,
+                              "case: two-ropes # a remark is no difference\nsettle: 4 s\n"
+                              "wind: {speed: 8 m/s}\ngravity: 9.81 m/s^2\n",
+                              "kind: block\nmass: 9 t\n");
+  }
+
+  static ResultComparison compare(const std::string& tolerance = {}) {
+    return compare_results(
+        read_compared_results({"before", "after"}),
+        tolerance.empty() ? std::vector<Tolerance>{} : read_tolerances(tolerance));
+  }
+  static std::string refusal_of(const std::vector<std::filesystem::path>& paths,
+                                const std::string& tolerance = {}) {
+    try {
+      compare_results(read_compared_results(paths),
+                      tolerance.empty() ? std::vector<Tolerance>{} : read_tolerances(tolerance));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing was refused";
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(ComparedFolders, SayWhichKeysOfTheInputDiffer) {
+  const ResultComparison comparison = compare();
+  ASSERT_EQ(comparison.input.size(), 3u);
+  EXPECT_EQ(comparison.input[0].file, "");
+  EXPECT_EQ(comparison.input[0].key, "settle");
+  EXPECT_EQ(comparison.input[0].values[0], "3 s");
+  EXPECT_EQ(comparison.input[0].values[1], "4 s");
+  EXPECT_EQ(comparison.input[1].key, "wind.speed");
+  EXPECT_EQ(comparison.input[1].values[0], std::nullopt);
+  EXPECT_EQ(comparison.input[2].file, "block");
+  EXPECT_EQ(comparison.input[2].key, "mass");
+}
+
+TEST_F(ComparedFolders, CountChangesFromTheFirst) {
+  for (const ComparedFigure& figure : compare().figures) {
+    const double expected = figure.figure.path == "ropes.R1.max_dynamic_tension_N" ? 10
+                            : figure.figure.path == "structure.simultaneous.stress_increase_percent"
+                                ? 1
+                                : 0;
+    if (figure.figure.path == "verdict")
+      EXPECT_EQ(figure.change(1), std::nullopt);
+    else
+      EXPECT_NEAR(figure.change(1).value(), expected, 1e-9) << figure.figure.path;
+  }
+}
+
+TEST_F(ComparedFolders, AreHeldToTolerancesOfWhichTheLastCounts) {
+  EXPECT_THAT(compare("ropes=10.1%,stress_increase=1%").moved, IsEmpty());
+  const ResultComparison beyond = compare("ropes=9.9%,stress_increase=0.9%");
+  ASSERT_EQ(beyond.moved.size(), 2u);
+  EXPECT_EQ(shown_move(beyond, beyond.moved[0]),
+            "ropes.R1.max_dynamic_tension_N of after: 121.00 instead of 110.00 kN (+10.00 %), "
+            "beyond 9.9%");
+  EXPECT_THAT(compare("ropes=1%,ropes.R1=12 kN").moved, IsEmpty());
+  EXPECT_EQ(compare("ropes.R1=12 kN,ropes=1%").moved.size(), 1u);
+  EXPECT_EQ(compare("ropes.*.max_dynamic_tension=10.9 kN").moved.size(), 1u);
+  EXPECT_THAT(compare("verdict=0%").moved, IsEmpty());
+}
+
+TEST_F(ComparedFolders, RefuseTolerancesThatFitNoFigure) {
+  EXPECT_THAT(refusal_of({"before", "after"}, "stres_increase=1%"),
+              HasSubstr("did you mean \"stress_increase\"?"));
+  EXPECT_THAT(refusal_of({"before", "after"}, "ropes.R1.max_static_tension=1 MPa"),
+              HasSubstr("ropes.R1.max_static_tension_N is in N"));
+}
+
+TEST_F(ComparedFolders, AFigureThatOnlyOneHasHasMoved) {
+  ordered_json lost = test::sample_summary();
+  lost["ropes"].erase(1);
+  test::write_sample_folder("after", lost, "case: two-ropes\n", "kind: block\n");
+  EXPECT_EQ(compare("ropes=1%").moved.size(), 3u);
+}
+
+TEST_F(ComparedFolders, GiveATableOfEightyColumns) {
+  std::filesystem::copy("after", "a third one with a name that is far too long for a column");
+  const ResultComparison comparison = compare_results(
+      read_compared_results(
+          {"before", "after", "a third one with a name that is far too long for a column"}),
+      {});
+  for (const ResultComparison& one : {comparison, compare("ropes=20%")}) {
+    const std::string text = comparison_text(one);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
+    EXPECT_THAT(text, HasSubstr("wind.speed"));
+    EXPECT_THAT(text, HasSubstr("+10.00 %"));
+    EXPECT_THAT(text, HasSubstr("+1.00 pt"));
+  }
+  EXPECT_THAT(comparison_text(compare("ropes=20%")),
+              HasSubstr("no figure moved beyond its tolerance"));
+}
+
+TEST_F(ComparedFolders, GiveJsonInTheSummarysUnits) {
+  const ordered_json json = comparison_json(compare("ropes=5%"));
+  EXPECT_EQ(json["results"][1]["name"], "after");
+  EXPECT_EQ(json["input"][0]["values"], ordered_json({"3 s", "4 s"}));
+  EXPECT_EQ(json["input"][1]["values"][0], nullptr);
+  EXPECT_EQ(json["figures"][2]["figure"], "ropes.R1.max_dynamic_tension_N");
+  EXPECT_EQ(json["figures"][2]["values"], ordered_json({110e3, 121e3}));
+  EXPECT_EQ(json["beyond_tolerance"][0]["tolerance"], "5%");
+}
+
+TEST_F(ComparedFolders, GiveAPageWithTheCurvesOfBoth) {
+  const std::string page = comparison_page(compare());
+  EXPECT_THAT(page, HasSubstr("<title>before, after"));
+  EXPECT_THAT(page, HasSubstr("wind.speed"));
+  EXPECT_THAT(page, HasSubstr("\"name\":\"after\""));
+  EXPECT_THAT(page, Not(HasSubstr("%DATA%")));
+}
+
+TEST_F(ComparedFolders, ModelsAreLeftOutWhereOneResultHoldsNone) {
+  test::write_sample_folder("before", test::sample_summary(), "case: two-ropes\n", "");
+  const ResultComparison comparison = compare();
+  for (const InputDifference& difference : comparison.input) EXPECT_EQ(difference.file, "");
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("models are not compared"));
+}
+
+TEST_F(ComparedFolders, ACaseStandsForItsResults) {
+  folder_.write("lift/case.yaml", "case: two-ropes\nsettle: 3 s\ngravity: 9.81 m/s^2\n");
+  EXPECT_THAT(refusal_of({"lift", "after"}),
+              HasSubstr("lift/case.yaml: error: the case has no results"));
+  std::filesystem::create_directory("results");
+  std::filesystem::copy("before", "results/two-ropes");
+  EXPECT_EQ(read_compared_result("lift").name, "lift");
+  EXPECT_EQ(read_compared_result("lift/case.yaml").folder, "results/two-ropes");
+  folder_.write("lift/case.yaml", "case: two-ropes\nsettle: 5 s\ngravity: 9.81 m/s^2\n");
+  EXPECT_THAT(refusal_of({"lift", "after"}),
+              HasSubstr("the case was changed after its results in results/two-ropes"));
+}
+
+TEST_F(ComparedFolders, OthersAreRefusedAllAtOnce) {
+  folder_.write("empty/notes.txt", "");
+  folder_.write("damaged/summary.json", "{");
+  const std::string refusal = refusal_of({"before", "empty", "damaged", "nowhere"});
+  EXPECT_THAT(refusal, HasSubstr("empty: error: this folder has neither results nor a case"));
+  EXPECT_THAT(refusal, HasSubstr("damaged"));
+  EXPECT_THAT(refusal, HasSubstr("nowhere"));
+}
+
+TEST_F(ComparedFolders, OfOneNameAreToldApartByTheirPaths) {
+  std::filesystem::create_directories("later/x");
+  std::filesystem::copy("after", "later/before");
+  const auto results = read_compared_results({"before", "later/before"});
+  EXPECT_EQ(results[0].name, "before");
+  EXPECT_EQ(results[1].name, "later/before");
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
