@@ -74,6 +74,7 @@
 /// summary.json, one object; everything but case may be missing, null stands for "not known"; what
 /// is simulated and not assessed has no verdict
 ///   case, title, program_version, created, run (o): as in results.h5
+///   input_hash (o)     fingerprint of case file, models and mesh
 ///   verdict            "pass" | "fail";   verdict_reasons   list of text
 ///   checks             [{name, demand, limit, unit, utilisation, pass, time_s (o), note (o)}]
 ///                      unit as given is turned into the report's: N -> kN, Pa -> MPa, m -> mm, rad -> deg

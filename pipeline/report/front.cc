@@ -59,7 +59,7 @@ std::string document_table(const Json& data) {
   row("Case", escaped_at(lift_case, "name"));
   row("Made",
       escaped_at(lift_case, "created") + ", Blocklift " + escaped_at(lift_case, "program_version"));
-  row("Hash of the case file", "<code>" + escaped_at(lift_case, "hash") + "</code>");
+  row("Hash of the input", "<code>" + escaped_at(lift_case, "hash") + "</code>");
   return html + "</dl>\n";
 }
 

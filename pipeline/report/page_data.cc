@@ -11,7 +11,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/decimation.h"
 
@@ -410,13 +409,11 @@ json case_of(const ResultsReader& results, const json& summary) {
   if (name.empty()) name = summary.value("case", "");
   const std::string yaml =
       results.has(layout::case_yaml) ? results.read_text(layout::case_yaml) : "";
-  ContentHash hash;
-  hash.add(yaml);
   return {{"name", name},
           {"title", take("title")},
           {"created", take("created")},
           {"program_version", take("program_version")},
-          {"hash", yaml.empty() ? "" : hash.digits()},
+          {"hash", summary.value("input_hash", "")},
           {"yaml", yaml}};
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/files/input_hash.h"
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/results/assumptions.h"
 #include "pipeline/results/result_file.h"
@@ -157,14 +158,14 @@ std::string chains(const StandardAssessment& standard) {
 std::string revision(const Assessment& assessment) {
   const DocumentInCase& document = assessment.lift_case.document;
   ContentHash hash;
-  hash.add(assessment.lift_case.yaml);
+  hash.add(std::string_view(hash_of_input(assessment.lift_case)));
   for (const Chain& chain : assessment.standard->chains) {
     hash.add(chain.object);
     for (const ChainStep& step : chain.steps) hash.add(step.standard.value_or(1));
     hash.add(chain.limit.value_or(0));
   }
   std::string text = heading("Revision");
-  text += table({"revision", "case", "hash of case and factors", "program", "made"},
+  text += table({"revision", "case", "hash of input and factors", "program", "made"},
                 {{document.revision, assessment.lift_case.name, hash.digits(),
                   fmt::format("Blocklift {}", program_version), creation_time()}});
   return text + table({"", "name", "date", "signature"}, {{"prepared", document.prepared, "", ""},

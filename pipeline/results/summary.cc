@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/checks/loop_loads.h"
+#include "pipeline/files/input_hash.h"
 #include "pipeline/formats/json_values.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/results/assumptions.h"
@@ -445,6 +446,7 @@ Json document_json(const DocumentInCase& document) {
 
 Json make_summary(const Assessment& assessment) {
   Json summary{{"case", assessment.lift_case.name},
+               {"input_hash", hash_of_input(assessment.lift_case)},
                {"title", assessment.lift_case.title},
                {"document", document_json(assessment.lift_case.document)},
                {"program_version", program_version},
@@ -470,6 +472,7 @@ Json make_summary(const Assessment& assessment) {
 
 Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift) {
   Json summary{{"case", lift_case.name},
+               {"input_hash", hash_of_input(lift_case)},
                {"title", lift_case.title},
                {"document", document_json(lift_case.document)},
                {"program_version", program_version},
