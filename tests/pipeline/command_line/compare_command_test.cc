@@ -1,0 +1,86 @@
+// `blocklift compare`, `blocklift expect` and `blocklift assess --expect` as a user meets them.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/run_program.h"
+#include "tests/pipeline/sample_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::text_of_file;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Runs the program on the small lift's files, to be changed at will.
+class CompareCommand : public ::testing::Test {
+ protected:
+  CompareCommand() { fs::copy(BLOCKLIFT_SMALL_LIFT, "lift", fs::copy_options::recursive); }
+
+  static Outcome run(const std::string& arguments) {
+    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  }
+  void change(const std::string& file, const std::string& old_passage,
+              const std::string& new_passage) const {
+    const fs::path path = fs::path("lift") / file;
+    folder_.write(path, test::with(text_of_file(path), old_passage, new_passage));
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(CompareCommand, HoldsALiftToWhatItWasAndFindsWhatMoved) {
+  ASSERT_EQ(run("assess lift").exit_code, 0);
+  ASSERT_EQ(run("expect lift -o figures.json").exit_code, 0);
+  const std::string first_figures = text_of_file("figures.json");
+  const Outcome again = run("assess lift -o again --expect figures.json");
+  EXPECT_EQ(again.exit_code, 0) << again.out;
+  EXPECT_THAT(again.out, HasSubstr("expected figures: all "));
+  EXPECT_EQ(run("compare lift again --tolerance 'ropes=0%,structure=0%,checks=0%'").exit_code, 0);
+
+  change("block.yaml", "mass: 8 t", "mass: 9 t");
+  const Outcome heavier = run("assess lift -o heavier --expect figures.json");
+  EXPECT_EQ(heavier.exit_code, 3);
+  EXPECT_THAT(heavier.out, HasSubstr("not as expected: ropes.R1.max_static_tension_N is "));
+  EXPECT_THAT(heavier.out, HasSubstr("verdict: pass"));
+
+  // The block is one of the case's models, and the first result's is still what it was.
+  const Outcome compared = run("compare again heavier --tolerance ropes=5% -o page.html");
+  EXPECT_EQ(compared.exit_code, 3) << compared.err;
+  EXPECT_THAT(compared.out, HasSubstr(" block\n  mass\n    again    8 t\n    heavier  9 t\n"));
+  EXPECT_THAT(compared.out, HasSubstr("ropes.R1.max_static_tension_N of heavier: "));
+  EXPECT_TRUE(fs::exists("page.html"));
+  EXPECT_EQ(run("compare again heavier").exit_code, 0);
+  const auto json = nlohmann::json::parse(run("compare again heavier --json").out);
+  EXPECT_EQ(json["input"].size(), 1u);
+
+  EXPECT_EQ(run("expect heavier -o figures.json").exit_code, 2);
+  EXPECT_EQ(text_of_file("figures.json"), first_figures);
+  const Outcome renewed = run("expect heavier -o figures.json --renew");
+  EXPECT_EQ(renewed.exit_code, 0) << renewed.err;
+  EXPECT_THAT(renewed.out, HasSubstr("renewed: ropes.R1.max_static_tension_N is "));
+  EXPECT_NE(text_of_file("figures.json"), first_figures);
+}
+
+TEST_F(CompareCommand, RefusesWhatItCannotUseBeforeAnythingRuns) {
+  folder_.write("figures.json", "[{\"figure\": \"verdict\"}]");
+  const Outcome outcome = run("assess lift --expect figures.json");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("figures.json:1:2: error: figure verdict has no requirements"));
+  EXPECT_FALSE(fs::exists("results"));
+  const Outcome unassessed = run("compare lift lift");
+  EXPECT_EQ(unassessed.exit_code, 2);
+  EXPECT_THAT(unassessed.err, HasSubstr("the case has no results"));
+  EXPECT_EQ(run("compare lift").exit_code, 2);
+  EXPECT_EQ(run("expect lift --renew").exit_code, 2);
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
