@@ -13,6 +13,7 @@
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/hydro_command.h"
+#include "pipeline/command_line/limits.h"
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/simulate_command.h"
 #include "pipeline/command_line/stress_command.h"
@@ -40,6 +41,7 @@ void add_assess(CLI::App& app, int& code) {
   command->add_flag("--decks", *decks,
                     "write the governing load cases for other solvers as well: load-cases.inp "
                     "(Abaqus, CalculiX) and load-cases.bdf (Nastran)");
+  add_limits(*command);
   command->callback([path, output, decks, &code] { code = assess_case(*path, *output, *decks); });
 }
 
@@ -52,6 +54,7 @@ void add_stress(CLI::App& app, int& code) {
                       "folder of the results (results/<name of the part> if not given)");
   command->add_flag("--calculix", options->calculix,
                     "write part.inp as well: the same model for CalculiX");
+  add_limits(*command);
   command->callback([options, &code] { code = stress(*options); });
 }
 
@@ -66,7 +69,7 @@ void add_hydro(CLI::App& app, int& code) {
       "the database (results/<name of the vessel>.h5 if not given); its report lies "
       "beside it");
   command
-      ->add_option("--memory-limit", options->memory_limit,
+      ->add_option("--memory,--memory-limit", options->memory_limit,
                    "memory that may be used, GB (four fifths of the machine's if not given)")
       ->check(CLI::PositiveNumber);
   command->add_option(
@@ -86,6 +89,7 @@ void add_hydro(CLI::App& app, int& code) {
       ->add_option("--water-depth", options->water_depth,
                    "for WAMIT's files, m (deep if not given)")
       ->check(CLI::PositiveNumber);
+  add_limits(*command, false);
   command->callback([options, &code] { code = hydro(*options); });
 }
 
@@ -108,6 +112,7 @@ void add_simulate(CLI::App& app, int& code) {
   command->add_option("-o,--output", options->output,
                       "folder of the results (results/<name> if not given)");
   command->add_flag("--csv", options->csv, "write a CSV file beside the HDF5 one");
+  add_limits(*command);
   command->callback([options, &code] { code = simulate_file(*options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,6 +28,14 @@ double seconds_between(std::chrono::steady_clock::time_point from,
 
 /// When a line was written last where standard error is no terminal: stages come and go faster.
 std::chrono::steady_clock::time_point last_line = program_start;
+
+std::mutex last_text_guard;
+std::string last_text;
+
+void note(std::string text) {
+  const std::lock_guard lock(last_text_guard);
+  last_text = std::move(text);
+}
 
 /// "45 s", "12 min".
 std::string time_text(double seconds) {
@@ -52,8 +61,15 @@ std::string progress_text(const std::string& stage, double fraction, double elap
   return detail.empty() ? text : text + ", " + detail;
 }
 
+std::string last_progress() {
+  const std::lock_guard lock(last_text_guard);
+  return last_text;
+}
+
 ProgressBar::ProgressBar(std::string stage)
-    : stage_(std::move(stage)), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+    : stage_(std::move(stage)), on_terminal_(isatty(STDERR_FILENO) == 1) {
+  note(stage_);
+}
 
 ProgressBar::~ProgressBar() {
   if (shown_) fmt::print(stderr, "\r\033[K");
@@ -63,6 +79,7 @@ void ProgressBar::show(double fraction, const std::string& detail) {
   const Clock::time_point now = Clock::now();
   const std::string text = progress_text(stage_, fraction, seconds_between(program_start, now),
                                          seconds_between(begun_, now), detail);
+  note(text);
   if (!on_terminal_) {
     if (now - last_line < between_lines) return;
     last_line = now;

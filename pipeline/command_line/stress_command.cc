@@ -7,6 +7,7 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/held_signals.h"
 #include "pipeline/part/part_assessment.h"
 #include "structure/stress_tensor.h"
 
@@ -151,7 +152,10 @@ int stress_of(const StressOptions& options, structure::PartTeam* team) {
                                            : std::filesystem::path("results") / file->name;
   require_writable(folder);
   const PartAssessment assessment = assess_part(std::move(*file), team);
-  write_part_results(assessment, folder, options.calculix, team);
+  {
+    const HeldSignals until_all_is_in_place;
+    write_part_results(assessment, folder, options.calculix, team);
+  }
   print_table(assessment);
   fmt::print("results: {}\n", folder.string());
   return exit_code::done;
