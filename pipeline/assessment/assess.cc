@@ -24,6 +24,7 @@
 #include "pipeline/results/calculation_package.h"
 #include "pipeline/results/history_file.h"
 #include "pipeline/results/lift_scene.h"
+#include "pipeline/results/mesh_error.h"
 #include "pipeline/results/mesh_page.h"
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/result_file.h"
@@ -241,6 +242,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
                                       : block.assessment.simultaneous.dynamic_state.load));
   for (Check& check :
        check_block(the_case, block.assessment, block.history ? &*block.history : nullptr)) {
+    note_band(checked_stress_band(block), check);
     assessment.checks.push_back(std::move(check));
   }
   for (Check& check : check_buckling(the_case, block.buckling))

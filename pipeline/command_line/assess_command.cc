@@ -140,6 +140,8 @@ void print_accuracy(const structure::CheckedAccuracy& accuracy) {
 
 void print_details(const BlockRun& block) {
   print_accuracy(block.accuracy);
+  fmt::print("checked stresses stand within {:.1f} % by the error of the mesh\n",
+             100 * checked_stress_band(block));
   fmt::print("estimated error of the stress field {:.1f} % in the energy norm, most of it in {}\n",
              100 * block.error.relative, block.error.worst_part);
   if (!block.buckling.panels.empty()) {
