@@ -7,11 +7,13 @@
 #include <thread>
 #include <vector>
 
+#include "structure/limits.h"
+
 namespace blocklift::structure {
 
 void in_batches(int count, int batch_size, int threads,
                 const std::function<void(int first, int count)>& work) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = usable_threads();
   std::atomic<int> next{0};
   std::exception_ptr failure;
   int failed = count;  // first number of the lowest batch that has failed

@@ -24,6 +24,7 @@
 #include "pipeline/results/calculation_package.h"
 #include "pipeline/results/history_file.h"
 #include "pipeline/results/lift_scene.h"
+#include "pipeline/results/mesh_error.h"
 #include "pipeline/results/mesh_page.h"
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/result_file.h"
@@ -242,8 +243,10 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
                         block.history ? block.history->dynamic_state.governing
                                       : block.assessment.simultaneous.dynamic_state.load));
   for (Check& check :
-       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr))
-    assessment.checks.push_back(check);
+       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr)) {
+    note_band(checked_stress_band(block), check);
+    assessment.checks.push_back(std::move(check));
+  }
   for (Check& check : check_buckling(the_case, block.buckling))
     assessment.checks.push_back(std::move(check));
   for (Check& check : check_padeyes(the_case, block.padeyes))
@@ -294,9 +297,26 @@ void write_pictures(const BlockRun& block, const fs::path& folder) {
                               padeye.model->as_part(padeye.governing_state().result));
 }
 
+/// What a run may leave that not every run has: nobody is to sign the calculation of an earlier one.
+std::vector<std::string> files_of_earlier_runs(const fs::path& folder) {
+  std::vector<std::string> names = {package_file,
+                                    mesh_page_file,
+                                    abaqus_load_cases,
+                                    nastran_load_cases,
+                                    load_case_displacements,
+                                    "block-static.vtu",
+                                    "block-dynamic.vtu",
+                                    std::string(layout::table_file)};
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("lug-") && name.ends_with(".vtu")) names.push_back(name);
+  }
+  return names;
+}
+
 fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
                          const std::vector<LoadCaseFile>& decks) {
-  const Preparation preparation(folder);
+  Preparation preparation(folder);
   Stopwatch watch;
   const std::string run = new_run_identity();
   write_result_file(assessment, run, preparation.folder() / layout::results_file);
@@ -317,13 +337,7 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
   write_report(preparation.folder());
   summary["timing"]["report_s"] = watch.lap();
   write_file(summary_path, summary.dump(2));
-  // Nobody is to sign the calculation of an earlier run.
-  std::error_code ignored;
-  if (!assessment.standard) fs::remove(folder / package_file, ignored);
-  if (!has_mesh) fs::remove(folder / mesh_page_file, ignored);
-  for (const char* deck : {abaqus_load_cases, nastran_load_cases, load_case_displacements})
-    fs::remove(folder / deck, ignored);
-  preparation.move_into_place();
+  preparation.move_into_place(files_of_earlier_runs(folder));
   return folder / layout::report_file;
 }
 

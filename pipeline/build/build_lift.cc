@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/multibody/kinematics.h"
+#include "pipeline/build/body_box.h"
 #include "pipeline/files/crane_pose.h"
 #include "pipeline/mechanism/build_parts.h"
 
@@ -22,44 +22,6 @@ using dynamics::BodyDefinition;
 using dynamics::BodyIndex;
 using dynamics::BodyPoint;
 using dynamics::Pose;
-
-/// The box around all plates of a block, as the drawing shows the block.
-BoxShape drawn_box(const BlockModel& block) {
-  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 high = -low;
-  const auto include = [&](const std::vector<Vector3>& points) {
-    for (const Vector3& point : points) {
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
-  };
-  if (block.mesh) include(block.mesh->deck->mesh.vertices);
-  for (const PlateModel& plate : block.plates) {
-    if (plate.corners) include(plate.corners->value);
-    if (plate.edges)
-      for (const EdgeModel& edge : plate.edges->value) include(edge.points);
-    if (plate.is_free()) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<Eigen::Index>(axis);
-      const auto widen = [&](double value) {
-        low[i] = std::min(low[i], value);
-        high[i] = std::max(high[i], value);
-      };
-      if (axis == plate.normal) {
-        for (const double at : plate.at) widen(at);
-      } else if (plate.extent[axis]) {
-        for (const double end : plate.extent[axis]->value) widen(end);
-      }
-    }
-  }
-  return {high - low, 0.5 * (low + high), Vector3::Zero()};
-}
-
-/// The box around a hull, as the drawing shows a vessel.
-BoxShape hull_box(const Vessel& vessel) {
-  const auto [low, high] = vessel.hull.bounds();
-  return {high - low, 0.5 * (low + high), Vector3::Zero()};
-}
 
 /// Mass of the cranes that stand on a vessel, kg; hook blocks and what they carry not counted.
 double mass_on(const LiftCase& lift_case, const std::string& vessel) {
@@ -101,7 +63,7 @@ class LiftBuilder {
     dynamics::MechanismBuilder builder;
     builder.set_gravity(Vector3(0, 0, -case_.gravity));
     for (const VesselInCase& vessel : case_.vessels) {
-      register_body(builder, MarineBuilder::body(vessel), "vessel", {hull_box(*vessel.model)});
+      register_body(builder, MarineBuilder::body(vessel), "vessel", {box_around(*vessel.model)});
     }
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) add_crane(builder, i);
     add_load(builder);
@@ -201,9 +163,7 @@ class LiftBuilder {
     load.mass = load_.mass;
     load.p_BoBcm_B = load_.p_BoBcm_B;
     load.I_BBcm_B = load_.I_BBcm_B;
-    register_body(
-        builder, load, "load",
-        {case_.load.vessel ? hull_box(*case_.load.vessel) : drawn_box(*case_.load.model)});
+    register_body(builder, load, "load", {box_around(case_.load)});
   }
 
   /// The load's natural modes: each a body of the load's mass that slides level.

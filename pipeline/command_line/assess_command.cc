@@ -180,6 +180,8 @@ void print_padeyes(const std::vector<PadeyeAssessment>& padeyes) {
 
 void print_details(const BlockRun& block) {
   print_accuracy(block.accuracy);
+  print_wrapped(fmt::format("checked stresses stand within {:.1f} % by the error of the mesh",
+                            100 * checked_stress_band(block)));
   print_wrapped(fmt::format(
       "estimated error of the stress field {:.1f} % in the energy norm, most of it in {}",
       100 * block.error.relative, block.error.worst_part));

@@ -15,6 +15,7 @@
 #include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/hydro_command.h"
+#include "pipeline/command_line/limits.h"
 #include "pipeline/command_line/new_command.h"
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/simulate_command.h"
@@ -49,6 +50,7 @@ void add_assess(CLI::App& app, int& code) {
   command->add_option("--expect", *expect,
                       "file of figures that the lift is held to (\"expect\" writes one); exit code "
                       "3 if one is off");
+  add_limits(*command);
   command->callback([path, output, decks, expect, &code] {
     code = assess_case(*path, *output, *decks, *expect);
   });
@@ -99,6 +101,7 @@ void add_stress(CLI::App& app, int& code) {
                       "folder of the results (results/<name of the part> if not given)");
   command->add_flag("--calculix", options->calculix,
                     "write part.inp as well: the same model for CalculiX");
+  add_limits(*command);
   command->callback([options, &code] { code = stress(*options); });
 }
 
@@ -113,7 +116,7 @@ void add_hydro(CLI::App& app, int& code) {
       "the database (results/<name of the vessel>.h5 if not given); its report lies "
       "beside it");
   command
-      ->add_option("--memory-limit", options->memory_limit,
+      ->add_option("--memory,--memory-limit", options->memory_limit,
                    "memory that may be used, GB (four fifths of the machine's if not given)")
       ->check(CLI::PositiveNumber);
   command->add_option(
@@ -133,6 +136,7 @@ void add_hydro(CLI::App& app, int& code) {
       ->add_option("--water-depth", options->water_depth,
                    "for WAMIT's files, m (deep if not given)")
       ->check(CLI::PositiveNumber);
+  add_limits(*command, false);
   command->callback([options, &code] { code = hydro(*options); });
 }
 
@@ -178,6 +182,7 @@ void add_simulate(CLI::App& app, int& code) {
   command->add_option("-o,--output", options->output,
                       "folder of the results (results/<name> if not given)");
   command->add_flag("--csv", options->csv, "write a CSV file beside the HDF5 one");
+  add_limits(*command);
   command->callback([options, &code] { code = simulate_file(*options); });
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 namespace blocklift::pipeline {
@@ -29,12 +30,40 @@ bool runs_below_its_kernels() {
 #endif
 }
 
+/// What --threads asks for, as text; empty without it. Whether it is a number is told later.
+std::string threads_asked(int count, char** arguments) {
+  constexpr std::string_view option = "--threads";
+  for (int i = 1; i < count; ++i) {
+    const std::string_view argument = arguments[i];
+    if (argument == option && i + 1 < count) return arguments[i + 1];
+    if (argument.starts_with(option) && argument.substr(option.size()).starts_with('='))
+      return std::string(argument.substr(option.size() + 1));
+  }
+  return {};
+}
+
+/// Sets the variables that our own loops, BLAS and deal.II follow. @returns true if one changed.
+bool limit_threads(int count, char** arguments) {
+  const std::string asked = threads_asked(count, arguments);
+  if (asked.empty() || asked.find_first_not_of("0123456789") != std::string::npos) return false;
+  bool changed = false;
+  for (const char* variable : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "DEAL_II_NUM_THREADS"}) {
+    const char* present = std::getenv(variable);
+    if (present != nullptr && present == asked) continue;
+    changed = ::setenv(variable, asked.c_str(), 1) == 0 || changed;
+  }
+  return changed;
+}
+
 }  // namespace
 
 void use_all_of_the_processor(int count, char** arguments) {
   const std::string_view command = count > 1 ? arguments[1] : "";
-  if (command != "assess" && command != "stress") return;
-  bool changed = false;
+  bool changed = limit_threads(count, arguments);
+  if (command != "assess" && command != "stress") {
+    if (changed) ::execv("/proc/self/exe", arguments);
+    return;
+  }
   if (std::getenv(patience) == nullptr) changed = ::setenv(patience, "18", 0) == 0;
   if (std::getenv(kernels) == nullptr && runs_below_its_kernels())
     changed = ::setenv(kernels, "SKYLAKEX", 0) == 0 || changed;

@@ -10,6 +10,7 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/held_signals.h"
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
@@ -195,7 +196,10 @@ int stress_of(const StressOptions& options, structure::PartTeam* team) {
                                            : std::filesystem::path("results") / file->name;
   require_writable(folder);
   const PartAssessment assessment = assess_part(std::move(*file), team);
-  write_part_results(assessment, folder, options.calculix, team);
+  {
+    const HeldSignals until_all_is_in_place;
+    write_part_results(assessment, folder, options.calculix, team);
+  }
   print_table(assessment);
   if (!is_quiet()) fmt::print("results: {}\n", folder.string());
   return exit_code::done;

@@ -23,6 +23,7 @@
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/part/part_assessment.h"
+#include "pipeline/results/doubts.h"
 #include "pipeline/results/mesh_page.h"
 #include "pipeline/terminal/run_log.h"
 
@@ -120,6 +121,7 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   std::string summary = fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case));
   if (lift_case->load.model && lift_case->load.model->mesh)
     summary += "\n" + describe_block_mesh(*lift_case->load.model->mesh);
+  for (const std::string& doubt : list_doubts(*lift_case)) summary += "\nwarning: " + doubt;
   return if_sound(std::move(summary));
 }
 

@@ -140,6 +140,7 @@ namespace blocklift::pipeline::layout {
 inline constexpr std::string_view results_file = "results.h5";
 inline constexpr std::string_view summary_file = "summary.json";
 inline constexpr std::string_view report_file = "report.html";
+inline constexpr std::string_view table_file = "results.csv";
 
 inline constexpr std::string_view format_name = "blocklift results";
 inline constexpr double format_version = 2;

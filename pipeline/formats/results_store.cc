@@ -183,9 +183,9 @@ class ResultsWriter::File {
     const Handle space = make_space(shape);
     const Handle links = link_creation();
     const Handle creation = dataset_creation(shape, numerical);
-    const Handle set(H5Dcreate2(id(), path.c_str(), stored, space.get(), links.get(),
-                                creation.get(), H5P_DEFAULT),
-                     H5Dclose);
+    Handle set(H5Dcreate2(id(), path.c_str(), stored, space.get(), links.get(), creation.get(),
+                          H5P_DEFAULT),
+               H5Dclose);
     if (!set) fail(name_, path, "cannot make the dataset");
     hsize_t count = 1;
     for (const hsize_t extent : shape) count *= extent;
@@ -193,6 +193,8 @@ class ResultsWriter::File {
       fail(name_, path, "cannot write the dataset");
     put_text_attribute(name_, set.get(), path, "units", meaning.units);
     put_text_attribute(name_, set.get(), path, "description", meaning.description);
+    // Values may be written only here.
+    if (!set.reset()) fail(name_, path, "cannot write the dataset");
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <optional>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "dynamics/errors.h"
 #include "pipeline/formats/hull_hash.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/hydrodynamics/cache_lock.h"
 #include "pipeline/hydrodynamics/given_database.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
 
@@ -75,23 +77,22 @@ void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
   if (!doubt.empty()) say("warning: " + doubt);
 }
 
-/// The database of bodies that stay.
-dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
-                                             const std::string& where, const Say& say) {
-  const std::string identity = identity_of(problem);
-  const fs::path folder = cache_folder();
-  const fs::path file = folder / (identity + ".h5");
-  if (!folder.empty() && read_identity(file) == identity) {
-    try {
-      dynamics::HydrodynamicDatabase database = read_hydrodynamic_database(file);
-      say("from " + file.string());
-      say_doubt(database, say);
-      return database;
-    } catch (const HydrodynamicFileError&) {
-      // Of an older version, or damaged: computed anew.
-    }
+/// The database of an entry of the cache; none if there is none that is whole and of this version.
+std::optional<dynamics::HydrodynamicDatabase> read_entry(const fs::path& file,
+                                                         const std::string& identity) {
+  if (read_identity(file) != identity) return std::nullopt;
+  try {
+    return read_hydrodynamic_database(file);
+  } catch (const HydrodynamicFileError&) {
+    return std::nullopt;
   }
-  say("computing that of " + names_of_bodies(problem) + where);
+}
+
+/// Computes the database of bodies that stay.
+/// @param of_what the bodies, and their draught.
+dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
+                                                const std::string& of_what, const Say& say) {
+  say("computing that of " + of_what);
   dynamics::HydrodynamicDatabase database =
       compute_or_refuse(problem, [&](const RadiationProblem& p) {
         const dynamics::PanelModel model = make_panel_model(p);
@@ -100,12 +101,32 @@ dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
         return compute_radiation(p, model);
       });
   say_doubt(database, say);
-  if (folder.empty()) return database;
+  return database;
+}
+
+/// The database of bodies that stay.
+dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
+                                             const std::string& where, const Say& say) {
+  const std::string of_what = names_of_bodies(problem) + where;
+  const fs::path folder = cache_folder();
+  if (folder.empty()) return compute_database(problem, of_what, say);
+  const std::string identity = identity_of(problem);
+  const fs::path file = folder / (identity + ".h5");
+  const auto take = [&](dynamics::HydrodynamicDatabase known) {
+    say("from " + file.string());
+    say_doubt(known, say);
+    return known;
+  };
+  if (auto known = read_entry(file, identity)) return take(std::move(*known));
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  const CacheLock lock(file,
+                       [&] { say("waiting for another run that computes that of " + of_what); });
+  // The other run may have been waited for.
+  if (auto known = read_entry(file, identity)) return take(std::move(*known));
+  dynamics::HydrodynamicDatabase database = compute_database(problem, of_what, say);
   try {
-    std::error_code ignored;
-    fs::create_directories(folder, ignored);
-    write_hydrodynamic_database(file, database, identity,
-                                "computed for a case with " + names_of_bodies(problem) + where);
+    write_hydrodynamic_database(file, database, identity, "computed for a case with " + of_what);
   } catch (const std::runtime_error&) {
     // What cannot be kept is computed again.
   }

@@ -20,8 +20,8 @@ std::string identity_of(const RadiationProblem& problem);
 
 /// The database of a problem, or, where a body is lowered, one for each of its draughts after that
 /// of the others alone (dynamics::with_dry_body): from the cache if they lie there, else computed
-/// and put there. A cache that cannot be written is no error: databases are computed again next
-/// time.
+/// and put there. What another run is computing is waited for and taken from there (CacheLock). A
+/// cache that cannot be written is no error: databases are computed again next time.
 /// @param report called with a sentence about what is done; may be empty.
 /// @returns null for a problem without bodies, or one whose surface is marched directly.
 /// @throws InputError if the panel method refuses the problem (a wave too short for the panels,

@@ -182,7 +182,7 @@ void write_fields(const PartAssessment& assessment, const std::filesystem::path&
 
 void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
                         bool calculix, const structure::PartTeam* team) {
-  const Preparation preparation(folder);
+  Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
   if (!assessment.file.loads.empty() && team)
     team->write_pieces((aside / "part").string());
@@ -194,7 +194,7 @@ void write_part_results(const PartAssessment& assessment, const std::filesystem:
   if (calculix) structure::write_calculix((aside / "part.inp").string(), assessment.model);
   write_fields(assessment, aside / "results.h5");
   write_file(aside / "summary.json", make_part_summary(assessment).dump(2));
-  preparation.move_into_place();
+  preparation.move_into_place({"part.vtu", "modes.vtu", "part.inp"});
 }
 
 }  // namespace blocklift::pipeline

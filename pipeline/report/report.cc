@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/formats/run_identity.h"
@@ -33,6 +34,7 @@ void require_known_layout(const ResultsReader& results, const std::filesystem::p
 }  // namespace
 
 std::filesystem::path write_report(const std::filesystem::path& folder) {
+  complete_stopped_move(folder);
   const nlohmann::ordered_json summary = read_summary(folder / layout::summary_file);
   const ResultsReader results(folder / layout::results_file);
   require_known_layout(results, folder / layout::results_file);

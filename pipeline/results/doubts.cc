@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
 
 namespace blocklift::pipeline {
@@ -30,16 +31,18 @@ double lowest_point(const Box& box, const Pose& X_WB) {
 
 class Doubts {
  public:
-  Doubts(const LiftCase& lift_case, const LiftRun& lift) : case_(lift_case), lift_(lift) {
-    for (const LiftBody& body : lift.model.bodies) {
-      if (body.body == lift.model.load && !body.boxes.empty()) load_box_ = box_of(body.boxes[0]);
-    }
+  explicit Doubts(const LiftCase& lift_case) : case_(lift_case) {
+    if (lift_case.load.vessel || lift_case.load.model)
+      load_box_ = box_of(box_around(lift_case.load));
+  }
+
+  void doubt_run(const LiftRun& lift) {
+    doubt_place(lift);
+    doubt_ground(lift);
+    doubt_ropes(lift);
   }
 
   std::vector<std::string> list() {
-    doubt_place();
-    doubt_ground();
-    doubt_ropes();
     doubt_cranes();
     doubt_wind();
     doubt_materials();
@@ -53,15 +56,16 @@ class Doubts {
     list_.push_back(fmt::format(text, std::forward<Values>(values)...));
   }
 
-  const dynamics::BodyHistory& load(const dynamics::History& history) const {
-    return history.bodies[static_cast<std::size_t>(lift_.model.load) - 1];
+  static const dynamics::BodyHistory& load_of(const LiftRun& lift,
+                                              const dynamics::History& history) {
+    return history.bodies[static_cast<std::size_t>(lift.model.load) - 1];
   }
 
   /// The place that the case gives is a first guess, but not of another yard.
-  void doubt_place() {
+  void doubt_place(const LiftRun& lift) {
     constexpr double usual = 10;  // m
     const double size = load_box_ ? 2 * load_box_->half.norm() : 0;
-    const Vector3 found = load(lift_.static_history).X_WB(0).p;
+    const Vector3 found = load_of(lift, lift.static_history).X_WB(0).p;
     const double distance = (found - case_.load.position).norm();
     if (distance <= std::max(usual, size)) return;
     doubt(
@@ -72,18 +76,18 @@ class Doubts {
 
   /// Ashore nothing but pads keeps the load out of the ground, which is at z = 0 or where they
   /// stand.
-  void doubt_ground() {
+  void doubt_ground(const LiftRun& lift) {
     if (case_.sea || !load_box_) return;
     constexpr double sunk = 0.1;  // m
     double ground = 0;
     for (const SupportInCase& support : case_.supports) ground = std::min(ground, support.ground);
-    const dynamics::BodyHistory& body = load(lift_.dynamic_history());
+    const dynamics::BodyHistory& body = load_of(lift, lift.dynamic_history());
     double lowest = std::numeric_limits<double>::infinity(), when = 0;
-    for (Eigen::Index i = 0; i < lift_.dynamic_history().sample_count(); ++i) {
+    for (Eigen::Index i = 0; i < lift.dynamic_history().sample_count(); ++i) {
       const double height = lowest_point(*load_box_, body.X_WB(i));
       if (height >= lowest) continue;
       lowest = height;
-      when = lift_.dynamic_history().time[i];
+      when = lift.dynamic_history().time[i];
     }
     if (lowest < ground - sunk)
       doubt(
@@ -92,9 +96,9 @@ class Doubts {
           ground - lowest, ground, when);
   }
 
-  void doubt_ropes() {
+  void doubt_ropes(const LiftRun& lift) {
     for (const dynamics::LinkedMaximum& most :
-         dynamics::find_largest_tensions(lift_.dynamic_history())) {
+         dynamics::find_largest_tensions(lift.dynamic_history())) {
       const auto check = [&](const auto& rope) {
         if (rope.rope != most.rope || !(most.tension > rope.breaking_load)) return;
         doubt(
@@ -102,8 +106,8 @@ class Doubts {
             "follows would not happen so.",
             rope.name, most.tension / 1e3, most.time, rope.breaking_load / 1e3);
       };
-      for (const LiftRope& rope : lift_.model.ropes) check(rope);
-      for (const LiftHoist& hoist : lift_.model.hoists) check(hoist);
+      for (const LiftRope& rope : lift.model.ropes) check(rope);
+      for (const LiftHoist& hoist : lift.model.hoists) check(hoist);
     }
   }
 
@@ -206,7 +210,6 @@ class Doubts {
   }
 
   const LiftCase& case_;
-  const LiftRun& lift_;
   std::optional<Box> load_box_;
   std::vector<std::string> list_;
 };
@@ -214,7 +217,11 @@ class Doubts {
 }  // namespace
 
 std::vector<std::string> list_doubts(const LiftCase& lift_case, const LiftRun& lift) {
-  return Doubts(lift_case, lift).list();
+  Doubts doubts(lift_case);
+  doubts.doubt_run(lift);
+  return doubts.list();
 }
+
+std::vector<std::string> list_doubts(const LiftCase& lift_case) { return Doubts(lift_case).list(); }
 
 }  // namespace blocklift::pipeline

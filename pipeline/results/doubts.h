@@ -13,5 +13,7 @@ namespace blocklift::pipeline {
 /// place, wind that finds nothing to blow on, values that hardly any lift has. Each a sentence that
 /// says what was found, and for values what is usual.
 std::vector<std::string> list_doubts(const LiftCase& lift_case, const LiftRun& lift);
+/// Those that need no run: cranes, wind, values.
+std::vector<std::string> list_doubts(const LiftCase& lift_case);
 
 }  // namespace blocklift::pipeline

@@ -25,4 +25,14 @@ std::string why_indicative(const Assessment& assessment) {
       100 * accuracy.stress_change(), 100 * assessment.lift_case.structure.accuracy);
 }
 
+double checked_stress_band(const BlockRun& block) {
+  return block.accuracy.steps.size() < 2 ? block.error.relative : block.accuracy.stress_change();
+}
+
+void note_band(double band, Check& check) {
+  if (!check.note.empty()) check.note += "; ";
+  check.note += fmt::format("{:.4g} to {:.4g} MPa by the error of the mesh",
+                            check.demand * (1 - band) / 1e6, check.demand * (1 + band) / 1e6);
+}
+
 }  // namespace blocklift::pipeline

@@ -254,7 +254,8 @@ Json error_json(const structure::Mesh& mesh, const structure::BlockError& error)
   return json;
 }
 
-Json accuracy_json(const structure::CheckedAccuracy& accuracy, const StructureSettings& asked) {
+Json accuracy_json(const BlockRun& block, const StructureSettings& asked) {
+  const structure::CheckedAccuracy& accuracy = block.accuracy;
   Json steps = Json::array();
   for (const structure::AccuracyStep& step : accuracy.steps)
     steps.push_back({{"unknowns", step.unknowns},
@@ -266,6 +267,7 @@ Json accuracy_json(const structure::CheckedAccuracy& accuracy, const StructureSe
   return {{"asked", asked.accuracy},
           {"is_reached", accuracy.is_reached},
           {"stress_change", accuracy.stress_change()},
+          {"stress_band", checked_stress_band(block)},
           {"increase_change_percent", 100 * accuracy.increase_change()},
           {"steps", std::move(steps)}};
 }
@@ -301,7 +303,7 @@ Json structure_json(const Assessment& assessment) {
               {"smallest_density_factor", mass.smallest_density_factor},
               {"largest_density_factor", mass.largest_density_factor}}}};
   json["estimated_error"] = error_json(model.mesh(), assessment.block.error);
-  json["accuracy"] = accuracy_json(assessment.block.accuracy, assessment.lift_case.structure);
+  json["accuracy"] = accuracy_json(assessment.block, assessment.lift_case.structure);
   json["buckling"] = buckling_json(assessment.block.buckling);
   if (const auto& pressure = assessment.block.pressure) {
     json["pressure"] = {{"regions", pressure->regions},

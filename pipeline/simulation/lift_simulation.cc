@@ -77,7 +77,7 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   const LiftCase& lift_case = simulation.lift_case;
   const dynamics::LiftSystem& system = simulation.run.model.system;
   const Scene scene = make_scene(simulation.run.model, simulation.lugs);
-  const Preparation preparation(folder);
+  Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
   ResultsWriter file(aside / layout::results_file);
   const std::string run = new_run_identity();
@@ -96,10 +96,10 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   write_file(aside / layout::summary_file, summary.dump(2));
   write_report(aside);
   if (with_csv) {
-    write_file(aside / "results.csv",
+    write_file(aside / layout::table_file,
                csv_text(simulation.run.dynamic_history().time, table_of(simulation)));
   }
-  preparation.move_into_place();
+  preparation.move_into_place({std::string(layout::table_file)});
 }
 
 }  // namespace blocklift::pipeline

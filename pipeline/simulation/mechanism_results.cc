@@ -94,14 +94,14 @@ void write_statistics(ResultsWriter& file, const dynamics::IntegrationStatistics
 
 void write_mechanism_results(const MechanismFile& file, const MechanismRun& run,
                              const std::filesystem::path& folder, bool with_csv) {
-  const Preparation preparation(folder);
+  Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
   const std::string identity = new_run_identity();
   write_results(file, run, identity, aside / layout::results_file);
   write_file(aside / layout::summary_file, make_summary(file, run, identity).dump(2));
   write_report(aside);
-  if (with_csv) write_file(aside / "results.csv", csv_text(run.time(), run.outputs));
-  preparation.move_into_place();
+  if (with_csv) write_file(aside / layout::table_file, csv_text(run.time(), run.outputs));
+  preparation.move_into_place({std::string(layout::table_file)});
 }
 
 }  // namespace blocklift::pipeline

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,6 +31,14 @@ double seconds_between(std::chrono::steady_clock::time_point from,
 /// When a line was written last where standard error is no terminal: stages come and go faster.
 std::chrono::steady_clock::time_point last_line = program_start;
 
+std::mutex last_text_guard;
+std::string last_text;
+
+void note(std::string text) {
+  const std::lock_guard lock(last_text_guard);
+  last_text = std::move(text);
+}
+
 /// "45 s", "12 min".
 std::string time_text(double seconds) {
   return seconds < 120 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60);
@@ -54,9 +63,15 @@ std::string progress_text(const std::string& stage, double fraction, double elap
   return detail.empty() ? text : text + ", " + detail;
 }
 
+std::string last_progress() {
+  const std::lock_guard lock(last_text_guard);
+  return last_text;
+}
+
 ProgressBar::ProgressBar(std::string stage)
     : stage_(std::move(stage)), on_terminal_(isatty(STDERR_FILENO) == 1) {
   log_entry(stage_ + " begins");
+  note(stage_);
 }
 
 ProgressBar::~ProgressBar() {
@@ -68,6 +83,7 @@ void ProgressBar::show(double fraction, const std::string& detail) {
   const Clock::time_point now = Clock::now();
   const std::string text = progress_text(stage_, fraction, seconds_between(program_start, now),
                                          seconds_between(begun_, now), detail);
+  note(text);
   if (now - last_line >= between_lines) {
     last_line = now;
     log_entry(text);

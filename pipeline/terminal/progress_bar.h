@@ -13,6 +13,9 @@ namespace blocklift::pipeline {
 std::string progress_text(const std::string& stage, double fraction, double elapsed_s,
                           double stage_s, const std::string& detail);
 
+/// What the last bar was told to show, as progress_text; empty before the first. Any thread may ask.
+std::string last_progress();
+
 /// One line on a terminal that shows how far a stage of the run has come. It appears once the
 /// program has run for a second and is wiped when the stage ends; it is cut to the terminal's
 /// width. Where standard error is no terminal, a line is written every half minute. Quiet runs show

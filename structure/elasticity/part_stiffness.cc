@@ -12,6 +12,7 @@
 #include "structure/elasticity/part_model.h"
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/limits.h"
 
 namespace blocklift::structure {
 
@@ -135,7 +136,7 @@ Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid) {
 }
 
 SparseLower assemble_part_stiffness(const PartModel& model, int threads) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = usable_threads();
   const Graph graph = node_graph(model.mesh);
   SparseLower matrix = empty_matrix(graph);
   const int solids = static_cast<int>(model.mesh.solids.size());

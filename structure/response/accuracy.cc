@@ -23,6 +23,9 @@ constexpr double growth = 0.8;      // of cells with the distance from a square
 constexpr double first_edge = 0.1;  // m
 constexpr int most_steps = 6;
 constexpr std::size_t most_centres = 60;
+// Shares that differ by less are one: squares of a symmetric block differ by rounding alone, which
+// another number of threads changes, and their order decides which cells are divided.
+constexpr double equal_shares = 1e-6;
 
 /// Largest stress of each square over all instants.
 Eigen::VectorXd largest_of(const CheckedStress& checked, const Eigen::MatrixXd& factors) {
@@ -84,7 +87,8 @@ std::vector<Vector3> centres_of(const Evaluation& found, double corners) {
   const Eigen::VectorXd share = found.share();
   std::vector<int> order(found.squares.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return share[a] > share[b]; });
+  const Eigen::VectorXd rank = (share / equal_shares).array().round();
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank[a] > rank[b]; });
   std::vector<Vector3> centres;
   for (const int s : order) {
     if (share[s] < corners || centres.size() >= most_centres) break;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/limits.h"
 #include "structure/stopwatch.h"
 #include "structure/system/assembly.h"
 #include "structure/system/linear_solver.h"
@@ -35,7 +35,7 @@ constexpr double standard_gravity = 9.80665;  // m/s^2
 UnitResponses::~UnitResponses() = default;
 
 UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(model) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = usable_threads();
   Stopwatch watch;
   SparseLower stiffness = assemble_stiffness(model.space(), threads);
   timing_.assembly_s = watch.lap();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
 #include "structure/index.h"
+#include "structure/limits.h"
 #include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
@@ -243,7 +243,7 @@ void hold_loose_rotations(const Space& space, SparseLower& stiffness) {
 
 SparseLower assemble(const Space& space, const std::function<ElementMatrix()>& make_worker,
                      int threads) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = usable_threads();
   const Elimination& elimination = space.elimination();
   const Pattern pattern = make_pattern(elimination);
   require_memory(space, pattern);

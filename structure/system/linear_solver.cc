@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/limits.h"
 
 namespace blocklift::structure {
 
@@ -31,8 +31,9 @@ struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLowe
 double available_memory() {
   std::ifstream file("/proc/meminfo");
   for (std::string line; std::getline(file, line);)
-    if (line.rfind("MemAvailable:", 0) == 0) return 1024 * std::stod(line.substr(13));
-  return std::numeric_limits<double>::infinity();
+    if (line.rfind("MemAvailable:", 0) == 0)
+      return std::min(1024 * std::stod(line.substr(13)), memory_within_limit());
+  return memory_within_limit();
 }
 
 ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <string>
@@ -32,6 +33,15 @@ namespace blocklift::dynamics {
 namespace {
 
 int to_int(Eigen::Index value) { return static_cast<int>(value); }
+
+/// OMP_NUM_THREADS, which BLAS follows too, otherwise as many as the machine has.
+int usable_threads() {
+  if (const char* given = std::getenv("OMP_NUM_THREADS")) {
+    const int threads = std::atoi(given);
+    if (threads > 0) return threads;
+  }
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 }  // namespace
 
@@ -100,7 +110,7 @@ void multiply_symmetric(const Eigen::MatrixXf& A, const Eigen::MatrixXf& X, Eige
 }
 
 void parallel_for(int count, int threads, const std::function<void(int)>& work) {
-  if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (threads <= 0) threads = usable_threads();
   threads = std::min(threads, count);
   std::atomic<int> next{0};
   std::exception_ptr failure;

@@ -2,9 +2,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include "dynamics/errors.h"
@@ -14,6 +17,8 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+std::atomic<double> memory_limit{std::numeric_limits<double>::infinity()};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -96,9 +101,11 @@ void refuse_if_too_large(const PanelModel& model, const RankineSettings& setting
 }  // namespace
 
 double usable_memory() {
-  return 0.8 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  return std::min(memory_limit.load(), 0.8 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                                           static_cast<double>(sysconf(_SC_PAGE_SIZE)));
 }
+
+void limit_usable_memory(double bytes) { memory_limit = bytes; }
 
 struct RankinePart::Influence {
   MatrixXd S_BB, D_BB;  ///< bodies on bodies, with the images in z = 0

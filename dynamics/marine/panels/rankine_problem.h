@@ -12,8 +12,10 @@ namespace blocklift::dynamics {
 /// bodies and surface that it is computed with.
 double rankine_part_bytes(int body_panels, int surface_panels, bool finite_depth);
 
-/// Four fifths of the machine's memory, bytes: what may be used where no limit is set.
+/// What may be used, bytes: four fifths of the machine's memory, or limit_usable_memory if less.
 double usable_memory();
+/// Sets a limit for the process, bytes, from now on; there is none to begin with.
+void limit_usable_memory(double bytes);
 
 /// Panels of a problem that are taken together for a second, coarser solution of it.
 struct CoarserPanels {

@@ -1,5 +1,6 @@
 // `blocklift assess` and `blocklift report` as a user meets them: run as a process.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -64,6 +65,59 @@ TEST_F(AssessCommand, WritesResultsAndSaysWhereTheReportIs) {
                            "block-dynamic.vtu", "lug-L1.vtu"})
     EXPECT_TRUE(fs::is_regular_file(fs::path("results/small-lift") / file)) << file;
   EXPECT_EQ(written().size(), 8u);  // two folders and the six files
+}
+
+/// Figures that time and the order of additions alone decide: not of the lift.
+bool is_of_the_run(const std::string& path) {
+  return path.starts_with("/timing") || path == "/run" || path == "/created" ||
+         path.ends_with("times_faster_than_real_time");
+}
+
+/// What is nought but for rounding, or a difference of figures that are alike, in per cent.
+bool is_small_beside_one(const std::string& path) {
+  return path.ends_with("residual") || path.ends_with("_percent") ||
+         path.ends_with("reaction_over_weight") || path.ends_with("relative_imbalance");
+}
+
+void expect_same(const nlohmann::json& one, const nlohmann::json& other, const std::string& path) {
+  if (is_of_the_run(path)) return;
+  ASSERT_EQ(one.size(), other.size()) << path;
+  if (one.is_object()) {
+    for (const auto& [key, value] : one.items()) {
+      ASSERT_TRUE(other.contains(key)) << path << "/" << key;
+      expect_same(value, other[key], path + "/" + key);
+    }
+  } else if (one.is_array()) {
+    for (std::size_t i = 0; i < one.size(); ++i)
+      expect_same(one[i], other[i], path + "/" + std::to_string(i));
+  } else if (one.is_number() && other.is_number()) {
+    const double a = one.get<double>(), b = other.get<double>();
+    const double scale =
+        std::max({std::abs(a), std::abs(b), is_small_beside_one(path) ? 1.0 : 0.0});
+    EXPECT_LE(std::abs(a - b), 1e-9 * scale) << path << ": " << a << ", " << b;
+  } else {
+    EXPECT_EQ(one, other) << path;
+  }
+}
+
+// Sums come in another order with another number of threads; what is decided by them must not turn.
+TEST_F(AssessCommand, TellsTheSameWithAnyNumberOfThreads) {
+  for (const char* threads : {"1", "2"})
+    ASSERT_EQ(run(std::string("assess lift --threads ") + threads + " -o " + threads).exit_code, 0);
+  expect_same(nlohmann::json::parse(text_of_file("1/summary.json")),
+              nlohmann::json::parse(text_of_file("2/summary.json")), "");
+}
+
+TEST_F(AssessCommand, KeepsWithinItsLimits) {
+  const Outcome late = run("assess lift --time 0.3 -o out");
+  EXPECT_EQ(late.exit_code, 1);
+  EXPECT_THAT(late.err, HasSubstr("blocklift: error: stopped after 0.3 s, the limit of --time; "));
+  const Outcome large = run("assess lift --memory 0.001 -o out");
+  EXPECT_EQ(large.exit_code, 1);
+  EXPECT_THAT(large.err, HasSubstr(" GB"));
+  EXPECT_TRUE(written().empty());
+  EXPECT_EQ(run("assess lift --threads 0").exit_code, 2);
+  EXPECT_EQ(run("assess lift --memory 8 --time 600 -o out").exit_code, 0);
 }
 
 TEST_F(AssessCommand, PutsResultsWhereItIsTold) {

@@ -16,6 +16,7 @@
 #include "pipeline/checks/standard_checks.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
+#include "pipeline/results/mesh_error.h"
 #include "pipeline/results/summary.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/small_lift.h"
@@ -291,6 +292,22 @@ TEST(Summary, RoundingMakesNoPracticeUnsafe) {
   EXPECT_FALSE(is_safe(-0.01));
 }
 
+TEST(MeshError, GivesChecksOfStressABand) {
+  BlockRun block;
+  block.error.relative = 0.2;
+  EXPECT_EQ(checked_stress_band(block), 0.2);
+  block.accuracy.steps = {{100, 10, 0.1, 50e6, 100e6}, {200, 20, 0.05, 51e6, 105e6}};
+  EXPECT_NEAR(checked_stress_band(block), 0.05, 1e-12);
+  Check check = check_at_most("stress", 100e6, 235e6, "Pa");
+  check.note = "web";
+  note_band(0.05, check);
+  EXPECT_EQ(check.note, "web; 95 to 105 MPa by the error of the mesh");
+  int noted = 0;
+  for (const Check& one : small_assessment().checks)
+    if (one.note.find("by the error of the mesh") != std::string::npos) ++noted;
+  EXPECT_GE(noted, 1);
+}
+
 class DoubtsOfALift : public ::testing::Test {
  protected:
   std::string doubts() const {
@@ -342,6 +359,7 @@ TEST_F(DoubtsOfALift, MaterialAndMass) {
     block.centre_of_mass = Located<Vector3>{Vector3(0, 0, 50), {}};
   });
   EXPECT_EQ(doubts(), "The centre of mass of the load, (0, 0, 50) m, lies outside its body.\n");
+  EXPECT_EQ(list_doubts(lift_case_).size(), 1u);  // without a run
 }
 
 TEST_F(DoubtsOfALift, RopesBeyondTheirStrengthAndLoadInTheGround) {

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace blocklift::structure {
+
+/// Threads that work is dealt out to where a function is not told how many: the variable
+/// OMP_NUM_THREADS, which BLAS follows too, otherwise as many as the machine has.
+int usable_threads();
+
+/// Sets what the process may use in all, bytes, from now on; infinity to begin with.
+void limit_memory(double bytes);
+/// What is left of that limit, bytes, by what the process holds now; never negative.
+double memory_within_limit();
+
+}  // namespace blocklift::structure

@@ -1,0 +1,151 @@
+// A library that is loaded before all others (LD_PRELOAD) and makes one call of the system fail.
+//
+// The variables of the environment:
+//   BLOCKLIFT_FAIL_CALL  open (for writing, of results in preparation), write, fsync or rename: the
+//                        calls that are counted, of regular files alone
+//   BLOCKLIFT_FAIL_AT    which of them, from 1
+//   BLOCKLIFT_FAIL_HOW   error: that call fails, for lack of space; full: it writes half of what it
+//                        is given, and it and all later calls of its kind fail; kill: the process is
+//                        killed before it
+
+#ifdef _FORTIFY_SOURCE
+#undef _FORTIFY_SOURCE
+#endif
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+std::atomic<long> calls{0};
+
+bool is_variable(const char* name, const char* value) {
+  const char* given = std::getenv(name);
+  return given != nullptr && std::strcmp(given, value) == 0;
+}
+
+/// Counts a call. @returns true if it is to fail.
+bool fails(const char* call) {
+  if (!is_variable("BLOCKLIFT_FAIL_CALL", call)) return false;
+  const char* which = std::getenv("BLOCKLIFT_FAIL_AT");
+  const long at = which == nullptr ? 0 : std::strtol(which, nullptr, 10);
+  const long now = ++calls;
+  if (now == at && is_variable("BLOCKLIFT_FAIL_HOW", "kill")) std::raise(SIGKILL);
+  return now == at || (now > at && is_variable("BLOCKLIFT_FAIL_HOW", "full"));
+}
+
+bool is_short() {
+  const char* which = std::getenv("BLOCKLIFT_FAIL_AT");
+  return is_variable("BLOCKLIFT_FAIL_HOW", "full") && which != nullptr &&
+         calls == std::strtol(which, nullptr, 10);
+}
+
+bool is_regular(int file) {
+  struct stat status {};
+  return ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+template <class Function>
+Function next(const char* name) {
+  return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+}
+
+int no_space() {
+  errno = ENOSPC;
+  return -1;
+}
+
+bool opens_for_writing(const char* path, int flags) {
+  return (flags & (O_WRONLY | O_RDWR | O_CREAT)) != 0 && (flags & O_DIRECTORY) == 0 &&
+         std::strstr(path, "in-preparation") != nullptr;
+}
+
+int open_next(const char* name, const char* path, int flags, mode_t mode) {
+  if (opens_for_writing(path, flags) && fails("open")) return no_space();
+  return next<int (*)(const char*, int, ...)>(name)(path, flags, mode);
+}
+
+FILE* fopen_next(const char* name, const char* path, const char* mode) {
+  const bool writes = std::strpbrk(mode, "wa+") != nullptr;
+  if (writes && opens_for_writing(path, O_WRONLY) && fails("open")) {
+    errno = ENOSPC;
+    return nullptr;
+  }
+  return next<FILE* (*)(const char*, const char*)>(name)(path, mode);
+}
+
+ssize_t pwrite_next(const char* name, int file, const void* bytes, size_t count, off_t offset) {
+  const auto write_on = next<ssize_t (*)(int, const void*, size_t, off_t)>(name);
+  if (is_regular(file) && fails("write"))
+    return is_short() && count > 1 ? write_on(file, bytes, count / 2, offset) : no_space();
+  return write_on(file, bytes, count, offset);
+}
+
+}  // namespace
+
+extern "C" {
+
+#pragma GCC visibility push(default)
+
+int open(const char* path, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  return open_next("open", path, flags, mode);
+}
+
+int open64(const char* path, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  return open_next("open64", path, flags, mode);
+}
+
+FILE* fopen(const char* path, const char* mode) { return fopen_next("fopen", path, mode); }
+FILE* fopen64(const char* path, const char* mode) { return fopen_next("fopen64", path, mode); }
+
+ssize_t write(int file, const void* bytes, size_t count) {
+  const auto write_on = next<ssize_t (*)(int, const void*, size_t)>("write");
+  if (is_regular(file) && fails("write"))
+    return is_short() && count > 1 ? write_on(file, bytes, count / 2) : no_space();
+  return write_on(file, bytes, count);
+}
+
+ssize_t writev(int file, const struct iovec* parts, int count) {
+  if (is_regular(file) && fails("write")) return no_space();
+  return next<ssize_t (*)(int, const struct iovec*, int)>("writev")(file, parts, count);
+}
+
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t offset) {
+  return pwrite_next("pwrite", file, bytes, count, offset);
+}
+ssize_t pwrite64(int file, const void* bytes, size_t count, off_t offset) {
+  return pwrite_next("pwrite64", file, bytes, count, offset);
+}
+
+int fsync(int file) {
+  if (is_regular(file) && fails("fsync")) return no_space();
+  return next<int (*)(int)>("fsync")(file);
+}
+
+int rename(const char* from, const char* to) {
+  if (fails("rename")) return no_space();
+  return next<int (*)(const char*, const char*)>("rename")(from, to);
+}
+
+#pragma GCC visibility pop
+}

@@ -1,0 +1,160 @@
+// Full disks, short writes, renames that fail, and kills: whatever fails while results are written
+// ends with exit code 1 and a message, and the earlier results stay whole.
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/run_program.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::TemporaryFolder;
+using test::text_of_file;
+using ::testing::HasSubstr;
+
+constexpr int most_calls = 2000;
+constexpr int killed = 137;  // 128 and SIGKILL, as the shell tells it
+
+constexpr auto spring = R"(mechanism: spring
+bodies:
+  a: {mass: 1 t, radii_of_gyration: [1 m, 1 m, 1 m]}
+joints:
+  a: {kind: prismatic, child: a, axis: [0, 0, 1]}
+springs:
+  s: {kind: joint, joint: a, stiffness: 100 kN/m}
+simulate: {duration: 2 s, relative_tolerance: 1e-6, sample_interval: 0.01 s}
+outputs:
+  a: {joint: a}
+)";
+
+struct Fault {
+  std::string call;
+  std::string how;
+};
+
+Outcome run_with(const Fault& fault, int at, const std::string& arguments) {
+  return test::run_command(
+      "( LD_PRELOAD='" BLOCKLIFT_FAILING_CALLS "' BLOCKLIFT_FAIL_CALL=" + fault.call +
+      " BLOCKLIFT_FAIL_AT=" + std::to_string(at) + " BLOCKLIFT_FAIL_HOW=" + fault.how +
+      " '" BLOCKLIFT_EXECUTABLE "' " + arguments + " )");
+}
+
+std::map<std::string, std::string> contents_of(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    files[entry.path().string()] = entry.is_directory() ? "folder" : text_of_file(entry.path());
+  return files;
+}
+
+/// The identity of the run that a summary is of.
+std::string run_of_summary() {
+  return nlohmann::json::parse(text_of_file("results/summary.json")).at("run").get<std::string>();
+}
+
+/// Lets each call fail in turn until a run has fewer of them.
+/// @param few calls that are tried one by one; of later ones every tenth part more.
+/// @returns how many runs failed.
+int fail_in_turn(const Fault& fault, const std::string& arguments, int few) {
+  int failures = 0;
+  for (int at = 1; at < most_calls; at += std::max(1, (at - few) / 2)) {
+    const auto before = contents_of("results");
+    const Outcome outcome = run_with(fault, at, arguments);
+    if (outcome.exit_code == 0) return failures;
+    ++failures;
+    EXPECT_EQ(outcome.exit_code, 1) << fault.call << " " << at << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("blocklift: error: ")) << fault.call << " " << at;
+    EXPECT_TRUE(contents_of("results") == before) << fault.call << " " << at << ", " << fault.how;
+  }
+  ADD_FAILURE() << "runs never come to an end";
+  return failures;
+}
+
+TEST(FailingCalls, OfASimulationLeaveEarlierResultsWhole) {
+  const TemporaryFolder folder;
+  folder.write("mechanism.yaml", spring);
+  const std::string arguments = "simulate mechanism.yaml --csv -o results";
+  ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, arguments).exit_code, 0);
+  EXPECT_GE(fail_in_turn({"open", "error"}, arguments, 20), 4);
+  EXPECT_GE(fail_in_turn({"write", "error"}, arguments, 8), 8);
+  EXPECT_GE(fail_in_turn({"write", "full"}, arguments, 8), 8);
+  EXPECT_GE(fail_in_turn({"fsync", "error"}, arguments, 20), 4);
+  EXPECT_GE(fail_in_turn({"rename", "error"}, arguments, 30), 8);
+}
+
+// The same writers as above, and pictures of the block: some calls of each kind are enough.
+TEST(FailingCalls, OfAnAssessmentLeaveEarlierResultsWhole) {
+  const TemporaryFolder folder;
+  const std::string arguments = "assess '" BLOCKLIFT_SMALL_LIFT "' -o results";
+  ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, arguments).exit_code, 0);
+  const auto before = contents_of("results");
+  const std::pair<Fault, int> faults[] = {{{"rename", "error"}, 12},
+                                          {{"rename", "error"}, 20},
+                                          {{"write", "full"}, 60},
+                                          {{"write", "error"}, 2},
+                                          {{"open", "error"}, 3}};
+  for (const auto& [fault, at] : faults) {
+    const Outcome outcome = run_with(fault, at, arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << fault.call << " " << at << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("blocklift: error: ")) << fault.call << " " << at;
+    EXPECT_TRUE(contents_of("results") == before) << fault.call << " " << at;
+  }
+}
+
+/// A folder with a verdict holds the files of one run; without one `report` completes the move.
+void expect_one_run(int at) {
+  if (fs::exists("results/summary.json") && fs::exists("results/report.html")) {
+    EXPECT_THAT(text_of_file("results/report.html"), HasSubstr(run_of_summary())) << at;
+  }
+  const Outcome report = test::run_program(BLOCKLIFT_EXECUTABLE, "report results");
+  EXPECT_EQ(report.exit_code, 0) << at << ": " << report.err;
+  EXPECT_FALSE(fs::exists("results/.in-preparation/moves.txt")) << at;
+  EXPECT_THAT(text_of_file("results/report.html"), HasSubstr(run_of_summary())) << at;
+}
+
+TEST(Kills, BetweenAnyTwoRenamesLeaveNoMixture) {
+  const TemporaryFolder folder;
+  folder.write("mechanism.yaml", spring);
+  ASSERT_EQ(
+      test::run_program(BLOCKLIFT_EXECUTABLE, "simulate mechanism.yaml --csv -o results").exit_code,
+      0);
+  int kills = 0;
+  for (int at = 1; at < most_calls; ++at, ++kills) {
+    const Outcome outcome =
+        run_with({"rename", "kill"}, at, "simulate mechanism.yaml --csv -o results");
+    if (outcome.exit_code == 0) break;
+    ASSERT_EQ(outcome.exit_code, killed) << outcome.err;
+    expect_one_run(at);
+  }
+  EXPECT_GE(kills, 8);
+}
+
+TEST(Kills, AtAnyInstantLeaveNoMixture) {
+  const TemporaryFolder folder;
+  folder.write("mechanism.yaml", spring);
+  const std::string command = "'" BLOCKLIFT_EXECUTABLE "' simulate mechanism.yaml -o results";
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(test::run_command(command).exit_code, 0);
+  const double usual =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  constexpr int kills = 20;
+  for (int i = 0; i < kills; ++i) {
+    const double seconds = usual * (0.2 + 0.9 * i / kills);
+    test::run_command("( timeout -s KILL " + std::to_string(seconds) + " " + command + " )");
+    expect_one_run(i);
+  }
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
