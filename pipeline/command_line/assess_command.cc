@@ -16,6 +16,7 @@
 #include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/comparison/expected_figures.h"
+#include "pipeline/declaration/key_change.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
@@ -230,13 +231,24 @@ void print_results(const Assessment& assessment) {
   if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
 }
 
+/// @throws InputError with all that is no change.
+std::vector<KeyChange> read_changes(const std::vector<std::string>& texts) {
+  Diagnostics diagnostics;
+  const Mark mark{std::make_shared<const std::string>("--set"), 0, 0};
+  std::vector<KeyChange> changes;
+  for (const std::string& text : texts)
+    if (auto change = parse_key_change(text, mark, diagnostics)) changes.push_back(*change);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  return changes;
+}
+
 }  // namespace
 
 int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks,
-                const std::optional<std::string>& expect) {
+                const std::optional<std::string>& expect, const std::vector<std::string>& set) {
   std::vector<ExpectedFigure> expected;
   if (expect) expected = read_expected_figures(*expect);
-  LiftCase lift_case = read_lift_case(path);
+  LiftCase lift_case = read_lift_case(path, read_changes(set));
   const std::filesystem::path folder =
       output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {

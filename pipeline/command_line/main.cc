@@ -50,9 +50,15 @@ void add_assess(CLI::App& app, int& code) {
   command->add_option("--expect", *expect,
                       "file of figures that the lift is held to (\"expect\" writes one); exit code "
                       "3 if one is off");
+  auto set = std::make_shared<std::vector<std::string>>();
+  command
+      ->add_option("--set", *set,
+                   "give a key of the case or of its models another value, key=value or "
+                   "model:key=value; may be repeated")
+      ->allow_extra_args(false);
   add_limits(*command);
-  command->callback([path, output, decks, expect, &code] {
-    code = assess_case(*path, *output, *decks, *expect);
+  command->callback([path, output, decks, expect, set, &code] {
+    code = assess_case(*path, *output, *decks, *expect, *set);
   });
 }
 

@@ -140,8 +140,9 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   library.forget_found();
   const fs::path file = case_file(path, diagnostics);
   if (file.empty()) return std::nullopt;
-  const std::optional<Document> document = load_document(file, diagnostics);
+  std::optional<Document> document = load_document(file, diagnostics);
   if (!document) return std::nullopt;
+  library.change("", *document, diagnostics);
 
   LiftCase lift_case;
   lift_case.file = file;
@@ -149,6 +150,7 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   Reading reading(*document, diagnostics);
   lift_case_format().read(document->root, reading, lift_case);
   load_models(lift_case, library, diagnostics);
+  library.complain_about_unused_changes(diagnostics);
   if (document->root.IsMap()) {
     resolve_rope_points(lift_case, diagnostics);
     check_lift_case(lift_case, diagnostics);
@@ -158,13 +160,15 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   }
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   for (const FoundModel& model : library.found())
-    lift_case.model_texts.push_back({model.name, read_file(model.file)});
+    lift_case.model_texts.push_back(
+        {model.name, model.changed_text.empty() ? read_file(model.file) : model.changed_text});
   return lift_case;
 }
 
-LiftCase read_lift_case(const fs::path& path) {
+LiftCase read_lift_case(const fs::path& path, std::vector<KeyChange> changes) {
   Diagnostics diagnostics;
   ModelLibrary library = ModelLibrary::of_installation();
+  library.set_changes(std::move(changes));
   std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
   if (!lift_case) throw InputError(diagnostics);
   return std::move(*lift_case);

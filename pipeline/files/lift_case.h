@@ -264,7 +264,7 @@ struct LiftCase : MarineParts {
   std::optional<Comparison> compare;
   std::optional<LoadTable> load_table;
   Mark place;
-  std::string yaml;                    ///< the case file as it stands
+  std::string yaml;                    ///< the case file as it stands, or as it was changed
   std::filesystem::path file;          ///< where it is
   std::vector<ModelText> model_texts;  ///< of the models that it is made of
 
@@ -293,7 +293,9 @@ Format<LiftCase> lift_case_format();
 std::optional<LiftCase> read_lift_case(const std::filesystem::path& path, ModelLibrary& library,
                                        Diagnostics& diagnostics);
 
-/// The same, with the models of the installation. @throws InputError with all complaints.
-LiftCase read_lift_case(const std::filesystem::path& path);
+/// The same, with the models of the installation.
+/// @param changes keys of its files that are to have other values.
+/// @throws InputError with all complaints.
+LiftCase read_lift_case(const std::filesystem::path& path, std::vector<KeyChange> changes = {});
 
 }  // namespace blocklift::pipeline

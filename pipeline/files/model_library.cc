@@ -38,10 +38,9 @@ bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& 
 
 /// Reads a model file into a value; null if nothing could be read.
 template <class T>
-std::shared_ptr<T> read_model(const fs::path& file, const std::string& kind,
+std::shared_ptr<T> read_model(const std::optional<Document>& document, const std::string& kind,
                               const Format<T>& format, Diagnostics& diagnostics,
                               const ParameterValues& parameters = {}) {
-  const std::optional<Document> document = load_document(file, diagnostics);
   if (!document || !is_of_kind(*document, kind, diagnostics)) return nullptr;
   auto model = std::make_shared<T>();
   Reading reading(*document, diagnostics);
@@ -192,8 +191,38 @@ fs::path ModelLibrary::find_and_note(const Located<std::string>& name, const std
   fs::path file = find(name, kind, beside, diagnostics);
   const bool is_known = std::any_of(found_.begin(), found_.end(),
                                     [&](const FoundModel& model) { return model.file == file; });
-  if (!file.empty() && !is_known) found_.push_back({name.value, file});
+  if (!file.empty() && !is_known) found_.push_back({name.value, file, ""});
   return file;
+}
+
+void ModelLibrary::change(const std::string& name, Document& document, Diagnostics& diagnostics) {
+  for (const KeyChange& change : changes_)
+    if (change.file == name) apply_key_change(change, document, diagnostics);
+  changed_.push_back(name);
+}
+
+void ModelLibrary::complain_about_unused_changes(Diagnostics& diagnostics) const {
+  for (const KeyChange& change : changes_) {
+    if (std::find(changed_.begin(), changed_.end(), change.file) != changed_.end()) continue;
+    std::vector<std::string> models;
+    for (const std::string& name : changed_)
+      if (!name.empty()) models.push_back(name);
+    diagnostics.error(
+        change.mark, fmt::format("the case has no model \"{}\" to change", change.file),
+        {names_hint("its cranes, blocks, ropes and standards are", models, change.file)});
+  }
+}
+
+std::optional<Document> ModelLibrary::load(const fs::path& file, Diagnostics& diagnostics) {
+  std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return document;
+  for (FoundModel& model : found_) {
+    if (model.file != file) continue;
+    const std::string before = document->text;
+    change(model.name, *document, diagnostics);
+    if (document->text != before) model.changed_text = document->text;
+  }
+  return document;
 }
 
 std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
@@ -254,7 +283,7 @@ std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
   const auto known = cranes_.find(key);
   if (known != cranes_.end()) return known->second;
   std::shared_ptr<CraneModel> crane =
-      read_model(file, "crane", crane_model_format(), diagnostics, parameters);
+      read_model(load(file, diagnostics), "crane", crane_model_format(), diagnostics, parameters);
   if (crane) {
     Folders beside = {file.parent_path()};
     if (of_case) beside.push_back(*of_case);
@@ -269,7 +298,7 @@ std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
   const auto known = blocks_.find(file);
   if (known != blocks_.end()) return known->second;
   const std::shared_ptr<BlockModel> block =
-      read_model(file, "block", block_model_format(), diagnostics);
+      read_model(load(file, diagnostics), "block", block_model_format(), diagnostics);
   if (block) read_block_mesh(*block, file.parent_path(), diagnostics);
   return blocks_[file] = block;
 }
@@ -278,7 +307,8 @@ std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
                                                          Diagnostics& diagnostics) {
   const auto known = ropes_.find(file);
   if (known != ropes_.end()) return known->second;
-  return ropes_[file] = read_model(file, "rope", rope_model_format(), diagnostics);
+  return ropes_[file] =
+             read_model(load(file, diagnostics), "rope", rope_model_format(), diagnostics);
 }
 
 std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<std::string>& name,
@@ -292,7 +322,8 @@ std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path&
                                                                  Diagnostics& diagnostics) {
   const auto known = standards_.find(file);
   if (known != standards_.end()) return known->second;
-  return standards_[file] = read_model(file, "standard", standard_rules_format(), diagnostics);
+  return standards_[file] =
+             read_model(load(file, diagnostics), "standard", standard_rules_format(), diagnostics);
 }
 
 }  // namespace blocklift::pipeline

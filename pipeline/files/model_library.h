@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/declaration/key_change.h"
 #include "pipeline/files/block_model.h"
 #include "pipeline/files/crane_model.h"
 #include "pipeline/files/rope_model.h"
@@ -20,6 +21,7 @@ namespace blocklift::pipeline {
 struct FoundModel {
   std::string name;  ///< as the file that names it writes it
   std::filesystem::path file;
+  std::string changed_text;  ///< empty if the file is taken as it stands
 };
 
 /// Finds and reads model files by name.
@@ -83,6 +85,14 @@ class ModelLibrary {
   const std::vector<FoundModel>& found() const { return found_; }
   void forget_found() { found_.clear(); }
 
+  /// Keys of cranes, blocks, ropes and standards, and of the case file that is read with this
+  /// library, that are to have other values. To be called before anything is read.
+  void set_changes(std::vector<KeyChange> changes) { changes_ = std::move(changes); }
+  /// Makes the changes of a file in its document. @param name of a model; empty: the case file.
+  void change(const std::string& name, Document& document, Diagnostics& diagnostics);
+  /// Complains about changes of models that were not read.
+  void complain_about_unused_changes(Diagnostics& diagnostics) const;
+
   /// Reads a crane's file itself, with the ropes that it names.
   /// @param of_case the folder of the case that names the crane, if there is one.
   std::shared_ptr<const CraneModel> read_crane(
@@ -112,9 +122,13 @@ class ModelLibrary {
   /// What may have been meant by a name that no model of the kind has; empty if nothing is near.
   std::string hint_of_name(const std::string& name, const std::string& kind,
                            const Folders& beside) const;
+  /// The document of a model's file with its changes.
+  std::optional<Document> load(const std::filesystem::path& file, Diagnostics& diagnostics);
 
   std::vector<std::filesystem::path> model_folders_;
   std::vector<FoundModel> found_;
+  std::vector<KeyChange> changes_;
+  std::vector<std::string> changed_;  ///< files whose changes were made, by name
   std::map<std::string, std::shared_ptr<const CraneModel>> cranes_;  ///< by file and parameters
   std::map<std::filesystem::path, std::shared_ptr<const BlockModel>> blocks_;
   std::map<std::filesystem::path, std::shared_ptr<const RopeModel>> ropes_;

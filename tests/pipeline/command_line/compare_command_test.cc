@@ -68,6 +68,43 @@ TEST_F(CompareCommand, HoldsALiftToWhatItWasAndFindsWhatMoved) {
   EXPECT_NE(text_of_file("figures.json"), first_figures);
 }
 
+TEST_F(CompareCommand, SetsKeysOfTheCaseAndOfItsModels) {
+  ASSERT_EQ(run("assess -o plain lift").exit_code, 0);
+  const Outcome set =
+      run("assess --set 'ropes.R1.length=3.01 m' --set block:mass='9 t' lift -o changed");
+  ASSERT_EQ(set.exit_code, 0) << set.err;
+  const auto json = nlohmann::json::parse(run("compare plain changed --json").out);
+  ASSERT_EQ(json["input"].size(), 2u) << json["input"];
+  EXPECT_EQ(json["input"][0]["key"], "ropes.R1.length");
+  EXPECT_EQ(json["input"][0]["values"][1], "3.01 m");
+  EXPECT_EQ(json["input"][1]["file"], "block");
+  EXPECT_EQ(json["input"][1]["values"][1], "9 t");
+  // The same by the files themselves gives the same figures.
+  change(
+      "case.yaml",
+      "L1, model: {axial_stiffness: 30 MN, damping_time: 20 ms, breaking_load: 30 t}, length: 3 m",
+      "L1, model: {axial_stiffness: 30 MN, damping_time: 20 ms, breaking_load: 30 t}, length: 3.01 "
+      "m");
+  change("block.yaml", "mass: 8 t", "mass: 9 t");
+  ASSERT_EQ(run("assess lift -o written").exit_code, 0);
+  const Outcome same = run("compare changed written --tolerance 'ropes=0%,structure=0%'");
+  EXPECT_EQ(same.exit_code, 0) << same.out;
+  EXPECT_THAT(same.out, HasSubstr("input: no key differs"));
+}
+
+TEST_F(CompareCommand, RefusesKeysThatAreNotThereAndValuesThatCannotBe) {
+  const Outcome outcome =
+      run("assess lift --set block:mas='9 t' --set blok:mass='9 t' --set ropes.R9.length='1 m'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean \"mass\"?"));
+  EXPECT_THAT(outcome.err, HasSubstr("the case has no model \"blok\" to change"));
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean \"R1\"?"));
+  const Outcome negative = run("assess lift --set block:mass='-9 t'");
+  EXPECT_EQ(negative.exit_code, 2);
+  EXPECT_THAT(negative.err, HasSubstr("lift/block.yaml:5:"));
+  EXPECT_FALSE(fs::exists("results"));
+}
+
 TEST_F(CompareCommand, RefusesWhatItCannotUseBeforeAnythingRuns) {
   folder_.write("figures.json", "[{\"figure\": \"verdict\"}]");
   const Outcome outcome = run("assess lift --expect figures.json");

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/declaration/document.h"
+
+namespace blocklift::pipeline {
+
+/// A key of an input file that is to have another value than the file gives it.
+struct KeyChange {
+  std::string file;   ///< a model, as the case calls it; empty: the case file
+  std::string key;    ///< "ropes.R1.length", "operation[1].moves[2].by": lists count from 1
+  std::string value;  ///< as it would be written in the file: "10.02 m"
+  Mark mark;          ///< what asks for it
+};
+
+/// Reads a change: "ropes.R1.length=10.02 m", "blocks/hull-860t:mass=870 t". None after a complaint.
+std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mark,
+                                          Diagnostics& diagnostics);
+
+/// Gives a key of a document its new value; the document's text becomes that of the changed one.
+/// Places that share an anchor change together. Complains, and changes nothing, if the key is not
+/// there or holds a table or a list.
+void apply_key_change(const KeyChange& change, Document& document, Diagnostics& diagnostics);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,89 @@
+#include "pipeline/declaration/key_change.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+namespace blocklift::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* text_to_change = R"(mass: 8 t
+ropes:
+  R1: {length: 3 m}
+  R2: &second {length: 4 m}
+  R3: *second
+moves: [{by: 1 m}, {by: 2 m}]
+centre: [1 m, [2 m, 3 m]]
+empty:
+)";
+
+Document document_to_change() {
+  return {std::make_shared<const std::string>("case.yaml"), text_to_change,
+          YAML::Load(text_to_change)};
+}
+
+/// The document after a change, or the complaint.
+std::string changed_by(const std::string& text) {
+  Diagnostics diagnostics;
+  const Mark mark{std::make_shared<const std::string>("--set"), 0, 0};
+  Document document = document_to_change();
+  const auto change = parse_key_change(text, mark, diagnostics);
+  if (change) apply_key_change(*change, document, diagnostics);
+  return diagnostics.has_errors() ? diagnostics.to_text() : document.text;
+}
+
+TEST(KeyChange, ReachesTablesAndLists) {
+  EXPECT_THAT(changed_by("mass=9 t"), HasSubstr("mass: 9 t\n"));
+  EXPECT_THAT(changed_by("ropes.R1.length=3.1 m"), HasSubstr("length: 3.1 m"));
+  EXPECT_EQ(YAML::Load(changed_by("moves[2].by=5 m"))["moves"][1]["by"].Scalar(), "5 m");
+  EXPECT_EQ(YAML::Load(changed_by("moves[2].by=5 m"))["moves"][0]["by"].Scalar(), "1 m");
+  EXPECT_EQ(YAML::Load(changed_by("centre[2][1]=7 m"))["centre"][1][0].Scalar(), "7 m");
+  EXPECT_EQ(YAML::Load(changed_by("empty=1"))["empty"].Scalar(), "1");
+  EXPECT_EQ(YAML::Load(changed_by("mass== 2 * 4 t"))["mass"].Scalar(), "= 2 * 4 t");
+}
+
+TEST(KeyChange, ChangesPlacesOfOneAnchorTogether) {
+  const YAML::Node changed = YAML::Load(changed_by("ropes.R3.length=5 m"));
+  EXPECT_EQ(changed["ropes"]["R2"]["length"].Scalar(), "5 m");
+  EXPECT_EQ(changed["ropes"]["R1"]["length"].Scalar(), "3 m");
+}
+
+TEST(KeyChange, KeepsTheLineOfTheKeyForLaterComplaints) {
+  Diagnostics diagnostics;
+  Document document = document_to_change();
+  apply_key_change({"", "ropes.R1.length", "5 m", {}}, document, diagnostics);
+  EXPECT_EQ(document.mark_of(document.root["ropes"]["R1"]["length"]).line, 3);
+}
+
+TEST(KeyChange, SaysWhatIsThereInPlaceOfTheKey) {
+  EXPECT_THAT(changed_by("ropes.R1.lenght=3 m"), HasSubstr("did you mean \"length\"?"));
+  EXPECT_THAT(changed_by("rops.R1.length=3 m"), HasSubstr("did you mean \"ropes\"?"));
+  EXPECT_THAT(changed_by("moves[3].by=3 m"), HasSubstr("case.yaml: moves has 2 items"));
+  EXPECT_THAT(changed_by("mass[1]=3 m"), HasSubstr("case.yaml: mass is no list"));
+  EXPECT_THAT(changed_by("mass.value=3 m"), HasSubstr("case.yaml: mass is no table"));
+  EXPECT_THAT(changed_by("ropes=3 m"), HasSubstr("ropes is a table"));
+  EXPECT_THAT(changed_by("moves=3 m"), HasSubstr("moves is a list"));
+}
+
+TEST(KeyChange, IsRefusedWhereItSaysNothing) {
+  for (const char* text : {"", "mass", "mass=", "=3 t", "moves[0].by=1 m", "moves[x].by=1 m",
+                           "moves[1.by=1 m", "block:=3 t"})
+    EXPECT_THAT(changed_by(text), HasSubstr("changes nothing")) << text;
+}
+
+TEST(KeyChange, NamesAModelBeforeAColon) {
+  Diagnostics diagnostics;
+  const auto change = parse_key_change("blocks/hull-860t:mass=870 t", {}, diagnostics);
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->file, "blocks/hull-860t");
+  EXPECT_EQ(change->key, "mass");
+  EXPECT_EQ(change->value, "870 t");
+  const auto clock = parse_key_change("title=at 12:30", {}, diagnostics);
+  ASSERT_TRUE(clock);
+  EXPECT_EQ(clock->file, "");
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
