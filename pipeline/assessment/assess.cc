@@ -297,7 +297,7 @@ void write_pictures(const BlockRun& block, const fs::path& folder) {
                               padeye.model->as_part(padeye.governing_state().result));
 }
 
-/// What a run may leave that not every run has: nobody is to sign the calculation of an earlier one.
+/// What a run may leave that not every run has: nobody is to sign an earlier run's calculation.
 std::vector<std::string> files_of_earlier_runs(const fs::path& folder) {
   std::vector<std::string> names = {package_file,
                                     mesh_page_file,

@@ -17,8 +17,8 @@ inline constexpr double largest_mesh_error = 0.1;
 std::string why_indicative(const Assessment& assessment);
 
 /// Half the width of the band in which the mesh leaves a checked stress of the block, as a share of
-/// it: how far the last refinement moved the largest, or, with one mesh only, the estimated error of
-/// the stress field in the energy norm. Of a block that was assessed.
+/// it: how far the last refinement moved the largest, or, with one mesh only, the estimated error
+/// of the stress field in the energy norm. Of a block that was assessed.
 double checked_stress_band(const BlockRun& block);
 
 /// Adds the band to the note of a check of such a stress, MPa.

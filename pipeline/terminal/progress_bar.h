@@ -13,7 +13,8 @@ namespace blocklift::pipeline {
 std::string progress_text(const std::string& stage, double fraction, double elapsed_s,
                           double stage_s, const std::string& detail);
 
-/// What the last bar was told to show, as progress_text; empty before the first. Any thread may ask.
+/// What the last bar was told to show, as progress_text; empty before the first. Any thread may
+/// ask.
 std::string last_progress();
 
 /// One line on a terminal that shows how far a stage of the run has come. It appears once the

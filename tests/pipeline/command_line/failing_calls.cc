@@ -1,12 +1,12 @@
 // A library that is loaded before all others (LD_PRELOAD) and makes one call of the system fail.
 //
 // The variables of the environment:
-//   BLOCKLIFT_FAIL_CALL  open (for writing, of results in preparation), write, fsync or rename: the
+//   BLOCKLIFT_FAIL_CALL  open (of new files of results in preparation), write, fsync or rename: the
 //                        calls that are counted, of regular files alone
 //   BLOCKLIFT_FAIL_AT    which of them, from 1
 //   BLOCKLIFT_FAIL_HOW   error: that call fails, for lack of space; full: it writes half of what it
-//                        is given, and it and all later calls of its kind fail; kill: the process is
-//                        killed before it
+//                        is given, and it and all later calls of its kind fail; kill: the process
+//                        is killed before it
 
 #ifdef _FORTIFY_SOURCE
 #undef _FORTIFY_SOURCE
@@ -67,19 +67,20 @@ int no_space() {
   return -1;
 }
 
-bool opens_for_writing(const char* path, int flags) {
-  return (flags & (O_WRONLY | O_RDWR | O_CREAT)) != 0 && (flags & O_DIRECTORY) == 0 &&
+bool makes_file(const char* path, int flags) {
+  // HDF5 first tries whether the file is there: only its making counts.
+  return (flags & O_CREAT) != 0 && (flags & O_DIRECTORY) == 0 &&
          std::strstr(path, "in-preparation") != nullptr;
 }
 
 int open_next(const char* name, const char* path, int flags, mode_t mode) {
-  if (opens_for_writing(path, flags) && fails("open")) return no_space();
+  if (makes_file(path, flags) && fails("open")) return no_space();
   return next<int (*)(const char*, int, ...)>(name)(path, flags, mode);
 }
 
 FILE* fopen_next(const char* name, const char* path, const char* mode) {
   const bool writes = std::strpbrk(mode, "wa+") != nullptr;
-  if (writes && opens_for_writing(path, O_WRONLY) && fails("open")) {
+  if (writes && makes_file(path, O_CREAT) && fails("open")) {
     errno = ENOSPC;
     return nullptr;
   }

@@ -100,7 +100,7 @@ TEST(FailingCalls, OfAnAssessmentLeaveEarlierResultsWhole) {
   ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, arguments).exit_code, 0);
   const auto before = contents_of("results");
   const std::pair<Fault, int> faults[] = {{{"rename", "error"}, 12},
-                                          {{"rename", "error"}, 20},
+                                          {{"rename", "error"}, 15},
                                           {{"write", "full"}, 60},
                                           {{"write", "error"}, 2},
                                           {{"open", "error"}, 3}};
