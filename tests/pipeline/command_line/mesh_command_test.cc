@@ -60,6 +60,41 @@ TEST_F(MeshCommand, ValidateShowsTheDeck) {
   }
 }
 
+TEST_F(MeshCommand, PicturesOfABlockStandInTheFolderThatIsNamed) {
+  const Outcome outcome = run("validate mesh-lift/block.yaml --pictures pictures");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("pictures: pictures/block.html"));
+  const std::string page = text_of_file("pictures/block.html");
+  EXPECT_THAT(page, HasSubstr("Open box from a deck"));
+  EXPECT_THAT(page, HasSubstr("</html>"));
+}
+
+TEST_F(MeshCommand, NoPicturesOfADeckThatIsWrong) {
+  change("box.bdf", "CQUAD4,1,1,1,2,3,4", "CQUAD4,1,1,1,7777,3,4");
+  EXPECT_EQ(run("validate mesh-lift/block.yaml --pictures pictures").exit_code, 2);
+  EXPECT_FALSE(fs::exists("pictures"));
+}
+
+TEST_F(MeshCommand, GoverningLoadCasesAreDecksThatAreReadAgain) {
+  const Outcome outcome = run("assess mesh-lift -o out --decks");
+  EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
+  for (const char* name : {"load-cases.inp", "load-cases.bdf", "load-cases.csv"})
+    EXPECT_TRUE(fs::exists(fs::path("out") / name)) << name;
+  // The same shells come back: the deck takes the place of the block's own.
+  fs::copy("out/load-cases.bdf", "mesh-lift/load-cases.bdf");
+  change("block.yaml", "file: box.bdf", "file: load-cases.bdf");
+  const Outcome again = run("validate mesh-lift/block.yaml");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("185 shells, 32 beams"));
+}
+
+TEST_F(MeshCommand, DecksAreWrittenOnRequestAlone) {
+  const Outcome outcome = run("assess mesh-lift -o out");
+  EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
+  for (const char* name : {"load-cases.inp", "load-cases.bdf", "load-cases.csv"})
+    EXPECT_FALSE(fs::exists(fs::path("out") / name)) << name;
+}
+
 TEST_F(MeshCommand, ABadDeckIsWrongInputAndNothingIsWritten) {
   change("box.bdf", "CQUAD4,1,1,1,2,3,4", "CQUAD4,1,1,1,7777,3,4");
   const Outcome outcome = run("assess mesh-lift -o out");
@@ -79,6 +114,8 @@ TEST_F(MeshCommand, BadDecksAreRefusedWithTheirLine) {
   const std::vector<Spoiled> all{
       {"box.bdf", "CQUAD4,1,1,1,2,3,4", "CQUAD4,1,77,1,2,3,4", "box.bdf:209",
        "error: CQUAD4: property 77 does not exist"},
+      {"box.bdf", "ENDDATA", "CSHEAR,9100,1,1,2,3,4\nENDDATA", "box.bdf:474",
+       "error: CSHEAR: a panel that bears shear alone is no plate"},
       {"box.bdf", "ENDDATA", "WEIRD,1,2\nENDDATA", "box.bdf:474",
        "error: the card WEIRD is not known here"},
       {"box.bdf", "ENDDATA", "CONROD,9100,1,9100,7,100.\nGRID,9100,,9.+3,0.,0.\nENDDATA",
