@@ -59,6 +59,13 @@ TEST(SlingFactor, IsThatOfTheGuideline) {
   EXPECT_NEAR(factor_of("HMPE", 1.0 / 3), 2.86, half_a_digit);
 }
 
+// 7.4.3: beyond a third of environment 1 + 0.3 E/T is the larger of both and the factor rises again
+// to the whole 1.3: 1.15 x 1.3 x 2 at a half.
+TEST(SlingFactor, RisesAgainWhereTheEnvironmentGoverns) {
+  EXPECT_NEAR(factor_of("HMPE", 0.5), 2.99, 1e-12);
+  EXPECT_NEAR(factor_of("HMPE", 1), 3.38, 1e-12);
+}
+
 TEST(SlingFactor, TakesTheSharperOfBendingAndTermination) {
   const StandardRules rules = shipped_rules("nd-0027");
   const SlingFactor spliced = sling_factor(*rules.sling, {"steel", "yard", "hand_splice", 4.0, 0});
