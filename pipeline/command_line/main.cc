@@ -20,6 +20,7 @@
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/simulate_command.h"
 #include "pipeline/command_line/stress_command.h"
+#include "pipeline/command_line/sweep_command.h"
 #include "pipeline/command_line/validate_command.h"
 #include "pipeline/command_line/verify_command.h"
 #include "pipeline/declaration/diagnostics.h"
@@ -144,6 +145,25 @@ void add_hydro(CLI::App& app, int& code) {
       ->check(CLI::PositiveNumber);
   add_limits(*command, false);
   command->callback([options, &code] { code = hydro(*options); });
+}
+
+void add_sweep(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "sweep", "Run many lifts of one case, whose keys vary, and say what their figures spread to");
+  auto options = std::make_shared<SweepOptions>();
+  command->add_option("STUDY", options->study, "study file, or folder with a study.yaml")
+      ->required();
+  command->add_option("-o,--output", options->output,
+                      "folder of the results (results/<name of the study> if not given); a study "
+                      "that was stopped goes on there");
+  command
+      ->add_option("--workers", options->workers,
+                   "lifts side by side (as many as the machine has processors if not given)")
+      ->check(CLI::Range(1, 4096));
+  command->add_flag("--worker", options->is_worker)->group("");
+  command->add_option("--whole", options->whole)->group("");
+  add_limits(*command);
+  command->callback([options, &code] { code = sweep(*options); });
 }
 
 void add_report(CLI::App& app, int& code) {
@@ -299,6 +319,7 @@ int run(int argc, char** argv) {
   add_stress(app, code);
   add_hydro(app, code);
   add_report(app, code);
+  add_sweep(app, code);
   add_schema(app);
   add_verify(app, code);
   LogChoice log;

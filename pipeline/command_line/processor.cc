@@ -45,7 +45,10 @@ std::string threads_asked(int count, char** arguments) {
 /// Sets the variables that our own loops, BLAS and deal.II follow. @returns true if one changed.
 bool limit_threads(int count, char** arguments) {
   const std::string asked = threads_asked(count, arguments);
-  if (asked.empty() || asked.find_first_not_of("0123456789") != std::string::npos) return false;
+  // What is no count is refused when the options are read, and must not end a library's start.
+  if (asked.empty() || asked.size() > 4 || asked.front() == '0' ||
+      asked.find_first_not_of("0123456789") != std::string::npos)
+    return false;
   bool changed = false;
   for (const char* variable : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "DEAL_II_NUM_THREADS"}) {
     const char* present = std::getenv(variable);

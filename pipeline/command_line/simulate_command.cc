@@ -170,11 +170,15 @@ int simulate_file(const SimulateOptions& options) {
   if (kind == FileKind::mechanism || kind == FileKind::robot) return simulate_mechanism(options);
   if (kind == FileKind::lift_case) return simulate_lift_case(options);
   Diagnostics diagnostics;
-  diagnostics.error(
-      {std::make_shared<const std::string>(options.path), 0, 0},
-      "this file describes a part, which does nothing by itself",
-      {"simulate takes a mechanism file, a robot description (URDF) or a lift case; a "
-       "crane moves in a lift case that names it"});
+  if (kind == FileKind::study)
+    diagnostics.error({std::make_shared<const std::string>(options.path), 0, 0},
+                      "this file describes a study of many lifts", {"blocklift sweep runs it"});
+  else
+    diagnostics.error(
+        {std::make_shared<const std::string>(options.path), 0, 0},
+        "this file describes a part, which does nothing by itself",
+        {"simulate takes a mechanism file, a robot description (URDF) or a lift case; a "
+         "crane moves in a lift case that names it"});
   throw InputError(diagnostics);
 }
 

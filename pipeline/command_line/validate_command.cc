@@ -25,6 +25,8 @@
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/mesh_page.h"
+#include "pipeline/study/members.h"
+#include "pipeline/study/study_design.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {
@@ -94,6 +96,15 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
     const auto rules = library.read_standard(path, diagnostics);
     if (!rules) return std::nullopt;
     return if_sound(fmt::format("standard {}, {}", rules->name, rules->edition));
+  }
+  if (kind == FileKind::study) {
+    const std::optional<StudyFile> study = read_study_file(path, diagnostics);
+    if (!study) return std::nullopt;
+    const Eigen::MatrixXd design = make_design(*study);
+    check_members(*study, design, [](double) {});
+    return fmt::format("study {} of {} with {} and {}", study->name, study->case_name.value,
+                       count(study->variables.size(), "variable"),
+                       count(static_cast<std::size_t>(design.rows()), "member"));
   }
   if (kind == FileKind::part) {
     const std::optional<PartFile> part = read_part_file(path, diagnostics);

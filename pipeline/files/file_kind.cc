@@ -28,6 +28,8 @@ FileKind kind_of_file(const fs::path& path) {
         fs::exists(path / "mechanism.yaml", error) && !fs::exists(path / "case.yaml", error);
     if (fs::exists(path / "part.yaml", error) && !fs::exists(path / "case.yaml", error))
       return FileKind::part;
+    if (fs::exists(path / "study.yaml", error) && !fs::exists(path / "case.yaml", error))
+      return FileKind::study;
     return mechanism ? FileKind::mechanism : FileKind::lift_case;
   }
   if (fs::is_regular_file(path, error) && (path.extension() == ".urdf" || begins_as_xml(path))) {
@@ -38,6 +40,7 @@ FileKind kind_of_file(const fs::path& path) {
   if (!document || !document->root.IsMap()) return FileKind::lift_case;
   if (document->root["mechanism"]) return FileKind::mechanism;
   if (document->root["part"]) return FileKind::part;
+  if (document->root["study"]) return FileKind::study;
   const YAML::Node node = document->root["kind"];
   const std::string kind = node && node.IsScalar() ? node.Scalar() : std::string();
   if (kind == "crane") return FileKind::crane;

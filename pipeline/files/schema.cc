@@ -14,6 +14,7 @@
 #include "pipeline/files/part_file.h"
 #include "pipeline/files/rope_model.h"
 #include "pipeline/files/standard_rules.h"
+#include "pipeline/files/study_file.h"
 #include "pipeline/files/vessel_group.h"
 #include "pipeline/files/vessel_model.h"
 
@@ -39,7 +40,8 @@ std::vector<DeclaredKind> file_kinds() {
           {"part", part_file_format().description->table},
           {"vessel", vessel_model_format().description->table},
           {"vessels", vessel_group_format().description->table},
-          {"standard", standard_rules_format().description->table}};
+          {"standard", standard_rules_format().description->table},
+          {"study", study_file_format().description->table}};
 }
 
 std::vector<DeclaredKind> chosen_kinds(const std::string& kind) {

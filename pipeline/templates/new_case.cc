@@ -47,7 +47,13 @@ std::string filled(std::string text, const std::string& name) {
 /// The command that runs a file of a template.
 std::string command_for(const std::string& file) {
   if (file == "part.yaml") return "stress";
+  if (file == "study.yaml") return "sweep";
   return file == "mechanism.yaml" ? "simulate" : "assess";
+}
+
+/// A study is one of the case with a single hook, which is written beside it.
+bool belongs_to(const TemplateFile& file, const std::string& kind) {
+  return file.kind == kind || (kind == "study" && file.kind == "single-hook");
 }
 
 }  // namespace
@@ -75,10 +81,10 @@ std::string write_new_case(const std::string& kind, const fs::path& folder) {
   std::string command;
   try {
     for (const TemplateFile& file : template_files()) {
-      if (file.kind != kind) continue;
+      if (!belongs_to(file, kind)) continue;
       write_file(aside / file.name, filled(file.text, name));
       // A part has no folder's name: its file is named.
-      if (command.empty()) {
+      if (command.empty() && file.kind == kind) {
         const std::string run = command_for(file.name);
         command = fmt::format("blocklift {} {}", run,
                               run == "assess" ? folder.string() : (folder / file.name).string());

@@ -132,7 +132,8 @@ radii_of_gyration: [6 m, 11 m, 11 m]
   static std::map<std::string, std::filesystem::file_time_type> kept() {
     std::map<std::string, std::filesystem::file_time_type> files;
     for (const auto& entry : std::filesystem::directory_iterator("kept")) {
-      files[entry.path().filename().string()] = entry.last_write_time();
+      if (entry.path().extension() == ".h5")
+        files[entry.path().filename().string()] = entry.last_write_time();
     }
     return files;
   }

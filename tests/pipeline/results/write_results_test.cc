@@ -113,7 +113,7 @@ TEST(WriteResults, HasTheCalculationWhereTheCaseNamesRules) {
   for (const char* text :
        {"## Design basis", "## Weights", "## Rigging list", "| R1 | L1 |", "## Geometry",
         "## Load cases", "1. carry", "## Utilisations", "### sling R4", "hook C1.left",
-        "EN 13001-2 4.2.2.2", "| prepared |", "hash of case and factors"})
+        "EN 13001-2 4.2.2.2", "| prepared |", "hash of input and factors"})
     EXPECT_NE(calculation.find(text), std::string::npos) << text;
   const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
   // What the two columns of a sling say of its motion is what the histories say.

@@ -1,0 +1,188 @@
+#include "pipeline/command_line/sweep_command.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "pipeline/assessment/assess.h"
+#include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/held_signals.h"
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/study/members.h"
+#include "pipeline/study/study_design.h"
+#include "pipeline/study/study_results.h"
+#include "pipeline/terminal/progress_bar.h"
+#include "pipeline/terminal/run_log.h"
+#include "pipeline/terminal/text_table.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+StudyFile read_study(const std::string& path) {
+  Diagnostics diagnostics;
+  std::optional<StudyFile> study = read_study_file(path, diagnostics);
+  if (!study) throw InputError(diagnostics);
+  return std::move(*study);
+}
+
+fs::path folder_of(const SweepOptions& options, const StudyFile& study) {
+  return options.output ? fs::path(*options.output) : fs::path("results") / study.name;
+}
+
+/// Computes members until none is left.
+void work(const StudyFile& study, const fs::path& folder) {
+  const MemberStore store(folder, identity_of_study(study));
+  const Eigen::MatrixXd design = make_design(study);
+  const auto count = static_cast<int>(design.rows());
+  for (int number = store.take_next(count); number >= 0; number = store.take_next(count)) {
+    const Member member = run_member(study, design.row(number), number);
+    const HeldSignals until_it_is_written;
+    store.write(member);
+  }
+}
+
+/// Starts this program again, with one thread of its own: members run side by side.
+pid_t start(std::vector<std::string> arguments) {
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  pid_t process = 0;
+  const int error =
+      ::posix_spawn(&process, "/proc/self/exe", nullptr, nullptr, pointers.data(), environ);
+  if (error != 0)
+    throw std::runtime_error("a worker cannot be started: " +
+                             std::generic_category().message(error));
+  return process;
+}
+
+/// Waits for workers; true if each ended as it should.
+bool wait_for(std::vector<pid_t> processes, const std::function<void()>& meanwhile) {
+  bool well = true;
+  while (!processes.empty()) {
+    int status = 0;
+    const pid_t ended = ::waitpid(-1, &status, WNOHANG);
+    if (ended > 0) {
+      std::erase(processes, ended);
+      well = well && WIFEXITED(status) && WEXITSTATUS(status) == exit_code::done;
+      continue;
+    }
+    if (ended < 0 && errno != EINTR) return false;
+    meanwhile();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return well;
+}
+
+std::vector<std::string> worker_arguments(const SweepOptions& options, const fs::path& folder) {
+  return {"blocklift", "sweep",     options.study, "--output", folder.string(),
+          "--worker",  "--threads", "1",           "--quiet"};
+}
+
+/// Runs what is missing. A worker that is lost leaves its member to the next round.
+void run_members(const SweepOptions& options, const fs::path& folder, const MemberStore& store,
+                 int count) {
+  constexpr int most_rounds = 3;
+  const int asked = options.workers > 0
+                        ? options.workers
+                        : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  ProgressBar bar("members");
+  for (int round = 0; round < most_rounds; ++round) {
+    const int missing = count - store.count_done(count);
+    if (missing == 0) return;
+    store.begin();
+    std::vector<pid_t> workers;
+    for (int w = 0; w < std::min(asked, missing); ++w)
+      workers.push_back(start(worker_arguments(options, folder)));
+    wait_for(std::move(workers), [&] {
+      const int done = store.count_done(count);
+      bar.show(static_cast<double>(done) / count, fmt::format("{} of {}", done, count));
+    });
+  }
+  if (store.count_done(count) < count)
+    throw std::runtime_error("workers of the study ended before their members were done");
+}
+
+std::vector<Member> read_members(const MemberStore& store, int count) {
+  std::vector<Member> members;
+  for (int number = 0; number < count; ++number)
+    members.push_back(store.read(number).value_or(Member{number, "is missing", {}}));
+  return members;
+}
+
+/// The member with the largest of the first leading figure, with a report of its own.
+std::optional<int> write_worst(const SweepOptions& options, const fs::path& folder,
+                               const StudyResults& results) {
+  if (results.leading.empty()) return std::nullopt;
+  const int worst = results.spreads[results.leading.front()].member_of_largest;
+  std::vector<std::string> arguments = worker_arguments(options, folder);
+  arguments.push_back("--whole");
+  arguments.push_back(std::to_string(worst));
+  ProgressBar bar("the worst member's report");
+  const bool well = wait_for({start(std::move(arguments))}, [&] { bar.show(0); });
+  return well ? std::optional<int>(worst) : std::nullopt;
+}
+
+void print_study(const StudyResults& results, const fs::path& folder, std::optional<int> worst) {
+  for (const Member& member : results.members)
+    if (!member.failure.empty())
+      say_warning(fmt::format("member {} failed: {}", member.number, member.failure));
+  if (is_quiet()) return;
+  const StudyFile& study = results.study;
+  fmt::print("{}\n\n{}", study.title.empty() ? study.name : study.title, study_text(results));
+  fmt::print("\n{} members, {} failed\n", results.members.size(), results.failed());
+  if (worst)
+    print_wrapped(fmt::format("member {} has the largest {}: {}", *worst,
+                              results.spreads[results.leading.front()].path,
+                              (folder / "worst" / "report.html").string()));
+  fmt::print("page: {}\n", (folder / "study.html").string());
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  StudyFile study = read_study(options.study);
+  const fs::path folder = folder_of(options, study);
+  if (options.whole) {
+    const Eigen::MatrixXd design = make_design(study);
+    const Member member =
+        run_member(study, design.row(*options.whole), *options.whole, folder / "worst");
+    return member.failure.empty() ? exit_code::done : exit_code::run_failed;
+  }
+  if (options.is_worker) {
+    work(study, folder);
+    return exit_code::done;
+  }
+  require_writable(folder);
+  Eigen::MatrixXd design = make_design(study);
+  {
+    ProgressBar bar("reading members");
+    check_members(study, design, [&](double fraction) { bar.show(fraction); });
+  }
+  const MemberStore store(folder, identity_of_study(study));
+  const auto count = static_cast<int>(design.rows());
+  run_members(options, folder, store, count);
+  const StudyResults results =
+      evaluate_study(std::move(study), std::move(design), read_members(store, count));
+  {
+    const HeldSignals until_all_is_in_place;
+    write_study(results, folder);
+  }
+  print_study(results, folder, write_worst(options, folder, results));
+  return exit_code::done;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,188 @@
+#include "pipeline/files/study_file.h"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/declaration/document.h"
+#include "pipeline/declaration/reading.h"
+#include "pipeline/declaration/table.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using LawKind = SpreadLaw::Kind;
+
+constexpr int most_members = 1'000'000;
+
+/// What a law needs beside what it may have.
+struct Needs {
+  bool moments, bounds, mode;
+};
+
+Needs needs_of(LawKind kind) {
+  if (kind == LawKind::uniform) return {false, true, false};
+  if (kind == LawKind::triangular) return {false, true, true};
+  return {true, false, false};
+}
+
+void check_law(const SpreadLaw& law, Reading& reading, const Mark& mark) {
+  const Needs needs = needs_of(law.kind);
+  const auto require = [&](bool is_due, const auto& key, const char* name) {
+    if (is_due && !key) reading.error(mark, fmt::format("the law lacks its {}", name));
+    return is_due && !key;
+  };
+  require(needs.moments, law.mean, "mean");
+  require(needs.moments, law.deviation, "deviation");
+  require(needs.bounds, law.lowest, "lowest");
+  require(needs.bounds, law.highest, "highest");
+  require(needs.mode, law.mode, "mode");
+  const auto refuse = [&](bool is_due, const auto& key, const char* name) {
+    if (!is_due && key)
+      reading.error(key->mark, fmt::format("{} is no parameter of this law", name));
+  };
+  refuse(needs.moments, law.mean, "mean");
+  refuse(needs.moments, law.deviation, "deviation");
+  refuse(needs.mode, law.mode, "mode");
+  const Measure* first = nullptr;
+  for (const auto* key : {&law.mean, &law.deviation, &law.lowest, &law.highest, &law.mode}) {
+    if (!*key) continue;
+    if (!first) first = &(*key)->value;
+    if (!((*key)->value.exponents == first->exponents))
+      reading.error((*key)->mark, "the values of a law are not all of one dimension");
+  }
+  if (law.deviation && !(law.deviation->value.value > 0))
+    reading.error(law.deviation->mark, "the deviation is not above zero");
+  if (law.lowest && law.highest && !(law.lowest->value.value < law.highest->value.value))
+    reading.error(law.highest->mark, "highest is not above lowest");
+  const auto is_between = [&](const std::optional<Located<Measure>>& key, const char* name) {
+    if (!key || !law.lowest || !law.highest) return;
+    if (key->value.value < law.lowest->value.value || key->value.value > law.highest->value.value)
+      reading.error(key->mark, fmt::format("{} is not between lowest and highest", name));
+  };
+  is_between(law.mode, "mode");
+  is_between(law.mean, "mean");
+  if (law.kind == LawKind::lognormal && law.mean && !(law.mean->value.value > 0))
+    reading.error(law.mean->mark, "the mean of a lognormal value is not above zero");
+}
+
+Format<SpreadLaw> law_format() {
+  Table<SpreadLaw> table("spread", "How a value is spread.");
+  table
+      .required("law", &SpreadLaw::kind,
+                choice<LawKind>({{"normal", LawKind::normal},
+                                 {"lognormal", LawKind::lognormal},
+                                 {"uniform", LawKind::uniform},
+                                 {"triangular", LawKind::triangular},
+                                 {"gumbel", LawKind::gumbel},
+                                 {"weibull", LawKind::weibull}}),
+                "its kind")
+      .optional("mean", &SpreadLaw::mean, located(measure()),
+                "of normal, lognormal, gumbel and weibull values, before they are cut off")
+      .optional("deviation", &SpreadLaw::deviation, located(measure()),
+                "their standard deviation, likewise")
+      .optional("lowest", &SpreadLaw::lowest, located(measure()),
+                "of uniform and triangular values; others are cut off there")
+      .optional("highest", &SpreadLaw::highest, located(measure()), "likewise")
+      .optional("mode", &SpreadLaw::mode, located(measure()), "of triangular values")
+      .rule(check_law)
+      .place(&SpreadLaw::place);
+  return table.format();
+}
+
+void check_variable(const StudyVariable& variable, Reading& reading, const Mark& mark) {
+  if (variable.values.empty() == !variable.law)
+    reading.error(mark, "either values or spread is due");
+}
+
+Format<StudyVariable> variable_format() {
+  Table<StudyVariable> table("variable", "What varies in a study.");
+  table
+      .required("keys", &StudyVariable::keys, list_of(located(text()), 1),
+                "keys of the case (ropes.R1.length) or of a model that it names "
+                "(blocks/hull-860t:mass); all have the one value")
+      .optional("values", &StudyVariable::values, list_of(located(measure()), 1),
+                "which are taken in turn")
+      .optional("spread", &StudyVariable::law, law_format(), "a law by which the value is spread")
+      .rule(check_variable)
+      .place(&StudyVariable::place);
+  return table.format();
+}
+
+void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
+  const bool is_grid = study.design == StudyDesign::grid;
+  if (is_grid && study.members > 0)
+    reading.error(mark, "a grid has as many members as its values give; members goes with samples");
+  if (!is_grid && study.members <= 0) reading.error(mark, "the number of members is missing");
+  if (study.variables.empty()) reading.error(mark, "nothing varies");
+  double size = 1;
+  for (const StudyVariable& variable : study.variables) {
+    if (is_grid && variable.law) reading.error(variable.place, "a grid takes values and no spread");
+    size *= static_cast<double>(variable.values.size());
+    if (study.design == StudyDesign::sensitivity && !variable.law)
+      reading.error(variable.place, "Sobol' indices need a spread and no values");
+  }
+  if (is_grid && size > most_members)
+    reading.error(mark,
+                  fmt::format("the grid has {:g} members; {} are allowed", size, most_members));
+}
+
+}  // namespace
+
+Format<StudyFile> study_file_format() {
+  Table<StudyFile> table("study", "Many lifts of one case, for `blocklift sweep`.");
+  table.required("study", &StudyFile::name, name(), "its name")
+      .optional("title", &StudyFile::title, text(), "for people")
+      .required("case", &StudyFile::case_name, located(text()),
+                "file or folder of the lift case, from this file's folder or the working folder")
+      .by_default(
+          "run", &StudyFile::run,
+          choice<StudyRun>({{"simulate", StudyRun::simulate}, {"assess", StudyRun::assess}}),
+          "simulate", "motion alone, or stress and checks as well")
+      .by_default("design", &StudyFile::design,
+                  choice<StudyDesign>({{"random", StudyDesign::random},
+                                       {"latin hypercube", StudyDesign::latin_hypercube},
+                                       {"low discrepancy", StudyDesign::low_discrepancy},
+                                       {"grid", StudyDesign::grid},
+                                       {"sensitivity", StudyDesign::sensitivity}}),
+                  "latin hypercube",
+                  "how members are chosen: independently; each tenth, hundredth, ... of each "
+                  "spread alike; by Sobol's sequence; every value with every other; for Sobol' "
+                  "indices, members (n + 2) of n variables")
+      .optional("members", &StudyFile::members, integer(Range::between(1, most_members)),
+                "how many lifts; of a sensitivity, the size of its samples")
+      .by_default("seed", &StudyFile::seed, integer(Range::between(0, 2'000'000'000)), "1",
+                  "of the random numbers")
+      .required("vary", &StudyFile::variables, named_tables(variable_format()), "by name")
+      .optional("figures", &StudyFile::figures, list_of(located(text()), 1),
+                "figures of summary.json that are looked at, ropes.R1.max_dynamic_tension_N; the "
+                "usual ones of a comparison if left out")
+      .rule(check_study)
+      .place(&StudyFile::place);
+  return table.format();
+}
+
+fs::path StudyFile::case_path() const {
+  const fs::path beside = file.parent_path() / case_name.value;
+  std::error_code ignored;
+  return fs::exists(beside, ignored) ? beside : fs::path(case_name.value);
+}
+
+std::optional<StudyFile> read_study_file(const fs::path& path, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  std::error_code error;
+  const fs::path file = fs::is_directory(path, error) ? path / "study.yaml" : path;
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  StudyFile study;
+  study.file = file;
+  study.yaml = document->text;
+  Reading reading(*document, diagnostics);
+  study_file_format().read(document->root, reading, study);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return study;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,219 @@
+#include "pipeline/study/members.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/assessment/assess.h"
+#include "pipeline/comparison/summary_figures.h"
+#include "pipeline/declaration/key_change.h"
+#include "pipeline/files/input_hash.h"
+#include "pipeline/files/model_library.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/content_hash.h"
+#include "pipeline/results/summary.h"
+#include "pipeline/simulation/lift_simulation.h"
+#include "pipeline/study/study_design.h"
+#include "pipeline/version.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* identity_file = "identity";
+constexpr const char* queue_file = "next";
+
+std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd& values,
+                                  Diagnostics& diagnostics) {
+  std::vector<KeyChange> changes;
+  for (std::size_t v = 0; v < study.variables.size(); ++v) {
+    const StudyVariable& variable = study.variables[v];
+    const std::string value = value_text(variable, values[static_cast<Eigen::Index>(v)]);
+    for (const Located<std::string>& key : variable.keys)
+      if (auto change = parse_key_change(key.value + "=" + value, key.mark, diagnostics))
+        changes.push_back(std::move(*change));
+  }
+  return changes;
+}
+
+/// "weight = 870 t, R1 = 9.98 m".
+std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
+  std::string text;
+  for (std::size_t v = 0; v < study.variables.size(); ++v)
+    text += fmt::format("{}{} = {}", v > 0 ? ", " : "", study.variables[v].name.value,
+                        value_text(study.variables[v], values[static_cast<Eigen::Index>(v)], 6));
+  return text;
+}
+
+/// The figures that are looked at, of a summary.
+std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
+                                                       const Json& summary) {
+  std::vector<std::pair<std::string, double>> figures;
+  const auto take = [&](const std::string& path) {
+    const Json* value = find_figure(summary, path);
+    const bool is_known = std::any_of(figures.begin(), figures.end(),
+                                      [&](const auto& figure) { return figure.first == path; });
+    if (value && value->is_number() && !is_known) figures.emplace_back(path, value->get<double>());
+  };
+  for (const Located<std::string>& path : study.figures) take(path.value);
+  if (study.figures.empty())
+    for (const SummaryFigure& figure : list_figures(summary)) take(figure.path);
+  return figures;
+}
+
+Json summary_of(const StudyFile& study, LiftCase lift_case, const std::optional<fs::path>& full) {
+  const Progress nobody_watches = [](const std::string&, double, const std::string&) {};
+  if (study.run == StudyRun::simulate) {
+    const LiftSimulation simulation = simulate_lift(std::move(lift_case), nobody_watches);
+    if (full) write_lift_simulation(simulation, *full, false);
+    return make_simulation_summary(simulation.lift_case, simulation.run);
+  }
+  const Assessment assessment = assess(std::move(lift_case), nobody_watches);
+  if (full) write_results(assessment, *full);
+  return make_summary(assessment);
+}
+
+/// A file that one process at a time may hold.
+class LockedFile {
+ public:
+  explicit LockedFile(const fs::path& path)
+      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX) != 0)
+      throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno));
+  }
+  ~LockedFile() { ::close(descriptor_); }
+  LockedFile(const LockedFile&) = delete;
+  LockedFile& operator=(const LockedFile&) = delete;
+
+  int number() const {
+    int value = 0;
+    return ::pread(descriptor_, &value, sizeof value, 0) == sizeof value ? value : 0;
+  }
+  void set_number(int value) const {
+    if (::pwrite(descriptor_, &value, sizeof value, 0) != sizeof value)
+      throw std::runtime_error("the list of members: " + std::generic_category().message(errno));
+  }
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
+
+LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values) {
+  Diagnostics diagnostics;
+  std::vector<KeyChange> changes = changes_of(study, values, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  ModelLibrary library = ModelLibrary::of_installation();
+  library.set_changes(std::move(changes));
+  std::optional<LiftCase> lift_case = read_lift_case(study.case_path(), library, diagnostics);
+  if (!diagnostics.has_errors()) return std::move(*lift_case);
+  // Complaints name the study's own lines, or those of the case and its models as they were changed.
+  diagnostics.error(
+      study.place, fmt::format("a member of the study is impossible: {}", describe(study, values)));
+  throw InputError(diagnostics);
+}
+
+void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
+                   const std::function<void(double fraction)>& progress) {
+  for (Eigen::Index member = 0; member < design.rows(); ++member) {
+    progress(static_cast<double>(member) / static_cast<double>(design.rows()));
+    const LiftCase lift_case = member_case(study, design.row(member));
+    if (!lift_case.load_table) continue;
+    Diagnostics diagnostics;
+    diagnostics.error(study.case_name.mark, "the case is a load table: it has nothing that moves");
+    throw InputError(diagnostics);
+  }
+}
+
+Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int number,
+                  const std::optional<fs::path>& full) {
+  Member member{number, {}, {}};
+  try {
+    member.figures = figures_of(study, summary_of(study, member_case(study, values), full));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    member.failure = error.what();
+  }
+  return member;
+}
+
+MemberStore::MemberStore(const fs::path& folder, const std::string& identity)
+    : folder_(folder / "members") {
+  fs::create_directories(folder_);
+  const fs::path known = folder_ / identity_file;
+  std::error_code ignored;
+  if (!fs::exists(known, ignored)) {
+    write_file(known, identity);
+    return;
+  }
+  if (read_file(known) == identity) return;
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
+                    "the folder holds members of another study, or of this one as it was before",
+                    {"name another folder with --output, or remove this one"});
+  throw InputError(diagnostics);
+}
+
+fs::path MemberStore::file_of(int number) const {
+  return folder_ / fmt::format("{:06}.json", number);
+}
+
+void MemberStore::begin() const { LockedFile(folder_ / queue_file).set_number(0); }
+
+int MemberStore::take_next(int members) const {
+  const LockedFile queue(folder_ / queue_file);
+  int next = queue.number();
+  std::error_code ignored;
+  while (next < members && fs::exists(file_of(next), ignored)) ++next;
+  queue.set_number(next + 1);
+  return next < members ? next : -1;
+}
+
+void MemberStore::write(const Member& member) const {
+  Json figures = Json::object();
+  for (const auto& [path, value] : member.figures) figures[path] = value;
+  Json json{{"member", member.number}, {"figures", std::move(figures)}};
+  if (!member.failure.empty()) json["failure"] = member.failure;
+  write_file(file_of(member.number), json.dump(1));
+}
+
+std::optional<Member> MemberStore::read(int number) const {
+  std::error_code ignored;
+  if (!fs::exists(file_of(number), ignored)) return std::nullopt;
+  const Json json = Json::parse(read_file(file_of(number)));
+  Member member{number, json.value("failure", std::string()), {}};
+  for (const auto& [path, value] : json.at("figures").items())
+    if (value.is_number()) member.figures.emplace_back(path, value.get<double>());
+  return member;
+}
+
+int MemberStore::count_done(int members) const {
+  int done = 0;
+  std::error_code ignored;
+  for (int number = 0; number < members; ++number)
+    if (fs::exists(file_of(number), ignored)) ++done;
+  return done;
+}
+
+std::string identity_of_study(const StudyFile& study) {
+  ContentHash hash;
+  hash.add(std::string_view(study.yaml));
+  hash.add(std::string_view(hash_of_input(read_lift_case(study.case_path()))));
+  hash.add(std::string_view(program_version));
+  return hash.digits();
+}
+
+}  // namespace blocklift::pipeline

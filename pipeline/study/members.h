@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "pipeline/files/lift_case.h"
+#include "pipeline/files/study_file.h"
+
+namespace blocklift::pipeline {
+
+/// The case of a member: that of the study with the variables' values.
+/// @throws InputError with what is wrong, and the values by which it is.
+LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values);
+
+/// Reads the cases of all members, so that nothing runs if one of them is impossible.
+/// @throws InputError as member_case, of the first that is.
+void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
+                   const std::function<void(double fraction)>& progress);
+
+/// A member that ran, or failed to.
+struct Member {
+  int number = 0;
+  std::string failure;                                  ///< empty: it ran
+  std::vector<std::pair<std::string, double>> figures;  ///< path in summary.json, value there
+};
+
+/// Computes a member: its motion, or stress and checks as well. What fails is told in it.
+/// @param full if given, all results are written into this folder, too.
+Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int number,
+                  const std::optional<std::filesystem::path>& full = std::nullopt);
+
+/// The folder of a study's results while it runs: what is done is on the disk, a file a member.
+class MemberStore {
+ public:
+  /// @param identity of study and case: members of another are not taken.
+  /// @throws InputError if the folder holds members of another study.
+  MemberStore(const std::filesystem::path& folder, const std::string& identity);
+
+  /// The next member that nobody has begun, of this run's workers, or done before; -1: none is
+  /// left. Several processes may ask at once.
+  int take_next(int members) const;
+  /// Lets take_next begin anew; to be called before the workers start.
+  void begin() const;
+
+  void write(const Member& member) const;
+  std::optional<Member> read(int number) const;
+  int count_done(int members) const;
+
+ private:
+  std::filesystem::path file_of(int number) const;
+
+  std::filesystem::path folder_;
+};
+
+/// Identity of all that the members' figures depend on.
+std::string identity_of_study(const StudyFile& study);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,158 @@
+#include "pipeline/study/spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <openturns/OT.hxx>
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr std::size_t fewest_for_a_fit = 30;
+constexpr int bootstrap_samples = 200;
+constexpr double covered = 0.95;
+
+OT::Sample sample_of(const std::vector<double>& values) {
+  OT::Sample sample(values.size(), 1);
+  for (std::size_t i = 0; i < values.size(); ++i) sample(i, 0) = values[i];
+  return sample;
+}
+
+/// The value below which the share of the law lies, with its interval over samples that are drawn
+/// from the law and fitted again.
+ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
+               const OT::Sample& sample, double share) {
+  const OT::Distribution law = factory.build(sample);
+  ExtremeFit result{name, share, law.computeQuantile(share)[0], 0, 0, 0};
+  result.p_value = OT::FittingTest::Kolmogorov(sample, law).getPValue();
+  std::vector<double> again;
+  for (int b = 0; b < bootstrap_samples; ++b) {
+    try {
+      again.push_back(factory.build(law.getSample(sample.getSize())).computeQuantile(share)[0]);
+    } catch (const OT::Exception&) {
+      continue;  // a sample that no law of the family fits
+    }
+  }
+  std::sort(again.begin(), again.end());
+  const auto at = [&](double part) {
+    return again.empty()
+               ? std::numeric_limits<double>::quiet_NaN()
+               : again[static_cast<std::size_t>(part * static_cast<double>(again.size() - 1))];
+  };
+  result.low = at((1 - covered) / 2);
+  result.high = at((1 + covered) / 2);
+  return result;
+}
+
+std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
+  std::vector<ExtremeFit> fits;
+  if (values.size() < fewest_for_a_fit) return fits;
+  std::sort(values.begin(), values.end());
+  const double scale = std::max(std::abs(values.front()), std::abs(values.back()));
+  if (!(values.back() - values.front() > 1e-9 * scale)) return fits;
+  OT::RandomGenerator::SetSeed(1);  // of the bootstrap
+  constexpr double share = 0.999;
+  try {
+    fits.push_back(fit("Gumbel", OT::GumbelFactory(), sample_of(values), share));
+  } catch (const OT::Exception&) {
+    // A law that cannot be fitted is not shown.
+  }
+  constexpr double tail = 0.1;
+  const auto first = static_cast<std::size_t>((1 - tail) * static_cast<double>(values.size()));
+  if (values.size() - first < fewest_for_a_fit) return fits;
+  const double threshold = values[first - 1];
+  std::vector<double> excesses;
+  for (std::size_t i = first; i < values.size(); ++i) excesses.push_back(values[i] - threshold);
+  try {
+    ExtremeFit above =
+        fit("generalised Pareto above the 90 % quantile", OT::GeneralizedParetoFactory(),
+            sample_of(excesses), 1 - (1 - share) / tail);
+    above.share = share;
+    above.value += threshold;
+    above.low += threshold;
+    above.high += threshold;
+    fits.push_back(std::move(above));
+  } catch (const OT::Exception&) {
+    // As above.
+  }
+  return fits;
+}
+
+Eigen::VectorXd ranks_of(const Eigen::VectorXd& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::sort(order.begin(), order.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return values[a] < values[b]; });
+  Eigen::VectorXd ranks(values.size());
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin;
+    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
+    for (std::size_t i = begin; i < end; ++i)
+      ranks[order[i]] = 0.5 * static_cast<double>(begin + end - 1);  // ties share their mean
+    begin = end;
+  }
+  return ranks;
+}
+
+double correlation(Eigen::VectorXd a, Eigen::VectorXd b) {
+  a.array() -= a.mean();
+  b.array() -= b.mean();
+  const double norms = a.norm() * b.norm();
+  return norms > 0 ? a.dot(b) / norms : 0;
+}
+
+}  // namespace
+
+Quantile find_quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const auto count = static_cast<double>(values.size());
+  const double place = share * (count - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const auto above = std::min(below + 1, values.size() - 1);
+  const double part = place - static_cast<double>(below);
+  Quantile quantile{share, (1 - part) * values[below] + part * values[above],
+                    -std::numeric_limits<double>::infinity(),
+                    std::numeric_limits<double>::infinity()};
+  // The number of values below the population's quantile is binomial.
+  const OT::Binomial below_it(values.size(), share);
+  const auto rank = [&](double probability) { return below_it.computeQuantile(probability)[0]; };
+  const auto low = static_cast<std::ptrdiff_t>(rank((1 - covered) / 2)) - 1;
+  const auto high = static_cast<std::size_t>(rank((1 + covered) / 2));
+  if (low >= 0) quantile.low = values[static_cast<std::size_t>(low)];
+  if (high < values.size()) quantile.high = values[high];
+  return quantile;
+}
+
+Spread find_spread(std::string path, const std::vector<double>& values,
+                   const std::vector<int>& members, const Eigen::MatrixXd& design) {
+  Spread spread;
+  spread.path = std::move(path);
+  const Eigen::Map<const Eigen::VectorXd> all(values.data(),
+                                              static_cast<Eigen::Index>(values.size()));
+  spread.mean = all.mean();
+  if (all.size() > 1)
+    spread.deviation =
+        std::sqrt((all.array() - spread.mean).square().sum() / static_cast<double>(all.size() - 1));
+  Eigen::Index smallest = 0, largest = 0;
+  spread.smallest = all.minCoeff(&smallest);
+  spread.largest = all.maxCoeff(&largest);
+  spread.member_of_smallest = members[static_cast<std::size_t>(smallest)];
+  spread.member_of_largest = members[static_cast<std::size_t>(largest)];
+  for (const double share : {0.05, 0.5, 0.95, 0.99})
+    spread.quantiles.push_back(find_quantile(values, share));
+  spread.extremes = fit_extremes(values);
+  const Eigen::VectorXd ranks = ranks_of(all);
+  spread.rank_correlation.resize(design.cols());
+  for (Eigen::Index v = 0; v < design.cols(); ++v) {
+    Eigen::VectorXd inputs(all.size());
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      inputs[i] = design(members[static_cast<std::size_t>(i)], v);
+    spread.rank_correlation[v] = correlation(ranks_of(inputs), ranks);
+  }
+  return spread;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace blocklift::pipeline {
+
+/// A quantile of a sample with the interval that holds that of the population at 95 %.
+struct Quantile {
+  double share = 0;
+  double value = 0, low = 0, high = 0;  ///< low or high is not finite where the sample is too small
+};
+
+/// A law of extremes that was fitted to a sample.
+struct ExtremeFit {
+  std::string law;                      ///< "Gumbel", "generalised Pareto above the 90 % quantile"
+  double share = 0.999;                 ///< of the figures below the value
+  double value = 0, low = 0, high = 0;  ///< with the interval of 95 % by the parametric bootstrap
+  double p_value = 0;  ///< Kolmogorov and Smirnov's: below 0.05 the law does not fit
+};
+
+/// What a figure's values over all members say.
+struct Spread {
+  std::string path;
+  double mean = 0, deviation = 0;
+  double smallest = 0, largest = 0;
+  int member_of_smallest = 0, member_of_largest = 0;
+  std::vector<Quantile> quantiles;
+  std::vector<ExtremeFit> extremes;  ///< none of fewer than 30 values, or of values all alike
+  Eigen::VectorXd rank_correlation;  ///< with each variable (Spearman)
+};
+
+/// Quantile of a sample with its interval by order statistics, which holds for any law (David and
+/// Nagaraja 2003, section 7.1).
+Quantile find_quantile(std::vector<double> values, double share);
+
+/// @param values of the members. @param members their numbers. @param design a member a row.
+Spread find_spread(std::string path, const std::vector<double>& values,
+                   const std::vector<int>& members, const Eigen::MatrixXd& design);
+
+}  // namespace blocklift::pipeline

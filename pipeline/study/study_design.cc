@@ -1,0 +1,180 @@
+#include "pipeline/study/study_design.h"
+
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <openturns/OT.hxx>
+
+#include "pipeline/declaration/reading.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using Kind = SpreadLaw::Kind;
+
+double value_or(const std::optional<Located<Measure>>& key, double otherwise) {
+  return key ? key->value.value : otherwise;
+}
+
+OT::Distribution law_of(const SpreadLaw& law) {
+  const double mean = value_or(law.mean, 0), deviation = value_or(law.deviation, 1);
+  switch (law.kind) {
+    case Kind::normal:
+      return OT::Normal(mean, deviation);
+    case Kind::lognormal:
+      return OT::ParametrizedDistribution(OT::LogNormalMuSigma(mean, deviation, 0));
+    case Kind::uniform:
+      return OT::Uniform(law.lowest->value.value, law.highest->value.value);
+    case Kind::triangular:
+      return OT::Triangular(law.lowest->value.value, law.mode->value.value,
+                            law.highest->value.value);
+    case Kind::gumbel:
+      return OT::ParametrizedDistribution(OT::GumbelMuSigma(mean, deviation));
+    case Kind::weibull:
+      return OT::ParametrizedDistribution(OT::WeibullMinMuSigma(mean, deviation, 0));
+  }
+  throw std::logic_error("a law that nobody knows");
+}
+
+bool may_be_cut(Kind kind) { return kind != Kind::uniform && kind != Kind::triangular; }
+
+OT::Distribution cut_law_of(const SpreadLaw& law) {
+  const OT::Distribution whole = law_of(law);
+  if (!may_be_cut(law.kind) || (!law.lowest && !law.highest)) return whole;
+  const OT::Interval range = whole.getRange();
+  const OT::Interval kept(OT::Point{value_or(law.lowest, range.getLowerBound()[0])},
+                          OT::Point{value_or(law.highest, range.getUpperBound()[0])},
+                          OT::Interval::BoolCollection{law.lowest ? 1U : 0U},
+                          OT::Interval::BoolCollection{law.highest ? 1U : 0U});
+  return OT::TruncatedDistribution(whole, kept);
+}
+
+/// A variable of values has a share of the unit interval for each.
+OT::Distribution distribution_of(const StudyVariable& variable) {
+  if (!variable.law) return OT::Uniform(0, static_cast<double>(variable.values.size()));
+  try {
+    return cut_law_of(*variable.law);
+  } catch (const OT::Exception& error) {
+    Diagnostics diagnostics;
+    diagnostics.error(variable.law->place, fmt::format("the spread of \"{}\" is impossible: {}",
+                                                       variable.name.value, error.what()));
+    throw InputError(diagnostics);
+  }
+}
+
+Eigen::MatrixXd grid_of(const StudyFile& study) {
+  Eigen::Index size = 1;
+  for (const StudyVariable& variable : study.variables)
+    size *= static_cast<Eigen::Index>(variable.values.size());
+  Eigen::MatrixXd design(size, static_cast<Eigen::Index>(study.variables.size()));
+  // The last variable runs fastest.
+  Eigen::Index repeat = 1;
+  for (Eigen::Index v = design.cols() - 1; v >= 0; --v) {
+    const auto& values = study.variables[static_cast<std::size_t>(v)].values;
+    const auto count = static_cast<Eigen::Index>(values.size());
+    for (Eigen::Index member = 0; member < size; ++member)
+      design(member, v) = values[static_cast<std::size_t>(member / repeat % count)].value.value;
+    repeat *= count;
+  }
+  return design;
+}
+
+OT::Sample sample_of(const StudyFile& study, const OT::Distribution& joint) {
+  const auto size = static_cast<OT::UnsignedInteger>(study.members);
+  switch (study.design) {
+    case StudyDesign::latin_hypercube:
+      return OT::LHSExperiment(joint, size).generate();
+    case StudyDesign::low_discrepancy:
+      return OT::LowDiscrepancyExperiment(OT::SobolSequence(), joint, size).generate();
+    case StudyDesign::sensitivity:
+      return OT::SobolIndicesExperiment(joint, size).generate();
+    default:
+      return joint.getSample(size);
+  }
+}
+
+std::string unit_of(const Exponents& exponents) {
+  const std::array<std::pair<const char*, int>, 4> bases = {
+      std::pair{"m", exponents.metre}, std::pair{"kg", exponents.kilogram},
+      std::pair{"s", exponents.second}, std::pair{"rad", exponents.radian}};
+  std::string text;
+  for (const auto& [base, exponent] : bases) {
+    if (exponent == 0) continue;
+    text += (text.empty() ? "" : " ") + std::string(base);
+    if (exponent != 1) text += fmt::format("^{}", exponent);
+  }
+  return text;
+}
+
+Exponents exponents_of(const StudyVariable& variable) {
+  if (!variable.law) return variable.values.front().value.exponents;
+  for (const auto* key : {&variable.law->mean, &variable.law->lowest})
+    if (*key) return (*key)->value.exponents;
+  return {};
+}
+
+}  // namespace
+
+Eigen::MatrixXd make_design(const StudyFile& study) {
+  if (study.design == StudyDesign::grid) return grid_of(study);
+  OT::ComposedDistribution::DistributionCollection laws;
+  for (const StudyVariable& variable : study.variables) laws.add(distribution_of(variable));
+  OT::RandomGenerator::SetSeed(static_cast<OT::UnsignedInteger>(study.seed));
+  const OT::Sample sample = sample_of(study, OT::ComposedDistribution(laws));
+  Eigen::MatrixXd design(static_cast<Eigen::Index>(sample.getSize()),
+                         static_cast<Eigen::Index>(sample.getDimension()));
+  for (Eigen::Index member = 0; member < design.rows(); ++member) {
+    for (Eigen::Index v = 0; v < design.cols(); ++v) {
+      const double drawn =
+          sample(static_cast<OT::UnsignedInteger>(member), static_cast<OT::UnsignedInteger>(v));
+      const StudyVariable& variable = study.variables[static_cast<std::size_t>(v)];
+      design(member, v) =
+          variable.law
+              ? drawn
+              : variable
+                    .values[std::min(variable.values.size() - 1, static_cast<std::size_t>(drawn))]
+                    .value.value;
+    }
+  }
+  return design;
+}
+
+std::string unit_text(const StudyVariable& variable) { return unit_of(exponents_of(variable)); }
+
+std::string value_text(const StudyVariable& variable, double value, int digits) {
+  const std::string unit = unit_text(variable);
+  return fmt::format("{:.{}g}{}{}", value, digits, unit.empty() ? "" : " ", unit);
+}
+
+Sensitivity find_sensitivity(const Eigen::MatrixXd& design, const Eigen::VectorXd& figure,
+                             int members) {
+  const auto rows = static_cast<OT::UnsignedInteger>(design.rows());
+  const auto columns = static_cast<OT::UnsignedInteger>(design.cols());
+  OT::Sample inputs(rows, columns), outputs(rows, 1);
+  for (OT::UnsignedInteger i = 0; i < rows; ++i) {
+    for (OT::UnsignedInteger j = 0; j < columns; ++j)
+      inputs(i, j) = design(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    outputs(i, 0) = figure[static_cast<Eigen::Index>(i)];
+  }
+  OT::RandomGenerator::SetSeed(1);  // of the bootstrap
+  OT::SaltelliSensitivityAlgorithm algorithm(inputs, outputs,
+                                             static_cast<OT::UnsignedInteger>(members));
+  algorithm.setUseAsymptoticDistribution(false);
+  const auto as_vector = [](const OT::Point& point) {
+    Eigen::VectorXd vector(static_cast<Eigen::Index>(point.getSize()));
+    for (Eigen::Index i = 0; i < vector.size(); ++i)
+      vector[i] = point[static_cast<OT::UnsignedInteger>(i)];
+    return vector;
+  };
+  const OT::Interval first = algorithm.getFirstOrderIndicesInterval();
+  const OT::Interval total = algorithm.getTotalOrderIndicesInterval();
+  return {as_vector(algorithm.getFirstOrderIndices()),
+          as_vector(first.getLowerBound()),
+          as_vector(first.getUpperBound()),
+          as_vector(algorithm.getTotalOrderIndices()),
+          as_vector(total.getLowerBound()),
+          as_vector(total.getUpperBound())};
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "pipeline/files/study_file.h"
+
+namespace blocklift::pipeline {
+
+/// The values of all members: a member a row, a variable a column, SI units. The same study gives
+/// the same values on every machine. Rows of a sensitivity are those of Saltelli's two samples, then
+/// of the first with a column after another of the second (Saltelli 2002).
+///
+/// @throws InputError, with the variable's place, if a law cannot be what it is asked to be.
+Eigen::MatrixXd make_design(const StudyFile& study);
+
+/// "9.98 m": a value of a variable as a key has it, in SI units.
+std::string value_text(const StudyVariable& variable, double value, int digits = 15);
+
+/// The dimension's unit of a variable's values, as UDUNITS reads it; empty for plain numbers.
+std::string unit_text(const StudyVariable& variable);
+
+/// Sobol' indices of a figure: how much of its variance each variable has by itself, and with all
+/// others together, with intervals of 95 % by the bootstrap (Saltelli et al. 2010).
+struct Sensitivity {
+  Eigen::VectorXd first, first_low, first_high;
+  Eigen::VectorXd total, total_low, total_high;
+};
+
+/// @param design as make_design gives it for a sensitivity. @param figure of its members.
+Sensitivity find_sensitivity(const Eigen::MatrixXd& design, const Eigen::VectorXd& figure,
+                             int members);
+
+}  // namespace blocklift::pipeline

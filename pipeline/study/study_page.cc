@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "pipeline/hydrodynamics/line_chart.h"
+#include "pipeline/report/html.h"
+#include "pipeline/study/study_results.h"
+#include "pipeline/terminal/text_table.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr const char* style =
+    "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:62rem;padding:0 1rem;"
+    "color:#1d2733;background:#fff}"
+    "table{border-collapse:collapse;width:100%}th,td{padding:.25rem .6rem;text-align:right;"
+    "border-bottom:1px solid #d9dee5}th:first-child,td:first-child{text-align:left;"
+    "overflow-wrap:anywhere}.charts{display:flex;flex-wrap:wrap}"
+    "svg{width:420px;max-width:100%;height:auto}svg text{font:10px system-ui,sans-serif}"
+    "svg .title{font-weight:600;font-size:11px}svg path{fill:none;stroke-width:1.4}"
+    "svg .grid{stroke:#ddd}"
+    ".bar{display:inline-block;height:.8em;background:#2f6db3}.bar.minus{background:#c2571a}"
+    ".note{color:#5a6675}.scroll{overflow-x:auto}"
+    "@media (prefers-color-scheme:dark){body{color:#e3e8ee;background:#14191f}"
+    "th,td{border-color:#38424d}svg{background:#fff}.note{color:#a9b4c0}}";
+
+std::string cells(const std::vector<std::string>& texts, const char* tag) {
+  std::string row = "<tr>";
+  for (const std::string& text : texts) row += fmt::format("<{0}>{1}</{0}>", tag, text);
+  return row + "</tr>\n";
+}
+
+/// "1.23 (1.20 to 1.27)"; an end that the sample is too small for is left open.
+std::string with_interval(double value, double low, double high) {
+  const auto end = [](double x) { return std::isfinite(x) ? format_figure(x) : "?"; };
+  return fmt::format("{} ({} to {})", format_figure(value), end(low), end(high));
+}
+
+std::string name_with_unit(const std::string& path) {
+  const ShownFigure figure = shown_figure(path);
+  return escape_html(figure.name + (figure.unit.empty() ? "" : ", " + figure.unit));
+}
+
+std::string leading_table(const StudyResults& results) {
+  std::string text =
+      "<div class=\"scroll\"><table>\n" +
+      cells({"figure", "mean", "deviation", "median", "95 %", "99 %", "largest", "in member"},
+            "th");
+  for (const std::size_t i : results.leading) {
+    const Spread& spread = results.spreads[i];
+    const double scale = shown_figure(spread.path).scale;
+    const auto quantile = [&](std::size_t q) {
+      return with_interval(scale * spread.quantiles[q].value, scale * spread.quantiles[q].low,
+                           scale * spread.quantiles[q].high);
+    };
+    text +=
+        cells({name_with_unit(spread.path), format_figure(scale * spread.mean),
+               format_figure(scale * spread.deviation, 3), quantile(1), quantile(2), quantile(3),
+               format_figure(scale * spread.largest), std::to_string(spread.member_of_largest)},
+              "td");
+  }
+  return text +
+         "</table></div>\n<p class=\"note\">In brackets the intervals that hold the "
+         "quantiles of all such lifts at 95 %, by order statistics; \"?\": the sample is "
+         "too small for that end.</p>\n";
+}
+
+/// Share of the members above a value.
+std::string exceedance(const StudyResults& results, const Spread& spread) {
+  const ShownFigure figure = shown_figure(spread.path);
+  std::vector<double> values = results.values_of(spread.path);
+  std::sort(values.begin(), values.end());
+  Curve curve{"", {}, {}};
+  const auto count = static_cast<double>(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    curve.x.push_back(figure.scale * values[i]);
+    curve.y.push_back(1 - (static_cast<double>(i) + 0.5) / count);
+  }
+  return to_svg({figure.name,
+                 figure.unit.empty() ? std::string("value") : figure.unit,
+                 "share of members above",
+                 {std::move(curve)}});
+}
+
+std::string extremes_table(const StudyResults& results) {
+  std::string rows;
+  for (const std::size_t i : results.leading) {
+    const double scale = shown_figure(results.spreads[i].path).scale;
+    for (const ExtremeFit& fit : results.spreads[i].extremes)
+      rows +=
+          cells({name_with_unit(results.spreads[i].path), fit.law, fmt::format("{:g}", fit.share),
+                 with_interval(scale * fit.value, scale * fit.low, scale * fit.high),
+                 fmt::format("{:.2f}{}", fit.p_value, fit.p_value < 0.05 ? ": no fit" : "")},
+                "td");
+  }
+  if (rows.empty()) return "";
+  return "<h2>Extremes</h2>\n<div class=\"scroll\"><table>\n" +
+         cells({"figure", "law", "share below", "value", "p of Kolmogorov-Smirnov"}, "th") + rows +
+         "</table></div>\n";
+}
+
+std::string bar(double share) {
+  return fmt::format("<span class=\"bar{}\" style=\"width:{:.1f}em\"></span> {:+.2f}",
+                     share < 0 ? " minus" : "", 8 * std::min(1.0, std::abs(share)), share);
+}
+
+/// Variables of a figure, the strongest first.
+std::string tornado(const StudyResults& results, const Spread& spread) {
+  std::vector<std::size_t> order(results.study.variables.size());
+  for (std::size_t v = 0; v < order.size(); ++v) order[v] = v;
+  const auto strength = [&](std::size_t v) {
+    return std::abs(spread.rank_correlation[static_cast<Eigen::Index>(v)]);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return strength(a) > strength(b); });
+  std::string text = "<table>\n" + cells({name_with_unit(spread.path), "rank correlation"}, "th");
+  for (const std::size_t v : order)
+    text += cells({escape_html(results.study.variables[v].name.value),
+                   bar(spread.rank_correlation[static_cast<Eigen::Index>(v)])},
+                  "td");
+  return text + "</table>\n";
+}
+
+std::string sensitivities(const StudyResults& results) {
+  if (results.sensitivities.empty()) return "";
+  std::string text =
+      "<h2>Sobol' indices</h2>\n<p class=\"note\">Share of the variance that a variable has by "
+      "itself, and with all others together; in brackets intervals of 95 %.</p>\n";
+  for (std::size_t i = 0; i < results.sensitivities.size(); ++i) {
+    const Sensitivity& one = results.sensitivities[i];
+    text += "<div class=\"scroll\"><table>\n" +
+            cells({name_with_unit(results.spreads[results.leading[i]].path), "by itself", "in all"},
+                  "th");
+    for (std::size_t v = 0; v < results.study.variables.size(); ++v) {
+      const auto k = static_cast<Eigen::Index>(v);
+      text += cells({escape_html(results.study.variables[v].name.value),
+                     with_interval(one.first[k], one.first_low[k], one.first_high[k]),
+                     with_interval(one.total[k], one.total_low[k], one.total_high[k])},
+                    "td");
+    }
+    text += "</table></div>\n";
+  }
+  return text;
+}
+
+std::string all_figures(const StudyResults& results) {
+  std::string text = "<h2>All figures</h2>\n<div class=\"scroll\"><table>\n" +
+                     cells({"figure", "smallest", "mean", "deviation", "largest"}, "th");
+  for (const Spread& spread : results.spreads)
+    text += cells(
+        {name_with_unit(spread.path), format_figure(spread.smallest), format_figure(spread.mean),
+         format_figure(spread.deviation, 3), format_figure(spread.largest)},
+        "td");
+  return text + "</table></div>\n";
+}
+
+}  // namespace
+
+std::string study_page(const StudyResults& results) {
+  const StudyFile& study = results.study;
+  const std::string title = escape_html(study.title.empty() ? study.name : study.title);
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n"
+      "<h1>{0}</h1>\n<p>{2} lifts of {3}{4}. Each is a row of study.csv.</p>\n",
+      title, style, results.members.size(), escape_html(study.case_name.value),
+      results.failed() > 0 ? fmt::format("; {} failed and are left out", results.failed()) : "");
+  page += "<h2>Leading figures</h2>\n" + leading_table(results);
+  page += "<div class=\"charts\">\n";
+  for (const std::size_t i : results.leading) page += exceedance(results, results.spreads[i]);
+  page += "</div>\n";
+  page += extremes_table(results) + sensitivities(results);
+  page +=
+      "<h2>What they depend on</h2>\n<p class=\"note\">Rank correlation (Spearman) of each "
+      "figure with each variable.</p>\n";
+  for (const std::size_t i : results.leading) page += tornado(results, results.spreads[i]);
+  return page + all_figures(results) + "</body></html>\n";
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,265 @@
+#include "pipeline/study/study_results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/comparison/summary_figures.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/results_store.h"
+#include "pipeline/terminal/text_table.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_leading = 8;
+
+/// Figures of every member that ran, in the order of the first.
+std::vector<std::string> common_paths(const std::vector<Member>& members) {
+  std::vector<std::string> paths;
+  bool first = true;
+  for (const Member& member : members) {
+    if (!member.failure.empty()) continue;
+    std::vector<std::string> own;
+    for (const auto& [path, value] : member.figures) own.push_back(path);
+    if (first) {
+      paths = std::move(own);
+    } else {
+      std::sort(own.begin(), own.end());
+      std::erase_if(paths, [&](const std::string& path) {
+        return !std::binary_search(own.begin(), own.end(), path);
+      });
+    }
+    first = false;
+  }
+  return paths;
+}
+
+/// Those that were asked for, or those that spread most for their size.
+std::vector<std::size_t> choose_leading(const StudyFile& study,
+                                        const std::vector<Spread>& spreads) {
+  std::vector<std::size_t> chosen(spreads.size());
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  if (study.figures.empty()) {
+    const auto relative = [&](std::size_t i) {
+      const double size = std::max(std::abs(spreads[i].smallest), std::abs(spreads[i].largest));
+      return size > 0 ? spreads[i].deviation / size : 0;
+    };
+    std::stable_sort(chosen.begin(), chosen.end(),
+                     [&](std::size_t a, std::size_t b) { return relative(a) > relative(b); });
+  }
+  chosen.resize(std::min(chosen.size(), most_leading));
+  return chosen;
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json spread_json(const StudyFile& study, const Spread& spread) {
+  Json quantiles = Json::array(), extremes = Json::array(), correlations = Json::object();
+  for (const Quantile& quantile : spread.quantiles)
+    quantiles.push_back({{"share", quantile.share},
+                         {"value", quantile.value},
+                         {"low", number_or_null(quantile.low)},
+                         {"high", number_or_null(quantile.high)}});
+  for (const ExtremeFit& fit : spread.extremes)
+    extremes.push_back({{"law", fit.law},
+                        {"share", fit.share},
+                        {"value", number_or_null(fit.value)},
+                        {"low", number_or_null(fit.low)},
+                        {"high", number_or_null(fit.high)},
+                        {"p_value", fit.p_value}});
+  for (std::size_t v = 0; v < study.variables.size(); ++v)
+    correlations[study.variables[v].name.value] =
+        spread.rank_correlation[static_cast<Eigen::Index>(v)];
+  return {{"name", spread.path},
+          {"mean", spread.mean},
+          {"deviation", spread.deviation},
+          {"smallest", spread.smallest},
+          {"member_of_smallest", spread.member_of_smallest},
+          {"largest", spread.largest},
+          {"member_of_largest", spread.member_of_largest},
+          {"quantiles", std::move(quantiles)},
+          {"extremes", std::move(extremes)},
+          {"rank_correlation", std::move(correlations)}};
+}
+
+Json sensitivity_json(const StudyFile& study, const Sensitivity& sensitivity) {
+  Json json = Json::object();
+  for (std::size_t v = 0; v < study.variables.size(); ++v) {
+    const auto i = static_cast<Eigen::Index>(v);
+    json[study.variables[v].name.value] = {
+        {"first", number_or_null(sensitivity.first[i])},
+        {"first_low", number_or_null(sensitivity.first_low[i])},
+        {"first_high", number_or_null(sensitivity.first_high[i])},
+        {"total", number_or_null(sensitivity.total[i])},
+        {"total_low", number_or_null(sensitivity.total_low[i])},
+        {"total_high", number_or_null(sensitivity.total_high[i])}};
+  }
+  return json;
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string inside;
+  for (const char c : text) inside += c == '"' ? "\"\"" : std::string(1, c);
+  return '"' + inside + '"';
+}
+
+std::string csv_text(const StudyResults& results) {
+  std::string text = "member";
+  for (const StudyVariable& variable : results.study.variables) {
+    const std::string unit = unit_text(variable);
+    text += "," + quoted(unit.empty() ? variable.name.value
+                                      : fmt::format("{} ({})", variable.name.value, unit));
+  }
+  for (const Spread& spread : results.spreads) text += "," + quoted(spread.path);
+  text += ",failure\n";
+  for (const Member& member : results.members) {
+    text += fmt::format("{}", member.number);
+    for (const double value : results.design.row(member.number)) text += fmt::format(",{}", value);
+    for (const Spread& spread : results.spreads) {
+      const auto found = std::find_if(member.figures.begin(), member.figures.end(),
+                                      [&](const auto& one) { return one.first == spread.path; });
+      text += found == member.figures.end() ? std::string(",") : fmt::format(",{}", found->second);
+    }
+    text += "," + quoted(member.failure) + "\n";
+  }
+  return text;
+}
+
+void write_arrays(const StudyResults& results, const std::filesystem::path& path) {
+  ResultsWriter file(path);
+  std::vector<std::string> variables, units, paths;
+  for (const StudyVariable& variable : results.study.variables) {
+    variables.push_back(variable.name.value);
+    units.push_back(unit_text(variable));
+  }
+  RowMajorMatrix figures(static_cast<Eigen::Index>(results.members.size()),
+                         static_cast<Eigen::Index>(results.spreads.size()));
+  figures.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t f = 0; f < results.spreads.size(); ++f) {
+    paths.push_back(results.spreads[f].path);
+    for (std::size_t m = 0; m < results.members.size(); ++m)
+      for (const auto& [name, value] : results.members[m].figures)
+        if (name == paths.back())
+          figures(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(f)) = value;
+  }
+  file.write_text("/study/yaml", results.study.yaml, "the study's file");
+  file.write_texts("/variables/names", variables, "what varies, a column each");
+  file.write_texts("/variables/units", units, "of the columns, SI");
+  file.write_matrix("/variables/values", results.design, {"1", "a member a row; SI units"});
+  file.write_texts("/figures/names", paths, "places in summary.json, a column each");
+  if (figures.size() > 0)
+    file.write_matrix("/figures/values", figures,
+                      {"1", "a member a row, units as the names say; nan: the member failed"});
+  file.finish();
+}
+
+}  // namespace
+
+ShownFigure shown_figure(const std::string& path) {
+  const std::string_view unit = unit_of_path(path);
+  ShownFigure figure{unit.empty() ? path : path.substr(0, path.size() - unit.size() - 1),
+                     unit == "percent" ? "%" : std::string(unit), 1};
+  if (unit == "N") figure = {figure.name, "kN", 1e-3};
+  if (unit == "Pa") figure = {figure.name, "MPa", 1e-6};
+  std::string name;
+  for (const char c : figure.name) name += c == '.' ? ", " : std::string(1, c == '_' ? ' ' : c);
+  figure.name = std::move(name);
+  return figure;
+}
+
+int StudyResults::failed() const {
+  return static_cast<int>(std::count_if(members.begin(), members.end(), [](const Member& member) {
+    return !member.failure.empty();
+  }));
+}
+
+std::vector<double> StudyResults::values_of(const std::string& path) const {
+  std::vector<double> values;
+  for (const Member& member : members)
+    for (const auto& [name, value] : member.figures)
+      if (name == path) values.push_back(value);
+  return values;
+}
+
+StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members) {
+  StudyResults results{std::move(study), std::move(design), std::move(members), {}, {}, {}};
+  std::vector<int> numbers;
+  for (const Member& member : results.members)
+    if (member.failure.empty()) numbers.push_back(member.number);
+  if (numbers.empty())
+    throw std::runtime_error("no member of the study ran; the first says: " +
+                             (results.members.empty() ? "" : results.members.front().failure));
+  for (std::string& path : common_paths(results.members)) {
+    const std::vector<double> values = results.values_of(path);
+    results.spreads.push_back(find_spread(std::move(path), values, numbers, results.design));
+  }
+  results.leading = choose_leading(results.study, results.spreads);
+  if (results.study.design == StudyDesign::sensitivity && results.failed() == 0) {
+    for (const std::size_t i : results.leading) {
+      const std::vector<double> values = results.values_of(results.spreads[i].path);
+      results.sensitivities.push_back(
+          find_sensitivity(results.design,
+                           Eigen::Map<const Eigen::VectorXd>(
+                               values.data(), static_cast<Eigen::Index>(values.size())),
+                           results.study.members));
+    }
+  }
+  return results;
+}
+
+Json study_json(const StudyResults& results) {
+  Json figures = Json::array(), sensitivities = Json::object(), failures = Json::array();
+  for (const Spread& spread : results.spreads)
+    figures.push_back(spread_json(results.study, spread));
+  for (std::size_t i = 0; i < results.sensitivities.size(); ++i)
+    sensitivities[results.spreads[results.leading[i]].path] =
+        sensitivity_json(results.study, results.sensitivities[i]);
+  for (const Member& member : results.members)
+    if (!member.failure.empty())
+      failures.push_back({{"member", member.number}, {"failure", member.failure}});
+  Json json{{"study", results.study.name},           {"title", results.study.title},
+            {"case", results.study.case_name.value}, {"members", results.members.size()},
+            {"failures", std::move(failures)},       {"figures", std::move(figures)}};
+  if (!results.sensitivities.empty()) json["sobol_indices"] = std::move(sensitivities);
+  return json;
+}
+
+std::string study_text(const StudyResults& results) {
+  TextTable table({{"figure"},
+                   {"", 0},
+                   {"mean", 1},
+                   {"deviation", 1},
+                   {"95 %", 1},
+                   {"largest", 1},
+                   {"member", 6}});
+  for (const std::size_t i : results.leading) {
+    const Spread& spread = results.spreads[i];
+    const ShownFigure figure = shown_figure(spread.path);
+    const auto shown = [&](double value, int digits) {
+      return format_figure(figure.scale * value, digits);
+    };
+    table.add_row({figure.name, figure.unit, shown(spread.mean, 4), shown(spread.deviation, 3),
+                   shown(spread.quantiles[2].value, 4), shown(spread.largest, 4),
+                   std::to_string(spread.member_of_largest)});
+  }
+  return table.text();
+}
+
+void write_study(const StudyResults& results, const std::filesystem::path& folder) {
+  write_file(folder / "study.csv", csv_text(results));
+  write_arrays(results, folder / "study.h5");
+  write_file(folder / "study.html", study_page(results));
+  write_file(folder / "study.json", study_json(results).dump(2));
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "pipeline/study/members.h"
+#include "pipeline/study/spread.h"
+#include "pipeline/study/study_design.h"
+#include "pipeline/files/study_file.h"
+
+namespace blocklift::pipeline {
+
+/// How a figure of summary.json is spoken of: "ropes, R1, max dynamic tension", in kN.
+struct ShownFigure {
+  std::string name;
+  std::string unit;  ///< empty for a pure number
+  double scale = 1;  ///< from the summary's unit to the shown one
+};
+ShownFigure shown_figure(const std::string& path);
+
+/// A study with what its members say together.
+struct StudyResults {
+  StudyFile study;
+  Eigen::MatrixXd design;                  ///< a member a row
+  std::vector<Member> members;             ///< in order
+  std::vector<Spread> spreads;             ///< of each figure that every member has that ran
+  std::vector<std::size_t> leading;        ///< of the spreads: those that the page shows first
+  std::vector<Sensitivity> sensitivities;  ///< of the leading ones, for a sensitivity
+
+  int failed() const;
+  /// Values of a figure, of the members that ran.
+  std::vector<double> values_of(const std::string& path) const;
+};
+
+/// @throws std::runtime_error if no member ran.
+StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members);
+
+/// study.json: the spreads, with units as the names of the figures have them.
+nlohmann::ordered_json study_json(const StudyResults& results);
+
+/// A table of the leading figures for a terminal.
+std::string study_text(const StudyResults& results);
+
+/// Writes study.csv and study.h5 (a member a row), study.json and study.html into a folder.
+void write_study(const StudyResults& results, const std::filesystem::path& folder);
+
+/// The page: leading figures with exceedance, what they depend on, all figures.
+std::string study_page(const StudyResults& results);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,133 @@
+// `blocklift sweep` as a user meets it: run as a process.
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/pipeline/run_program.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Outcome;
+using test::text_of_file;
+using ::testing::HasSubstr;
+
+/// The small lift and a study of it in a folder of their own.
+class SweepCommand : public ::testing::Test {
+ protected:
+  SweepCommand() {
+    fs::copy(BLOCKLIFT_SMALL_LIFT, "lift", fs::copy_options::recursive);
+    write_study(weight);
+  }
+  void write_study(const std::string& lines) const {
+    folder_.write("study.yaml", "study: spread\ncase: lift\n" + lines);
+  }
+  static Outcome run(const std::string& arguments) {
+    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  }
+  static nlohmann::json figure(const std::string& folder, const std::string& name) {
+    const auto study = nlohmann::json::parse(text_of_file(folder + "/study.json"));
+    for (const auto& one : study["figures"])
+      if (one["name"] == name) return one;
+    return nullptr;
+  }
+
+  static constexpr const char* weight =
+      "members: 24\n"
+      "vary:\n"
+      "  weight: {keys: ['block:mass'], spread: {law: normal, mean: 8 t, deviation: 0.2 t}}\n";
+  const test::TemporaryFolder folder_;
+};
+
+// Tensions at rest are the weight's, so that they spread as it does.
+TEST_F(SweepCommand, LoadsAtRestSpreadAsTheWeight) {
+  const Outcome outcome = run("sweep study.yaml -o out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(outcome.out, HasSubstr("24 members, 0 failed\n"));
+  const auto tension = figure("out", "ropes.R1.max_static_tension_N");
+  const double share = tension["deviation"].get<double>() / tension["mean"].get<double>();
+  EXPECT_NEAR(share, 0.2 / 8, 0.1 * 0.2 / 8);  // of 24 members
+  EXPECT_NEAR(tension["rank_correlation"]["weight"].get<double>(), 1, 1e-12);
+  for (const char* file : {"study.csv", "study.h5", "study.html", "worst/report.html"})
+    EXPECT_TRUE(fs::is_regular_file(fs::path("out") / file)) << file;
+  EXPECT_THAT(text_of_file("out/study.html"), HasSubstr("<svg"));
+}
+
+TEST_F(SweepCommand, GivesTheSameWithAnyNumberOfWorkersAndAfterAKill) {
+  ASSERT_EQ(run("sweep study.yaml -o one --workers 1 -q").exit_code, 0);
+  ASSERT_EQ(run("sweep study.yaml -o three --workers 3 -q").exit_code, 0);
+  EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("three/study.csv"));
+  EXPECT_EQ(text_of_file("one/study.json"), text_of_file("three/study.json"));
+
+  // What a killed study leaves: some members, and a list that says that more were begun.
+  fs::create_directories("killed/members");
+  for (const char* file : {"identity", "next", "000000.json", "000007.json", "000023.json"})
+    fs::copy_file(fs::path("one/members") / file, fs::path("killed/members") / file);
+  ASSERT_EQ(run("sweep study.yaml -o killed -q").exit_code, 0);
+  EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("killed/study.csv"));
+}
+
+TEST_F(SweepCommand, GoesOnAfterKillsInTheMiddle) {
+  ASSERT_EQ(run("sweep study.yaml -o whole -q").exit_code, 0);
+  for (int kill = 0; kill < 3; ++kill)
+    test::run_command("timeout -s KILL 0.9 '" BLOCKLIFT_EXECUTABLE "' sweep study.yaml -o out -q");
+  // Workers of a killed study finish their members: none is left beside the next run.
+  ASSERT_EQ(run("sweep study.yaml -o out -q").exit_code, 0);
+  EXPECT_EQ(text_of_file("whole/study.csv"), text_of_file("out/study.csv"));
+}
+
+TEST_F(SweepCommand, AssessesAndFindsSobolIndices) {
+  write_study(
+      "run: assess\ndesign: grid\nfigures: [structure.history.stress_increase_percent]\n"
+      "vary: {R1: {keys: [ropes.R1.length], values: [2.99 m, 3.01 m]}}\n");
+  ASSERT_EQ(run("sweep study.yaml -o grid -q").exit_code, 0);
+  EXPECT_GT(figure("grid", "structure.history.stress_increase_percent")["deviation"], 0);
+
+  write_study(
+      "design: sensitivity\nmembers: 32\nfigures: [ropes.R1.max_static_tension_N]\nvary:\n"
+      "  weight: {keys: ['block:mass'], spread: {law: uniform, lowest: 7 t, highest: 9 t}}\n"
+      "  deaf: {keys: [checks.rope_safety_factor], spread: {law: uniform, lowest: 4, highest: "
+      "6}}\n");
+  ASSERT_EQ(run("sweep study.yaml -o indices -q").exit_code, 0);
+  const auto json = nlohmann::json::parse(text_of_file("indices/study.json"));
+  const auto& indices = json["sobol_indices"]["ropes.R1.max_static_tension_N"];
+  // The estimate's own error at this size is some 0.2.
+  EXPECT_NEAR(indices["weight"]["total"], 1, 0.4);
+  EXPECT_NEAR(indices["deaf"]["total"], 0, 1e-3);
+}
+
+TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {
+  write_study(
+      "members: 24\nvary:\n"
+      "  weight: {keys: ['block:mass'], spread: {law: normal, mean: 8 t, deviation: 20 t}}\n");
+  const Outcome negative = run("sweep study.yaml -o out");
+  EXPECT_EQ(negative.exit_code, 2);
+  EXPECT_THAT(negative.err, HasSubstr("must be greater than 0"));
+  EXPECT_THAT(negative.err, HasSubstr("a member of the study is impossible: weight = -"));
+  write_study("members: 4\nvary: {a: {keys: [ropes.R1.lenght], values: [1 m]}}\n");
+  const Outcome unknown = run("sweep study.yaml -o out");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("study.yaml:4:19: error: there is no ropes.R1.lenght"));
+  EXPECT_FALSE(fs::exists("out"));
+}
+
+TEST_F(SweepCommand, RefusesAFolderOfAnotherStudy) {
+  ASSERT_EQ(run("sweep study.yaml -o out -q").exit_code, 0);
+  write_study(std::string(weight) + "seed: 2\n");
+  const Outcome other = run("sweep study.yaml -o out");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("members of another study"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline

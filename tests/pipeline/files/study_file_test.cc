@@ -1,0 +1,67 @@
+#include "pipeline/files/study_file.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace blocklift::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// What is said of a study with these lines behind the first two.
+std::string complaints(const std::string& lines) {
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) / "study_file_test.yaml";
+  std::ofstream(file) << "study: s\ncase: lift\n" << lines;
+  Diagnostics diagnostics;
+  const auto study = read_study_file(file, diagnostics);
+  EXPECT_EQ(study.has_value(), !diagnostics.has_errors());
+  return diagnostics.to_text();
+}
+
+/// What is said of a study whose one variable has this spread.
+std::string complaints_about_spread(const std::string& spread) {
+  return complaints("members: 10\nvary: {a: {keys: [x], spread: {" + spread + "}}}\n");
+}
+
+TEST(StudyFile, ReadsWhatVaries) {
+  EXPECT_EQ(complaints("members: 10\n"
+                       "vary:\n"
+                       "  a: {keys: [load.mass], spread: {law: normal, mean: 3 t, deviation: 5 kg, "
+                       "lowest: 2 t}}\n"
+                       "  b: {keys: [x, 'm:y'], values: [1, 2]}\n"),
+            "");
+}
+
+TEST(StudyFile, RefusesLawsThatMakeNoSense) {
+  EXPECT_THAT(complaints_about_spread("law: normal, mean: 3 t"),
+              HasSubstr("error: the law lacks its deviation"));
+  EXPECT_THAT(complaints_about_spread("law: uniform, lowest: 3 t, highest: 2 t"),
+              HasSubstr("highest is not above lowest"));
+  EXPECT_THAT(complaints_about_spread("law: uniform, lowest: 3 t, highest: 4 m"),
+              HasSubstr("not all of one dimension"));
+  EXPECT_THAT(complaints_about_spread("law: uniform, lowest: 3 t, highest: 4 t, mean: 3 t"),
+              HasSubstr("mean is no parameter of this law"));
+  EXPECT_THAT(complaints_about_spread("law: normal, mean: 3 t, deviation: -1 t"),
+              HasSubstr("the deviation is not above zero"));
+  EXPECT_THAT(complaints_about_spread("law: gumble"), HasSubstr("did you mean \"gumbel\""));
+}
+
+TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
+  EXPECT_THAT(complaints("vary: {a: {keys: [x], values: [1]}}\n"),
+              HasSubstr("the number of members is missing"));
+  EXPECT_THAT(complaints("design: grid\n"
+                         "vary: {a: {keys: [x], spread: {law: uniform, lowest: 3, highest: 4}}}\n"),
+              HasSubstr("a grid takes values and no spread"));
+  EXPECT_THAT(complaints("design: sensitivity\nmembers: 4\nvary: {a: {keys: [x], values: [1]}}\n"),
+              HasSubstr("Sobol' indices need a spread"));
+  EXPECT_THAT(complaints("members: 4\nvary: {a: {keys: [x]}}\n"),
+              HasSubstr("either values or spread is due"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline

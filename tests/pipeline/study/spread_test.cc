@@ -1,0 +1,94 @@
+#include "pipeline/study/spread.h"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace blocklift::pipeline {
+namespace {
+
+std::vector<int> numbers(std::size_t count) {
+  std::vector<int> list(count);
+  std::iota(list.begin(), list.end(), 0);
+  return list;
+}
+
+/// A sample at the middles of equal shares of a law: as near to the law as a sample can be.
+template <class Inverse>
+std::vector<double> even_sample(int count, const Inverse& inverse) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(inverse((i + 0.5) / count));
+  return values;
+}
+
+// The 40th and the 61st of 100 values hold the median at 95 % (David and Nagaraja 2003, 7.1).
+TEST(Quantile, MedianOfAHundredLiesBetweenTheirFortiethAndSixtyFirst) {
+  std::vector<double> values;
+  for (int i = 100; i >= 1; --i) values.push_back(i);
+  const Quantile median = find_quantile(values, 0.5);
+  EXPECT_DOUBLE_EQ(median.value, 50.5);
+  EXPECT_EQ(median.low, 40);
+  EXPECT_EQ(median.high, 61);
+}
+
+TEST(Quantile, SaysWhereTheSampleIsTooSmall) {
+  std::vector<double> values(50);
+  std::iota(values.begin(), values.end(), 1.0);
+  EXPECT_FALSE(std::isfinite(find_quantile(values, 0.99).high));
+  EXPECT_TRUE(std::isfinite(find_quantile(values, 0.99).low));
+}
+
+TEST(Spread, MomentsAndTheirMembers) {
+  Eigen::MatrixXd design(8, 1);
+  design.col(0).setLinSpaced(0, 7);
+  const Spread spread = find_spread("x", {4, 1, 7, 4}, {0, 2, 5, 7}, design);
+  EXPECT_DOUBLE_EQ(spread.mean, 4);
+  EXPECT_DOUBLE_EQ(spread.deviation, std::sqrt(6.0));
+  EXPECT_EQ(spread.member_of_smallest, 2);
+  EXPECT_EQ(spread.member_of_largest, 5);
+  EXPECT_TRUE(spread.extremes.empty());
+}
+
+TEST(Spread, RanksOfAMonotoneFigureAgree) {
+  Eigen::MatrixXd design(20, 2);
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    design(i, 0) = static_cast<double>(i);
+    design(i, 1) = static_cast<double>((7 * i) % 20);
+    values.push_back(std::exp(-0.3 * static_cast<double>(i)));
+  }
+  const Spread spread = find_spread("x", values, numbers(20), design);
+  EXPECT_NEAR(spread.rank_correlation[0], -1, 1e-12);
+  EXPECT_LT(std::abs(spread.rank_correlation[1]), 0.5);
+}
+
+TEST(Spread, GumbelOfItsOwnSample) {
+  const auto inverse = [](double share) { return 100 - 5 * std::log(-std::log(share)); };
+  const Spread spread =
+      find_spread("x", even_sample(500, inverse), numbers(500), Eigen::MatrixXd(500, 0));
+  ASSERT_FALSE(spread.extremes.empty());
+  const ExtremeFit& fit = spread.extremes.front();
+  EXPECT_EQ(fit.law, "Gumbel");
+  EXPECT_GT(fit.p_value, 0.5);
+  EXPECT_NEAR(fit.value, inverse(0.999), 0.02 * (inverse(0.999) - 100));
+  EXPECT_LT(fit.low, inverse(0.999));
+  EXPECT_GT(fit.high, inverse(0.999));
+}
+
+// The excesses of an exponential law over any threshold are exponential: Pareto's with shape 0.
+TEST(Spread, ParetoOfAnExponentialTail) {
+  const auto inverse = [](double share) { return -3 * std::log(1 - share); };
+  const Spread spread =
+      find_spread("x", even_sample(1000, inverse), numbers(1000), Eigen::MatrixXd(1000, 0));
+  ASSERT_EQ(spread.extremes.size(), 2U);
+  const ExtremeFit& fit = spread.extremes.back();
+  EXPECT_GT(fit.p_value, 0.2);
+  EXPECT_NEAR(fit.value, inverse(0.999), 0.15 * inverse(0.999));
+  // A Gumbel law has no such beginning.
+  EXPECT_LT(spread.extremes.front().p_value, 0.05);
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
