@@ -8,7 +8,8 @@ FILES = {"lift case": "a lift: cranes, load, ropes, operation, sea, checks",
          "mechanism": "bodies, joints, loops, springs, forces, for `blocklift simulate`",
          "crane": "a crane that cases name", "block": "what is lifted", "rope": "a rope, sling or tackle",
          "part": "a part for `blocklift stress`", "vessel": "a floating hull",
-         "vessels": "several floating hulls, for `blocklift hydro`"}
+         "vessels": "several floating hulls, for `blocklift hydro`",
+         "standard": "rules that cases are checked by", "study": "many lifts of one case, for `blocklift sweep`"}
 
 
 @dataclass

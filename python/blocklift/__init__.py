@@ -17,6 +17,7 @@ from .errors import Complaint, InputError, RunError
 from .hydrodynamics import Hydrodynamics, hydro
 from .program import executable, schema, version
 from .results import Result
+from .study import Study, sweep
 
 __all__ = [
     "Case",
@@ -25,8 +26,10 @@ __all__ = [
     "InputError",
     "Result",
     "RunError",
+    "Study",
     "executable",
     "hydro",
     "schema",
+    "sweep",
     "version",
 ]

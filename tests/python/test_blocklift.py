@@ -144,6 +144,23 @@ class ResultTest(InATemporaryFolder):
         self.assertEqual(axes.get_ylabel(), "tension, t")
 
 
+class StudyTest(InATemporaryFolder):
+    def test_a_study_as_tables(self):
+        Path("study.yaml").write_text(
+            "study: weight\ncase: lift\nmembers: 12\nvary:\n"
+            "  weight: {keys: ['block:mass'], spread: {law: uniform, lowest: 7 t, highest: 9 t}}\n",
+            encoding="utf-8")
+        study = blocklift.sweep("study.yaml", "out", workers=2)
+        members = study.members
+        self.assertEqual(len(members), 12)
+        # At rest the ropes carry the weight alone.
+        ratio = members["ropes.R1.max_static_tension_N"] / members["weight (kg)"]
+        self.assertLess(ratio.std() / ratio.mean(), 0.002)
+        largest = study.spreads.loc["ropes.R1.max_static_tension_N"]
+        self.assertEqual(members["weight (kg)"].idxmax(), largest.member_of_largest)
+        self.assertEqual(list(study.worst.history("dynamic").rope.values), ["R1", "R2", "R3", "R4"])
+
+
 class ProgramTest(unittest.TestCase):
     def test_knows_its_version_and_the_schema(self):
         self.assertRegex(blocklift.version(), r"^\d+\.\d+")
