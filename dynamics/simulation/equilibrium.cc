@@ -357,13 +357,21 @@ void EquilibriumSolver::Implementation::fail(double t) {
   Eigen::VectorXd residual(coordinates.size());
   try {
     calc_residual(Eigen::VectorXd::Zero(coordinates.size()), nullptr, residual);
-    text << "; " << describe_ropes(system, w) << "; largest residuals: ";
+    text << "; " << describe_ropes(system, w);
     std::vector<Eigen::Index> order(static_cast<std::size_t>(free_force.size()));
     std::iota(order.begin(), order.end(), 0);
     const Eigen::VectorXd relative = free_force.cwiseQuotient(free_weight).cwiseAbs();
     std::sort(order.begin(), order.end(),
               [&](Eigen::Index a, Eigen::Index b) { return relative[a] > relative[b]; });
+    // What Newton would accept as nil says nothing about what is wrong.
+    const auto is_nil = [&](Eigen::Index i) { return relative[i] <= 1e3 * settings.tolerance; };
+    if (order.empty() || is_nil(order.front()))
+      text << "; the forces balance where it stopped, yet it is not settled which ropes and pads "
+              "bear";
+    else
+      text << "; largest residuals: ";
     for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) {
+      if (is_nil(order[i])) break;
       const int k = mechanism.free_velocities()[static_cast<std::size_t>(order[i])];
       text << (i > 0 ? ", " : "") << mechanism.velocity_name(k) << " ("
            << 100.0 * relative[order[i]] << " % of its weight)";

@@ -40,7 +40,7 @@ OT::Distribution law_of(const SpreadLaw& law) {
 bool may_be_cut(Kind kind) { return kind != Kind::uniform && kind != Kind::triangular; }
 
 OT::Distribution cut_law_of(const SpreadLaw& law) {
-  const OT::Distribution whole = law_of(law);
+  OT::Distribution whole = law_of(law);
   if (!may_be_cut(law.kind) || (!law.lowest && !law.highest)) return whole;
   const OT::Interval range = whole.getRange();
   const OT::Interval kept(OT::Point{value_or(law.lowest, range.getLowerBound()[0])},
