@@ -7,10 +7,10 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
+#include "pipeline/files/study_file.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/spread.h"
 #include "pipeline/study/study_design.h"
-#include "pipeline/files/study_file.h"
 
 namespace blocklift::pipeline {
 

@@ -289,11 +289,11 @@ print(count > 60)
 TEST_F(AssessCommand, TellsWrongUseByItsExitCode) {
   const Outcome unknown = run("asess lift");
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_EQ(
-      unknown.err,
-      "blocklift: error: there is no command \"asess\"\n"
-      "    the commands are assess, compare, expect, new, simulate, validate, stress, hydro, report, schema, verify; did "
-      "you mean \"assess\"?\n");
+  EXPECT_EQ(unknown.err,
+            "blocklift: error: there is no command \"asess\"\n"
+            "    the commands are assess, compare, expect, new, simulate, validate, stress, hydro, "
+            "report, "
+            "sweep, schema, verify; did you mean \"assess\"?\n");
   const Outcome option = run("assess lift --fast");
   EXPECT_EQ(option.exit_code, 2);
   EXPECT_THAT(option.err, HasSubstr("--fast"));

@@ -1,11 +1,12 @@
 #include "pipeline/files/study_file.h"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -14,9 +15,9 @@ using ::testing::HasSubstr;
 
 /// What is said of a study with these lines behind the first two.
 std::string complaints(const std::string& lines) {
-  const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) / "study_file_test.yaml";
-  std::ofstream(file) << "study: s\ncase: lift\n" << lines;
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "study.yaml";
+  folder.write(file, "study: s\ncase: lift\n" + lines);
   Diagnostics diagnostics;
   const auto study = read_study_file(file, diagnostics);
   EXPECT_EQ(study.has_value(), !diagnostics.has_errors());

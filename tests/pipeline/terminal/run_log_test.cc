@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/terminal/progress_bar.h"
+#include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -19,9 +20,8 @@ std::string content_of(const std::filesystem::path& file) {
 }
 
 TEST(RunLog, HoldsArgumentsStagesWarningsAndTheEnd) {
-  const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) / "run_log_test.log";
-  std::filesystem::remove(file);
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "run.log";
   begin_log({.quiet = true, .verbose = false, .file = file.string()}, {"assess", "a case"});
   EXPECT_TRUE(is_quiet());
   { const ProgressBar stage("time integration"); }

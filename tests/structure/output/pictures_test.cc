@@ -1,4 +1,6 @@
 // The block as pictures show it and as ParaView reads it.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -161,7 +163,8 @@ TEST_F(SmallBlock, EnvelopeIsTheLargestOfAllInstants) {
 }
 
 TEST_F(SmallBlock, VtuFileHoldsAllPointsAndCells) {
-  const auto path = std::filesystem::temp_directory_path() / "blocklift_pictures_test.vtu";
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("blocklift-pictures-" + std::to_string(::getpid()) + ".vtu");
   write_vtu(path.string(), *responses_, lift(1));
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
