@@ -48,6 +48,8 @@ ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ro
     const Rope& rope = ropes[static_cast<std::size_t>(end.rope)];
     const BodyPoint& point = end.last ? rope.points().back() : rope.points().front();
     if (point.body != d_.body) refuse(d_, "rope \"" + rope.name() + "\" does not end at it");
+    if (!rope.definition().left_out.empty())
+      refuse(d_, "rope \"" + rope.name() + "\" leaves a segment out");
     for (std::size_t other = 0; other < e; ++other) {
       if (d_.ends[other].rope == end.rope && d_.ends[other].last == end.last)
         refuse(d_, "an end of rope \"" + rope.name() + "\" is named twice");

@@ -35,13 +35,19 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
     throw ModelError("rope \"" + d.name + "\" has " + std::to_string(d.points.size()) +
                      " point(s); two ends are due, sheaves between them at will");
   }
+  if (!d.left_out.empty() && (d.left_out.size() + 1 != d.points.size() || d.left_out.front() != 0 ||
+                              d.left_out.back() != 0)) {
+    throw ModelError("rope \"" + d.name +
+                     "\": which segments are left out is due for each of them, and it runs along "
+                     "the first and the last");
+  }
   for (std::size_t i = 0; i < d.points.size(); ++i) {
     const BodyPoint& point = d.points[i];
     if (point.body < 0 || point.body >= mechanism.body_count() || !point.p_BoQ_B.allFinite()) {
       throw ModelError("rope \"" + d.name + "\": point " + std::to_string(i) +
                        " is not a point of a body of the mechanism");
     }
-    if (i > 0 && d.points[i - 1].body == point.body &&
+    if (i > 0 && runs(i - 1) && d.points[i - 1].body == point.body &&
         (d.points[i - 1].p_BoQ_B - point.p_BoQ_B).norm() < shortest_segment) {
       throw ModelError("rope \"" + d.name + "\": points " + std::to_string(i - 1) + " and " +
                        std::to_string(i) + " are the same point of \"" +
@@ -76,7 +82,9 @@ void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
     const Vector3 p = X_WB.p + r;
     const Vector3 v = V_WB.linear + V_WB.angular.cross(r) + v_in_body;
     path.r_W[i] = r;
-    if (i > 0) {
+    if (i > 0 && !runs(i - 1)) {
+      path.direction_W[i - 1].setZero();
+    } else if (i > 0) {
       const Vector3 span = p - p_previous;
       const double segment = span.norm();
       if (!(segment > shortest_segment)) {
@@ -161,10 +169,11 @@ struct PathGradient {
   Vector3 of_length = Vector3::Zero();
   Vector3 of_rate = Vector3::Zero();
 
-  PathGradient(const Kinematics& kinematics, const std::vector<BodyPoint>& points,
-               const RopePath& path, std::size_t i) {
-    if (i > 0) add(segment(kinematics, points, path, i - 1), 1.0);
-    if (i + 1 < points.size()) add(segment(kinematics, points, path, i), -1.0);
+  PathGradient(const Kinematics& kinematics, const Rope& rope, const RopePath& path,
+               std::size_t i) {
+    const std::vector<BodyPoint>& points = rope.points();
+    if (i > 0 && rope.runs(i - 1)) add(segment(kinematics, points, path, i - 1), 1.0);
+    if (i + 1 < points.size() && rope.runs(i)) add(segment(kinematics, points, path, i), -1.0);
   }
 
  private:
@@ -189,14 +198,15 @@ void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, c
   }
   const bool straight = points.size() == 2;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (!runs(i)) continue;
     derivatives.add_tension(i, i + 1, segment(kinematics, points, path, i), load.tension,
                             straight ? k : 0.0, straight ? c : 0.0);
   }
   if (straight) return;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector3 pull = -PathGradient(kinematics, points, path, i).of_length;
+    const Vector3 pull = -PathGradient(kinematics, *this, path, i).of_length;
     for (std::size_t j = 0; j < points.size(); ++j) {
-      const PathGradient g(kinematics, points, path, j);
+      const PathGradient g(kinematics, *this, path, j);
       derivatives.add_block(i, j, pull * (k * g.of_length + c * g.of_rate).transpose(),
                             c * pull * g.of_length.transpose());
     }

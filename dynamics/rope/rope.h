@@ -9,7 +9,10 @@ namespace blocklift::dynamics {
 /// What a modeller says about a rope.
 struct RopeDefinition {
   std::string name;
-  std::vector<BodyPoint> points;          ///< from the winch's end through sheaves to the far end
+  std::vector<BodyPoint> points;  ///< from the winch's end through sheaves to the far end
+  /// For each segment between two points: does the rope not run there? Empty: it runs along all.
+  /// One rope that is reeved through two tackles has such a segment between their upper sheaves.
+  std::vector<char> left_out = {};
   double axial_stiffness = not_a_number;  ///< EA of all falls together, N
   /// Stiffness of what the rope hangs from, in series with it, N/m; infinite: rigid.
   double crane_stiffness = std::numeric_limits<double>::infinity();
@@ -37,7 +40,8 @@ struct RopeEndShifts {
 /// Where a rope runs at one instant. Made once for the longest rope, filled without allocating.
 struct RopePath {
   std::vector<Vector3> r_W;           ///< for each point, from its body's origin, in W, m
-  std::vector<Vector3> direction_W;   ///< for each segment, unit, towards the next point
+  std::vector<Vector3> direction_W;   ///< for each segment, unit, towards the next point; zero
+                                      ///< where the rope does not run
   double length = not_a_number;       ///< m
   double length_rate = not_a_number;  ///< m/s
 };
@@ -61,7 +65,8 @@ struct RopeLoad {
 
 /// Elastic rope that pulls but never pushes, led over frictionless sheaves.
 ///
-/// One tension acts along the whole path p_W0 .. p_Wn (world positions, m):
+/// One tension acts along the whole path p_W0 .. p_Wn (world positions, m), but for segments that
+/// are left out:
 ///   L = sum |p_Wi+1 - p_Wi|,   1/k = L0/EA + 1/k_crane,   c = damping_time k + damping,
 ///   T = max(0, k (L - L0) + c (Ldot - L0dot)) where L > L0, else 0,
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
@@ -76,12 +81,17 @@ struct RopeLoad {
 class Rope {
  public:
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
-  /// point of one body, a stiffness or length is not positive, or a damping is negative.
+  /// point of one body, segments are left out at an end or all or not told for each, a stiffness or length is not positive, or a damping is negative.
   Rope(const Mechanism& mechanism, RopeDefinition definition);
 
   const std::string& name() const { return definition_.name; }
   const RopeDefinition& definition() const { return definition_; }
   const std::vector<BodyPoint>& points() const { return definition_.points; }
+
+  /// Does the rope run along the segment from point i to the next?
+  bool runs(std::size_t segment) const {
+    return definition_.left_out.empty() || definition_.left_out[segment] == 0;
+  }
 
   /// k at an unstretched length (m), N/m.
   double stiffness(double unstretched_length) const {

@@ -52,13 +52,9 @@ LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
     }
   }
   ends_elastically_ = mark_elastic_ends(d_);
-  winch_of_rope_.assign(d_.ropes.size(), -1);
-  for (std::size_t i = 0; i < d_.operation.winches().size(); ++i) {
-    const int rope = d_.operation.winches()[i].rope;
-    if (rope < 0 || rope >= static_cast<int>(d_.ropes.size())) {
-      throw ModelError("winch \"" + d_.operation.winches()[i].name + "\" has no rope");
-    }
-    winch_of_rope_[static_cast<std::size_t>(rope)] = static_cast<int>(i);
+  for (const Winch& winch : d_.operation.winches()) {
+    if (winch.rope < 0 || winch.rope >= static_cast<int>(d_.ropes.size()))
+      throw ModelError("winch \"" + winch.name + "\" has no rope");
   }
 }
 
@@ -129,8 +125,13 @@ void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& 
     w.vdot[drive.velocity_index] = value.acceleration;
   }
   for (const Winch& winch : system.operation().winches()) {
+    w.feeds[static_cast<std::size_t>(winch.rope)] = {0.0, 0.0};
+  }
+  for (const Winch& winch : system.operation().winches()) {
     const ProfileValue value = winch.length.evaluate(t);
-    w.feeds[static_cast<std::size_t>(winch.rope)] = {value.position, moving ? value.velocity : 0.0};
+    RopeFeed& feed = w.feeds[static_cast<std::size_t>(winch.rope)];
+    feed.unstretched_length += value.position;
+    if (moving) feed.rate += value.velocity;
   }
 }
 

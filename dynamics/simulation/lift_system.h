@@ -101,8 +101,6 @@ class LiftSystem {
   int state_size() const { return nq_free_ + nv_free_ + memory_count(); }
   /// Number of one-sided elements: ropes, then support pads.
   int contact_count() const { return static_cast<int>(d_.ropes.size() + d_.supports.size()); }
-  /// Winch of a rope, -1 if its length does not change.
-  int winch_of_rope(int rope) const { return winch_of_rope_[static_cast<std::size_t>(rope)]; }
   /// Index of a rope by its name, for set-up.
   /// @throws ModelError if there is none; the message lists those that exist.
   int rope_index(std::string_view name) const;
@@ -111,7 +109,6 @@ class LiftSystem {
   LiftDefinition d_;
   int nq_free_ = 0;
   int nv_free_ = 0;
-  std::vector<int> winch_of_rope_;
   std::vector<char> ends_elastically_;
 };
 

@@ -96,11 +96,6 @@ void OperationBuilder::add_direction_drive(const Mechanism& mechanism, std::stri
 }
 
 void OperationBuilder::add_winch(std::string name, int rope, double start) {
-  for (const Winch& other : operation_.winches_) {
-    if (other.rope == rope) {
-      throw ModelError("winches \"" + other.name + "\" and \"" + name + "\" pull the same rope");
-    }
-  }
   add_track(name, true, operation_.winches_.size(), start);
   operation_.winches_.push_back({std::move(name), rope, MotionProfile::constant(start)});
 }

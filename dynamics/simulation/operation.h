@@ -31,7 +31,7 @@ struct JointDrive {
   Eigen::VectorXd start = {};      ///< q0; empty for one coordinate
 };
 
-/// A rope whose unstretched length follows a motion.
+/// A rope whose unstretched length follows a motion; several at one rope share its length.
 struct Winch {
   std::string name;
   int rope = -1;
@@ -80,7 +80,8 @@ class OperationBuilder {
                            const Eigen::VectorXd& q0, const Eigen::VectorXd& direction);
 
   /// Winch of a rope (its index in the lift), which starts with `start` m of unstretched rope out.
-  /// @throws ModelError if the name is taken, or the rope has a winch already.
+  /// What several winches of one rope let out adds up.
+  /// @throws ModelError if the name is taken.
   void add_winch(std::string name, int rope, double start);
 
   /// A move of a drive or winch.

@@ -146,14 +146,54 @@ class LiftBuilder {
     const BodyPoint sheave{body_of_.at(crane.name.value + "." + hoist.body.value), hoist.sheave};
     const double length = crane.find_start(hoist.name.value)->value.value;
     hook_starts_.push_back({index, sheave, length});
-    dynamics::RopeDefinition rope;
-    rope.name = hook.name;
-    rope.points = {sheave, {index, Vector3::Zero()}};
-    set_rope(rope, hoist.rope, hoist.crane_stiffness, length);
-    winches_.push_back({rope.name, static_cast<int>(rope_definitions_.size()), length});
-    hoists_.push_back({rope.name, crane_index, static_cast<int>(rope_definitions_.size()), index,
-                       hoist.capacity, hoist.rope.breaking_load});
-    rope_definitions_.push_back(std::move(rope));
+    LiftHoist added{.name = hook.name,
+                    .crane = crane_index,
+                    .rope = static_cast<int>(rope_definitions_.size()),
+                    .hook = index,
+                    .capacity = hoist.capacity,
+                    .breaking_load = hoist.rope.breaking_load};
+    if (LiftHoist* partner = find_equalised(crane, hoist)) {
+      added.rope = partner->rope;
+      reeve_together(*partner, hoist, added, sheave, length);
+    } else {
+      dynamics::RopeDefinition rope;
+      rope.name = hook.name;
+      rope.points = {sheave, {index, Vector3::Zero()}};
+      set_rope(rope, hoist.rope, hoist.crane_stiffness, length);
+      rope_definitions_.push_back(std::move(rope));
+    }
+    winches_.push_back({added.name, added.rope, length});
+    hoists_.push_back(std::move(added));
+  }
+
+  /// The other of two equalised hoists where it has been added already; else null.
+  LiftHoist* find_equalised(const CraneInCase& crane, const HoistModel& hoist) {
+    if (!crane.equalised) return nullptr;
+    const auto& pair = crane.equalised->value;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (pair[i].value != hoist.name.value) continue;
+      const std::string partner = crane.name.value + "." + pair[1 - i].value;
+      const auto found = std::find_if(hoists_.begin(), hoists_.end(),
+                                      [&](const LiftHoist& one) { return one.name == partner; });
+      return found == hoists_.end() ? nullptr : &*found;
+    }
+    return nullptr;
+  }
+
+  /// One rope through both tackles. With n falls in each, a rope of n (L1 + L2) under T / n
+  /// stretches as (L1 + L2) under T with the stiffness of all falls; what the tackles hang from
+  /// gives way under each.
+  void reeve_together(LiftHoist& partner, const HoistModel& hoist, const LiftHoist& added,
+                      const BodyPoint& sheave, double length) {
+    dynamics::RopeDefinition& rope = rope_definitions_[static_cast<std::size_t>(partner.rope)];
+    partner.hook_is_first = true;
+    std::reverse(rope.points.begin(), rope.points.end());
+    rope.points.push_back(sheave);
+    rope.points.push_back({added.hook, Vector3::Zero()});
+    rope.left_out = {0, 1, 0};
+    rope.name += " and " + added.name;
+    rope.crane_stiffness = 1 / (1 / rope.crane_stiffness + 1 / hoist.crane_stiffness);
+    rope.unstretched_length += length;
   }
 
   void add_load(dynamics::MechanismBuilder& builder) {

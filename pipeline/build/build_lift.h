@@ -36,8 +36,10 @@ struct LoadFlexibility {
 struct LiftHoist {
   std::string name;               ///< "C1.upper_1": of the hoist, its tackle, and its hook block
   std::size_t crane = 0;          ///< index in the case
-  int rope = -1;                  ///< its tackle's index in the system
+  int rope = -1;                  ///< its tackle's index in the system; equalised hoists share it
   dynamics::BodyIndex hook = -1;  ///< its hook block
+  /// Does the tackle's rope begin, not end, at the hook block? One rope over two hooks does.
+  bool hook_is_first = false;
   double capacity = dynamics::not_a_number;       ///< largest load at the hook, N
   double breaking_load = dynamics::not_a_number;  ///< of the tackle, all falls, N
 };
@@ -86,7 +88,8 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 ///
 /// Bodies are named "C1.gantry", hook blocks as their hoists ("C1.upper_1"), the block "load". A
 /// hook block is a body on a translational joint to the world, its tackle a rope from the sheave to
-/// its centre. The load is free; its start and that of the hook blocks (plumb below their sheaves,
+/// its centre. Tackles of equalised hoists are one rope, from hook block to hook block, which leaves
+/// out what lies between the sheaves. The load is free; its start and that of the hook blocks (plumb below their sheaves,
 /// by the unstretched length) are guesses from which the equilibrium is found.
 ///
 /// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave

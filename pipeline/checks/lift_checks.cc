@@ -144,7 +144,8 @@ void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
   std::string name;
   for (const LiftHoist& hoist : lift.model.hoists) {
     const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
-      return swing_angles(history.ropes[static_cast<std::size_t>(hoist.rope)]);
+      return swing_angles(
+          hook_pull(history.ropes[static_cast<std::size_t>(hoist.rope)], hoist.hook_is_first));
     });
     if (peak.value <= largest.value) continue;
     largest = peak;

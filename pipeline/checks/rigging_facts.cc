@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "pipeline/lift/history_figures.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -96,7 +98,8 @@ const RiggingFacts::State& RiggingFacts::at(Index sample) const {
   }
   for (std::size_t h = 0; h < hoists.size(); ++h) {
     RiggingRope& tackle = ropes[slings_.size() + h];
-    fill(tackle, hoists[h].rope, history_of(history, hoists[h].rope).last_force.row(sample));
+    fill(tackle, hoists[h].rope,
+         hook_pull(history_of(history, hoists[h].rope), hoists[h].hook_is_first).row(sample));
     tackle.lower = {RiggingEnd::Kind::hook, static_cast<int>(h), Vector3d::Zero()};
   }
   if (compliance_.size() > 0) at_lugs = pull.transpose() * compliance_ * pull;
@@ -105,9 +108,12 @@ const RiggingFacts::State& RiggingFacts::at(Index sample) const {
   auto state = std::make_shared<State>();
   state->at_rest.resize(index(count));
   for (std::size_t i = 0; i < count; ++i) state->at_rest[index(i)] = ropes[i].tension;
-  if (share && slings_.size() <= RiggingBalance::most_toleranced)
+  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say.
+  const bool has_equalised = std::any_of(
+      hoists.begin(), hoists.end(), [](const LiftHoist& hoist) { return hoist.hook_is_first; });
+  if (share && !has_equalised && slings_.size() <= RiggingBalance::most_toleranced)
     state->largest_by_tolerance = balance.largest_by_tolerance(tolerance);
-  if (const auto& box = standard.centre_box)
+  if (const auto& box = standard.centre_box; box && !has_equalised)
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d shift((corner & 1) != 0 ? box->x() : -box->x(),
                            (corner & 2) != 0 ? box->y() : -box->y(),

@@ -30,6 +30,8 @@ struct CraneInCase {
   Vector3 attitude = Vector3::Zero();        ///< roll, pitch, yaw of the base, rad
   /// Drives: coordinate. Hoists: unstretched rope length. Ordered as in the file.
   std::vector<Named<Located<Quantity>>> start;
+  /// Two hoists whose tackles are reeved with one rope, so that they carry alike.
+  std::optional<Located<std::array<Located<std::string>, 2>>> equalised;
 
   const Located<Quantity>* find_start(const std::string& drive_or_hoist) const;
 };

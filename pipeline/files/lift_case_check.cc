@@ -251,6 +251,37 @@ void check_start(const CraneInCase& crane, Diagnostics& diagnostics) {
   }
 }
 
+/// Two hoists of one kind of rope can be reeved with one.
+void check_equalised(const CraneInCase& crane, Diagnostics& diagnostics) {
+  if (!crane.equalised) return;
+  std::array<const HoistModel*, 2> hoists{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Located<std::string>& name = crane.equalised->value[i];
+    hoists[i] = crane.model->find_hoist(name.value);
+    if (hoists[i]) continue;
+    diagnostics.error(name.mark,
+                      fmt::format("crane {} has no hoist \"{}\"", crane.name.value, name.value),
+                      {names_hint("its hoists are", names_of(crane.model->hoists), name.value)});
+  }
+  if (!hoists[0] || !hoists[1]) return;
+  if (hoists[0] == hoists[1]) {
+    diagnostics.error(crane.equalised->mark,
+                      fmt::format("hoist {}.{} cannot be equalised with itself", crane.name.value,
+                                  hoists[0]->name.value),
+                      {"two hoists are due: equalised: [left, right]"});
+    return;
+  }
+  const RopeModel &a = hoists[0]->rope, &b = hoists[1]->rope;
+  if (a.axial_stiffness != b.axial_stiffness || a.breaking_load != b.breaking_load ||
+      a.damping_time != b.damping_time) {
+    diagnostics.error(
+        crane.equalised->mark,
+        fmt::format("hoists {} and {} of crane {} have different tackles", hoists[0]->name.value,
+                    hoists[1]->name.value, crane.name.value),
+        {"one rope runs through both where they are equalised, so both name the same rope"});
+  }
+}
+
 void check_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
   for (const CraneInCase& crane : lift_case.cranes) {
     if (crane.name.value == "world" || crane.name.value == "load") {
@@ -488,6 +519,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   for (const CraneInCase& crane : lift_case.cranes) {
     if (!crane.model || lift_case.load_table) continue;
     check_start(crane, diagnostics);
+    check_equalised(crane, diagnostics);
   }
   check_ropes(lift_case, diagnostics);
   check_afloat(lift_case, diagnostics);

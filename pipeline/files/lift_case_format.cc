@@ -23,7 +23,11 @@ Format<CraneInCase> crane_format() {
                   "of the crane's base: roll, pitch, yaw")
       .required("start", &CraneInCase::start, names_to(located(quantity_of(travels))),
                 "where each drive stands, and how much rope (unstretched) each hoist has out, "
-                "when the operation begins");
+                "when the operation begins")
+      .optional("equalised", &CraneInCase::equalised,
+                located(array_of<Located<std::string>, 2>(located(reference()))),
+                "two hoists whose tackles are reeved with one rope: both hooks carry alike, and "
+                "what one winch lets out lowers both; each hoist by itself if left out");
   return table.format();
 }
 

@@ -4,12 +4,16 @@
 
 namespace blocklift::pipeline {
 
-Eigen::VectorXd swing_angles(const dynamics::RopeHistory& rope) {
-  // The force on the body at the first point runs along the first segment, downwards.
-  Eigen::VectorXd angles(rope.first_force.rows());
+const dynamics::RopeHistory::Rows3& hook_pull(const dynamics::RopeHistory& tackle,
+                                              bool hook_is_first) {
+  return hook_is_first ? tackle.first_force : tackle.last_force;
+}
+
+Eigen::VectorXd swing_angles(const dynamics::RopeHistory::Rows3& hook_pull) {
+  Eigen::VectorXd angles(hook_pull.rows());
   for (Eigen::Index i = 0; i < angles.size(); ++i) {
-    const Eigen::Vector3d f = rope.first_force.row(i);
-    angles(i) = std::atan2(f.head<2>().norm(), -f.z());
+    const Eigen::Vector3d f = hook_pull.row(i);
+    angles(i) = std::atan2(f.head<2>().norm(), f.z());
     // A slack rope has no direction of pull.
     if (f.squaredNorm() == 0) angles(i) = 0;
   }

@@ -6,8 +6,12 @@
 
 namespace blocklift::pipeline {
 
-/// Angle of the rope's first segment against the vertical at each sample, rad.
-Eigen::VectorXd swing_angles(const dynamics::RopeHistory& rope);
+/// A tackle's pull on its hook block at each sample, in W, N.
+const dynamics::RopeHistory::Rows3& hook_pull(const dynamics::RopeHistory& tackle,
+                                              bool hook_is_first);
+
+/// Angle of such a pull against the plumb, rad; zero where the tackle is slack.
+Eigen::VectorXd swing_angles(const dynamics::RopeHistory::Rows3& hook_pull);
 
 /// What the energy terms leave unexplained at each sample: E(t) - E(0) - (supplied - dissipated),
 /// J.

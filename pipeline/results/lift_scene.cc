@@ -27,7 +27,8 @@ Scene make_scene(const BuiltLift& model, const std::vector<structure::LiftingPoi
     for (const BoxShape& box : body.boxes) drawn.boxes.push_back(drawn_box(box));
     scene.bodies.push_back(drawn);
   }
-  for (const LiftHoist& hoist : model.hoists) scene.hoists.push_back(hoist.rope);
+  for (const LiftHoist& hoist : model.hoists)
+    scene.hoists.push_back({hoist.name, static_cast<std::size_t>(hoist.rope), hoist.hook_is_first});
   scene.load_body = model.system.mechanism().body(model.load).name;
   scene.lugs = lugs;
   return scene;

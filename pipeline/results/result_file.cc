@@ -20,21 +20,27 @@ using dynamics::History;
 using dynamics::LiftSystem;
 
 bool is_hoist(const Scene& scene, std::size_t rope) {
-  return std::find(scene.hoists.begin(), scene.hoists.end(), static_cast<int>(rope)) !=
-         scene.hoists.end();
+  return std::any_of(scene.hoists.begin(), scene.hoists.end(),
+                     [&](const DrawnTackle& tackle) { return tackle.rope == rope; });
 }
 
-void write_rope(ResultsWriter& file, std::string_view group, const dynamics::RopeHistory& rope,
-                bool hoist) {
-  const std::string path = layout::join(group, hoist ? "hoists" : "ropes", rope.name);
+void write_tension(ResultsWriter& file, const std::string& path,
+                   const dynamics::RopeHistory& rope) {
   file.write(layout::join(path, "tension"), span_of(rope.tension),
              {"N", "tension of the rope, all falls together"});
   file.write(layout::join(path, "elongation"), span_of(rope.elongation),
              {"m", "stretched less unstretched length; negative when slack"});
-  if (!hoist) return;
+}
+
+void write_hoist(ResultsWriter& file, std::string_view group, const History& history,
+                 const DrawnTackle& tackle) {
+  const dynamics::RopeHistory& rope = history.ropes[tackle.rope];
+  const std::string path = layout::join(group, "hoists", tackle.name);
+  write_tension(file, path, rope);
   file.write(layout::join(path, "length"), span_of(rope.unstretched_length),
-             {"m", "unstretched length that the winch has paid out"});
-  file.write(layout::join(path, "swing"), span_of(swing_angles(rope)),
+             {"m", "unstretched length that the winches of its rope have paid out"});
+  file.write(layout::join(path, "swing"),
+             span_of(swing_angles(hook_pull(rope, tackle.hook_is_first))),
              {"rad", "angle of the rope at the crane against the vertical"});
 }
 
@@ -57,6 +63,22 @@ void write_drive(ResultsWriter& file, std::string_view group, const dynamics::Dr
              {"m or rad", "coordinate of the driven joint"});
   file.write(layout::join(path, "force"), span_of(drive.force),
              {"N or N m", "force or torque that the drive gives"});
+}
+
+/// The path along which a rope is drawn.
+void write_path(ResultsWriter& file, const LiftSystem& system, const std::string& name,
+                const char* kind, const std::vector<dynamics::BodyPoint>& path) {
+  std::vector<std::string> bodies;
+  std::vector<dynamics::Vector3> points;
+  for (const dynamics::BodyPoint& point : path) {
+    bodies.push_back(system.mechanism().body(point.body).name);
+    points.push_back(point.p_BoQ_B);
+  }
+  const std::string group = layout::join(layout::scene_ropes, name);
+  file.write_texts(layout::join(group, "bodies"), bodies, "body of each point of the path");
+  file.write_points(layout::join(group, "points"), points,
+                    {"m", "points of the path, each in its body's frame"});
+  file.write_attribute(group, "kind", kind);
 }
 
 void write_energy(ResultsWriter& file, std::string_view group,
@@ -150,8 +172,12 @@ void write_operation(ResultsWriter& file, const dynamics::Operation& operation) 
 void write_history(ResultsWriter& file, std::string_view group, const LiftSystem& system,
                    const History& history, const Scene& scene) {
   file.write(layout::join(group, "time"), span_of(history.time), {"s", "time of each sample"});
-  for (std::size_t i = 0; i < history.ropes.size(); ++i)
-    write_rope(file, group, history.ropes[i], is_hoist(scene, i));
+  for (std::size_t i = 0; i < history.ropes.size(); ++i) {
+    if (is_hoist(scene, i)) continue;
+    const dynamics::RopeHistory& rope = history.ropes[i];
+    write_tension(file, layout::join(group, "ropes", rope.name), rope);
+  }
+  for (const DrawnTackle& tackle : scene.hoists) write_hoist(file, group, history, tackle);
   for (const auto& body : history.bodies) write_body(file, group, body);
   for (const auto& drive : history.drives) write_drive(file, group, drive);
   for (std::size_t i = 0; i < system.supports().size(); ++i) {
@@ -177,18 +203,15 @@ void write_scene(ResultsWriter& file, const LiftSystem& system, const Scene& sce
     file.write_attribute(path, "kind", body.kind);
   }
   for (std::size_t i = 0; i < system.ropes().size(); ++i) {
-    const dynamics::Rope& rope = system.ropes()[i];
-    std::vector<std::string> bodies;
-    std::vector<dynamics::Vector3> points;
-    for (const dynamics::BodyPoint& point : rope.points()) {
-      bodies.push_back(system.mechanism().body(point.body).name);
-      points.push_back(point.p_BoQ_B);
-    }
-    const std::string path = layout::join(layout::scene_ropes, rope.name());
-    file.write_texts(layout::join(path, "bodies"), bodies, "body of each point of the path");
-    file.write_points(layout::join(path, "points"), points,
-                      {"m", "points of the path, each in its body's frame"});
-    file.write_attribute(path, "kind", is_hoist(scene, i) ? "hoist" : "sling");
+    if (is_hoist(scene, i)) continue;
+    write_path(file, system, system.ropes()[i].name(), "sling", system.ropes()[i].points());
+  }
+  for (const DrawnTackle& tackle : scene.hoists) {
+    // From sheave to hook; of one rope over two hooks its own part.
+    const auto& points = system.ropes()[tackle.rope].points();
+    write_path(file, system, tackle.name, "hoist",
+               tackle.hook_is_first ? std::vector{points[1], points[0]}
+                                    : std::vector{*(points.end() - 2), points.back()});
   }
   std::vector<std::string> names;
   std::vector<structure::Vector3> pins;

@@ -25,10 +25,17 @@ struct DrawnBody {
   std::vector<DrawnBox> boxes;
 };
 
+/// A hoist's tackle within the ropes of the system.
+struct DrawnTackle {
+  std::string name;
+  std::size_t rope = 0;
+  bool hook_is_first = false;  ///< does the rope begin at the hook block?
+};
+
 /// Names and roles that the dynamics itself does not know.
 struct Scene {
   std::vector<DrawnBody> bodies;
-  std::vector<int> hoists;  ///< ropes of the system that are hoist tackle; all others are lines
+  std::vector<DrawnTackle> hoists;  ///< all other ropes are lines
   std::string load_body;
   std::vector<structure::LiftingPoint> lugs;
 };

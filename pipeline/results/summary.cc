@@ -83,7 +83,7 @@ class LoadTables {
       row["breaking_load_N"] = hoist.breaking_load;
       row["capacity_N"] = hoist.capacity;
       const auto& history = lift_.dynamic_history().ropes[static_cast<std::size_t>(hoist.rope)];
-      row["max_swing_rad"] = swing_angles(history).maxCoeff();
+      row["max_swing_rad"] = swing_angles(hook_pull(history, hoist.hook_is_first)).maxCoeff();
       rows.push_back(row);
     }
     return rows;

@@ -74,6 +74,37 @@ TEST(Rope, PullsButNeverPushes) {
   EXPECT_EQ(tension(-0.1, 20.0), 0.0);  // slack: no damping either
 }
 
+// One rope reeved through two tackles: the part between the upper sheaves counts for nothing, and
+// both hooks are pulled alike.
+TEST(Rope, LeavesSegmentsOut) {
+  MechanismBuilder builder;
+  builder.add_body({.name = "left", .joint = {.kind = JointKind::translational}, .mass = 1.0});
+  builder.add_body({.name = "right", .joint = {.kind = JointKind::translational}, .mass = 1.0});
+  const Mechanism mechanism = builder.build();
+  RopeDefinition definition = simple_rope();
+  definition.points = {{1, Vector3::Zero()},
+                       {world_index, {-6, 0, 20}},
+                       {world_index, {6, 0, 20}},
+                       {2, Vector3::Zero()}};
+  definition.left_out = {0, 1, 0};
+  const std::vector<Rope> ropes{Rope(mechanism, definition)};
+  RopePath path = make_rope_path(ropes);
+  Kinematics kinematics(mechanism);
+  Eigen::VectorXd q(6), v(6);
+  q << -6, 0, 5, 6, 0, 8;
+  v << 0, 0, -1, 0, 0, 0.25;
+  compute_kinematics(mechanism, q, v, kinematics);
+  ropes[0].calc_path(kinematics, path);
+  EXPECT_DOUBLE_EQ(path.length, 15.0 + 12.0);
+  EXPECT_DOUBLE_EQ(path.length_rate, 1.0 - 0.25);
+  std::vector<ForceVector> F(3, ForceVector::zero());
+  ropes[0].add_forces(path, 7.0, F);
+  EXPECT_LT((F[1].force - Vector3(0, 0, 7)).norm(), 1e-14);
+  EXPECT_LT((F[2].force - Vector3(0, 0, 7)).norm(), 1e-14);
+  EXPECT_LT((Rope::first_force(path, 7.0) - Vector3(0, 0, 7)).norm(), 1e-14);
+  EXPECT_LT((ropes[0].last_force(path, 7.0) - Vector3(0, 0, 7)).norm(), 1e-14);
+}
+
 // Random mechanisms, paths and motions: power of the point forces = -T dL/dt, and dL/dt is the
 // derivative of L.
 TEST(Rope, SpendsThePowerOfItsPointForces) {
@@ -87,6 +118,7 @@ TEST(Rope, SpendsThePowerOfItsPointForces) {
     for (int i = 0; i < 4; ++i) {
       definition.points.push_back({(trial + 2 * i) % mechanism.body_count(), random.vector(2)});
     }
+    if (trial % 2 == 1) definition.left_out = {0, 1, 0};
     const std::vector<Rope> ropes{Rope(mechanism, definition)};
     RopePath path = make_rope_path(ropes);
     Kinematics kinematics(mechanism);
@@ -156,6 +188,8 @@ TEST(Rope, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal([](auto& d) { d.crane_stiffness = -1; }), HasSubstr("crane stiffness"));
   EXPECT_THAT(refusal([](auto& d) { d.damping_time = -1; }), HasSubstr("damping time"));
   EXPECT_THAT(refusal([](auto& d) { d.unstretched_length = 0; }), HasSubstr("unstretched length"));
+  EXPECT_THAT(refusal([](auto& d) { d.left_out = {1}; }), HasSubstr("left out"));
+  EXPECT_THAT(refusal([](auto& d) { d.left_out = {0, 0}; }), HasSubstr("left out"));
   EXPECT_THAT(refusal([](auto&) {}), HasSubstr("accepted"));
 }
 

@@ -64,6 +64,39 @@ TEST(BuildLiftTest, NamesAndPlacesTheParts) {
   EXPECT_EQ(drawn[0].centre, Vector3(2, 0, 0.5));
 }
 
+// Two equalised hooks carry alike, so a load whose centre of mass lies e beside their middle and h
+// below its pins turns until it hangs below it: tan(tilt) = e / h. Slings lean in by two centimetres
+// in seven metres then, which moves the tilt by less than a hundredth.
+TEST(BuildLiftTest, EqualisedHoistsCarryAlike) {
+  SampleLift parts;
+  parts.crane = with(parts.crane, "rope: {axial_stiffness: 200 MN, breaking_load: 100 t}",
+                     "rope: ropes/tackle");
+  parts.lift_case = with(parts.lift_case, "model: gantry\n", "model: gantry\n    equalised: [left, right]\n");
+  const TemporaryFolder folder;
+  parts.write(folder);
+  LoadMass mass = sample_mass();
+  mass.p_BoBcm_B.x() = 2.1;
+  const BuiltLift lift = build_lift(read_lift_case("case.yaml"), mass);
+  ASSERT_EQ(lift.hoists.size(), 2U);
+  EXPECT_EQ(lift.hoists[0].rope, lift.hoists[1].rope);
+  EXPECT_TRUE(lift.hoists[0].hook_is_first);
+  EXPECT_EQ(lift.system.operation().winches().size(), 2U);
+
+  dynamics::EquilibriumSolver solver(lift.system);
+  Eigen::VectorXd q = lift.system.q_start();
+  solver.solve(0, q);
+  const double weight = 10e3 * 9.81;
+  EXPECT_NEAR(tension(solver, lift, "C1.left and C1.right"), weight / 2 + 500 * 9.81, 20);
+  const dynamics::Pose& X_WB =
+      solver.workspace().kinematics.X_WB[static_cast<std::size_t>(lift.load)];
+  EXPECT_NEAR(std::asin(-X_WB.R(2, 0)), std::atan(0.1 / 0.7), 0.01 * 0.1 / 0.7);
+  // Both tackles together stretch by the rope's T (L1 + L2) / EA and by what the left one hangs
+  // from, T / k; the hooks' mean is below the sheaves by the half of it.
+  const double tackles = solver.workspace().rope_loads[0].length;
+  const double load = weight / 2 + 500 * 9.81;
+  EXPECT_NEAR(tackles, 10 + load * 10 / 200e6 + load / 10e6, 2e-5);
+}
+
 // Each sling carries half of the load but for a tilt: the crane gives way under the left tackle
 // only, by T/k, and the centre of mass hangs 0.7 m below the pins, so that the left sling carries W
 // 0.7 tilt / 4 m less.

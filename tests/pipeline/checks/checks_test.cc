@@ -125,7 +125,7 @@ TEST(LiftChecks, EveryLineHasItsDemandAndLimit) {
   EXPECT_LT(slack.demand, 30e3);
   EXPECT_GT(slack.demand, 10e3);
   const Check& swing = find_check(checks, "swing: largest angle of a hoist");
-  EXPECT_GT(swing.demand, swing_angles(lift.run.static_history.rope("C1.left"))(0));
+  EXPECT_GT(swing.demand, swing_angles(lift.run.static_history.rope("C1.left").last_force)(0));
   EXPECT_EQ(swing.unit, "rad");
 }
 
@@ -155,14 +155,14 @@ TEST(LiftChecks, TensionsThatAreNotNumbersFail) {
     EXPECT_FALSE(find_check(checks, name).pass) << name;
 }
 
-TEST(SwingAngle, IsThatOfTheFirstSegmentAgainstThePlumb) {
+TEST(SwingAngle, IsThatOfThePullOnTheHookAgainstThePlumb) {
   dynamics::RopeHistory rope;
-  rope.first_force.resize(4, 3);
-  rope.first_force << 0, 0, -10,  // plumb
-      3, 4, -5,                   // 45 degrees
-      0, 2, 0,                    // level
-      0, 0, 0;                    // slack
-  const Eigen::VectorXd angles = swing_angles(rope);
+  rope.last_force.resize(4, 3);
+  rope.last_force << 0, 0, 10,  // plumb
+      3, 4, 5,                  // 45 degrees
+      0, 2, 0,                  // level
+      0, 0, 0;                  // slack
+  const Eigen::VectorXd angles = swing_angles(hook_pull(rope, false));
   const double quarter = std::acos(-1.0) / 4;
   EXPECT_NEAR(angles(0), 0, 1e-15);
   EXPECT_NEAR(angles(1), quarter, 1e-15);

@@ -252,6 +252,23 @@ TEST(LiftCaseErrors, StartThatIsMissingOrImpossible) {
             "4 errors\n");
 }
 
+TEST(LiftCaseErrors, HoistsThatCannotBeEqualised) {
+  const auto complaints = [](const std::string& hoists) {
+    return complaints_about_case("    model: gantry\n",
+                                 "    model: gantry\n    equalised: " + hoists + "\n");
+  };
+  EXPECT_EQ(complaints("[left, rihgt]"),
+            "case.yaml:7:23: error: crane C1 has no hoist \"rihgt\"\n"
+            "    its hoists are left, right; did you mean \"right\"?\n1 error\n");
+  EXPECT_EQ(complaints("[left, left]"),
+            "case.yaml:7:16: error: hoist C1.left cannot be equalised with itself\n"
+            "    two hoists are due: equalised: [left, right]\n1 error\n");
+  EXPECT_EQ(complaints("[left, right]"),
+            "case.yaml:7:16: error: hoists left and right of crane C1 have different tackles\n"
+            "    one rope runs through both where they are equalised, so both name the same rope\n"
+            "1 error\n");
+}
+
 TEST(LiftCaseErrors, NothingHoldsTheLoad) {
   EXPECT_EQ(complaints_about_case(
                 "ropes:\n  R1: {from: C1.left, to: L1, model: ropes/tackle, length: 2 m}\n"
