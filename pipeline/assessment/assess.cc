@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/checks/lift_checks.h"
+#include "pipeline/checks/measure_checks.h"
 #include "pipeline/checks/standard_checks.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/preparation.h"
@@ -84,6 +85,7 @@ void write_result_file(const Assessment& assessment, const std::string& run, con
     write_operation(file, system.operation());
     write_history(file, layout::static_history, system, assessment.lift->static_history, scene);
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
+    write_measures(file, assessment.measures);
     write_natural_modes(file, system.mechanism(), assessment.lift->natural_modes);
     write_scene(file, system, scene);
     if (assessment.lift_case.compare) write_measured(file, *assessment.lift_case.compare);
@@ -189,18 +191,28 @@ void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& 
   block.assessment = assess_load_table(*block.responses, recovery, static_forces, dynamic_forces);
 }
 
+/// Checks of what the motion alone says.
+void check_motion(const Progress& progress, Assessment& assessment) {
+  const LiftRun& lift = *assessment.lift;
+  assessment.checks = check_lift(assessment.lift_case, lift);
+  progress("angles, radii, clearances", 0, "");
+  assessment.measures = find_measures(assessment.lift_case, lift);
+  for (Check& check : check_measures(assessment.lift_case, lift, assessment.measures))
+    assessment.checks.push_back(std::move(check));
+}
+
 }  // namespace
 
 Assessment assess(LiftCase lift_case, const Progress& progress) {
   Stopwatch total;
-  Assessment assessment{std::move(lift_case), {}, {}, {}, {}, 0};
+  Assessment assessment{std::move(lift_case), {}, {}, {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 
   if (!the_case.has_structure()) {
     assessment.lift =
         run_lift(the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
                  progress);
-    assessment.checks = check_lift(the_case, *assessment.lift);
+    check_motion(progress, assessment);
     check_by_standard(assessment);
     assessment.total_s = total.lap();
     return assessment;
@@ -227,7 +239,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
     BuiltLift model = prepare_lift(the_case, load_mass(block.model->mass_properties()), progress,
                                    flexibility ? &*flexibility : nullptr);
     assessment.lift = run_lift(the_case, std::move(model), progress);
-    assessment.checks = check_lift(the_case, *assessment.lift);
+    check_motion(progress, assessment);
   }
   if (!block.responses) respond();
   block.first_elastic_period = find_first_elastic_period(*block.responses);

@@ -11,6 +11,7 @@
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/lift/history_assessment.h"
 #include "pipeline/lift/lift_run.h"
+#include "pipeline/measures/measure.h"
 #include "pipeline/standards/standard_assessment.h"
 #include "structure/response/accuracy.h"
 #include "structure/response/block_error.h"
@@ -37,6 +38,7 @@ struct BlockRun {
 struct Assessment {
   LiftCase lift_case;
   std::optional<LiftRun> lift;  ///< none for a load table
+  std::vector<LiftMeasure> measures = {};
   BlockRun block;
   std::optional<StandardAssessment> standard;  ///< none: the case names no rules
   std::vector<Check> checks;

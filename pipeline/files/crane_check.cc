@@ -1,5 +1,7 @@
 #include "pipeline/files/crane_check.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
@@ -28,11 +30,101 @@ void check_hoists(const CraneModel& crane, Reading& reading) {
   }
 }
 
+void check_chart(const CraneModel& crane, const HoistModel& hoist, Reading& reading) {
+  if (!hoist.load_chart) return;
+  const auto& [lines, mark] = *hoist.load_chart;
+  if (!crane.radius_from)
+    reading.error(mark,
+                  fmt::format("hoist {} has a load chart, but the crane says not from where "
+                              "its radius counts",
+                              hoist.name.value),
+                  {"for example radius_from: {body: world, position: [0 m, 0 m, 0 m]}"});
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (!(lines[i].radius <= lines[i - 1].radius)) continue;
+    reading.error(mark, fmt::format("the radii of hoist {}'s load chart do not ascend: {:g} m "
+                                    "comes after {:g} m",
+                                    hoist.name.value, lines[i].radius, lines[i - 1].radius));
+  }
+}
+
+/// Do they span an area, seen from above?
+bool are_in_line(const std::vector<CraneSupport>& supports) {
+  const Vector3& origin = supports.front().position;
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const CraneSupport& support : supports) {
+    const Eigen::Vector2d arm = (support.position - origin).head<2>();
+    spread += arm * arm.transpose();
+  }
+  return spread.determinant() <= 1e-12 * spread.trace() * spread.trace();
+}
+
+/// What ties the crane to its base beside the body that stands; empty: nothing.
+std::string other_tie(const CraneModel& crane, const std::string& body) {
+  for (const JointModel& joint : crane.joints)
+    if (joint.parent.value == "world" && joint.child.value != body)
+      return "joint " + joint.name.value;
+  for (const LoopModel& loop : crane.loops) {
+    const auto is_base = [](const std::optional<LoopSide>& side) {
+      return side && side->body && side->body->value == "world";
+    };
+    bool tied = is_base(loop.first) || is_base(loop.second);
+    if (loop.paths)
+      for (const auto& path : loop.paths->value)
+        for (const PointModel& point : path) tied = tied || point.body.value == "world";
+    if (tied) return "loop " + loop.name.value;
+  }
+  for (const SpringModel& spring : crane.springs)
+    if ((spring.from && spring.from->body.value == "world") ||
+        (spring.to && spring.to->body.value == "world"))
+      return "spring " + spring.name.value;
+  return {};
+}
+
+void check_stand(const CraneModel& crane, Reading& reading) {
+  if (!crane.stands_on) return;
+  const CraneStand& stand = *crane.stands_on;
+  const auto joint =
+      std::find_if(crane.joints.begin(), crane.joints.end(),
+                   [&](const JointModel& one) { return one.child.value == stand.body.value; });
+  if (!crane.find_body(stand.body.value)) {
+    reading.error(stand.body.mark,
+                  fmt::format("the crane has no body \"{}\" to stand on", stand.body.value),
+                  {names_hint("its bodies are", names_of(crane.bodies), stand.body.value)});
+  } else if (joint == crane.joints.end() || joint->parent.value != "world") {
+    reading.error(stand.body.mark, fmt::format("body {} does not stand on the base: its joint has "
+                                               "another parent than the world",
+                                               stand.body.value));
+  } else if (const std::string tie = other_tie(crane, stand.body.value); !tie.empty()) {
+    reading.error(stand.body.mark,
+                  fmt::format("what body {} presses on cannot be told: {} ties the crane to its "
+                              "base, too",
+                              stand.body.value, tie),
+                  {"leave stands_on out"});
+  }
+  if (stand.supports.size() < 3 || are_in_line(stand.supports))
+    reading.error(stand.place, "a crane stands on three supports or more that are not in line",
+                  {fmt::format("{} {} given", stand.supports.size(),
+                               stand.supports.size() == 1 ? "is" : "are")});
+}
+
+void check_radius(const CraneModel& crane, Reading& reading) {
+  if (!crane.radius_from) return;
+  const Located<std::string>& body = crane.radius_from->body;
+  if (body.value == "world" || crane.find_body(body.value)) return;
+  reading.error(
+      body.mark,
+      fmt::format("radius_from names body \"{}\", which the crane does not have", body.value),
+      {names_hint("its bodies are", names_of(crane.bodies), body.value)});
+}
+
 }  // namespace
 
 void check_crane(const CraneModel& crane, Reading& reading, const Mark& mark) {
   check_parts(crane, reading);
   check_hoists(crane, reading);
+  for (const HoistModel& hoist : crane.hoists) check_chart(crane, hoist, reading);
+  check_radius(crane, reading);
+  check_stand(crane, reading);
   check_joint_positions(crane, crane.pose, "the pose", reading);
   if (reading.diagnostics().has_errors()) return;
   try {

@@ -24,6 +24,39 @@ Format<HookBlockModel> hook_block_format() {
   return table.format();
 }
 
+Format<ChartLine> chart_line_format() {
+  Table<ChartLine> table("line of a load chart", "What a hook may carry up to a radius.");
+  table
+      .required("radius", &ChartLine::radius, quantity(Dimension::length, Range::positive()),
+                "level, from the point that radius_from names to the hook block")
+      .required("capacity", &ChartLine::capacity, quantity(Dimension::load, Range::positive()),
+                "largest load at the hook, hook block included");
+  return table.format();
+}
+
+Format<CraneSupport> crane_support_format() {
+  Table<CraneSupport> table("crane support", "A wheel, bogie, outrigger or leg.");
+  table
+      .required("position", &CraneSupport::position, position_format(),
+                "in the frame of the body that stands")
+      .optional("capacity", &CraneSupport::capacity, quantity(Dimension::load, Range::positive()),
+                "largest load; not checked if left out");
+  return table.format();
+}
+
+Format<CraneStand> crane_stand_format() {
+  Table<CraneStand> table("stand",
+                          "What the crane stands on. Loads are shared as by a rigid body on equal "
+                          "springs: they vary linearly over the supports.");
+  table
+      .required("body", &CraneStand::body, located(reference()),
+                "that stands: the one body whose joint has the world for its parent")
+      .required("supports", &CraneStand::supports, named_tables(crane_support_format()),
+                "three or more that are not in line")
+      .place(&CraneStand::place);
+  return table.format();
+}
+
 Format<HoistModel> hoist_format() {
   Table<HoistModel> table("hoist",
                           "A winch with its tackle and hook block. The tackle's falls are "
@@ -38,12 +71,21 @@ Format<HoistModel> hoist_format() {
                 "of what the tackle hangs from, in series with it; rigid if left out")
       .required("capacity", &HoistModel::capacity, quantity(Dimension::load, Range::positive()),
                 "largest load at the hook")
+      .optional("load_chart", &HoistModel::load_chart, located(list_of(chart_line_format(), 1)),
+                "what the hook may carry over its radius, beside the capacity: between two radii "
+                "that of the larger one holds, beyond the last none; asks for radius_from")
       .required("winch", &HoistModel::winch, winch_format(),
                 "lets out and takes in the tackle: rope length between sheave and hook block");
   return table.format();
 }
 
 }  // namespace
+
+double LoadChart::capacity(double radius) const {
+  for (const ChartLine& line : lines)
+    if (radius <= line.radius) return line.capacity;
+  return 0;
+}
 
 const HoistModel* CraneModel::find_hoist(const std::string& name) const {
   const auto found = std::find_if(hoists.begin(), hoists.end(), [&](const HoistModel& hoist) {
@@ -99,6 +141,12 @@ Format<CraneModel> crane_model_format() {
                 "winches with tackle and hook block")
       .optional("capacity", &CraneModel::capacity, quantity(Dimension::load, Range::positive()),
                 "largest load of all hooks together")
+      .optional("radius_from", &CraneModel::radius_from, point_format(),
+                "point of a body, or of the base (\"world\"), from which the level radius of the "
+                "hooks counts: the slewing axis, or the boom's foot; hooks' radius, offlead and "
+                "sidelead follow")
+      .optional("stands_on", &CraneModel::stands_on, crane_stand_format(),
+                "wheels, bogies, outriggers or legs, whose loads follow from the crane's motion")
       .place(&CraneModel::place)
       .rule(check_crane);
   return table.format();

@@ -19,6 +19,21 @@ struct HookBlockModel {
   Vector3 size = Vector3::Zero();  ///< of the box in the drawing, m
 };
 
+/// A line of a load chart: what a hook may carry up to a radius.
+struct ChartLine {
+  double radius = std::numeric_limits<double>::quiet_NaN();    ///< m
+  double capacity = std::numeric_limits<double>::quiet_NaN();  ///< N
+};
+
+/// Capacity over radius. Between two radii that of the larger one holds, beyond the last there is
+/// none; below the first its own holds.
+struct LoadChart {
+  std::vector<ChartLine> lines;  ///< radii ascend
+
+  /// Largest load at a radius (m), N; zero beyond the chart.
+  double capacity(double radius) const;
+};
+
 /// Hoist: a winch on a body lets out a tackle whose hook block hangs free.
 struct HoistModel {
   Located<std::string> name;
@@ -29,7 +44,22 @@ struct HoistModel {
   RopeModel rope;                                                    ///< after the look-up
   double crane_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
   double capacity = std::numeric_limits<double>::quiet_NaN();        ///< load at the hook, N
+  std::optional<Located<std::vector<ChartLine>>> load_chart;         ///< of that load over radius
   DriveLimits winch;  ///< of the rope length between sheave and hook block
+};
+
+/// A wheel, bogie, outrigger or leg on which a crane stands.
+struct CraneSupport {
+  Located<std::string> name;
+  Vector3 position = Vector3::Zero();  ///< in the frame of the body that stands, m
+  std::optional<double> capacity;      ///< largest load, N
+};
+
+/// What a crane stands on: its one body that a joint ties to the base, and where that is borne.
+struct CraneStand {
+  Located<std::string> body;
+  std::vector<CraneSupport> supports;
+  Mark place;
 };
 
 /// Crane as a mechanism of bodies, joints, loops, springs, drives and hoists. SI units.
@@ -39,7 +69,9 @@ struct CraneModel : MechanismParts {
   ParameterValues parameters;
   JointValues pose;  ///< where joints stand when the crane is put together; zero if left out
   std::vector<HoistModel> hoists;
-  std::optional<double> capacity;  ///< of the whole crane, N
+  std::optional<double> capacity;         ///< of the whole crane, N
+  std::optional<PointModel> radius_from;  ///< from which level the radius of hooks counts
+  std::optional<CraneStand> stands_on;
   Mark place;
 
   const HoistModel* find_hoist(const std::string& name) const;

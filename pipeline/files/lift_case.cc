@@ -126,6 +126,13 @@ Vector3 LoadTable::direction_at(const std::string& lug) const {
   return each->value;
 }
 
+std::optional<double> LiftCase::ground_height() const {
+  if (ground || sea) return ground;
+  double lowest = 0;
+  for (const SupportInCase& support : supports) lowest = std::min(lowest, support.ground);
+  return lowest;
+}
+
 const CraneInCase* LiftCase::find_crane(const std::string& crane) const {
   return find_by_name(cranes, crane);
 }

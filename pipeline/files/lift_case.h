@@ -192,6 +192,12 @@ struct CheckSettings {
   std::optional<double> buckling_factor;  ///< absent: yield_factor
   double smallest_tension = 0;            ///< N
   std::optional<double> largest_swing;    ///< rad
+  // Of the lift's measures; absent: not checked.
+  std::optional<double> largest_tilt;          ///< of the load, rad
+  std::optional<double> smallest_sling_angle;  ///< against the level, rad
+  std::optional<double> largest_offlead;       ///< rad
+  std::optional<double> largest_sidelead;      ///< rad
+  std::optional<double> smallest_clearance;    ///< m
 };
 
 /// A published or measured pair of largest loads, N.
@@ -256,6 +262,7 @@ struct LiftCase : MarineParts {
   std::vector<CraneInCase> cranes;
   std::vector<RopeInCase> ropes;
   std::vector<SupportInCase> supports;
+  std::optional<double> ground;  ///< height of the ground or a dock's floor under the load, m
   std::optional<WindInCase> wind;
   std::vector<StageInCase> operation;
   double settle = 0;  ///< after the last move, s
@@ -272,6 +279,8 @@ struct LiftCase : MarineParts {
 
   /// Is the load a block whose stress is asked?
   bool has_structure() const { return load.model != nullptr; }
+  /// Height of the ground ashore, m: as given, else that of the lowest pad or zero; none at sea.
+  std::optional<double> ground_height() const;
   const CraneInCase* find_crane(const std::string& name) const;
   const RopeInCase* find_rope(const std::string& name) const;
 };

@@ -291,7 +291,23 @@ Format<CheckSettings> checks_format() {
                   "below which a rope counts as slack")
       .optional("swing", &CheckSettings::largest_swing,
                 quantity(Dimension::angle, Range::positive()),
-                "largest angle of a hoist's tackle against the vertical; not checked if left out");
+                "largest angle of a hoist's tackle against the vertical; not checked if left out")
+      .optional("tilt", &CheckSettings::largest_tilt, quantity(Dimension::angle, Range::positive()),
+                "largest angle of the load's z axis against the plumb; not checked if left out")
+      .optional("sling_angle", &CheckSettings::smallest_sling_angle,
+                quantity(Dimension::angle, Range::not_negative()),
+                "smallest angle of a sling against the level; not checked if left out")
+      .optional(
+          "offlead", &CheckSettings::largest_offlead, quantity(Dimension::angle, Range::positive()),
+          "largest angle of a tackle out of the plumb in the plane of the crane's radius; not "
+          "checked if left out")
+      .optional("sidelead", &CheckSettings::largest_sidelead,
+                quantity(Dimension::angle, Range::positive()), "the same across that plane")
+      .optional("clearance", &CheckSettings::smallest_clearance,
+                quantity(Dimension::length, Range::not_negative()),
+                "smallest distance of load, hooks, tackles and cranes from one another, of hanging "
+                "loads from the ground; usual are 0.5 m ashore and 3 m afloat; not checked if left "
+                "out");
   return table.format();
 }
 
@@ -432,6 +448,10 @@ Format<LiftCase> lift_case_format() {
       .optional("cranes", &LiftCase::cranes, named_tables(crane_format()), "by name")
       .optional("ropes", &LiftCase::ropes,
                 named_tables(rope_in_case_format(rope_point_format(), true)), "by name")
+      .optional(
+          "ground", &LiftCase::ground, quantity(Dimension::length),
+          "height of the ground, or of a dock's floor, under the load: what the clearance from "
+          "the ground counts from; without it the lowest pad's or zero ashore, none at sea")
       .optional("supports", &LiftCase::supports, named_tables(support_format()),
                 "pads on which the load stands at the start")
       .optional("wind", &LiftCase::wind, wind_format(), "none if left out");

@@ -30,6 +30,8 @@
 ///     loops/<loop>/force           (o) N m, N [n x 6], on its second body at its frame, in W
 ///                                      multipliers (o) N or N m [n x its equations]   residual (o) m or rad [n]
 ///                                      attribute of the group: kind
+///     measures/<measure>           (o) in its unit [n]: a figure that follows from the motion; not a number where
+///                                      it has none
 ///     energy/<term>                (o) J [n]; the term `balance` is what the others leave unexplained
 ///   /time, /outputs/<output>       (o) s [n], and what a mechanism file asks for [n x columns]; attribute columns (o):
 ///                                      their names
@@ -81,6 +83,10 @@
 ///   ropes              [{name, lug (o), hoist (o), breaking_load_N (o), max_static_tension_N,
 ///                      time_of_max_static_s, max_dynamic_tension_N, time_of_max_dynamic_s, dynamic_over_static,
 ///                      linked_static_N (o), linked_dynamic_N (o)}]; linked: {rope: tension} at that instant
+///   stages         (o) [{name, start_s, end_s, ropes and hoists: [{name, max_static_tension_N, ... as of ropes}],
+///                      load: the same of all slings' vertical force}]
+///   measures       (o) [{name, subject, kind, unit, extreme, meaning, static, time_of_static_s, dynamic,
+///                      time_of_dynamic_s}]: of each figure the value that is furthest out
 ///   hoists         (o) like ropes, and crane, capacity_N (o), max_swing_rad (o)
 ///   cranes         (o) like ropes, max_static_load_N and max_dynamic_load_N instead of tensions, capacity_N
 ///   loops          (o) [{name, kind, max_static_load_N (_Nm of a gear that turns), time_of_max_static_s,

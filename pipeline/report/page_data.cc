@@ -110,6 +110,10 @@ json history(const ResultsReader& results, const std::string& group) {
   for (const std::string& term : children_of(results, join(group, "energy")))
     energy.push_back(
         series(results, join(group, "energy", term), term, "energy", time, small_history_buckets));
+  json measures = json::array();
+  for (const std::string& measure : children_of(results, join(group, "measures")))
+    measures.push_back(series(results, join(group, "measures", measure), measure, "measure", time,
+                              small_history_buckets));
   return {
       {"start", time.front()},
       {"end", time.back()},
@@ -123,7 +127,8 @@ json history(const ResultsReader& results, const std::string& group) {
        series_of_things(results, join(group, "drives"),
                         {{"position", small_history_buckets}, {"force", small_history_buckets}},
                         time)},
-      {"energy", std::move(energy)}};
+      {"energy", std::move(energy)},
+      {"measures", std::move(measures)}};
 }
 
 std::string attribute_or(const ResultsReader& results, std::string_view object, const char* name,

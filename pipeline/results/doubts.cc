@@ -74,13 +74,11 @@ class Doubts {
         distance, found.x(), found.y(), found.z(), std::max(usual, size));
   }
 
-  /// Ashore nothing but pads keeps the load out of the ground, which is at z = 0 or where they
-  /// stand.
+  /// Nothing but pads keeps the load out of the ground.
   void doubt_ground(const LiftRun& lift) {
-    if (case_.sea || !load_box_) return;
+    const std::optional<double> ground = case_.ground_height();
+    if (!ground || !load_box_) return;
     constexpr double sunk = 0.1;  // m
-    double ground = 0;
-    for (const SupportInCase& support : case_.supports) ground = std::min(ground, support.ground);
     const dynamics::BodyHistory& body = load_of(lift, lift.dynamic_history());
     double lowest = std::numeric_limits<double>::infinity(), when = 0;
     for (Eigen::Index i = 0; i < lift.dynamic_history().sample_count(); ++i) {
@@ -89,11 +87,11 @@ class Doubts {
       lowest = height;
       when = lift.dynamic_history().time[i];
     }
-    if (lowest < ground - sunk)
+    if (lowest < *ground - sunk)
       doubt(
           "The load reaches {:.2f} m below the ground (z = {:g} m) at {:.1f} s; nothing is there "
           "that would bear it.",
-          ground - lowest, ground, when);
+          *ground - lowest, *ground, when);
   }
 
   void doubt_ropes(const LiftRun& lift) {

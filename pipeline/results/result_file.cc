@@ -188,6 +188,17 @@ void write_history(ResultsWriter& file, std::string_view group, const LiftSystem
   write_energy(file, group, history.energy);
 }
 
+void write_measures(ResultsWriter& file, const std::vector<LiftMeasure>& measures) {
+  for (const LiftMeasure& measure : measures) {
+    const auto write = [&](std::string_view history, const Eigen::VectorXd& values) {
+      file.write(layout::join(history, "measures", measure.name()), span_of(values),
+                 {measure.unit, measure.meaning});
+    };
+    write(layout::static_history, measure.at_rest);
+    write(layout::dynamic_history, measure.in_motion);
+  }
+}
+
 void write_scene(ResultsWriter& file, const LiftSystem& system, const Scene& scene) {
   for (const DrawnBody& body : scene.bodies) {
     RowMajorMatrix boxes(static_cast<Eigen::Index>(body.boxes.size()), 10);

@@ -8,6 +8,7 @@
 #include "pipeline/files/lift_case.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/lift/block_assessment.h"
+#include "pipeline/measures/measure.h"
 
 /// What of an assessment goes where in results.h5 (pipeline/formats/results_layout.h).
 namespace blocklift::pipeline {
@@ -52,6 +53,8 @@ void write_operation(ResultsWriter& file, const dynamics::Operation& operation);
 /// @param group layout::static_history or layout::dynamic_history
 void write_history(ResultsWriter& file, std::string_view group, const dynamics::LiftSystem& system,
                    const dynamics::History& history, const Scene& scene);
+/// Measures beside both histories.
+void write_measures(ResultsWriter& file, const std::vector<LiftMeasure>& measures);
 void write_scene(ResultsWriter& file, const dynamics::LiftSystem& system, const Scene& scene);
 /// Measured series beside the computed ones.
 void write_measured(ResultsWriter& file, const Comparison& compare);

@@ -15,6 +15,7 @@
 #include "pipeline/results/assumptions.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
+#include "pipeline/results/measure_summary.h"
 #include "pipeline/results/mesh_error.h"
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/radiation_summary.h"
@@ -414,6 +415,12 @@ void add_loads(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
   if (Json loops = loops_json(lift); !loops.empty()) summary["loops"] = std::move(loops);
 }
 
+/// Loads stage by stage, and measures.
+void add_watched(const LiftRun& lift, const std::vector<LiftMeasure>& measures, Json& summary) {
+  summary["stages"] = stages_json(lift);
+  summary["measures"] = measures_json(lift, measures);
+}
+
 void add_doubts(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
   for (std::string& doubt : list_doubts(lift_case, lift))
     summary["warnings"].push_back(std::move(doubt));
@@ -461,7 +468,10 @@ Json make_summary(const Assessment& assessment) {
   for (const Check& check : assessment.checks) summary["checks"].push_back(check_json(check));
   if (assessment.standard) summary["standard"] = standard_json(*assessment.standard);
   const LiftRun* lift = assessment.lift ? &*assessment.lift : nullptr;
-  if (lift) add_loads(assessment.lift_case, *lift, summary);
+  if (lift) {
+    add_loads(assessment.lift_case, *lift, summary);
+    add_watched(*lift, assessment.measures, summary);
+  }
   if (assessment.lift_case.compare)
     summary["comparison"] = comparison_json(assessment.lift_case, lift);
   if (assessment.block.model) summary["structure"] = structure_json(assessment);
@@ -472,7 +482,8 @@ Json make_summary(const Assessment& assessment) {
   return summary;
 }
 
-Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift) {
+Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift,
+                             const std::vector<LiftMeasure>& measures) {
   Json summary{{"case", lift_case.name},
                {"input_hash", hash_of_input(lift_case)},
                {"title", lift_case.title},
@@ -480,6 +491,7 @@ Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift) {
                {"program_version", program_version},
                {"created", creation_time()}};
   add_loads(lift_case, lift, summary);
+  add_watched(lift, measures, summary);
   if (lift_case.compare) summary["comparison"] = comparison_json(lift_case, &lift);
   add_motion(lift_case, lift, summary);
   summary["timing"] = dynamics_timing(lift);

@@ -11,7 +11,8 @@ namespace blocklift::pipeline {
 nlohmann::ordered_json make_summary(const Assessment& assessment);
 
 /// summary.json of a lift that is simulated without its structure: neither checks nor a verdict.
-nlohmann::ordered_json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift);
+nlohmann::ordered_json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift,
+                                               const std::vector<LiftMeasure>& measures);
 
 /// The table "solver": what the integration of `simulated_s` seconds cost, done in `elapsed_s` of
 /// wall-clock time.

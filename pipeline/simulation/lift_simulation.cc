@@ -77,6 +77,7 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   const LiftCase& lift_case = simulation.lift_case;
   const dynamics::LiftSystem& system = simulation.run.model.system;
   const Scene scene = make_scene(simulation.run.model, simulation.lugs);
+  const std::vector<LiftMeasure> measures = find_measures(lift_case, simulation.run);
   Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
   ResultsWriter file(aside / layout::results_file);
@@ -86,12 +87,13 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   write_operation(file, system.operation());
   write_history(file, layout::static_history, system, simulation.run.static_history, scene);
   write_history(file, layout::dynamic_history, system, simulation.run.dynamic_history(), scene);
+  write_measures(file, measures);
   write_natural_modes(file, system.mechanism(), simulation.run.natural_modes);
   write_scene(file, system, scene);
   if (lift_case.compare) write_measured(file, *lift_case.compare);
   write_statistics(file, simulation.run.dynamic_result.statistics);
   file.finish();
-  nlohmann::ordered_json summary = make_simulation_summary(lift_case, simulation.run);
+  nlohmann::ordered_json summary = make_simulation_summary(lift_case, simulation.run, measures);
   summary[layout::run] = run;
   write_file(aside / layout::summary_file, summary.dump(2));
   write_report(aside);

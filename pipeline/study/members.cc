@@ -20,6 +20,7 @@
 #include "pipeline/files/model_library.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/content_hash.h"
+#include "pipeline/measures/measure.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/study/study_design.h"
@@ -77,7 +78,8 @@ Json summary_of(const StudyFile& study, LiftCase lift_case, const std::optional<
   if (study.run == StudyRun::simulate) {
     const LiftSimulation simulation = simulate_lift(std::move(lift_case), nobody_watches);
     if (full) write_lift_simulation(simulation, *full, false);
-    return make_simulation_summary(simulation.lift_case, simulation.run);
+    return make_simulation_summary(simulation.lift_case, simulation.run,
+                                   find_measures(simulation.lift_case, simulation.run));
   }
   const Assessment assessment = assess(std::move(lift_case), nobody_watches);
   if (full) write_results(assessment, *full);

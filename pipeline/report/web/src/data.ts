@@ -13,6 +13,7 @@ export interface PackedSeries {
 export interface History {
   start: number; end: number; samples: number;
   ropes: PackedSeries[]; hoists: PackedSeries[]; drives: PackedSeries[]; energy: PackedSeries[];
+  measures?: PackedSeries[];
 }
 export interface Motion { time: Packed; bodies: Record<string, Packed> }
 export interface Stage { name: string; start: number; end: number }
@@ -43,6 +44,15 @@ export interface LoadMaxima {
   time_of_max_static_s?: Maybe<number>; time_of_max_dynamic_s?: Maybe<number>;
   dynamic_over_static?: Maybe<number>;
   linked_static_N?: Record<string, Maybe<number>>; linked_dynamic_N?: Record<string, Maybe<number>>;
+}
+/** The loads of one stage of the operation. */
+export interface StageLoads {
+  name: string; start_s?: number; end_s?: number; ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; load?: LoadMaxima;
+}
+/** A figure that follows from the motion, where it is furthest out. */
+export interface Measure {
+  name: string; subject: string; kind: string; unit: string; extreme?: string; meaning?: string;
+  static?: Maybe<number>; time_of_static_s?: Maybe<number>; dynamic?: Maybe<number>; time_of_dynamic_s?: Maybe<number>;
 }
 export interface StructureState {
   checked_von_mises_Pa?: Maybe<number>; peak_von_mises_Pa?: Maybe<number>; max_displacement_m?: Maybe<number>;
@@ -147,6 +157,7 @@ export interface Summary {
   standard?: Maybe<Standard>;
   verdict?: string; verdict_reasons?: string[]; checks?: Check[];
   ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[]; loops?: LoadMaxima[];
+  stages?: StageLoads[]; measures?: Measure[];
   comparison?: Maybe<Comparison>; structure?: Maybe<Structure>;
   natural_periods?: { instant: string; time_s: number; modes: NaturalMode[] }[];
   energy?: Maybe<{ largest_energy_J?: number; largest_imbalance_J?: number; relative_imbalance?: number }>;

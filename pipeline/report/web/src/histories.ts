@@ -457,6 +457,19 @@ function nowLine(clock: Clock): uPlot.Plugin {
   } } };
 }
 
+/** A plot for each kind of measure in motion. */
+export function measurePlots(data: PageData, clock: Clock, kinds: { kind: string; packed: PackedSeries[] }[]): HTMLElement {
+  const group = new Group(clock.start, clock.end);
+  const scales: Record<string, [number, string]> = { N: [1e-3, "kN"], rad: [180 / Math.PI, "°"], m: [1, "m"], "1": [100, "%"] };
+  clock.listen(() => group.redraw());
+  return h("div", { class: "tiles two" }, kinds.map(({ kind, packed }) => {
+    const [factor, unit] = scales[packed[0].units] ?? [1, packed[0].units];
+    return tileOf(data, group, clock, {
+      title: `${kind[0].toUpperCase()}${kind.slice(1)} in motion, ${unit}`, packed, series: packed.map((one) => new Series(one)),
+      label: (one) => one.name.slice(0, -kind.length - 2), factor, unit, plugins: [nowLine(clock)] });
+  }));
+}
+
 /** What a mechanism file asks for: a plot for each output and unit. */
 export function outputsSection(data: PageData, clock: Clock): Section | null {
   const outputs = data.outputs ?? [];

@@ -44,6 +44,43 @@ function ropeTable(data: PageData, clock: Clock): Child {
   return table("Largest rope loads", columns, rows);
 }
 
+/** Static, dynamic and their ratio of each rope, stage by stage. */
+function stageTable(data: PageData): Child {
+  const stages = data.summary.stages ?? [];
+  if (stages.length < 2) return null;
+  const names = [...(stages[0].ropes ?? []).map((rope) => rope.name), ...(stages[0].hoists ?? []).map((hoist) => hoist.name)];
+  const columns: Column[] = [{ head: "Stage", align: "left" }, { head: "from, s" }, { head: "to, s" },
+    ...names.map((name) => ({ head: name })), { head: "all slings" }];
+  const cell = (load: LoadMaxima | undefined): Child => {
+    if (!load) return missing;
+    const grows = known(load.dynamic_over_static) && (load.max_static_tension_N ?? 0) > 1e3;
+    return [tonnesForce(load.max_static_tension_N), h("br", {}), tonnesForce(load.max_dynamic_tension_N),
+      h("br", {}), h("span", { class: "stage" }, grows ? change(100 * (load.dynamic_over_static! - 1), 0) : missing)];
+  };
+  const rows = stages.map((stage) => {
+    const loads = [...stage.ropes ?? [], ...stage.hoists ?? []];
+    return [stage.name, seconds(stage.start_s), seconds(stage.end_s),
+      ...names.map((name) => cell(loads.find((load) => load.name === name))), cell(stage.load)];
+  });
+  const caption = "Stage by stage: largest load at rest and in motion, tonnes, and what motion adds";
+  if (names.length <= 8) return table(caption, columns, rows);
+  addToAnnex("Loads", table(caption, columns, rows));
+  const short = stages.map((stage) => {
+    const worst = [...stage.ropes ?? []].sort((a, b) => (b.max_dynamic_tension_N ?? 0) - (a.max_dynamic_tension_N ?? 0))[0];
+    return [stage.name, seconds(stage.start_s), seconds(stage.end_s), worst?.name ?? missing, ...both3(worst), ...both3(stage.load)];
+  });
+  return table("Stage by stage: the rope with the largest load, and all slings together (each rope: annex)", [
+    { head: "Stage", align: "left" }, { head: "from, s" }, { head: "to, s" }, { head: "Rope", align: "left" },
+    { head: "Static, tonnes" }, { head: "Dynamic, tonnes" }, { head: "more" },
+    { head: "All slings static, tonnes" }, { head: "Dynamic, tonnes" }, { head: "more" }], short);
+}
+
+function both3(load: LoadMaxima | undefined): Child[] {
+  const grows = known(load?.dynamic_over_static) && (load?.max_static_tension_N ?? 0) > 1e3;
+  return [tonnesForce(load?.max_static_tension_N), tonnesForce(load?.max_dynamic_tension_N),
+    grows ? change(100 * (load!.dynamic_over_static! - 1), 0) : missing];
+}
+
 function comparisonTable(data: PageData): Child {
   const comparison = data.summary.comparison;
   if (!comparison?.ropes?.length) return null;
@@ -109,7 +146,7 @@ export function loadsSection(data: PageData, clock: Clock): Section | null {
       h("p", { class: "lead" }, moved
         ? "Static: equilibrium of the same operation at the same winch lengths and crane positions, at rest. Dynamic: the integration in time. Each maximum is over the whole operation."
         : "The rope loads were given in the case file; no motion was computed."),
-      ropeTable(data, clock), comparisonTable(data),
+      ropeTable(data, clock), stageTable(data), comparisonTable(data),
       capacityTable("Hoists", "Hoist", data.summary.hoists, data, clock),
       capacityTable("Cranes", "Crane", data.summary.cranes, data, clock),
       capacityTable("Links and equalisers of the cranes", "Link", data.summary.loops, data, clock)],

@@ -8,6 +8,7 @@ import { accuracySection, methodSection } from "./accuracy";
 import { historiesSection, outputsSection } from "./histories";
 import { liftSection } from "./lift";
 import { loadsSection } from "./loads";
+import { measuresSection } from "./measures";
 import { modesSection, VibrationPlayer } from "./modes";
 import { padeyesSection } from "./padeyes";
 import { Section } from "./section";
@@ -35,7 +36,7 @@ function show(): void {
   let annex = document.getElementById("annex");
   if (!annex) report.append(annex = h("section", { id: "annex" }, h("h2", {}, "Annex")));
   const makers: (() => Section | null)[] = [
-    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock),
+    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock), () => measuresSection(data, clock),
     () => stressSection(data), () => structureSection(data), () => padeyesSection(data),
     () => standardSection(data), () => accuracySection(data), () => methodSection(data),
   ];

@@ -1,0 +1,136 @@
+#include "pipeline/checks/measure_checks.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// The furthest out among the measures of a kind.
+struct Worst {
+  const LiftMeasure* measure = nullptr;
+  MeasurePeak peak;
+};
+
+class MeasureChecks {
+ public:
+  MeasureChecks(const LiftCase& lift_case, const LiftRun& lift,
+                const std::vector<LiftMeasure>& measures)
+      : case_(lift_case), lift_(lift), measures_(measures) {}
+
+  std::vector<Check> list() {
+    const CheckSettings& limits = case_.checks;
+    add_at_most("tilt", "tilt: angle of the load against the plumb", limits.largest_tilt);
+    add_at_least("sling angle", "angle of slings: smallest against the level",
+                 limits.smallest_sling_angle);
+    add_at_most("offlead", "offlead: largest angle in the plane of the radius",
+                limits.largest_offlead);
+    add_at_most("sidelead", "sidelead: largest angle across the plane of the radius",
+                limits.largest_sidelead);
+    add_at_least("clearance", "clearance: smallest distance", limits.smallest_clearance);
+    if (limits.crane_capacity) {
+      add_charts();
+      add_supports();
+    }
+    return std::move(checks_);
+  }
+
+ private:
+  std::optional<Worst> worst_of(const std::string& kind) const {
+    std::optional<Worst> worst;
+    for (const LiftMeasure& measure : measures_) {
+      if (measure.kind != kind) continue;
+      const MeasurePeak peak = find_peak(lift_, measure);
+      if (std::isnan(peak.value)) continue;
+      const bool further = !worst || (measure.extreme == Extreme::smallest
+                                          ? peak.value < worst->peak.value
+                                          : std::abs(peak.value) > std::abs(worst->peak.value));
+      if (further) worst = {&measure, peak};
+    }
+    return worst;
+  }
+
+  void note(const Worst& worst, Check check) {
+    check.time = worst.peak.time;
+    check.note = worst.measure->subject;
+    checks_.push_back(std::move(check));
+  }
+
+  void add_at_most(const char* kind, const char* name, std::optional<double> limit) {
+    if (!limit) return;
+    if (const auto worst = worst_of(kind))
+      note(*worst, check_at_most(name, std::abs(worst->peak.value), *limit, worst->measure->unit));
+  }
+
+  void add_at_least(const char* kind, const char* name, std::optional<double> limit) {
+    if (!limit) return;
+    if (const auto worst = worst_of(kind))
+      note(*worst, check_at_least(name, worst->peak.value, *limit, worst->measure->unit));
+  }
+
+  void add_charts() {
+    for (const LiftMeasure& measure : measures_) {
+      if (measure.kind != "share of the chart") continue;
+      const MeasurePeak peak = find_peak(lift_, measure);
+      Check check =
+          check_at_most("hoist " + measure.subject + ": load over the load chart at its radius",
+                        peak.value, 1, "1");
+      check.time = peak.time;
+      check.note = "hook block included";
+      checks_.push_back(std::move(check));
+    }
+  }
+
+  /// Supports against what they bear; the least loaded of each crane must press.
+  void add_supports() {
+    for (const CraneInCase& crane : case_.cranes) {
+      if (!crane.model->stands_on) continue;
+      std::optional<Worst> least;
+      for (const CraneSupport& support : crane.model->stands_on->supports) {
+        const std::string subject = crane.name.value + "." + support.name.value;
+        for (const LiftMeasure& measure : measures_) {
+          if (measure.kind != "support load" || measure.subject != subject) continue;
+          add_support(support, measure);
+          const MeasurePeak low = lowest(measure);
+          if (!least || low.value < least->peak.value) least = {&measure, low};
+        }
+      }
+      if (least)
+        note(*least, check_at_least("crane " + crane.name.value +
+                                        ": smallest load of a support, which must press",
+                                    least->peak.value, 0, "N"));
+    }
+  }
+
+  void add_support(const CraneSupport& support, const LiftMeasure& measure) {
+    if (!support.capacity) return;
+    const MeasurePeak peak = find_peak(lift_, measure);
+    Check check = check_at_most("support " + measure.subject + ": load against capacity",
+                                peak.value, *support.capacity, "N");
+    check.time = peak.time;
+    checks_.push_back(std::move(check));
+  }
+
+  MeasurePeak lowest(const LiftMeasure& measure) const {
+    LiftMeasure other = measure;
+    other.extreme = Extreme::smallest;
+    return find_peak(lift_, other);
+  }
+
+  const LiftCase& case_;
+  const LiftRun& lift_;
+  const std::vector<LiftMeasure>& measures_;
+  std::vector<Check> checks_;
+};
+
+}  // namespace
+
+std::vector<Check> check_measures(const LiftCase& lift_case, const LiftRun& lift,
+                                  const std::vector<LiftMeasure>& measures) {
+  return MeasureChecks(lift_case, lift, measures).list();
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,95 @@
+#include "pipeline/lift/stage_loads.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// Samples of a history within a stage.
+struct Window {
+  Eigen::Index first = 0;
+  Eigen::Index count = 0;
+};
+
+Window samples_between(const Eigen::VectorXd& time, double start, double end) {
+  // Samples at the ends belong to the stage in spite of rounding.
+  constexpr double rounding = 1e-6;  // s
+  const double* const begin = time.data();
+  const double* const first = std::lower_bound(begin, begin + time.size(), start - rounding);
+  const double* const last = std::upper_bound(begin, begin + time.size(), end + rounding);
+  return {first - begin, last - first};
+}
+
+/// The largest values of a series within a stage.
+class StageMaxima {
+ public:
+  StageMaxima(const LiftRun& lift, double start, double end)
+      : at_rest_(lift.static_history),
+        in_motion_(lift.dynamic_history()),
+        still_(samples_between(at_rest_.time, start, end)),
+        moving_(samples_between(in_motion_.time, start, end)) {}
+
+  bool has_samples() const { return still_.count > 0 && moving_.count > 0; }
+
+  StageLoad of(const std::string& name,
+               const std::function<Eigen::VectorXd(const dynamics::History&)>& series) const {
+    StageLoad load;
+    load.name = name;
+    Eigen::Index still = 0, moving = 0;
+    load.at_rest = series(at_rest_).segment(still_.first, still_.count).maxCoeff(&still);
+    load.in_motion = series(in_motion_).segment(moving_.first, moving_.count).maxCoeff(&moving);
+    load.time_at_rest = at_rest_.time[still_.first + still];
+    load.time_in_motion = in_motion_.time[moving_.first + moving];
+    return load;
+  }
+
+  StageLoad of_rope(const std::string& name, int rope) const {
+    return of(name, [rope](const dynamics::History& history) {
+      return history.ropes[static_cast<std::size_t>(rope)].tension;
+    });
+  }
+
+ private:
+  const dynamics::History& at_rest_;
+  const dynamics::History& in_motion_;
+  Window still_, moving_;
+};
+
+Eigen::VectorXd load_on_slings(const BuiltLift& model, const dynamics::History& history) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(history.sample_count());
+  for (const LiftRope& rope : model.ropes)
+    if (!rope.lug.empty())
+      sum += history.ropes[static_cast<std::size_t>(rope.rope)].last_force.col(2);
+  return sum;
+}
+
+}  // namespace
+
+std::vector<StageLoads> find_stage_loads(const LiftRun& lift) {
+  std::vector<StageLoads> all;
+  const auto& stages = lift.model.system.operation().stages();
+  double start = 0;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const double end = i + 1 < stages.size() ? stages[i].end : lift.simulated_s();
+    const StageMaxima maxima(lift, start, end);
+    if (maxima.has_samples()) {
+      StageLoads& loads = all.emplace_back();
+      loads.stage = stages[i].name;
+      loads.start = start;
+      loads.end = end;
+      for (const LiftRope& rope : lift.model.ropes)
+        loads.ropes.push_back(maxima.of_rope(rope.name, rope.rope));
+      for (const LiftHoist& hoist : lift.model.hoists)
+        loads.hoists.push_back(maxima.of_rope(hoist.name, hoist.rope));
+      loads.load = maxima.of("load", [&](const dynamics::History& history) {
+        return load_on_slings(lift.model, history);
+      });
+    }
+    start = end;
+  }
+  return all;
+}
+
+}  // namespace blocklift::pipeline

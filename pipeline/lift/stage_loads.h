@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pipeline/lift/lift_run.h"
+
+namespace blocklift::pipeline {
+
+/// Largest load of a rope, a hoist or all slings together within a stage, at rest and in motion.
+struct StageLoad {
+  std::string name;
+  double at_rest = 0;         ///< N
+  double time_at_rest = 0;    ///< s
+  double in_motion = 0;       ///< N
+  double time_in_motion = 0;  ///< s
+};
+
+/// What the ropes carry within a stage of the operation. Its pause belongs to it, and the time to
+/// settle to the last one.
+struct StageLoads {
+  std::string stage;
+  double start = 0;               ///< s
+  double end = 0;                 ///< s
+  std::vector<StageLoad> ropes;   ///< in the order of the case
+  std::vector<StageLoad> hoists;  ///< in the order of cranes and their hoists
+  StageLoad load;                 ///< vertical force of all slings on the load
+};
+
+/// The lift's loads stage by stage, so that one phase does not hide another. Stages in which no
+/// sample lies are left out.
+std::vector<StageLoads> find_stage_loads(const LiftRun& lift);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,165 @@
+#include "pipeline/measures/load_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace blocklift::pipeline {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// A series of both histories.
+template <class Series>
+LiftMeasure make_measure(const LiftRun& lift, LiftMeasure measure, const Series& value_at) {
+  const auto series = [&](const dynamics::History& history) {
+    Eigen::VectorXd values(history.sample_count());
+    for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = value_at(history, i);
+    return values;
+  };
+  measure.at_rest = series(lift.static_history);
+  measure.in_motion = series(lift.dynamic_history());
+  return measure;
+}
+
+const dynamics::RopeHistory& history_of_rope(const dynamics::History& history,
+                                             const LiftRope& rope) {
+  return history.ropes[static_cast<std::size_t>(rope.rope)];
+}
+
+void add_attitude(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
+  const auto attitude = [&](const dynamics::History& history, Eigen::Index sample) {
+    return history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample).R;
+  };
+  measures.push_back(make_measure(lift,
+                                  {.subject = "load",
+                                   .kind = "tilt",
+                                   .unit = "rad",
+                                   .meaning = "angle of the load's z axis against the plumb"},
+                                  [&](const dynamics::History& history, Eigen::Index sample) {
+                                    const Eigen::Matrix3d R = attitude(history, sample);
+                                    return std::atan2(R.col(2).head<2>().norm(), R(2, 2));
+                                  }));
+  const auto add_rise = [&](const char* kind, Eigen::Index axis, const char* meaning) {
+    measures.push_back(make_measure(lift,
+                                    {.subject = "load",
+                                     .kind = kind,
+                                     .unit = "rad",
+                                     .extreme = Extreme::largest_magnitude,
+                                     .meaning = meaning},
+                                    [&](const dynamics::History& history, Eigen::Index sample) {
+                                      const double rise = attitude(history, sample)(2, axis);
+                                      return std::asin(std::clamp(rise, -1.0, 1.0));
+                                    }));
+  };
+  add_rise("trim", 0, "angle of the load's x axis above the level");
+  add_rise("list", 1, "angle of the load's y axis above the level");
+}
+
+void add_sling_angles(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
+  for (const LiftRope& rope : lift.model.ropes) {
+    if (rope.lug.empty()) continue;
+    measures.push_back(make_measure(
+        lift,
+        {.subject = rope.name,
+         .kind = "sling angle",
+         .unit = "rad",
+         .extreme = Extreme::smallest,
+         .meaning = "angle of the sling at its lug against the level, while it pulls"},
+        [&](const dynamics::History& history, Eigen::Index sample) {
+          const Eigen::Vector3d pull = history_of_rope(history, rope).last_force.row(sample);
+          return pull.norm() > 0 ? std::atan2(pull.z(), pull.head<2>().norm()) : nothing;
+        }));
+  }
+}
+
+/// Places of the lugs in the load's frame, by the ropes that end there.
+std::vector<std::pair<const LiftRope*, Vector3>> lugs_of_ropes(const LiftCase& lift_case,
+                                                               const LiftRun& lift) {
+  std::vector<std::pair<const LiftRope*, Vector3>> lugs;
+  for (const LiftRope& rope : lift.model.ropes)
+    if (!rope.lug.empty())
+      lugs.emplace_back(&rope, lift_case.find_rope(rope.name)->path.back().point);
+  return lugs;
+}
+
+void add_margin(const LiftCase& lift_case, const LiftRun& lift,
+                std::vector<LiftMeasure>& measures) {
+  const auto lugs = lugs_of_ropes(lift_case, lift);
+  const Vector3 centre_B = lift.model.system.mechanism().body(lift.model.load).inertia.p_BoBcm;
+  LiftMeasure margin = make_measure(
+      lift,
+      {.subject = "load",
+       .kind = "margin of the centre of mass",
+       .unit = "m",
+       .extreme = Extreme::smallest,
+       .meaning = "level distance of the centre of mass from the edge of the polygon of the lugs "
+                  "that carry, positive inside"},
+      [&](const dynamics::History& history, Eigen::Index sample) {
+        const dynamics::Pose X_WB =
+            history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample);
+        std::vector<Eigen::Vector2d> carrying;
+        for (const auto& [rope, p_B] : lugs)
+          if (history_of_rope(history, *rope).tension[sample] > 0)
+            carrying.push_back((X_WB.R * p_B).head<2>());
+        return distance_within(carrying, (X_WB.R * centre_B).head<2>());
+      });
+  // Two lugs, or lugs in a line, span no area.
+  if (!margin.at_rest.array().isNaN().all()) measures.push_back(std::move(margin));
+}
+
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+/// Corners of the convex hull, anticlockwise (Andrew, 1979: monotone chain).
+std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  std::vector<Eigen::Vector2d> hull;
+  const auto extend = [&](const Eigen::Vector2d& point, std::size_t kept) {
+    while (hull.size() >= kept + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0)
+      hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const Eigen::Vector2d& point : points) extend(point, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (auto point = std::next(points.rbegin()); point != points.rend(); ++point)
+    extend(*point, lower);
+  hull.pop_back();
+  return hull;
+}
+
+}  // namespace
+
+double distance_within(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& point) {
+  // Lugs in a line are so to within what their places are known to.
+  constexpr double thin = 1e-6;  // m
+  if (points.size() < 3) return nothing;
+  const std::vector<Eigen::Vector2d> hull = convex_hull(points);
+  if (hull.size() < 3) return nothing;
+  double widest = 0, inside = std::numeric_limits<double>::infinity();
+  double outside = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    const Eigen::Vector2d along = b - a;
+    for (const Eigen::Vector2d& corner : hull)
+      widest = std::max(widest, turn(a, b, corner) / along.norm());
+    inside = std::min(inside, turn(a, b, point) / along.norm());
+    const double share = std::clamp((point - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    outside = std::min(outside, (point - a - share * along).norm());
+  }
+  if (widest < thin) return nothing;
+  return inside >= 0 ? inside : -outside;
+}
+
+void add_load_measures(const LiftCase& lift_case, const LiftRun& lift,
+                       std::vector<LiftMeasure>& measures) {
+  add_attitude(lift, measures);
+  add_sling_angles(lift, measures);
+  add_margin(lift_case, lift, measures);
+}
+
+}  // namespace blocklift::pipeline

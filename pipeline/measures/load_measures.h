@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/measures/measure.h"
+
+namespace blocklift::pipeline {
+
+/// Attitude of the load, angles of its slings against the level, and where its centre of mass is
+/// within the polygon of the lugs that carry, seen from above.
+void add_load_measures(const LiftCase& lift_case, const LiftRun& lift,
+                       std::vector<LiftMeasure>& measures);
+
+/// Distance of a point from the edge of the convex hull of others in the plane, m: positive inside,
+/// negative outside; not a number if the others span no area.
+double distance_within(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& point);
+
+}  // namespace blocklift::pipeline

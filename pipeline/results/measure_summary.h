@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "pipeline/measures/measure.h"
+
+namespace blocklift::pipeline {
+
+/// `stages` of summary.json: the loads stage by stage.
+nlohmann::ordered_json stages_json(const LiftRun& lift);
+
+/// `measures` of summary.json: of each the value that is furthest out, at rest and in motion.
+nlohmann::ordered_json measures_json(const LiftRun& lift, const std::vector<LiftMeasure>& measures);
+
+}  // namespace blocklift::pipeline

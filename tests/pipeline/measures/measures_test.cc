@@ -1,0 +1,305 @@
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/checks/measure_checks.h"
+#include "pipeline/lift/stage_loads.h"
+#include "pipeline/measures/clearance.h"
+#include "pipeline/measures/load_measures.h"
+#include "pipeline/measures/measure.h"
+#include "tests/pipeline/sample_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double g = 9.81;
+
+/// The sample lift, whose crane stands on four wheels and has a load chart, run once.
+struct WatchedLift {
+  LiftCase lift_case;
+  LiftRun run;
+  std::vector<LiftMeasure> measures;
+
+  const LiftMeasure& measure(const std::string& name) const {
+    for (const LiftMeasure& one : measures)
+      if (one.name() == name) return one;
+    throw std::out_of_range(name);
+  }
+};
+
+WatchedLift watch(const std::string& checks = "{}") {
+  test::SampleLift parts;
+  parts.crane = test::with(parts.crane, "capacity: 20 t\n",
+                           "capacity: 20 t\n"
+                           "radius_from: {body: gantry, position: [0 m, 0 m, 0 m]}\n"
+                           "stands_on:\n"
+                           "  body: gantry\n"
+                           "  supports:\n"
+                           "    A: {position: [-3 m, 0 m, 0 m], capacity: 20 t}\n"
+                           "    B: {position: [3 m, 0 m, 0 m]}\n"
+                           "    C: {position: [-3 m, 10 m, 0 m]}\n"
+                           "    D: {position: [3 m, 10 m, 0 m]}\n");
+  parts.crane = test::with(
+      parts.crane, "    rope: ropes/tackle\n    crane_stiffness: 10 MN/m\n    capacity: 10 t\n",
+      "    rope: ropes/tackle\n    crane_stiffness: 10 MN/m\n    capacity: 10 t\n"
+      "    load_chart: [{radius: 6 m, capacity: 8 t}, {radius: 7 m, capacity: 5 t}]\n");
+  parts.lift_case += "checks: " + checks + "\n";
+  const test::TemporaryFolder folder;
+  parts.write(folder);
+  LiftCase lift_case = read_lift_case("case.yaml");
+  LoadMass load;
+  load.mass = 10e3;
+  load.p_BoBcm_B = {2, 0, 0.5};
+  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
+  LiftRun run = run_lift(lift_case, build_lift(lift_case, load), [](auto&&...) {});
+  std::vector<LiftMeasure> measures = find_measures(lift_case, run);
+  return {std::move(lift_case), std::move(run), std::move(measures)};
+}
+
+const WatchedLift& watched() {
+  static const WatchedLift lift = watch();
+  return lift;
+}
+
+std::vector<Triangle> unit_box() {
+  return surface_of(BoxShape{{1, 1, 1}, Vector3::Zero(), Vector3::Zero()});
+}
+
+TEST(Peak, OfEachKindPassesOverWhatIsNoNumber) {
+  const Eigen::Vector4d time(0, 1, 2, 3), values(1, NAN, -5, 4);
+  EXPECT_EQ(find_peak(time, values, Extreme::largest).value, 4);
+  EXPECT_EQ(find_peak(time, values, Extreme::smallest).value, -5);
+  EXPECT_EQ(find_peak(time, values, Extreme::largest_magnitude).time, 2);
+  EXPECT_TRUE(std::isnan(find_peak(time, Eigen::Vector4d::Constant(NAN), Extreme::largest).value));
+}
+
+TEST(DistanceWithin, IsPositiveInsideAndNegativeOutside) {
+  const std::vector<Eigen::Vector2d> square{{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}};
+  EXPECT_NEAR(distance_within(square, {1, 1}), 1, 1e-15);
+  EXPECT_NEAR(distance_within(square, {0.25, 1}), 0.25, 1e-15);
+  EXPECT_NEAR(distance_within(square, {3, 3}), -std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(distance_within(square, {1, -0.5}), -0.5, 1e-15);
+  EXPECT_TRUE(std::isnan(distance_within({{0, 0}, {1, 1}, {2, 2}}, {1, 0})));
+  EXPECT_TRUE(std::isnan(distance_within({{0, 0}, {1, 1}}, {1, 0})));
+}
+
+TEST(SolidDistance, OfTwoBoxes) {
+  const Solid a(unit_box()), b(unit_box());
+  const auto at = [](double x, double y) { return dynamics::Pose::translation({x, y, 0}); };
+  EXPECT_NEAR(Solid::distance(a, at(0, 0), b, at(2.5, 0), 20), 1.5, 1e-12);
+  EXPECT_NEAR(Solid::distance(a, at(0, 0), b, at(2, 3), 20), std::hypot(1, 2), 1e-12);
+  EXPECT_NEAR(Solid::distance(a, at(0, 0), b, at(1.2, 0.3), 20), 0.2, 1e-12);
+  EXPECT_EQ(Solid::distance(a, at(0, 0), b, at(0.7, 0.3), 20), 0);
+  EXPECT_EQ(Solid::distance(a, at(0, 0), b, at(100, 0), 20), 20);
+  // A corner towards a face: half a diagonal nearer.
+  const dynamics::Pose turned{rotation_of({0, 0, std::acos(-1.0) / 4}), {3, 0, 0}};
+  EXPECT_NEAR(Solid::distance(a, at(0, 0), b, turned, 20), 2.5 - std::sqrt(0.5), 1e-12);
+}
+
+// A quarter of a circle of radius 1 between the x and the y axis, ruled over 2 m.
+TEST(Surface, OfAPlateBetweenArcsLiesOnTheCylinder) {
+  BlockModel block;
+  PlateModel plate;
+  const double s = std::sqrt(0.5);
+  plate.edges = Located<std::vector<EdgeModel>>{
+      {{{{1, 0, 0}, {s, s, 0}, {0, 1, 0}}, true}, {{{1, 0, 2}, {s, s, 2}, {0, 1, 2}}, true}}, {}};
+  block.plates.push_back(plate);
+  double area = 0;
+  for (const Triangle& triangle : surface_of(block)) {
+    area += 0.5 * (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
+    for (const Vector3& corner : triangle) {
+      EXPECT_LE(corner.head<2>().norm(), 1 + 1e-12);
+      // The sagitta of a sixteenth of the arc.
+      EXPECT_GE(corner.head<2>().norm(), std::cos(std::acos(-1.0) / 64) - 1e-12);
+    }
+  }
+  // Sixteen chords, 2 m wide.
+  EXPECT_NEAR(area, 2 * 32 * std::sin(std::acos(-1.0) / 64), 1e-12);
+}
+
+// Crane 108 t, hook blocks 1 t, load 10 t. Over the span of 10 m the gantry's weight lies at 5 m, the
+// rest where the trolley is: at 5 m first, at 7 m in the end.
+TEST(SupportLoads, AtRestFollowStatics) {
+  const WatchedLift& lift = watched();
+  const Eigen::Index last = lift.run.static_history.sample_count() - 1;
+  const auto load = [&](const char* wheel, Eigen::Index sample) {
+    return lift.measure("C1." + std::string(wheel) + ": support load").at_rest[sample];
+  };
+  const double weight = 119e3 * g;
+  const auto sum = [&](Eigen::Index i) {
+    return load("A", i) + load("B", i) + load("C", i) + load("D", i);
+  };
+  for (const Eigen::Index i : {Eigen::Index(0), last}) {
+    EXPECT_NEAR(sum(i), weight, 1e-6 * weight);
+    EXPECT_NEAR(lift.measure("C1: weight on the base").at_rest[i], weight, 1e-6 * weight);
+  }
+  EXPECT_NEAR(load("A", 0) + load("B", 0), weight / 2, 1e-5 * weight);
+  EXPECT_NEAR(load("C", last) + load("D", last), (100e3 * 5 + 19e3 * 7) / 10 * g, 1e-4 * weight);
+}
+
+// What the crane presses on the rails is what all masses ask for, those of load and hooks, which the
+// measure knows by the ropes' pull alone, included.
+TEST(SupportLoads, InMotionObeyNewton) {
+  const WatchedLift& lift = watched();
+  const dynamics::History& history = lift.run.dynamic_history();
+  const dynamics::Mechanism& mechanism = lift.run.model.system.mechanism();
+  const LiftMeasure& pressed = lift.measure("C1: weight on the base");
+  double largest = 0;
+  for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample) {
+    double due = 0;
+    for (dynamics::BodyIndex body = 1; body < mechanism.body_count(); ++body) {
+      const dynamics::BodyHistory& motion = history.bodies[static_cast<std::size_t>(body - 1)];
+      const dynamics::RigidBodyInertia& inertia = mechanism.body(body).inertia;
+      const Vector3 c = motion.X_WB(sample).R * inertia.p_BoBcm;
+      const dynamics::MotionVector A = motion.A_WB(sample), V = motion.V_WB(sample);
+      const Vector3 a = A.linear + A.angular.cross(c) + V.angular.cross(V.angular.cross(c));
+      due += inertia.mass * (a.z() + g);
+    }
+    largest = std::max(largest, std::abs(due - pressed.in_motion[sample]));
+  }
+  // Rounding, of ropes of 200 MN whose stretch is known to 1e-16 of some metres.
+  EXPECT_LT(largest, 1e-7 * 119e3 * g);
+  EXPECT_GT(pressed.in_motion.maxCoeff() - pressed.in_motion.minCoeff(), 1e-3 * 119e3 * g);
+}
+
+TEST(HookMeasures, RadiusLeadsAndChart) {
+  const WatchedLift& lift = watched();
+  const Eigen::Index last = lift.run.static_history.sample_count() - 1;
+  const LiftMeasure& radius = lift.measure("C1.left: radius");
+  // Tackles and slings are plumb but for a tilt of a milliradian.
+  EXPECT_NEAR(radius.at_rest[0], std::hypot(2, 5), 2e-3);
+  EXPECT_NEAR(radius.at_rest[last], std::hypot(2, 7), 2e-3);
+  const LiftMeasure& share = lift.measure("C1.left: share of the chart");
+  const LiftRun& run = lift.run;
+  const Eigen::VectorXd& tension =
+      run.static_history.ropes[static_cast<std::size_t>(run.model.hoists[0].rope)].tension;
+  EXPECT_NEAR(share.at_rest[0], tension[0] / (8e3 * 9.80665), 1e-12);
+  // The hook ends at 7.28 m, beyond the chart.
+  EXPECT_TRUE(std::isinf(share.at_rest[last]));
+  EXPECT_LT(lift.measure("C1.left: offlead").at_rest.cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_GT(lift.measure("C1.left: sidelead").in_motion.cwiseAbs().maxCoeff(), 1e-3);
+}
+
+TEST(LoadMeasures, AttitudeSlingsAndGround) {
+  const WatchedLift& lift = watched();
+  // The crane gives way under the left tackle alone: (T + hook) / k over 4 m.
+  const double tilt = 5500 * g / 10e6 / 4;
+  EXPECT_NEAR(lift.measure("load: tilt").at_rest[0], tilt, 0.02 * tilt);
+  EXPECT_NEAR(std::abs(lift.measure("load: trim").at_rest[0]), tilt, 0.02 * tilt);
+  EXPECT_NEAR(lift.measure("load: list").at_rest[0], 0, 1e-6);
+  EXPECT_NEAR(lift.measure("R1: sling angle").at_rest[0], std::acos(-1.0) / 2, 1e-3);
+  // Sheave at 10 m, 5 m of tackle, 2 m of sling, pins 1.2 m above the bottom; ropes stretch by some
+  // millimetres.
+  EXPECT_NEAR(lift.measure("load to ground: clearance").at_rest[0], 10 - 5 - 2 - 1.2, 0.02);
+}
+
+TEST(StageLoads, HoldTheWholeLiftsMaxima) {
+  const LiftRun& run = watched().run;
+  const std::vector<StageLoads> stages = find_stage_loads(run);
+  ASSERT_EQ(stages.size(), 2U);
+  EXPECT_EQ(stages[0].stage, "hoist up");
+  EXPECT_EQ(stages[0].start, 0);
+  EXPECT_EQ(stages[1].start, stages[0].end);
+  EXPECT_EQ(stages[1].end, run.simulated_s());
+  const dynamics::History& history = run.dynamic_history();
+  for (std::size_t i = 0; i < run.model.ropes.size(); ++i) {
+    const double most =
+        history.ropes[static_cast<std::size_t>(run.model.ropes[i].rope)].tension.maxCoeff();
+    EXPECT_EQ(std::max(stages[0].ropes[i].in_motion, stages[1].ropes[i].in_motion), most);
+    for (const StageLoads& stage : stages) {
+      EXPECT_GE(stage.ropes[i].time_in_motion, stage.start - 1e-6);
+      EXPECT_LE(stage.ropes[i].time_in_motion, stage.end + 1e-6);
+    }
+  }
+  EXPECT_NEAR(stages[0].load.at_rest, 10e3 * g, 1e-6 * 10e3 * g);
+}
+
+TEST(MeasureChecks, NameTheWorstOfEachKind) {
+  const WatchedLift lift = watch(
+      "{tilt: 1 deg, sling_angle: 60 deg, offlead: 0.1 deg, sidelead: 10 deg, clearance: 2.5 m}");
+  const std::vector<Check> checks = check_measures(lift.lift_case, lift.run, lift.measures);
+  const auto check = [&](const std::string& beginning) -> const Check& {
+    for (const Check& one : checks)
+      if (one.name.starts_with(beginning)) return one;
+    throw std::out_of_range(beginning);
+  };
+  EXPECT_TRUE(check("tilt").pass);
+  EXPECT_TRUE(check("angle of slings").pass);
+  EXPECT_FALSE(check("offlead").pass);
+  EXPECT_TRUE(check("sidelead").pass);
+  EXPECT_FALSE(check("clearance").pass);
+  // A hook block reaches 1 m below its sling's upper end, the pin stands 0.2 m above the webs.
+  EXPECT_THAT(check("clearance").note, HasSubstr("load to C1."));
+  EXPECT_NEAR(check("clearance").demand, 2 - 1 + 0.2, 0.05);
+  EXPECT_FALSE(check("hoist C1.left: load over the load chart").pass);
+  // Each wheel bears 30 t at least, the first 20 t at most.
+  EXPECT_FALSE(check("support C1.A").pass);
+  EXPECT_TRUE(check("crane C1: smallest load of a support").pass);
+}
+
+TEST(MeasureChecks, ASupportThatLiftsOffFails) {
+  const WatchedLift& lift = watched();
+  std::vector<LiftMeasure> measures = lift.measures;
+  for (LiftMeasure& one : measures)
+    if (one.name() == "C1.B: support load") one.in_motion[3] = -1;
+  for (const Check& check : check_measures(lift.lift_case, lift.run, measures)) {
+    if (!check.name.starts_with("crane C1: smallest load")) continue;
+    EXPECT_FALSE(check.pass);
+    EXPECT_EQ(check.note, "C1.B");
+    return;
+  }
+  FAIL() << "there is no such check";
+}
+
+TEST(LoadChart, TakesTheCapacityOfTheNextLargerRadius) {
+  const LoadChart chart{{{6, 80e3}, {7, 50e3}}};
+  EXPECT_EQ(chart.capacity(1), 80e3);
+  EXPECT_EQ(chart.capacity(6), 80e3);
+  EXPECT_EQ(chart.capacity(6.01), 50e3);
+  EXPECT_EQ(chart.capacity(7.01), 0);
+}
+
+/// What is said of the sample's crane with these lines at its end.
+std::string complaints(const std::string& lines, const std::string& at_left = "") {
+  test::SampleLift parts;
+  parts.crane += lines;
+  if (!at_left.empty())
+    parts.crane = test::with(parts.crane, "    crane_stiffness: 10 MN/m\n",
+                             "    crane_stiffness: 10 MN/m\n" + at_left);
+  const test::TemporaryFolder folder;
+  parts.write(folder);
+  Diagnostics diagnostics;
+  ModelLibrary library({});
+  EXPECT_FALSE(read_lift_case("case.yaml", library, diagnostics));
+  return diagnostics.to_text();
+}
+
+TEST(CraneKeys, SayWhatIsWrong) {
+  EXPECT_THAT(complaints("", "    load_chart: [{radius: 6 m, capacity: 8 t}]\n"),
+              HasSubstr("says not from where its radius counts"));
+  EXPECT_THAT(complaints("radius_from: {body: world, position: [0 m, 0 m, 0 m]}\n",
+                         "    load_chart: [{radius: 6 m, capacity: 8 t}, {radius: 5 m, capacity: "
+                         "9 t}]\n"),
+              HasSubstr("do not ascend: 5 m comes after 6 m"));
+  EXPECT_THAT(complaints("radius_from: {body: gantri, position: [0 m, 0 m, 0 m]}\n"),
+              HasSubstr("did you mean \"gantry\"?"));
+  const std::string in_line =
+      "{A: {position: [0 m, 0 m, 0 m]}, B: {position: [0 m, 5 m, 0 m]}, C: {position: [0 m, 9 m, 0 "
+      "m]}}";
+  EXPECT_THAT(complaints("stands_on: {body: gantry, supports: " + in_line + "}\n"),
+              HasSubstr("not in line"));
+  EXPECT_THAT(complaints("stands_on: {body: trolley, supports: " + in_line + "}\n"),
+              HasSubstr("does not stand on the base"));
+  EXPECT_THAT(complaints("springs:\n  stay: {kind: point, from: {body: world, position: [0 m, 0 m, "
+                         "20 m]}, to: {body: gantry, position: [0 m, 0 m, 10 m]}, stiffness: 1 "
+                         "MN/m}\nstands_on: {body: gantry, supports: " +
+                         in_line + "}\n"),
+              HasSubstr("spring stay ties the crane to its base, too"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
