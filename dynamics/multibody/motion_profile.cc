@@ -195,6 +195,12 @@ struct MotionProfile::Sum {
   std::vector<MotionProfile> parts;
 };
 
+struct MotionProfile::Stopped {
+  MotionProfile profile;
+  double start;
+  double duration;
+};
+
 MotionProfile::MotionProfile(Content content, std::vector<double> breakpoints)
     : content_(std::move(content)), breakpoints_(sorted_unique(std::move(breakpoints))) {}
 
@@ -246,6 +252,20 @@ MotionProfile MotionProfile::sum(std::vector<MotionProfile> parts) {
   return {std::make_shared<const Sum>(Sum{std::move(parts)}), std::move(breakpoints)};
 }
 
+MotionProfile MotionProfile::stopped(MotionProfile profile, double start, double duration) {
+  if (!(duration > 0.0)) refuse("a motion is stopped within ", duration, " s; some time is due");
+  std::vector<double> breakpoints{start, start + duration};
+  for (const double time : profile.breakpoints()) {
+    if (time <= start) breakpoints.push_back(time);
+    // The clock shows this time where  time = start + s - s^2 / (2 duration).
+    const double left = 1.0 - 2.0 * (time - start) / duration;
+    if (time > start && left > 0.0)
+      breakpoints.push_back(start + duration * (1.0 - std::sqrt(left)));
+  }
+  return {std::make_shared<const Stopped>(Stopped{std::move(profile), start, duration}),
+          std::move(breakpoints)};
+}
+
 ProfileValue MotionProfile::evaluate(double t) const {
   if (const auto* sequence = std::get_if<Sequence>(&content_)) {
     ProfileValue value{sequence->initial, 0, 0};
@@ -266,6 +286,15 @@ ProfileValue MotionProfile::evaluate(double t) const {
   }
   if (const auto* spline = std::get_if<std::shared_ptr<const NaturalSpline>>(&content_)) {
     return (*spline)->evaluate(t);
+  }
+  if (const auto* stopped = std::get_if<std::shared_ptr<const Stopped>>(&content_)) {
+    const auto& [profile, start, duration] = **stopped;
+    if (t <= start) return profile.evaluate(t);
+    const double s = std::min(t - start, duration);
+    const ProfileValue x = profile.evaluate(start + s * (1.0 - 0.5 * s / duration));
+    const double pace = 1.0 - s / duration;
+    const double slowing = t < start + duration ? -1.0 / duration : 0.0;
+    return {x.position, x.velocity * pace, x.acceleration * pace * pace + x.velocity * slowing};
   }
   ProfileValue value{0, 0, 0};
   for (const MotionProfile& part : std::get<std::shared_ptr<const Sum>>(content_)->parts) {

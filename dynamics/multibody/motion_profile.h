@@ -100,6 +100,12 @@ class MotionProfile {
   /// Sum of profiles, for instance of a cam during one stage and moves in others.
   static MotionProfile sum(std::vector<MotionProfile> parts);
 
+  /// Another profile until `start` (s); then its clock slows evenly to a stand within `duration` (s):
+  /// position x(s(t)), ds/dt falling from 1 to 0. From a constant speed v that is the constant
+  /// deceleration v / duration.
+  /// @throws ModelError if the duration is not positive.
+  static MotionProfile stopped(MotionProfile profile, double start, double duration);
+
   /// Position, velocity, acceleration at time t (s); never allocates.
   ProfileValue evaluate(double t) const;
   /// Sorted times at which the jerk jumps (not those at which a cam's leader passes a knot); an
@@ -116,8 +122,10 @@ class MotionProfile {
   };
   struct Cam;
   struct Sum;
-  using Content = std::variant<Sequence, std::shared_ptr<const Cam>, std::shared_ptr<const Sum>,
-                               std::shared_ptr<const NaturalSpline>>;
+  struct Stopped;
+  using Content =
+      std::variant<Sequence, std::shared_ptr<const Cam>, std::shared_ptr<const Sum>,
+                   std::shared_ptr<const NaturalSpline>, std::shared_ptr<const Stopped>>;
 
   MotionProfile(Content content, std::vector<double> breakpoints);
 

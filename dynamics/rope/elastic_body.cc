@@ -127,7 +127,8 @@ void ElasticBody::take_geometry(const Kinematics& kinematics, const Ropes& ropes
     const auto local = static_cast<Eigen::Index>(i);
     w.length[local] = load.length;
     w.length_rate[local] = load.length_rate;
-    w.elongation[local] = load.elongation();
+    const RopeFeed& feed = ropes.feeds[index];
+    w.elongation[local] = feed.parted ? -feed.unstretched_length : load.elongation();
     w.rate[local] = load.length_rate - load.unstretched_rate;
     w.flexibility[local] = 1.0 / load.stiffness;
     w.rope_damping[local] = rope.damping(load.stiffness);

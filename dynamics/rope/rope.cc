@@ -118,6 +118,10 @@ RopeLoad Rope::calc_elastic_and_damping(const RopePath& path, const RopeFeed& fe
   load.stiffness = stiffness(feed.unstretched_length);
   load.elastic_force = load.stiffness * (path.length - feed.unstretched_length);
   load.damping_force = damping(load.stiffness) * (path.length_rate - feed.rate);
+  if (feed.parted) {
+    load.elastic_force = -load.stiffness * feed.unstretched_length;
+    load.damping_force = 0.0;
+  }
   return load;
 }
 

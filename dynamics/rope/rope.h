@@ -25,6 +25,7 @@ struct RopeDefinition {
 struct RopeFeed {
   double unstretched_length = not_a_number;
   double rate = 0.0;
+  bool parted = false;  ///< the rope has broken and pulls no more
 };
 
 /// Displacement of a rope's end within the body that carries it, and its rate (m, m/s, in B).
@@ -109,7 +110,7 @@ class Rope {
   void calc_path(const Kinematics& kinematics, RopePath& path,
                  const RopeEndShifts* shifts = nullptr) const;
 
-  /// Load by the law above.
+  /// Load by the law above; of a parted rope as if its ends had met.
   /// @throws ModelError if the winch has pulled the whole rope in (L0 <= 0).
   RopeLoad calc_load(const RopePath& path, const RopeFeed& feed) const;
 

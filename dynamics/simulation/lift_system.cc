@@ -56,6 +56,10 @@ LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
     if (winch.rope < 0 || winch.rope >= static_cast<int>(d_.ropes.size()))
       throw ModelError("winch \"" + winch.name + "\" has no rope");
   }
+  for (const Parting& parting : d_.operation.partings()) {
+    if (parting.rope < 0 || parting.rope >= static_cast<int>(d_.ropes.size()))
+      throw ModelError("there is no rope " + std::to_string(parting.rope) + " to part");
+  }
 }
 
 int LiftSystem::rope_index(std::string_view name) const {
@@ -95,7 +99,7 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
   memory = memory_rate = Eigen::VectorXd::Zero(system.memory_count());
   water_velocity = water_force = entry_force = Eigen::VectorXd::Zero(added ? added->size() : 0);
   for (std::size_t i = 0; i < feeds.size(); ++i) {
-    feeds[i] = {system.ropes()[i].definition().unstretched_length, 0.0};
+    feeds[i].unstretched_length = system.ropes()[i].definition().unstretched_length;
   }
 }
 
@@ -125,7 +129,8 @@ void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& 
     w.vdot[drive.velocity_index] = value.acceleration;
   }
   for (const Winch& winch : system.operation().winches()) {
-    w.feeds[static_cast<std::size_t>(winch.rope)] = {0.0, 0.0};
+    RopeFeed& feed = w.feeds[static_cast<std::size_t>(winch.rope)];
+    feed.unstretched_length = feed.rate = 0.0;
   }
   for (const Winch& winch : system.operation().winches()) {
     const ProfileValue value = winch.length.evaluate(t);

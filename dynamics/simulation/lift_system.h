@@ -151,7 +151,7 @@ struct LiftWorkspace {
   std::vector<ForceVector> F_Bo_W_of_hulls;     ///< of each HullForce, by the last calc_hull_forces
   /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
   std::optional<LoopRows> loop_rows;
-  std::vector<RopeFeed> feeds;  ///< for each rope
+  std::vector<RopeFeed> feeds;  ///< for each rope; which have parted the integration says
   std::vector<RopeLoad> rope_loads;
   std::vector<SupportLoad> support_loads;
   RopePath path;                                ///< of the rope evaluated last

@@ -191,7 +191,35 @@ double OperationBuilder::end() const {
   return end;
 }
 
+void OperationBuilder::add_stop(std::string_view drive, double time, double duration) {
+  Track& track = find_track(drive);
+  if (track.stop) throw ModelError("drive \"" + track.name + "\" is stopped twice");
+  if (!(time >= 0.0) || !(duration > 0.0) || !std::isfinite(time + duration)) {
+    throw ModelError("drive \"" + track.name + "\" cannot be stopped at " + seconds(time) +
+                     " within " + seconds(duration));
+  }
+  track.stop = Interval{time, time + duration};
+}
+
+void OperationBuilder::add_parting(int rope, double time) {
+  if (!(time >= 0.0) || !std::isfinite(time))
+    throw ModelError("a rope cannot part at " + seconds(time));
+  for (const Parting& other : operation_.partings_) {
+    if (other.rope == rope)
+      throw ModelError("rope " + std::to_string(rope) + " parts at " + seconds(other.time) +
+                       " and cannot part once more");
+  }
+  operation_.partings_.push_back({rope, time});
+}
+
 MotionProfile OperationBuilder::make_profile(const Track& track) const {
+  MotionProfile profile = make_undisturbed_profile(track);
+  if (!track.stop) return profile;
+  return MotionProfile::stopped(std::move(profile), track.stop->start,
+                                track.stop->end - track.stop->start);
+}
+
+MotionProfile OperationBuilder::make_undisturbed_profile(const Track& track) {
   if (track.motion) return *track.motion;
   MotionProfile own = MotionProfile::sequence(track.start_value, track.moves);
   if (track.followers.empty()) return own;
@@ -237,6 +265,7 @@ std::vector<double> OperationBuilder::collect_breakpoints(const Operation& opera
   for (const Stage& stage : operation.stages_) add({stage.start, stage.end});
   for (const JointDrive& drive : operation.joint_drives_) add(drive.position.breakpoints());
   for (const Winch& winch : operation.winches_) add(winch.length.breakpoints());
+  for (const Parting& parting : operation.partings_) add({parting.time});
   add(more_breakpoints_);
   std::sort(times.begin(), times.end());
   std::vector<double> breakpoints;

@@ -38,6 +38,12 @@ struct Winch {
   MotionProfile length = MotionProfile::constant(0.0);  ///< unstretched length left out, m
 };
 
+/// A rope that breaks. Equilibria do not know of it: they are those of the whole rigging.
+struct Parting {
+  int rope = -1;
+  double time = not_a_number;  ///< s
+};
+
 /// Who moves when: the stages of the lift and the motion of every drive and winch. Immutable.
 class Operation {
  public:
@@ -45,6 +51,7 @@ class Operation {
   const std::vector<Stage>& stages() const { return stages_; }
   const std::vector<JointDrive>& joint_drives() const { return joint_drives_; }
   const std::vector<Winch>& winches() const { return winches_; }
+  const std::vector<Parting>& partings() const { return partings_; }
   /// Times (s) at which a stage changes or a motion's jerk jumps: ascending, at least a microsecond
   /// apart, from 0 to the duration, both included. Integration steps end there.
   const std::vector<double>& breakpoints() const { return breakpoints_; }
@@ -54,6 +61,7 @@ class Operation {
   std::vector<Stage> stages_;
   std::vector<JointDrive> joint_drives_;
   std::vector<Winch> winches_;
+  std::vector<Parting> partings_;
   std::vector<double> breakpoints_;
   double duration_ = 0.0;
 };
@@ -105,6 +113,16 @@ class OperationBuilder {
   void add_follower(std::string_view drive, std::string_view leader, double start, double end,
                     const NaturalSpline& own_travel_over_leaders);
 
+  /// Whatever the drive does, from `time` (s) on it comes to a stand within `duration` (s) and stays
+  /// there: an emergency stop, or a drive that sticks (MotionProfile::stopped).
+  /// @throws ModelError if there is no such drive, it is stopped already, the time is negative or
+  /// the duration not positive.
+  void add_stop(std::string_view drive, double time, double duration);
+
+  /// A rope (its index in the lift) parts at a time (s).
+  /// @throws ModelError if the time is negative or the rope parts already.
+  void add_parting(int rope, double time);
+
   /// When the last stage or move ends, s.
   double end() const;
 
@@ -131,11 +149,13 @@ class OperationBuilder {
     std::vector<RestToRestMove> moves;
     std::vector<Follower> followers;
     std::optional<MotionProfile> motion;  ///< in place of start, moves and followers
+    std::optional<Interval> stop = {};    ///< within which all that comes to a stand
   };
   Track& find_track(std::string_view drive);
   void add_track(const std::string& name, bool is_winch, std::size_t index, double start);
   void check_free(const Track& track, Interval wanted) const;
   MotionProfile make_profile(const Track& track) const;
+  static MotionProfile make_undisturbed_profile(const Track& track);
   std::vector<double> collect_breakpoints(const Operation& operation) const;
 
   Operation operation_;

@@ -54,6 +54,7 @@ class Integrator {
   void change_contacts(double t);
   void repair_contacts(double t);
   bool motion_jumps(double t) const;
+  bool part_ropes(double t);
   double within_interval(double t) const { return std::clamp(t, from_, to_); }
   void check_pace();
   void report_progress(double t);
@@ -113,7 +114,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
       newton_(system),
       sample_times_(sample_times(system.operation().duration(), settings.sample_interval)),
       context_(sundials::make_context()),
-      result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}} {
+      result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}, {}} {
   if (!(settings.relative_tolerance > 0.0) || settings.relative_tolerance > 0.1) {
     throw ModelError("the relative tolerance is " + std::to_string(settings.relative_tolerance) +
                      "; a number between 1e-12 and 0.1 is due");
@@ -427,13 +428,40 @@ void Integrator::step(double end) {
   }
 }
 
+// Ropes that part now, with all that was taut in them. Does any?
+bool Integrator::part_ropes(double t) {
+  bool any = false;
+  for (const Parting& parting : system_.operation().partings()) {
+    RopeFeed& feed = w_.feeds[static_cast<std::size_t>(parting.rope)];
+    if (feed.parted || parting.time > t + beside) continue;
+    const auto elastic_energy = [&] {
+      loaded_time_ = evaluated_time_ = not_a_number;
+      calc_right_hand_side(system_, within_interval(t), sundials::view(y_.get()), &contacts_, w_,
+                           sundials::view(rates_.get()));
+      return calc_stored_energy(system_, within_interval(t), w_).elastic;
+    };
+    const double before = elastic_energy();
+    const double tension = w_.rope_loads[static_cast<std::size_t>(parting.rope)].tension;
+    feed.parted = true;
+    char& acts = contacts_[static_cast<std::size_t>(parting.rope)];
+    if (acts != 0) result_.events.push_back({t, parting.rope, false});
+    acts = 0;
+    const double energy = before - elastic_energy();
+    sundials::view(work_.get())[3] += energy;
+    result_.parted.push_back({parting.rope, t, tension, energy});
+    any = true;
+  }
+  return any;
+}
+
 void Integrator::integrate_interval(double start, double end) {
+  const bool parted = part_ropes(start);
   // Behind a jump the motion counts as it is then, from the first step on.
   loaded_time_ = not_a_number;
   const bool jumps = motion_jumps(start);
   from_ = jumps ? std::min(start + beside, end) : start;
   to_ = end;
-  if (jumps && start > 0.0) restart(time_);
+  if (parted || (jumps && start > 0.0)) restart(time_);
   const double reached = end - 1e-12 * std::max(1.0, end);
   while (time_ < reached) {
     if (++steps_taken_ > settings_.largest_step_count) fail("more steps than allowed");

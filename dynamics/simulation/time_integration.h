@@ -48,11 +48,20 @@ struct ContactEvent {
   bool acts = false;
 };
 
+/// A rope that parted, with the energy that was stored and was set free.
+struct PartedRope {
+  int rope = -1;
+  double time = not_a_number;     ///< s
+  double tension = not_a_number;  ///< before, N
+  double energy = not_a_number;   ///< J
+};
+
 struct IntegrationResult {
   History history;
   IntegrationStatistics statistics;
   std::vector<ContactEvent> events;  ///< in order of time
   Eigen::VectorXd q_end, v_end;      ///< state at the end, nq and nv
+  std::vector<PartedRope> parted = {};
 };
 
 /// Integrates the operation from (q, v) (nq and nv; driven entries are replaced by the drives')
@@ -65,6 +74,8 @@ struct IntegrationResult {
 /// from the method's own interpolation; accelerations, tensions and drive forces are computed anew
 /// from the interpolated state, so that each sample is consistent in itself. Largest loads are
 /// those of the samples.
+///
+/// A rope that parts pulls no more from then on; the energy that it had stored counts as dissipated.
 ///
 /// A mechanism with loops is assembled first: the closest configuration and velocities that its
 /// loops allow. Every step ends with positions and velocities projected back onto the loops (and

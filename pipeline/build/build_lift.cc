@@ -412,7 +412,23 @@ class LiftBuilder {
       builder.add_winch(winch.name, winch.rope, winch.length);
     }
     add_schedule(schedule, builder);
+    for (const FaultInCase& fault : case_.faults) add_fault(fault, schedule, builder);
     return builder.build(schedule.duration);
+  }
+
+  void add_fault(const FaultInCase& fault, const Schedule& schedule,
+                 dynamics::OperationBuilder& builder) const {
+    for (const Located<std::string>& name : fault.stops) {
+      for (const Mover& mover : schedule.movers)
+        if (name.value == mover.name || name.value == "all")
+          builder.add_stop(mover.name, fault.at.value, fault.within);
+    }
+    for (const Located<std::string>& name : fault.parts) {
+      for (const LiftRope& rope : ropes_)
+        if (rope.name == name.value) builder.add_parting(rope.rope, fault.at.value);
+      for (const LiftHoist& hoist : hoists_)
+        if (hoist.name == name.value) builder.add_parting(hoist.rope, fault.at.value);
+    }
   }
 
   struct WinchStart {

@@ -106,6 +106,17 @@ std::vector<char> find_hanging(const LiftCase& lift_case, const LiftRun& lift,
   return hangs;
 }
 
+/// Samples from a rope's parting on, where it cannot but be slack, are no evidence.
+void pass_over_parted(const LiftRun& lift, std::size_t rope, const dynamics::History& history,
+                      Eigen::VectorXd& tension) {
+  if (&history != &lift.dynamic_history()) return;
+  for (const dynamics::PartedRope& parted : lift.dynamic_result.parted) {
+    if (static_cast<std::size_t>(parted.rope) != rope) continue;
+    for (Eigen::Index k = 0; k < tension.size(); ++k)
+      if (history.time[k] >= parted.time) tension[k] = std::numeric_limits<double>::infinity();
+  }
+}
+
 /// Ropes at lugs may lie slack while the load stands or floats; all others never.
 void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
   const auto static_hangs = find_hanging(lift_case, lift, lift.static_history);
@@ -119,6 +130,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
   for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
     const Peak peak = peak_of(lift, Kind::smallest, [&](const dynamics::History& history) {
       Eigen::VectorXd tension = history.ropes[i].tension;
+      pass_over_parted(lift, i, history, tension);
       if (is_sling[i] == 0) return tension;
       const auto& hangs = &history == &lift.static_history ? static_hangs : dynamic_hangs;
       for (Eigen::Index k = 0; k < tension.size(); ++k) {

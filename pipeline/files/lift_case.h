@@ -134,6 +134,15 @@ struct StageInCase {
   std::vector<MoveInCase> moves;
 };
 
+/// What goes wrong at an instant: ropes part, drives come to a stand.
+struct FaultInCase {
+  Located<double> at;                       ///< of the operation, s
+  std::vector<Located<std::string>> parts;  ///< ropes, or hoists whose tackle it is
+  std::vector<Located<std::string>> stops;  ///< drives and winches, or "all"
+  double within = 0;                        ///< in which they come to a stand, s
+  Mark place;
+};
+
 /// A pad on which the load stands at the start, and from which it lifts off.
 struct SupportInCase {
   Located<std::string> name;
@@ -266,6 +275,7 @@ struct LiftCase : MarineParts {
   std::optional<WindInCase> wind;
   std::vector<StageInCase> operation;
   double settle = 0;  ///< after the last move, s
+  std::vector<FaultInCase> faults;
   DynamicsSettings dynamics;
   StructureSettings structure;
   CheckSettings checks;

@@ -408,6 +408,55 @@ void check_duration(const LiftCase& lift_case, const Schedule& schedule, Diagnos
   check("static_interval", lift_case.dynamics.static_interval);
 }
 
+/// Faults name what is there, once, while the operation lasts.
+class FaultCheck {
+ public:
+  FaultCheck(const LiftCase& lift_case, const Schedule& schedule, Diagnostics& diagnostics)
+      : diagnostics_(diagnostics), duration_(schedule.duration) {
+    for (const RopeInCase& rope : lift_case.ropes) ropes_.push_back(rope.name.value);
+    for (const CraneInCase& crane : lift_case.cranes) {
+      if (!crane.model) continue;
+      for (const HoistModel& hoist : crane.model->hoists)
+        ropes_.push_back(crane.name.value + "." + hoist.name.value);
+    }
+    for (const Mover& mover : schedule.movers) drives_.push_back(mover.name);
+    drives_.emplace_back("all");
+  }
+
+  void check(const FaultInCase& fault) {
+    if (fault.parts.empty() && fault.stops.empty())
+      diagnostics_.error(fault.place, "the fault says not what goes wrong",
+                         {"give parts, ropes that break, or stops, drives that come to a stand"});
+    if (duration_ > 0 && fault.at.value > duration_)
+      diagnostics_.error(
+          fault.at.mark,
+          fmt::format("the fault comes at {:g} s, after the end of the operation", fault.at.value),
+          {fmt::format("the operation lasts {:g} s", duration_)});
+    for (const Located<std::string>& rope : fault.parts)
+      check_name(rope, ropes_, "parts", "its ropes and hoists are", parted_);
+    for (const Located<std::string>& drive : fault.stops)
+      check_name(drive, drives_, "stops", "its drives and winches are", stopped_);
+  }
+
+ private:
+  void check_name(const Located<std::string>& name, const std::vector<std::string>& known,
+                  const char* verb, const char* hint, std::set<std::string>& before) {
+    if (std::find(known.begin(), known.end(), name.value) == known.end()) {
+      diagnostics_.error(
+          name.mark,
+          fmt::format("the fault {} \"{}\", which the case does not have", verb, name.value),
+          {names_hint(hint, known, name.value)});
+    } else if (!before.insert(name.value).second || (before.contains("all") && before.size() > 1)) {
+      diagnostics_.error(name.mark, fmt::format("\"{}\" {} twice", name.value, verb));
+    }
+  }
+
+  Diagnostics& diagnostics_;
+  double duration_;
+  std::vector<std::string> ropes_, drives_;
+  std::set<std::string> parted_, stopped_;
+};
+
 /// The keys of the natural modes, which one kind of flexibility alone reads.
 void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostics) {
   if (dynamics.flexibility == Flexibility::modal) return;
@@ -527,7 +576,10 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_standard(lift_case, diagnostics);
-  check_duration(lift_case, schedule_operation(lift_case, diagnostics), diagnostics);
+  const Schedule schedule = schedule_operation(lift_case, diagnostics);
+  check_duration(lift_case, schedule, diagnostics);
+  FaultCheck faults(lift_case, schedule, diagnostics);
+  for (const FaultInCase& fault : lift_case.faults) faults.check(fault);
 }
 
 void check_loops_at_start(const LiftCase& lift_case, Diagnostics& diagnostics) {

@@ -422,6 +422,24 @@ Format<StageInCase> stage_format() {
   return table.format();
 }
 
+Format<FaultInCase> fault_format() {
+  Table<FaultInCase> table("fault",
+                           "What goes wrong in motion; the equilibria at rest are those of the "
+                           "whole rigging.");
+  table
+      .required("at", &FaultInCase::at, located(quantity(Dimension::time, Range::not_negative())),
+                "time of the operation at which it happens")
+      .optional("parts", &FaultInCase::parts, list_of(located(reference()), 1),
+                "ropes that break, or hoists (C1.main) whose tackle does")
+      .optional("stops", &FaultInCase::stops, list_of(located(reference()), 1),
+                "drives and winches that come to a stand and stay there; [all] for an emergency "
+                "stop")
+      .by_default("within", &FaultInCase::within, quantity(Dimension::time, Range::positive()),
+                  "0.5 s", "in which they come to a stand, evenly")
+      .place(&FaultInCase::place);
+  return table.format();
+}
+
 Format<DocumentInCase> document_format() {
   Table<DocumentInCase> table("document", "What the report says of itself as a document.");
   table.optional("project", &DocumentInCase::project, text(), "for which the lift is assessed")
@@ -461,6 +479,8 @@ Format<LiftCase> lift_case_format() {
                 "stages, one after another")
       .by_default("settle", &LiftCase::settle, quantity(Dimension::time, Range::not_negative()),
                   "10 s", "time that is still simulated after the last move")
+      .optional("faults", &LiftCase::faults, list_of(fault_format()),
+                "what goes wrong meanwhile: ropes that part, drives that stop")
       .by_default("dynamics", &LiftCase::dynamics, dynamics_format(), "{}",
                   "how the motion is computed")
       .by_default("structure", &LiftCase::structure, structure_format(), "{}",

@@ -85,6 +85,7 @@
 ///                      linked_static_N (o), linked_dynamic_N (o)}]; linked: {rope: tension} at that instant
 ///   stages         (o) [{name, start_s, end_s, ropes and hoists: [{name, max_static_tension_N, ... as of ropes}],
 ///                      load: the same of all slings' vertical force}]
+///   parted         (o) [{name, time_s, tension_N, energy_J}]: ropes that parted, their tension and stored energy then
 ///   measures       (o) [{name, subject, kind, unit, extreme, meaning, static, time_of_static_s, dynamic,
 ///                      time_of_dynamic_s}]: of each figure the value that is furthest out
 ///   hoists         (o) like ropes, and crane, capacity_N (o), max_swing_rad (o)

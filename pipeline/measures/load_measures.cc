@@ -87,7 +87,9 @@ std::vector<std::pair<const LiftRope*, Vector3>> lugs_of_ropes(const LiftCase& l
 void add_margin(const LiftCase& lift_case, const LiftRun& lift,
                 std::vector<LiftMeasure>& measures) {
   const auto lugs = lugs_of_ropes(lift_case, lift);
-  const Vector3 centre_B = lift.model.system.mechanism().body(lift.model.load).inertia.p_BoBcm;
+  const auto& inertia = lift.model.system.mechanism().body(lift.model.load).inertia;
+  const Vector3 centre_B = inertia.p_BoBcm;
+  const double weight = inertia.mass * lift_case.gravity;
   LiftMeasure margin = make_measure(
       lift,
       {.subject = "load",
@@ -95,14 +97,18 @@ void add_margin(const LiftCase& lift_case, const LiftRun& lift,
        .unit = "m",
        .extreme = Extreme::smallest,
        .meaning = "level distance of the centre of mass from the edge of the polygon of the lugs "
-                  "that carry, positive inside"},
+                  "that carry, positive inside; while slings bear nine tenths of the weight"},
       [&](const dynamics::History& history, Eigen::Index sample) {
         const dynamics::Pose X_WB =
             history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample);
         std::vector<Eigen::Vector2d> carrying;
-        for (const auto& [rope, p_B] : lugs)
-          if (history_of_rope(history, *rope).tension[sample] > 0)
-            carrying.push_back((X_WB.R * p_B).head<2>());
+        double borne = 0;
+        for (const auto& [rope, p_B] : lugs) {
+          const dynamics::RopeHistory& one = history_of_rope(history, *rope);
+          borne += one.last_force(sample, 2);
+          if (one.tension[sample] > 0) carrying.push_back((X_WB.R * p_B).head<2>());
+        }
+        if (borne < 0.9 * weight) return nothing;
         return distance_within(carrying, (X_WB.R * centre_B).head<2>());
       });
   // Two lugs, or lugs in a line, span no area.

@@ -40,6 +40,7 @@ class Doubts {
     doubt_place(lift);
     doubt_ground(lift);
     doubt_ropes(lift);
+    say_faults(lift);
   }
 
   std::vector<std::string> list() {
@@ -92,6 +93,24 @@ class Doubts {
           "The load reaches {:.2f} m below the ground (z = {:g} m) at {:.1f} s; nothing is there "
           "that would bear it.",
           *ground - lowest, *ground, when);
+  }
+
+  /// What goes wrong on purpose stands beside what may be wrong.
+  void say_faults(const LiftRun& lift) {
+    for (const dynamics::PartedRope& parted : lift.dynamic_result.parted)
+      doubt(
+          "Rope {} parts at {:g} s under {:.0f} kN and sets {:.3g} kJ free, as the case says; at "
+          "rest it holds.",
+          lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name(), parted.time,
+          parted.tension / 1e3, parted.energy / 1e3);
+    for (const FaultInCase& fault : case_.faults) {
+      if (fault.stops.empty()) continue;
+      std::string names;
+      for (const Located<std::string>& name : fault.stops)
+        names += (names.empty() ? "" : ", ") + (name.value == "all" ? "All drives" : name.value);
+      doubt("{} come to a stand from {:g} s on within {:g} s, as the case says.", names,
+            fault.at.value, fault.within);
+    }
   }
 
   void doubt_ropes(const LiftRun& lift) {

@@ -55,6 +55,17 @@ Json stages_json(const LiftRun& lift) {
   return rows;
 }
 
+Json parted_json(const LiftRun& lift) {
+  Json rows = Json::array();
+  for (const dynamics::PartedRope& parted : lift.dynamic_result.parted)
+    rows.push_back(
+        {{"name", lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name()},
+         {"time_s", parted.time},
+         {"tension_N", parted.tension},
+         {"energy_J", parted.energy}});
+  return rows;
+}
+
 Json measures_json(const LiftRun& lift, const std::vector<LiftMeasure>& measures) {
   Json rows = Json::array();
   for (const LiftMeasure& measure : measures) {

@@ -419,6 +419,7 @@ void add_loads(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
 void add_watched(const LiftRun& lift, const std::vector<LiftMeasure>& measures, Json& summary) {
   summary["stages"] = stages_json(lift);
   summary["measures"] = measures_json(lift, measures);
+  if (Json parted = parted_json(lift); !parted.empty()) summary["parted"] = std::move(parted);
 }
 
 void add_doubts(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {

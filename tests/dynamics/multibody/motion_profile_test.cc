@@ -186,6 +186,31 @@ TEST(MotionProfile, CamFollowsItsLeader) {
               HasSubstr("a cam is given from 9 to 12 but its leader goes from 8 to 13"));
 }
 
+// From a constant speed v the stop takes v D / 2 at the deceleration v / D, wherever in D.
+TEST(MotionProfile, StopsWithinItsTime) {
+  const MotionProfile cruise = MotionProfile::along(NaturalSpline({0, 100}, {0, 200}));
+  const MotionProfile stopped = MotionProfile::stopped(cruise, 10, 0.5);
+  EXPECT_EQ(stopped.evaluate(10).position, 20);
+  EXPECT_EQ(stopped.evaluate(10).velocity, 2);
+  EXPECT_NEAR(stopped.evaluate(10.2).position, 20 + 2 * (0.2 - 0.2 * 0.2 / (2 * 0.5)), 1e-12);
+  EXPECT_NEAR(stopped.evaluate(10.2).velocity, 2 * 0.6, 1e-12);
+  EXPECT_NEAR(stopped.evaluate(10.2).acceleration, -4, 1e-12);
+  EXPECT_NEAR(stopped.evaluate(50).position, 20 + 2 * 0.5 / 2, 1e-12);
+  EXPECT_EQ(stopped.evaluate(50).velocity, 0);
+  EXPECT_EQ(stopped.evaluate(50).acceleration, 0);
+  // In the middle of moves, too, rates are those of the position.
+  const MotionProfile moved = MotionProfile::stopped(two_moves(), 3.7, 1.5);
+  for (double t = 0; t < 8; t += 0.13) {
+    if (std::abs(t - 3.7) < 1e-3 || std::abs(t - 5.2) < 1e-3) continue;
+    EXPECT_LT(derivative_error(moved, t, 1e-4, 50), 1.01) << t;
+  }
+  const std::vector<double>& times = moved.breakpoints();
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_EQ(times.back(), 5.2);
+  EXPECT_THAT(message_of([&] { MotionProfile::stopped(cruise, 1, 0); }),
+              HasSubstr("some time is due"));
+}
+
 TEST(MotionProfile, SumsProfiles) {
   const MotionProfile sum =
       MotionProfile::sum({two_moves(), MotionProfile::constant(5), two_moves()});
