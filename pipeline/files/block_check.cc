@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -58,31 +61,29 @@ void doubt_units(const PlateModel& plate, Reading& reading) {
                   {"plates are up to 1 m thick; millimetres are written as 20 mm"});
 }
 
-void check_plates(const BlockModel& block, Reading& reading) {
-  for (const PlateModel& plate : block.plates) {
-    doubt_units(plate, reading);
-    if (!plate.material.value.empty()) {
-      look_up(plate.material, block.materials, "plate " + plate.name.value, "material", reading);
-    } else if (block.materials.size() > 1) {
-      reading.error(
-          plate.name.mark,
-          fmt::format("plate {} names no material, and the block has several", plate.name.value),
-          {"its materials are " + list_of_names(names_of(block.materials))});
-    }
-    if (plate.stiffeners && !plate.stiffeners->material.value.empty())
-      look_up(plate.stiffeners->material, block.materials,
-              "a row of stiffeners on plate " + plate.name.value, "material", reading);
-    if (plate.at.size() > 1) {
-      std::vector<double> sorted = plate.at;
-      std::sort(sorted.begin(), sorted.end());
-      for (std::size_t i = 1; i < sorted.size(); ++i) {
-        if (sorted[i] - sorted[i - 1] >= plate.thickness) continue;
-        reading.error(plate.name.mark,
-                      fmt::format("plate {} lies upon itself: positions {:.6g} m and {:.6g} m are "
-                                  "nearer than its thickness of {:.6g} m",
-                                  plate.name.value, sorted[i - 1], sorted[i], plate.thickness));
-        break;
-      }
+void check_plate(const BlockModel& block, const PlateModel& plate, Reading& reading) {
+  doubt_units(plate, reading);
+  if (!plate.material.value.empty()) {
+    look_up(plate.material, block.materials, "plate " + plate.name.value, "material", reading);
+  } else if (block.materials.size() > 1) {
+    reading.error(
+        plate.name.mark,
+        fmt::format("plate {} names no material, and the block has several", plate.name.value),
+        {"its materials are " + list_of_names(names_of(block.materials))});
+  }
+  if (plate.stiffeners && !plate.stiffeners->material.value.empty())
+    look_up(plate.stiffeners->material, block.materials,
+            "a row of stiffeners on plate " + plate.name.value, "material", reading);
+  if (plate.at.size() > 1) {
+    std::vector<double> sorted = plate.at;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i] - sorted[i - 1] >= plate.thickness) continue;
+      reading.error(plate.name.mark,
+                    fmt::format("plate {} lies upon itself: positions {:.6g} m and {:.6g} m are "
+                                "nearer than its thickness of {:.6g} m",
+                                plate.name.value, sorted[i - 1], sorted[i], plate.thickness));
+      break;
     }
   }
 }
@@ -122,27 +123,33 @@ double distance_from_plane(const std::vector<Vector3>& corners,
 constexpr double in_plane = 1e-3;  // m
 constexpr std::size_t fewest_corners = 3;
 
-void check_free_plates(const BlockModel& block, Reading& reading) {
-  for (const PlateModel& plate : block.plates) {
-    if (!plate.corners || plate.corners->value.size() < fewest_corners) continue;
-    const std::vector<Vector3>& corners = plate.corners->value;
-    if (!normal_of(corners).allFinite()) {
-      reading.error(plate.corners->mark, "the corners of plate " + plate.name.value +
-                                             " lie on one line, or their sides cross");
-      continue;
-    }
-    const double farthest = distance_from_plane(corners, corners);
-    if (farthest > in_plane)
-      reading.error(plate.corners->mark,
-                    fmt::format("the corners of plate {} are not in one plane: one lies {:.3g} mm "
-                                "off it",
-                                plate.name.value, 1000 * farthest),
-                    {"a twisted plate is given by two edges"});
+void check_corners(const PlateModel& plate, Reading& reading) {
+  if (!plate.corners || plate.corners->value.size() < fewest_corners) return;
+  const std::vector<Vector3>& corners = plate.corners->value;
+  if (!normal_of(corners).allFinite()) {
+    reading.error(plate.corners->mark, "the corners of plate " + plate.name.value +
+                                           " lie on one line, or their sides cross");
+    return;
   }
+  const double farthest = distance_from_plane(corners, corners);
+  if (farthest > in_plane)
+    reading.error(plate.corners->mark,
+                  fmt::format("the corners of plate {} are not in one plane: one lies {:.3g} mm "
+                              "off it",
+                              plate.name.value, 1000 * farthest),
+                  {"a twisted plate is given by two edges"});
+}
+
+/// A copy and what it was made of have the same name here.
+template <class T>
+const std::string& origin_of(const T& part) {
+  return part.origin.empty() ? part.name.value : part.origin;
 }
 
 /// Two plates in one place would be one plate of unknown thickness: the mesh has room for one.
+/// Copies of two plates are complained about once.
 void check_overlaps(const BlockModel& block, Reading& reading) {
+  std::set<std::pair<std::string, std::string>> named;
   for (std::size_t j = 1; j < block.plates.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
       const PlateModel& earlier = block.plates[i];
@@ -152,12 +159,25 @@ void check_overlaps(const BlockModel& block, Reading& reading) {
         continue;
       const auto shared = std::find_if(later.at.begin(), later.at.end(),
                                        [&](double at) { return has_position(earlier, at); });
-      if (shared == later.at.end()) continue;
+      if (shared == later.at.end() || !named.insert({origin_of(earlier), origin_of(later)}).second)
+        continue;
       reading.error(later.name.mark,
                     fmt::format("plate {} lies upon plate {} at {} = {:.6g} m", later.name.value,
                                 earlier.name.value, axis_name(later.normal), *shared),
                     {"where a plate is thicker, divide it, or use a pad"});
     }
+  }
+}
+
+/// Checks parts one by one. A copy of one that has faults has the same: it is passed over.
+template <class T, class Check>
+void check_each(const std::vector<T>& parts, Reading& reading, const Check& check) {
+  std::set<std::string> faulty;
+  for (const T& part : parts) {
+    if (faulty.count(origin_of(part)) != 0) continue;
+    const std::size_t errors = reading.diagnostics().error_count();
+    check(part);
+    if (reading.diagnostics().error_count() > errors) faulty.insert(origin_of(part));
   }
 }
 
@@ -231,130 +251,122 @@ void check_free_opening(const OpeningModel& opening, const PlateModel& plate, Re
                                 user, 1000 * off, plate.name.value));
 }
 
-void check_openings(const BlockModel& block, Reading& reading) {
-  for (const OpeningModel& opening : block.openings) {
-    const std::string user = "opening " + opening.name.value;
-    const PlateModel* plate = look_up(opening.plate, block.plates, user, "plate", reading);
-    if (!plate) continue;
-    if (plate->is_free()) {
-      check_free_opening(opening, *plate, reading);
-      continue;
-    }
-    if (!opening.centres.empty() || opening.radius)
-      reading.error(opening.name.mark,
-                    fmt::format("{} has centres or a radius, and plate {} is a rectangle", user,
-                                plate->name.value),
-                    {"give its extents and a corner_radius"});
-    check_shape(opening, *plate, user, reading);
-    for (std::size_t axis = 0; axis < 3 && opening.corners.empty(); ++axis) {
-      if (axis != plate->normal && !opening.extent[axis]) {
-        reading.error(
-            opening.name.mark, fmt::format("{} lacks the key \"{}\"", user, axis_name(axis)),
-            {fmt::format("plate {} is normal to {}", plate->name.value, axis_name(plate->normal))});
-      }
-    }
-    for (const double at : opening.at) {
-      if (plate->at.empty() || has_position(*plate, at)) continue;
-      reading.error(opening.name.mark,
-                    fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, at,
-                                plate->name.value),
-                    {"its positions are " + positions_text(*plate)});
-    }
-    check_opening_spares_pads(block, opening, *plate, reading);
+void check_opening(const BlockModel& block, const OpeningModel& opening, Reading& reading) {
+  const std::string user = "opening " + opening.name.value;
+  const PlateModel* plate = look_up(opening.plate, block.plates, user, "plate", reading);
+  if (!plate) return;
+  if (plate->is_free()) {
+    check_free_opening(opening, *plate, reading);
+    return;
   }
+  if (!opening.centres.empty() || opening.radius)
+    reading.error(opening.name.mark,
+                  fmt::format("{} has centres or a radius, and plate {} is a rectangle", user,
+                              plate->name.value),
+                  {"give its extents and a corner_radius"});
+  check_shape(opening, *plate, user, reading);
+  for (std::size_t axis = 0; axis < 3 && opening.corners.empty(); ++axis) {
+    if (axis != plate->normal && !opening.extent[axis]) {
+      reading.error(
+          opening.name.mark, fmt::format("{} lacks the key \"{}\"", user, axis_name(axis)),
+          {fmt::format("plate {} is normal to {}", plate->name.value, axis_name(plate->normal))});
+    }
+  }
+  for (const double at : opening.at) {
+    if (plate->at.empty() || has_position(*plate, at)) continue;
+    reading.error(opening.name.mark,
+                  fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, at,
+                              plate->name.value),
+                  {"its positions are " + positions_text(*plate)});
+  }
+  check_opening_spares_pads(block, opening, *plate, reading);
 }
 
-void check_pads(const BlockModel& block, Reading& reading) {
-  for (const PadModel& pad : block.pads) {
-    const std::string user = "pad " + pad.name.value;
-    if (!pad.material.value.empty()) {
-      look_up(pad.material, block.materials, user, "material", reading);
-    }
-    const PlateModel* plate = look_up(pad.plate, block.plates, user, "plate", reading);
-    if (!plate) continue;
-    if (plate->is_free()) {
-      reading.error(pad.name.mark,
-                    fmt::format("{} is on plate {}, which is no rectangle normal to an axis", user,
-                                plate->name.value),
-                    {"pads and lugs stand on such plates"});
-      continue;
-    }
-    if (pad.normal != plate->normal) {
-      reading.error(pad.name.mark, fmt::format("{} is normal to {}, but its plate {} to {}", user,
-                                               axis_name(pad.normal), plate->name.value,
-                                               axis_name(plate->normal)));
-      continue;
-    }
-    if (!plate->at.empty() && !has_position(*plate, pad.at)) {
-      reading.error(pad.name.mark,
-                    fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, pad.at,
-                                plate->name.value),
-                    {"its positions are " + positions_text(*plate)});
-    }
-    if (pad.thickness <= plate->thickness) {
-      reading.error(pad.name.mark,
-                    fmt::format("{} is {:.6g} m thick, its plate {} already {:.6g} m", user,
-                                pad.thickness, plate->name.value, plate->thickness),
-                    {"a pad's thickness is the total, the plate included"});
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (axis == pad.normal || !pad.extent[axis] || !plate->extent[axis]) continue;
-      const auto& inner = pad.extent[axis]->value;
-      const auto& outer = plate->extent[axis]->value;
-      if (inner[0] < outer[0] - same_place || inner[1] > outer[1] + same_place) {
-        reading.error(pad.extent[axis]->mark,
-                      fmt::format("{} reaches along {} from {:.6g} m to {:.6g} m, beyond its plate "
-                                  "{}, which ends at {:.6g} m and {:.6g} m",
-                                  user, axis_name(axis), inner[0], inner[1], plate->name.value,
-                                  outer[0], outer[1]));
-      }
+void check_pad(const BlockModel& block, const PadModel& pad, Reading& reading) {
+  const std::string user = "pad " + pad.name.value;
+  if (!pad.material.value.empty()) {
+    look_up(pad.material, block.materials, user, "material", reading);
+  }
+  const PlateModel* plate = look_up(pad.plate, block.plates, user, "plate", reading);
+  if (!plate) return;
+  if (plate->is_free()) {
+    reading.error(pad.name.mark,
+                  fmt::format("{} is on plate {}, which is no rectangle normal to an axis", user,
+                              plate->name.value),
+                  {"pads and lugs stand on such plates"});
+    return;
+  }
+  if (pad.normal != plate->normal) {
+    reading.error(pad.name.mark,
+                  fmt::format("{} is normal to {}, but its plate {} to {}", user,
+                              axis_name(pad.normal), plate->name.value, axis_name(plate->normal)));
+    return;
+  }
+  if (!plate->at.empty() && !has_position(*plate, pad.at)) {
+    reading.error(pad.name.mark,
+                  fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, pad.at,
+                              plate->name.value),
+                  {"its positions are " + positions_text(*plate)});
+  }
+  if (pad.thickness <= plate->thickness) {
+    reading.error(pad.name.mark,
+                  fmt::format("{} is {:.6g} m thick, its plate {} already {:.6g} m", user,
+                              pad.thickness, plate->name.value, plate->thickness),
+                  {"a pad's thickness is the total, the plate included"});
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (axis == pad.normal || !pad.extent[axis] || !plate->extent[axis]) continue;
+    const auto& inner = pad.extent[axis]->value;
+    const auto& outer = plate->extent[axis]->value;
+    if (inner[0] < outer[0] - same_place || inner[1] > outer[1] + same_place) {
+      reading.error(pad.extent[axis]->mark,
+                    fmt::format("{} reaches along {} from {:.6g} m to {:.6g} m, beyond its plate "
+                                "{}, which ends at {:.6g} m and {:.6g} m",
+                                user, axis_name(axis), inner[0], inner[1], plate->name.value,
+                                outer[0], outer[1]));
     }
   }
 }
 
-void check_lugs(const BlockModel& block, Reading& reading) {
-  for (const LugModel& lug : block.lugs) {
-    const std::string user = "lug " + lug.name.value;
-    if (lug.is_place) {
-      reading.error(lug.name.mark, user + " is a place on a mesh, and the block is one of plates",
-                    {"give its pad, normal, at, thickness and pin"});
-      continue;
+void check_lug(const BlockModel& block, const LugModel& lug, Reading& reading) {
+  const std::string user = "lug " + lug.name.value;
+  if (lug.is_place) {
+    reading.error(lug.name.mark, user + " is a place on a mesh, and the block is one of plates",
+                  {"give its pad, normal, at, thickness and pin"});
+    return;
+  }
+  if (!lug.material.value.empty()) {
+    look_up(lug.material, block.materials, user, "material", reading);
+  }
+  look_up(lug.pad, block.pads, user, "pad", reading);
+  if (!lug.pin.value.allFinite()) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double place = lug.pin.value[static_cast<Eigen::Index>(axis)];
+    std::array<double, 2> range = {lug.at - lug.thickness / 2, lug.at + lug.thickness / 2};
+    if (axis != lug.normal) {
+      if (!lug.extent[axis]) continue;
+      range = lug.extent[axis]->value;
     }
-    if (!lug.material.value.empty()) {
-      look_up(lug.material, block.materials, user, "material", reading);
-    }
-    look_up(lug.pad, block.pads, user, "pad", reading);
-    if (!lug.pin.value.allFinite()) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double place = lug.pin.value[static_cast<Eigen::Index>(axis)];
-      std::array<double, 2> range = {lug.at - lug.thickness / 2, lug.at + lug.thickness / 2};
-      if (axis != lug.normal) {
-        if (!lug.extent[axis]) continue;
-        range = lug.extent[axis]->value;
-      }
-      if (place < range[0] - same_place || place > range[1] + same_place) {
-        reading.error(lug.pin.mark,
-                      fmt::format("the pin of {} is at {} = {:.6g} m, outside the lug plate, which "
-                                  "reaches from {:.6g} m to {:.6g} m",
-                                  user, axis_name(axis), place, range[0], range[1]));
-      }
+    if (place < range[0] - same_place || place > range[1] + same_place) {
+      reading.error(lug.pin.mark,
+                    fmt::format("the pin of {} is at {} = {:.6g} m, outside the lug plate, which "
+                                "reaches from {:.6g} m to {:.6g} m",
+                                user, axis_name(axis), place, range[0], range[1]));
     }
   }
 }
 
-void check_padeyes(const BlockModel& block, Reading& reading) {
-  for (const LugModel& lug : block.lugs) {
-    if (!lug.padeye) continue;
-    const std::string user = "lug " + lug.name.value;
-    const PadeyeDesign* design = look_up(*lug.padeye, block.padeyes, user, "padeye", reading);
-    if (!design || !std::isfinite(design->radius + design->thickness + design->hole + design->pin))
-      continue;
-    std::vector<std::string> faults;
-    place_padeye(*design, block, lug, faults);
-    for (const std::string& fault : faults)
-      reading.error(lug.padeye->mark, fmt::format("{} cannot be made as padeye {}: {}", user,
-                                                  design->name.value, fault));
-  }
+void check_padeye(const BlockModel& block, const LugModel& lug, Reading& reading) {
+  if (!lug.padeye) return;
+  const std::string user = "lug " + lug.name.value;
+  const PadeyeDesign* design = look_up(*lug.padeye, block.padeyes, user, "padeye", reading);
+  if (!design || !std::isfinite(design->radius + design->thickness + design->hole + design->pin))
+    return;
+  std::vector<std::string> faults;
+  place_padeye(*design, block, lug, faults);
+  for (const std::string& fault : faults)
+    reading.error(lug.padeye->mark, fmt::format("{} cannot be made as padeye {}: {}", user,
+                                                design->name.value, fault));
 }
 
 /// A mesh brings its plates and materials; what belongs to plates has no place beside it.
@@ -404,13 +416,18 @@ void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
   if (block.materials.empty())
     reading.error(mark, reading.owner() + " lacks the key \"materials\"",
                   {"it is what plates are made of"});
-  check_plates(block, reading);
-  check_free_plates(block, reading);
+  check_each(block.plates, reading, [&](const PlateModel& plate) {
+    check_plate(block, plate, reading);
+    check_corners(plate, reading);
+  });
   check_overlaps(block, reading);
-  check_openings(block, reading);
-  check_pads(block, reading);
-  check_lugs(block, reading);
-  check_padeyes(block, reading);
+  check_each(block.openings, reading,
+             [&](const OpeningModel& opening) { check_opening(block, opening, reading); });
+  check_each(block.pads, reading, [&](const PadModel& pad) { check_pad(block, pad, reading); });
+  check_each(block.lugs, reading, [&](const LugModel& lug) {
+    check_lug(block, lug, reading);
+    check_padeye(block, lug, reading);
+  });
 }
 
 }  // namespace blocklift::pipeline

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/declaration/table.h"
+#include "pipeline/files/copied_parts.h"
 #include "pipeline/files/profile_format.h"
 
 namespace blocklift::pipeline {
@@ -378,11 +379,11 @@ std::vector<std::string> BlockModel::lug_names() const {
 }
 
 Format<BlockModel> block_model_format() {
-  Table<BlockModel> table("block",
-                          "A stiffened block in its own frame: x along, y across, z up; of "
-                          "flat plates, or the mesh of one from a file. Where the plates "
-                          "weigh less than the stated mass, the rest is outfitting, spread "
-                          "over them so that mass and centre of mass agree.");
+  Table<BlockFile> table("block",
+                         "A stiffened block in its own frame: x along, y across, z up; of "
+                         "flat plates, or the mesh of one from a file. Where the plates "
+                         "weigh less than the stated mass, the rest is outfitting, spread "
+                         "over them so that mass and centre of mass agree.");
   table
       .required("kind", &BlockModel::kind, choice<std::string>({{"block", "block"}}),
                 "what this file describes")
@@ -404,11 +405,18 @@ Format<BlockModel> block_model_format() {
       .optional("lugs", &BlockModel::lugs, named_tables(lug_format()), "where ropes may pull")
       .optional("padeyes", &BlockModel::padeyes, named_tables(padeye_format()),
                 "what lugs are made as; a lug names one of them")
+      .optional("repeat", &BlockFile::repeats, list_of(repeat_format()),
+                "parts of plates that come again at equal steps")
+      .optional("mirror", &BlockFile::mirrors, list_of(mirror_format()),
+                "parts of plates that come again on the other side of a plane")
       .optional("wind_areas", &BlockModel::wind_areas, list_of(wind_area_format()),
                 "areas on which the wind acts")
       .place(&BlockModel::place)
-      .rule(check_block);
-  return table.format();
+      .rule([](const BlockFile& file, Reading& reading, const Mark& mark) {
+        check_block(with_copies(file, &reading), reading, mark);
+      });
+  return converted<BlockFile, BlockModel>(
+      table.format(), [](const BlockFile& file) { return with_copies(file, nullptr); });
 }
 
 }  // namespace blocklift::pipeline

@@ -54,6 +54,7 @@ struct EdgeModel {
 /// orientation, by its corners or between two edges.
 struct PlateModel : Rectangle {
   Located<std::string> name;
+  std::string origin;      ///< of a copy: the name of what it was made of; else empty
   std::vector<double> at;  ///< positions of the mid-planes, m
   double thickness = std::numeric_limits<double>::quiet_NaN();
   Located<std::string> material;  ///< the block's only one where the file names none
@@ -68,6 +69,7 @@ struct PlateModel : Rectangle {
 /// corners a polygon, a circle or a slot.
 struct OpeningModel {
   Located<std::string> name;
+  std::string origin;  ///< of a copy: the name of what it was made of; else empty
   Located<std::string> plate;
   std::vector<double> at;  ///< which of the plates, by position; empty: all
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
@@ -80,6 +82,7 @@ struct OpeningModel {
 /// Thickened region of a plate around a lug.
 struct PadModel : Rectangle {
   Located<std::string> name;
+  std::string origin;  ///< of a copy: the name of what it was made of; else empty
   Located<std::string> plate;
   double at = std::numeric_limits<double>::quiet_NaN();
   double thickness = std::numeric_limits<double>::quiet_NaN();  ///< in total, m
@@ -90,6 +93,7 @@ struct PadModel : Rectangle {
 /// rope.
 struct LugModel : Rectangle {
   Located<std::string> name;
+  std::string origin;  ///< of a copy: the name of what it was made of; else empty
   Located<std::string> pad;
   double at = std::numeric_limits<double>::quiet_NaN();
   double thickness = std::numeric_limits<double>::quiet_NaN();

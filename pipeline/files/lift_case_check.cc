@@ -45,7 +45,7 @@ class PointResolver {
     subject_ = fmt::format("rope {} {}", rope.name.value, does);
     if (p.body) return resolve_body(*p.body, p.point);
     if (p.name.value.empty()) return std::nullopt;
-    if (p.name.value.find('.') != std::string::npos) {
+    if (p.name.value.find('.') != std::string::npos && !is_lug(p.name.value)) {
       return resolve_part(p.name, false, Vector3::Zero());
     }
     return resolve_lug(p.name);
@@ -116,6 +116,11 @@ class PointResolver {
          names_hint(bodies_too ? "its bodies and hoists are" : "its hoists are",
                     parts_of(*crane, bodies_too), name.value));
     return std::nullopt;
+  }
+
+  /// Lugs that are copies have a point in their names, too: L1.mirrored.
+  bool is_lug(const std::string& name) const {
+    return case_.load.model && case_.load.model->find_lug(name);
   }
 
   std::optional<ResolvedPoint> resolve_lug(const Located<std::string>& name) {

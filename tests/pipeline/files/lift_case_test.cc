@@ -59,6 +59,21 @@ TEST(LiftCaseTest, CarriesEverythingThatTheFilesSay) {
   EXPECT_DOUBLE_EQ(*lift.compare->ropes[1].value.dynamic_load, 6000 * 9.80665);
 }
 
+TEST(LiftCaseTest, ARopeMayEndAtALugThatIsACopy) {
+  SampleLift lift;
+  const std::string& block = lift.block;
+  const std::size_t pad = block.find("  right_pad:"), lug = block.find("  L2:");
+  lift.block = block.substr(0, pad) + block.substr(block.find("lugs:"), lug - block.find("lugs:")) +
+               block.substr(block.find('\n', lug) + 1) +
+               "repeat:\n  - {parts: [left_pad, L1], count: 1, step: [4 m, 0 m, 0 m]}\n";
+  lift.lift_case = with(lift.lift_case, "to: L2", "to: L1.1");
+  const TemporaryFolder folder;
+  lift.write(folder);
+  const LiftCase read = read_lift_case(".");
+  EXPECT_EQ(read.ropes[1].lug(), "L1.1");
+  EXPECT_LT((read.ropes[1].path.back().point - Vector3(4, 0, 1.2)).norm(), 1e-12);
+}
+
 TEST(LiftCaseTest, ReadsALoadTable) {
   const TemporaryFolder folder;
   SampleLift lift;

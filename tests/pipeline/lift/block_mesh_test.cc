@@ -13,8 +13,7 @@
 #include "structure/index.h"
 #include "structure/mesh/files/nastran/writer.h"
 #include "structure/mesh/plates/shell_generator.h"
-#include "structure/response/shell_stress.h"
-#include "structure/response/unit_responses.h"
+#include "tests/pipeline/lug_stresses.h"
 #include "tests/pipeline/small_lift.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -32,19 +31,6 @@ std::shared_ptr<const BlockModel> read_block(const fs::path& file, std::string& 
   auto block = library.read_block(file, diagnostics);
   complaints = diagnostics.to_text();
   return block;
-}
-
-/// Stresses in the middle of each cell under the unit forces at the lugs.
-Eigen::MatrixXd lug_stresses(const structure::ElasticModel& model) {
-  const structure::UnitResponses responses(model);
-  structure::ShellStress recovery(model.space(), Eigen::Vector2d(0.5, 0.5));
-  const Eigen::MatrixXd motions = responses.displacements().leftCols(3 * model.lug_count());
-  const auto cells = static_cast<Eigen::Index>(model.space().shells().size());
-  Eigen::MatrixXd stresses(structure::shell_stress_rows * cells, motions.cols());
-  for (Eigen::Index cell = 0; cell < cells; ++cell)
-    stresses.middleRows<structure::shell_stress_rows>(structure::shell_stress_rows * cell) =
-        recovery.of_all(static_cast<int>(cell), motions);
-  return stresses;
 }
 
 // The box of the small lift by its plates, and as a deck of their shells: eleven digits of each
@@ -92,7 +78,8 @@ TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
   EXPECT_LT(
       (of_deck->lug_loads().colwise().norm() - of_plates->lug_loads().colwise().norm()).norm(),
       1e-9);
-  const Eigen::MatrixXd expected = lug_stresses(*of_plates), found = lug_stresses(*of_deck);
+  const Eigen::MatrixXd expected = test::lug_stresses(*of_plates),
+                        found = test::lug_stresses(*of_deck);
   ASSERT_EQ(found.rows(), expected.rows());
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
 }
