@@ -119,6 +119,18 @@ void check_shackle(const StockShackle& shackle, Diagnostics& diagnostics) {
 
 }  // namespace
 
+const std::vector<std::pair<std::string, SlingConstruction>>& sling_constructions() {
+  using enum SlingConstruction;
+  static const std::vector<std::pair<std::string, SlingConstruction>> all{
+      {"wire_rope", wire_rope},
+      {"cable_laid", cable_laid},
+      {"grommet", grommet},
+      {"hmpe_round", hmpe_round},
+      {"polyester_round", polyester_round},
+      {"short_link_chain", short_link_chain}};
+  return all;
+}
+
 StrengthRange strength_range(SlingConstruction construction) {
   switch (construction) {
     case SlingConstruction::wire_rope:
@@ -138,7 +150,6 @@ StrengthRange strength_range(SlingConstruction construction) {
 }
 
 Format<RiggingStock> rigging_stock_format() {
-  using enum SlingConstruction;
   Table<RiggingStock> table(
       "rigging",
       "Slings or shackles in stock, from which a lift is rigged: each file of "
@@ -151,12 +162,7 @@ Format<RiggingStock> rigging_stock_format() {
                 "standard, rule or certificates, and how far the figures can be trusted")
       .required("rule", &RiggingStock::rule, rule_format(), "that working loads follow")
       .optional("construction", &RiggingStock::construction,
-                choice<SlingConstruction>({{"wire_rope", wire_rope},
-                                           {"cable_laid", cable_laid},
-                                           {"grommet", grommet},
-                                           {"hmpe_round", hmpe_round},
-                                           {"polyester_round", polyester_round},
-                                           {"short_link_chain", short_link_chain}}),
+                choice<SlingConstruction>(sling_constructions()),
                 "of all slings of the file; of a grommet both parts are meant, of a round sling "
                 "too")
       .optional("slings", &RiggingStock::slings, named_tables(sling_format()), "by name")

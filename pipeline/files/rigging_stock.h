@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/declaration/format.h"
@@ -28,6 +29,9 @@ enum class SlingConstruction {
   polyester_round,  ///< endless core of polyester in a cover
   short_link_chain  ///< round steel
 };
+
+/// All constructions with their names in files.
+const std::vector<std::pair<std::string, SlingConstruction>>& sling_constructions();
 
 /// What a sling of a construction may bear over its mass per length, N m/kg.
 struct StrengthRange {
