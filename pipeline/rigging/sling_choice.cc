@@ -7,7 +7,6 @@
 
 #include "dynamics/simulation/history.h"
 #include "pipeline/checks/standard_checks.h"
-#include "pipeline/lift/lift_run.h"
 #include "pipeline/standards/rigging_chains.h"
 
 namespace blocklift::pipeline {

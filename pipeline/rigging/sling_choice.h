@@ -6,6 +6,7 @@
 
 #include "pipeline/checks/checks.h"
 #include "pipeline/files/lift_case.h"
+#include "pipeline/lift/lift_run.h"
 #include "pipeline/rigging/stock.h"
 #include "pipeline/standards/lift_facts.h"
 
