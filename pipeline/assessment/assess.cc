@@ -30,6 +30,7 @@
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/result_file.h"
 #include "pipeline/results/summary.h"
+#include "pipeline/results/word_document.h"
 #include "structure/output/part_files.h"
 #include "structure/output/vtu.h"
 
@@ -311,14 +312,10 @@ void write_pictures(const BlockRun& block, const fs::path& folder) {
 
 /// What a run may leave that not every run has: nobody is to sign an earlier run's calculation.
 std::vector<std::string> files_of_earlier_runs(const fs::path& folder) {
-  std::vector<std::string> names = {package_file,
-                                    mesh_page_file,
-                                    abaqus_load_cases,
-                                    nastran_load_cases,
-                                    load_case_displacements,
-                                    "block-static.vtu",
-                                    "block-dynamic.vtu",
-                                    std::string(layout::table_file)};
+  std::vector<std::string> names = {
+      package_file,       package_word_file,   mesh_page_file,
+      abaqus_load_cases,  nastran_load_cases,  load_case_displacements,
+      "block-static.vtu", "block-dynamic.vtu", std::string(layout::table_file)};
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("lug-") && name.ends_with(".vtu")) names.push_back(name);
@@ -338,8 +335,12 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
   summary[layout::run] = run;
   const fs::path summary_path = preparation.folder() / layout::summary_file;
   write_file(summary_path, summary.dump(2));
-  if (assessment.standard)
-    write_file(preparation.folder() / package_file, calculation_package(assessment));
+  if (assessment.standard) {
+    const TextDocument package = calculation_package(assessment);
+    write_file(preparation.folder() / package_file, markdown_of(package));
+    write_file(preparation.folder() / package_word_file,
+               word_document_of(package, calculation_foot(assessment)));
+  }
   const bool has_mesh = assessment.lift_case.load.model && assessment.lift_case.load.model->mesh;
   if (has_mesh)
     write_file(preparation.folder() / mesh_page_file,

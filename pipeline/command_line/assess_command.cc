@@ -15,6 +15,7 @@
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/progress_line.h"
 #include "pipeline/comparison/expected_figures.h"
 #include "pipeline/declaration/key_change.h"
 #include "pipeline/declaration/quantity.h"
@@ -28,31 +29,12 @@
 #include "pipeline/results/mesh_error.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/standard_summary.h"
-#include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 
 namespace {
-
-/// Shows each stage of a run in a bar of its own.
-class ProgressLine {
- public:
-  void show(const std::string& stage, double fraction, const std::string& detail) {
-    if (stage != stage_) {
-      bar_.reset();
-      bar_ = std::make_unique<ProgressBar>(stage);
-      stage_ = stage;
-    }
-    bar_->show(fraction, detail);
-  }
-  void finish() { bar_.reset(); }
-
- private:
-  std::string stage_;
-  std::unique_ptr<ProgressBar> bar_;
-};
 
 /// None for a rope that is slack at rest.
 double ratio_of(double dynamic, double at_rest) {

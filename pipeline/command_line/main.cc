@@ -18,6 +18,7 @@
 #include "pipeline/command_line/limits.h"
 #include "pipeline/command_line/new_command.h"
 #include "pipeline/command_line/processor.h"
+#include "pipeline/command_line/rig_command.h"
 #include "pipeline/command_line/simulate_command.h"
 #include "pipeline/command_line/stress_command.h"
 #include "pipeline/command_line/sweep_command.h"
@@ -164,6 +165,25 @@ void add_sweep(CLI::App& app, int& code) {
   command->add_option("--whole", options->whole)->group("");
   add_limits(*command);
   command->callback([options, &code] { code = sweep(*options); });
+}
+
+void add_rig(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "rig", "Choose slings and shackles from stock for a case, by its checks and its own loads");
+  auto options = std::make_shared<RigOptions>();
+  command->add_option("CASE", options->path, "case file, or folder with a case.yaml")->required();
+  command->add_option("--stock", options->stock,
+                      "folder with files of kind rigging (the shipped stock if not given)");
+  command
+      ->add_option("--construction", options->constructions,
+                   "of the slings; may be repeated (of the shipped stock wire_rope and cable_laid, "
+                   "of another all, if not given)")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(construction_names()));
+  command->add_option("--write", options->output,
+                      "file for the case with the chosen slings and shackles");
+  add_limits(*command);
+  command->callback([options, &code] { code = rig(*options); });
 }
 
 void add_report(CLI::App& app, int& code) {
@@ -319,6 +339,7 @@ int run(int argc, char** argv) {
   add_stress(app, code);
   add_hydro(app, code);
   add_report(app, code);
+  add_rig(app, code);
   add_sweep(app, code);
   add_schema(app);
   add_verify(app, code);

@@ -97,6 +97,13 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
     if (!rules) return std::nullopt;
     return if_sound(fmt::format("standard {}, {}", rules->name, rules->edition));
   }
+  if (kind == FileKind::rigging) {
+    const auto stock = library.read_rigging(path, diagnostics);
+    if (!stock) return std::nullopt;
+    return if_sound(fmt::format("rigging with {} and {}, by {}",
+                                count(stock->slings.size(), "sling"),
+                                count(stock->shackles.size(), "shackle"), stock->rule.name));
+  }
   if (kind == FileKind::study) {
     const std::optional<StudyFile> study = read_study_file(path, diagnostics);
     if (!study) return std::nullopt;

@@ -49,6 +49,7 @@ FileKind kind_of_file(const fs::path& path) {
   if (kind == "vessel") return FileKind::vessel;
   if (kind == "vessels") return FileKind::vessels;
   if (kind == "standard") return FileKind::standard;
+  if (kind == "rigging") return FileKind::rigging;
   return FileKind::lift_case;
 }
 

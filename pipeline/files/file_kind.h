@@ -16,6 +16,7 @@ enum class FileKind {
   vessel,
   vessels,
   standard,
+  rigging,
   study
 };
 

@@ -326,4 +326,15 @@ std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path&
              read_model(load(file, diagnostics), "standard", standard_rules_format(), diagnostics);
 }
 
+std::shared_ptr<const RiggingStock> ModelLibrary::read_rigging(const fs::path& file,
+                                                               Diagnostics& diagnostics) {
+  const std::shared_ptr<RiggingStock> stock =
+      read_model(load(file, diagnostics), "rigging", rigging_stock_format(), diagnostics);
+  if (!stock) return nullptr;
+  for (StockSling& sling : stock->slings)
+    sling.rope = resolve(sling.rope_choice, file.parent_path(), diagnostics);
+  check_rigging_stock(*stock, diagnostics);
+  return stock;
+}
+
 }  // namespace blocklift::pipeline

@@ -11,6 +11,7 @@
 #include "pipeline/declaration/key_change.h"
 #include "pipeline/files/block_model.h"
 #include "pipeline/files/crane_model.h"
+#include "pipeline/files/rigging_stock.h"
 #include "pipeline/files/rope_model.h"
 #include "pipeline/files/standard_rules.h"
 #include "pipeline/files/vessel_model.h"
@@ -105,6 +106,10 @@ class ModelLibrary {
                                              Diagnostics& diagnostics);
   std::shared_ptr<const StandardRules> read_standard(const std::filesystem::path& file,
                                                      Diagnostics& diagnostics);
+  /// Reads a stock with the ropes that it names, which are looked for beside it, too, and checks
+  /// that its figures hold together.
+  std::shared_ptr<const RiggingStock> read_rigging(const std::filesystem::path& file,
+                                                   Diagnostics& diagnostics);
 
  private:
   using Folders = std::vector<std::filesystem::path>;

@@ -12,6 +12,7 @@
 #include "pipeline/files/lift_case.h"
 #include "pipeline/files/mechanism_file.h"
 #include "pipeline/files/part_file.h"
+#include "pipeline/files/rigging_stock.h"
 #include "pipeline/files/rope_model.h"
 #include "pipeline/files/standard_rules.h"
 #include "pipeline/files/study_file.h"
@@ -41,6 +42,7 @@ std::vector<DeclaredKind> file_kinds() {
           {"vessel", vessel_model_format().description->table},
           {"vessels", vessel_group_format().description->table},
           {"standard", standard_rules_format().description->table},
+          {"rigging", rigging_stock_format().description->table},
           {"study", study_file_format().description->table}};
 }
 

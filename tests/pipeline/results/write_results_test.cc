@@ -115,6 +115,10 @@ TEST(WriteResults, HasTheCalculationWhereTheCaseNamesRules) {
         "## Load cases", "1. carry", "## Utilisations", "### sling R4", "hook C1.left",
         "EN 13001-2 4.2.2.2", "| prepared |", "hash of input and factors"})
     EXPECT_NE(calculation.find(text), std::string::npos) << text;
+  const std::string word = test::text_of_file("results/calculation.docx");
+  EXPECT_EQ(word.substr(0, 2), "PK");
+  for (const char* text : {"Design basis", "sling R4", "hash of input and factors", "small-lift   "})
+    EXPECT_NE(word.find(text), std::string::npos) << text;
   const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
   // What the two columns of a sling say of its motion is what the histories say.
   for (const auto& rope : summary.at("ropes"))

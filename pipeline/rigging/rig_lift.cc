@@ -1,0 +1,142 @@
+#include "pipeline/rigging/rig_lift.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/checks/gather_facts.h"
+#include "pipeline/coupling/block_flexibility.h"
+#include "pipeline/lift/block_preparation.h"
+#include "pipeline/results/lift_scene.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+/// What a run says of the slings.
+struct Loads {
+  std::vector<SlingDemand> demands;
+  std::optional<LiftFacts> facts;  ///< where the case has a standard
+};
+
+/// Runs one lift again and again with other slings; the block is made once.
+class LiftRunner {
+ public:
+  LiftRunner(LiftCase lift_case, const Progress& progress)
+      : assessment_{std::move(lift_case), {}, {}, {}, {}, 0}, progress_(progress) {
+    if (the_case().has_structure()) make_block();
+  }
+
+  const LiftCase& the_case() const { return assessment_.lift_case; }
+  LiftCase take_case() { return std::move(assessment_.lift_case); }
+
+  void set_rope(const std::string& name, const StockSling& sling) {
+    const auto rope =
+        std::find_if(assessment_.lift_case.ropes.begin(), assessment_.lift_case.ropes.end(),
+                     [&](const RopeInCase& one) { return one.name.value == name; });
+    rope->rope = sling.rope;
+    rope->rope_choice = sling.rope_choice;
+  }
+
+  Loads run() {
+    assessment_.lift.reset();
+    const LoadMass mass = assessment_.block.model
+                              ? load_mass(assessment_.block.model->mass_properties())
+                              : load_mass(the_case().load.vessel->model);
+    BuiltLift model =
+        prepare_lift(the_case(), mass, progress_, flexibility_ ? &*flexibility_ : nullptr);
+    assessment_.lift = run_lift(the_case(), std::move(model), progress_);
+    Loads loads{sling_demands(the_case(), *assessment_.lift), {}};
+    if (the_case().standard) loads.facts = gather_facts(assessment_);
+    return loads;
+  }
+
+ private:
+  void make_block() {
+    Diagnostics diagnostics;
+    BlockRun& block = assessment_.block;
+    block.model = make_block_model(*the_case().load.model, the_case().load.model_name.value,
+                                   the_case().structure, diagnostics);
+    if (!block.model) throw InputError(diagnostics);
+    const bool gives_way = the_case().dynamics.flexibility != Flexibility::rigid;
+    // A standard's computed skew asks for the block's compliance at its lugs.
+    if (!gives_way && !the_case().standard) return;
+    progress_("block: stiffness, factorisation, unit responses", 0, "");
+    block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+    if (gives_way) flexibility_ = make_flexibility(*block.responses, the_case().dynamics);
+  }
+
+  Assessment assessment_;
+  const Progress& progress_;
+  std::optional<LoadFlexibility> flexibility_;
+};
+
+/// One shackle a lug: where two slings end, the stronger.
+void add_shackle(ChosenShackle chosen, std::vector<ChosenShackle>& shackles) {
+  const auto known = std::find_if(shackles.begin(), shackles.end(),
+                                  [&](const ChosenShackle& one) { return one.lug == chosen.lug; });
+  if (known == shackles.end())
+    shackles.push_back(std::move(chosen));
+  else if (chosen.index > known->index || !chosen.pass())
+    *known = std::move(chosen);
+}
+
+void require_slings(const LiftCase& lift_case) {
+  const bool has_slings =
+      std::any_of(lift_case.ropes.begin(), lift_case.ropes.end(),
+                  [](const RopeInCase& rope) { return !rope.lug().empty() && !rope.winch; });
+  if (has_slings) return;
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(shown_path(lift_case.file)), 0, 0},
+                    "the case has no slings to choose",
+                    {"a sling is a rope that ends at a lug and has no winch of its own"});
+  throw InputError(diagnostics);
+}
+
+}  // namespace
+
+bool RiggedLift::pass() const {
+  return settled.stands &&
+         std::all_of(slings.begin(), slings.end(),
+                     [](const RiggedSling& sling) { return sling.chosen.pass(); }) &&
+         std::all_of(shackles.begin(), shackles.end(),
+                     [](const ChosenShackle& shackle) { return !shackle.index || shackle.pass(); });
+}
+
+RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
+  require_slings(lift_case);
+  RiggedLift rigged;
+  rigged.stock = std::move(stock);
+  LiftRunner runner(std::move(lift_case), progress);
+  Loads loads;
+  const auto choose = [&] {
+    loads = runner.run();
+    const SlingChecks checks(runner.the_case(), loads.facts);
+    Choice choice;
+    for (const SlingDemand& demand : loads.demands)
+      choice.push_back(choose_sling(rigged.stock, checks, demand).index);
+    return choice;
+  };
+  const auto choose_again = [&](const Choice& choice) {
+    for (std::size_t i = 0; i < choice.size(); ++i)
+      runner.set_rope(loads.demands[i].rope, rigged.stock.slings[choice[i]].sling);
+    return choose();
+  };
+  rigged.settled = settle(choose, choose_again, most_rigging_runs);
+
+  // Where the choice stands, these are the loads of the run with it.
+  const SlingChecks checks(runner.the_case(), loads.facts);
+  for (std::size_t i = 0; i < loads.demands.size(); ++i) {
+    const std::size_t index = rigged.settled.choice[i];
+    rigged.slings.push_back(
+        {loads.demands[i], {index, checks.of(rigged.stock.slings[index], loads.demands[i])}});
+    add_shackle(choose_shackle(rigged.stock, runner.the_case(), loads.facts, loads.demands[i]),
+                rigged.shackles);
+  }
+  rigged.lift_case = runner.take_case();
+  return rigged;
+}
+
+}  // namespace blocklift::pipeline

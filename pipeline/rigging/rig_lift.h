@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/lift/lift_run.h"
+#include "pipeline/rigging/settling.h"
+#include "pipeline/rigging/shackle_choice.h"
+#include "pipeline/rigging/sling_choice.h"
+#include "pipeline/rigging/stock.h"
+
+namespace blocklift::pipeline {
+
+/// A sling of the lift with what was chosen for it, and its loads with that choice.
+struct RiggedSling {
+  SlingDemand demand;
+  ChosenSling chosen;
+};
+
+/// A lift with slings and shackles from stock.
+struct RiggedLift {
+  LiftCase lift_case;  ///< with the chosen slings as its ropes
+  Stock stock;
+  std::vector<RiggedSling> slings;
+  std::vector<ChosenShackle> shackles;  ///< one a lug
+  Settled settled;
+
+  /// The choice stands, and all that was chosen passes.
+  bool pass() const;
+};
+
+/// Runs of the lift until the choice stands, at most.
+inline constexpr int most_rigging_runs = 15;
+
+/// Chooses for each sling of a case the weakest of a stock that passes the case's checks against its
+/// largest loads, at rest and in motion, running the lift again with the choice until it stands.
+/// Checks of the block and of cranes are not asked.
+/// @throws InputError if the case has no slings, or the block cannot be meshed; as run_lift does.
+RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress);
+
+}  // namespace blocklift::pipeline

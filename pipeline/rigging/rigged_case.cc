@@ -1,0 +1,117 @@
+#include "pipeline/rigging/rigged_case.h"
+
+#include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "pipeline/formats/atomic_file.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_found_from(const fs::path& folder, const RopeChoice& choice, const RopeModel& rope) {
+  if (!choice.model_name) return false;
+  Diagnostics ignored;
+  const RopeModel found = ModelLibrary::of_installation().resolve(choice, folder, ignored);
+  return !ignored.has_errors() && found.breaking_load == rope.breaking_load &&
+         found.axial_stiffness == rope.axial_stiffness;
+}
+
+YAML::Node model_node(const fs::path& folder, const StockSling& sling) {
+  YAML::Node node;
+  const RopeModel& rope = sling.rope;
+  if (is_found_from(folder, sling.rope_choice, rope)) {
+    node = sling.rope_choice.model_name->value;
+    return node;
+  }
+  node["axial_stiffness"] = fmt::format("{:.10g} MN", rope.axial_stiffness / 1e6);
+  node["damping_time"] = fmt::format("{:.10g} ms", rope.damping_time * 1e3);
+  node["breaking_load"] = fmt::format("{:.10g} kN", rope.breaking_load / 1e3);
+  if (rope.diameter) node["diameter"] = fmt::format("{:.10g} mm", *rope.diameter * 1e3);
+  if (rope.mass_per_length) node["mass"] = fmt::format("{:.10g} kg/m", *rope.mass_per_length);
+  if (rope.material) node["material"] = rope.material->value;
+  if (rope.termination) node["termination"] = rope.termination->value;
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
+/// A table with some of its entries changed. Entries that are one node by an anchor become nodes of
+/// their own: a change of one must not reach the others.
+YAML::Node with_entries(const YAML::Node& table,
+                        const std::vector<std::pair<std::string, YAML::Node>>& changes) {
+  YAML::Node changed(YAML::NodeType::Map);
+  for (const auto& entry : table) changed[entry.first.Scalar()] = YAML::Clone(entry.second);
+  for (const auto& [name, value] : changes) changed.remove(name);
+  for (const auto& [name, value] : changes) changed[name] = value;
+  return changed;
+}
+
+/// The ropes with the chosen models. Keys that come by a merge key from elsewhere stay there.
+YAML::Node rigged_ropes(const RiggedLift& rigged, const YAML::Node& ropes) {
+  const fs::path folder = rigged.lift_case.file.parent_path();
+  YAML::Node changed(YAML::NodeType::Map);
+  for (const auto& entry : ropes) {
+    const std::string name = entry.first.Scalar();
+    YAML::Node rope = YAML::Clone(entry.second);
+    for (const RiggedSling& sling : rigged.slings)
+      if (sling.demand.rope == name)
+        rope = with_entries(
+            rope, {{"model", model_node(folder, rigged.stock.slings[sling.chosen.index].sling)}});
+    rope.SetStyle(entry.second.Style());
+    changed[name] = rope;
+  }
+  return changed;
+}
+
+YAML::Node rigged_shackles(const RiggedLift& rigged, const YAML::Node& shackles) {
+  std::vector<std::pair<std::string, YAML::Node>> chosen;
+  for (const ChosenShackle& one : rigged.shackles) {
+    if (!one.index) continue;
+    const StockShackle& shackle = rigged.stock.shackles[*one.index].shackle;
+    YAML::Node node;
+    node["working_load"] = fmt::format("{:.10g} kN", shackle.working_load / 1e3);
+    node["breaking_load"] = fmt::format("{:.10g} kN", shackle.breaking_load / 1e3);
+    node.SetStyle(YAML::EmitterStyle::Flow);
+    chosen.emplace_back(one.lug, node);
+  }
+  return with_entries(shackles, chosen);
+}
+
+}  // namespace
+
+std::string rigged_case_text(const RiggedLift& rigged) {
+  YAML::Node root = YAML::Load(rigged.lift_case.yaml);
+  root["ropes"] = rigged_ropes(rigged, root["ropes"]);
+  const auto& standard = rigged.lift_case.standard;
+  if (standard && standard->rules.shackle && !rigged.stock.shackles.empty())
+    root["standard"]["shackles"] = rigged_shackles(rigged, root["standard"]["shackles"]);
+  return fmt::format("# Slings chosen from stock by blocklift rig, for the case {}.\n",
+                     rigged.lift_case.file.filename().string()) +
+         YAML::Dump(root) + '\n';
+}
+
+void write_rigged_case(const RiggedLift& rigged, const fs::path& file) {
+  AtomicFile aside(file);
+  {
+    std::ofstream stream(aside.temporary_path());
+    stream << rigged_case_text(rigged);
+  }
+  ModelLibrary library = ModelLibrary::of_installation();
+  Diagnostics diagnostics;
+  if (!read_lift_case(aside.temporary_path(), library, diagnostics)) {
+    diagnostics.error({std::make_shared<const std::string>(shown_path(file)), 0, 0},
+                      "the case with its slings from stock could not be read from here",
+                      {"write it into the folder of the case, beside which its models are found"});
+    throw InputError(diagnostics);
+  }
+  aside.commit();
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,121 @@
+#include "pipeline/rigging/sling_choice.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "dynamics/simulation/history.h"
+#include "pipeline/checks/standard_checks.h"
+#include "pipeline/standards/rigging_chains.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+/// The facts with one sling's rope replaced.
+SlingFacts with_rope(const LiftFacts& facts, const std::string& rope, const RopeModel& model) {
+  const auto found = std::find_if(facts.slings.begin(), facts.slings.end(),
+                                  [&](const SlingFacts& sling) { return sling.name == rope; });
+  SlingFacts sling = *found;
+  sling.breaking_load = model.breaking_load;
+  if (model.material) sling.material = model.material->value;
+  if (model.termination) sling.termination = model.termination->value;
+  sling.diameter = model.diameter;
+  return sling;
+}
+
+std::string obstacle_of_name(const char* key, const std::optional<Located<std::string>>& name,
+                             const std::vector<NamedFactor>& known, const std::string& rules) {
+  if (!name) return fmt::format("it has no {}, which {} needs for slings", key, rules);
+  if (find_by_name(known, name->value)) return {};
+  return fmt::format("{} has no {} \"{}\"", rules, key, name->value);
+}
+
+}  // namespace
+
+std::string SlingChecks::obstacle(const SlingInStock& candidate) const {
+  if (!case_.standard) return {};
+  const RopeModel& rope = candidate.sling.rope;
+  const StandardInCase& standard = *case_.standard;
+  if (standard.rules.sling) {
+    const SlingRules& rules = *standard.rules.sling;
+    std::string obstacle =
+        obstacle_of_name("material", rope.material, rules.material, standard.rules.name);
+    if (obstacle.empty())
+      obstacle =
+          obstacle_of_name("termination", rope.termination, rules.termination, standard.rules.name);
+    if (!obstacle.empty()) return obstacle;
+  }
+  if (!standard.bend_diameter) return {};
+  if (!rope.diameter) return "it has no diameter, which the bend diameter is held against";
+  if (*standard.bend_diameter < *rope.diameter)
+    return "it is bent round less than its own diameter";
+  return {};
+}
+
+std::vector<Check> SlingChecks::of(const SlingInStock& candidate, const SlingDemand& demand) const {
+  const double factor = case_.checks.rope_safety_factor;
+  const RopeModel& rope = candidate.sling.rope;
+  std::vector<Check> checks;
+  checks.push_back(check_at_most(fmt::format("breaking load / {:g}", factor),
+                                 std::max(demand.at_rest, demand.in_motion),
+                                 rope.breaking_load / factor, "N"));
+  if (!has_rules()) {
+    checks.push_back(check_at_most(fmt::format("working load at rest, {}", candidate.rule),
+                                   demand.at_rest, candidate.sling.working_load, "N"));
+    return checks;
+  }
+  const LoadFactors factors(*case_.standard, *facts_);
+  StandardAssessment assessment;
+  assessment.name = case_.standard->rules.name;
+  assessment.chains.push_back(sling_chain(factors, with_rope(*facts_, demand.rope, rope)));
+  const Chain& chain = assessment.chains.front();
+  for (Check& check : checks_of(assessment)) {
+    check.name = fmt::format(
+        "{}, breaking load / {:.3g}, by {}", assessment.name, rope.breaking_load / check.limit,
+        chain.simulated_utilisation() > chain.standard_utilisation() ? "the simulation"
+                                                                     : "its factors");
+    checks.push_back(std::move(check));
+  }
+  return checks;
+}
+
+ChosenSling choose_sling(const Stock& stock, const SlingChecks& checks, const SlingDemand& demand) {
+  std::optional<ChosenSling> nearest;
+  double least_use = 0;
+  std::string obstacle;
+  for (std::size_t i = 0; i < stock.slings.size(); ++i) {
+    const SlingInStock& candidate = stock.slings[i];
+    if (const std::string reason = checks.obstacle(candidate); !reason.empty()) {
+      obstacle = fmt::format("{}: {}", candidate.name(), reason);
+      continue;
+    }
+    ChosenSling chosen{i, checks.of(candidate, demand)};
+    if (chosen.pass()) return chosen;
+    const double use = governing_check(chosen.checks)->utilisation;
+    if (nearest && !(use < least_use)) continue;
+    nearest = std::move(chosen);
+    least_use = use;
+  }
+  if (nearest) return *nearest;
+  Diagnostics diagnostics;
+  diagnostics.error(
+      {std::make_shared<const std::string>("stock"), 0, 0},
+      fmt::format("no sling of the stock can be held against the checks of {}", demand.rope),
+      {obstacle});
+  throw InputError(diagnostics);
+}
+
+std::vector<SlingDemand> sling_demands(const LiftCase& lift_case, const LiftRun& lift) {
+  const auto at_rest = dynamics::find_largest_tensions(lift.static_history);
+  const auto in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
+  std::vector<SlingDemand> demands;
+  for (const LiftRope& rope : lift.model.ropes) {
+    if (rope.lug.empty() || lift_case.find_rope(rope.name)->winch) continue;
+    const auto i = static_cast<std::size_t>(rope.rope);
+    demands.push_back({rope.name, rope.lug, at_rest[i].tension, in_motion[i].tension});
+  }
+  return demands;
+}
+
+}  // namespace blocklift::pipeline
