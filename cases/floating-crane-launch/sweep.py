@@ -15,9 +15,10 @@ import tempfile
 CASE = pathlib.Path(__file__).resolve().parent / "case.yaml"
 SLINGS = [f"H{i}" for i in range(1, 9)]
 HANGING = 60.0  # s, at the end of the run
-WAVE = "{amplitude: 0.5 m, frequency: 0.628 rad/s, heading: 45 deg}"
+WAVE = "{amplitude: 0.5 m, frequency: 0.628 rad/s, heading: 45 deg, phase: 0 deg}"
 DRAUGHTS = "  draughts: [0.8 m, 1.6 m, 2.4 m]\n"  # she stays dry here: what she radiates need not be known
-HOIST = "{drives: [F1.left, F1.right, F2.left, F2.right], by: -11 m}"
+HOIST = "{drives: [F1.left, F1.right, F2.left, F2.right], by: -9 m}"
+SHARED = " equalised: [left, right],"  # hooks are independent here
 
 
 def wave(frequency="0.628 rad/s", heading="45 deg"):
@@ -25,7 +26,7 @@ def wave(frequency="0.628 rad/s", heading="45 deg"):
 
 
 def speed(value):
-    return HOIST, HOIST.replace("-11 m", f"-11 m, speed: {value}")
+    return HOIST, HOIST.replace("-9 m", f"-11 m, speed: {value}")
 
 
 def stiffness(value):
@@ -45,10 +46,12 @@ VARIANTS = [
 
 def hanging_case(text, change):
     """The case's text up to the hoist, a pause after it, and one passage changed."""
-    first = text.index("  - stage: carry sideways")
+    first = text.index("  - stage: hoist")
     rest = text.index("settle:")
     text = text[:first] + f"  - stage: hang\n    pause: {HANGING:g} s\n" + text[rest:]
-    for passage, replacement in [(DRAUGHTS, "")] + ([change] if change else []):
+    # Independent hooks, hoisted at once.
+    base = [(DRAUGHTS, ""), (SHARED, "")] + ([] if change and change[0] == HOIST else [(HOIST, HOIST.replace("-9 m", "-11 m"))])
+    for passage, replacement in base + ([change] if change else []):
         if passage not in text:
             sys.exit(f'{CASE}: the passage "{passage}" is not in it any more')
         text = text.replace(passage, replacement)
