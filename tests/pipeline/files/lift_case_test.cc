@@ -284,6 +284,25 @@ TEST(LiftCaseErrors, HoistsThatCannotBeEqualised) {
             "1 error\n");
 }
 
+TEST(LiftCaseErrors, FaultsThatCannotBe) {
+  const auto complaints = [](const std::string& faults) {
+    return complaints_about_case("settle: 10 s\n", "settle: 10 s\nfaults:\n  - " + faults + "\n");
+  };
+  EXPECT_EQ(complaints("{at: 5 s}"),
+            "case.yaml:22:5: error: the fault says not what goes wrong\n"
+            "    give parts, ropes that break, or stops, drives that come to a stand\n1 error\n");
+  EXPECT_EQ(
+      complaints("{at: 5 s, parts: [R11], stops: [C1.trvel]}"),
+      "case.yaml:22:23: error: the fault parts \"R11\", which the case does not have\n"
+      "    its ropes and hoists are R1, R2, C1.left, C1.right; did you mean \"R1\"?\n"
+      "case.yaml:22:37: error: the fault stops \"C1.trvel\", which the case does not have\n"
+      "    its drives and winches are C1.travel, C1.traverse, C1.left, C1.right, all; did you "
+      "mean \"C1.travel\"?\n2 errors\n");
+  EXPECT_THAT(complaints("{at: 5000 s, parts: [R1]}"), HasSubstr("after the end of the operation"));
+  EXPECT_THAT(complaints("{at: 5 s, stops: [all, C1.travel]}"),
+              HasSubstr("\"C1.travel\" stops twice"));
+}
+
 TEST(LiftCaseErrors, NothingHoldsTheLoad) {
   EXPECT_EQ(complaints_about_case(
                 "ropes:\n  R1: {from: C1.left, to: L1, model: ropes/tackle, length: 2 m}\n"

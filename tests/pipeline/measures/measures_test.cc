@@ -255,6 +255,39 @@ TEST(MeasureChecks, ASupportThatLiftsOffFails) {
   FAIL() << "there is no such check";
 }
 
+// Drives that stop stay where they are, and the load is left to one sling where the other parts.
+TEST(Faults, StopDrivesAndPartRopes) {
+  test::SampleLift parts;
+  parts.lift_case +=
+      "faults:\n"
+      "  - {at: 6 s, stops: [all], within: 1 s}\n"
+      "  - {at: 20 s, parts: [R1]}\n";
+  const test::TemporaryFolder folder;
+  parts.write(folder);
+  const LiftCase lift_case = read_lift_case("case.yaml");
+  LoadMass load;
+  load.mass = 10e3;
+  load.p_BoBcm_B = {2, 0, 0.5};
+  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
+  const LiftRun run = run_lift(lift_case, build_lift(lift_case, load), [](auto&&...) {});
+  const dynamics::History& history = run.dynamic_history();
+  const dynamics::RopeHistory& tackle = history.ropes[0];
+  const Eigen::Index last = history.sample_count() - 1;
+  EXPECT_EQ(tackle.unstretched_rate[last], 0);
+  // It hoists from 5 s on and is stopped early in its acceleration.
+  EXPECT_LT(tackle.unstretched_length[last], 5);
+  EXPECT_GT(tackle.unstretched_length[last], 4.8);
+  const dynamics::RopeHistory& parted = history.rope("R1");
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    if (history.time[i] > 20 + 1e-3) EXPECT_EQ(parted.tension[i], 0);
+    if (history.time[i] < 20 - 1e-3) EXPECT_GT(parted.tension[i], 0);
+  }
+  ASSERT_EQ(run.dynamic_result.parted.size(), 1U);
+  EXPECT_NEAR(run.dynamic_result.parted[0].tension, 5e3 * g, 0.02 * 5e3 * g);
+  // The load swings below the other lug: more than its weight at the lowest point.
+  EXPECT_GT(history.rope("R2").tension.maxCoeff(), 10e3 * g);
+}
+
 TEST(LoadChart, TakesTheCapacityOfTheNextLargerRadius) {
   const LoadChart chart{{{6, 80e3}, {7, 50e3}}};
   EXPECT_EQ(chart.capacity(1), 80e3);
