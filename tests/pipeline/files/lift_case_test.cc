@@ -298,9 +298,10 @@ TEST(LiftCaseErrors, FaultsThatCannotBe) {
       "case.yaml:22:37: error: the fault stops \"C1.trvel\", which the case does not have\n"
       "    its drives and winches are C1.travel, C1.traverse, C1.left, C1.right, all; did you "
       "mean \"C1.travel\"?\n2 errors\n");
-  EXPECT_THAT(complaints("{at: 5000 s, parts: [R1]}"), HasSubstr("after the end of the operation"));
+  EXPECT_THAT(complaints("{at: 5000 s, parts: [R1]}"),
+              ::testing::HasSubstr("after the end of the operation"));
   EXPECT_THAT(complaints("{at: 5 s, stops: [all, C1.travel]}"),
-              HasSubstr("\"C1.travel\" stops twice"));
+              ::testing::HasSubstr("\"C1.travel\" stops twice"));
 }
 
 TEST(LiftCaseErrors, NothingHoldsTheLoad) {

@@ -279,8 +279,11 @@ TEST(Faults, StopDrivesAndPartRopes) {
   EXPECT_GT(tackle.unstretched_length[last], 4.8);
   const dynamics::RopeHistory& parted = history.rope("R1");
   for (Eigen::Index i = 0; i <= last; ++i) {
-    if (history.time[i] > 20 + 1e-3) EXPECT_EQ(parted.tension[i], 0);
-    if (history.time[i] < 20 - 1e-3) EXPECT_GT(parted.tension[i], 0);
+    if (history.time[i] > 20 + 1e-3) {
+      EXPECT_EQ(parted.tension[i], 0);
+    } else if (history.time[i] < 20 - 1e-3) {
+      EXPECT_GT(parted.tension[i], 0);
+    }
   }
   ASSERT_EQ(run.dynamic_result.parted.size(), 1U);
   EXPECT_NEAR(run.dynamic_result.parted[0].tension, 5e3 * g, 0.02 * 5e3 * g);
