@@ -15,6 +15,8 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include "pipeline/declaration/text_file.h"
+
 namespace blocklift::pipeline {
 namespace {
 
@@ -194,12 +196,19 @@ Mark Document::mark_of(const YAML::Node& node) const {
   return {file, mark.line + 1, mark.column + 1};
 }
 
+std::optional<TextFile> load_text(const fs::path& path, Diagnostics& diagnostics) {
+  const auto file = std::make_shared<const std::string>(shown_path(path));
+  std::optional<std::string> text = read_text(path, file, diagnostics);
+  if (!text || !is_text(*text, file, diagnostics)) return std::nullopt;
+  return TextFile{file, std::move(*text)};
+}
+
 std::optional<Document> load_document(const fs::path& path, Diagnostics& diagnostics) {
+  std::optional<TextFile> loaded = load_text(path, diagnostics);
+  if (!loaded) return std::nullopt;
   Document document;
-  document.file = std::make_shared<const std::string>(shown_path(path));
-  std::optional<std::string> text = read_text(path, document.file, diagnostics);
-  if (!text || !is_text(*text, document.file, diagnostics)) return std::nullopt;
-  document.text = std::move(*text);
+  document.file = loaded->file;
+  document.text = std::move(loaded->text);
 
   YAML::Mark second = YAML::Mark::null_mark();
   try {

@@ -35,6 +35,7 @@ FileKind kind_of_file(const fs::path& path) {
   if (fs::is_regular_file(path, error) && (path.extension() == ".urdf" || begins_as_xml(path))) {
     return FileKind::robot;
   }
+  if (path.extension() == ".csv") return FileKind::rigging;
   Diagnostics ignored;  // the reader of the file says the same again
   const std::optional<Document> document = load_document(path, ignored);
   if (!document || !document->root.IsMap()) return FileKind::lift_case;

@@ -11,6 +11,7 @@
 
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/reading.h"
+#include "pipeline/files/rigging_table.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {
@@ -59,6 +60,18 @@ std::shared_ptr<T> read_model(const std::optional<Document>& document, const std
                                  : names_hint("its parameters are", known, parameter.name.value)});
   }
   return model;
+}
+
+/// A place in a table that was made a document: its column says nothing about the table.
+Mark without_column(Mark mark) {
+  mark.column = std::min(mark.column, 1);
+  return mark;
+}
+
+void forget_columns(RiggingStock& stock) {
+  for (StockSling& sling : stock.slings) sling.name.mark = without_column(sling.name.mark);
+  for (StockShackle& shackle : stock.shackles)
+    shackle.name.mark = without_column(shackle.name.mark);
 }
 
 /// The models of a kind in a folder of models: folders that hold `crane.yaml`, and YAML files below
@@ -328,12 +341,22 @@ std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path&
 
 std::shared_ptr<const RiggingStock> ModelLibrary::read_rigging(const fs::path& file,
                                                                Diagnostics& diagnostics) {
+  const bool is_table = file.extension() == ".csv";
+  Diagnostics own;
   const std::shared_ptr<RiggingStock> stock =
-      read_model(load(file, diagnostics), "rigging", rigging_stock_format(), diagnostics);
-  if (!stock) return nullptr;
-  for (StockSling& sling : stock->slings)
-    sling.rope = resolve(sling.rope_choice, file.parent_path(), diagnostics);
-  check_rigging_stock(*stock, diagnostics);
+      read_model(is_table ? load_rigging_table(file, own) : load(file, own), "rigging",
+                 rigging_stock_format(), own);
+  if (stock && is_table) forget_columns(*stock);
+  if (stock) {
+    for (StockSling& sling : stock->slings)
+      sling.rope = resolve(sling.rope_choice, file.parent_path(), own);
+    check_rigging_stock(*stock, own);
+  }
+  for (const Diagnostic& error : own.errors()) {
+    const bool in_table = is_table && error.mark.file && *error.mark.file == shown_path(file);
+    diagnostics.error(in_table ? without_column(error.mark) : error.mark, error.message,
+                      error.hints);
+  }
   return stock;
 }
 

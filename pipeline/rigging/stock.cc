@@ -28,7 +28,9 @@ std::map<std::string, fs::path> stock_files(const std::vector<fs::path>& folders
     std::error_code error;
     for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
          entry.increment(error)) {
-      if (entry->path().extension() == ".yaml" && kind_of_file(entry->path()) == FileKind::rigging)
+      const fs::path extension = entry->path().extension();
+      if ((extension == ".yaml" || extension == ".csv") &&
+          kind_of_file(entry->path()) == FileKind::rigging)
         files.emplace(entry->path().filename().string(), entry->path());
     }
     if (error)

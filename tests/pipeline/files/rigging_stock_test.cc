@@ -1,4 +1,4 @@
-// Rigging in stock: what the reader refuses, and that the shipped stock holds together.
+// Rigging in stock, as YAML and as a table: what the reader refuses, and that the shipped stock holds together.
 
 #include "pipeline/files/rigging_stock.h"
 
@@ -104,6 +104,64 @@ TEST(RiggingStockTest, RefusesAStockOfNothingKnown) {
                   "{kind: rigging, title: none, source: s, rule: {name: r, safety_factor: 4, "
                   "formula: f}}\n"),
               HasSubstr("the stock has neither slings nor shackles"));
+}
+
+// The sample's chain as a spreadsheet of a country with decimal commas would write it.
+const std::string sample_table =
+    "title;What the yard has;;\r\nsource;\"certificates; loft 2\";;\r\nrule;EN 818-4;;\r\n"
+    "safety_factor;4;;\r\nformula;as certified\r\nconstruction;short_link_chain\r\n;;;\r\n"
+    "sling;working_load;breaking_load;axial_stiffness;mass;diameter\r\n"
+    "chain-8;2.0 t;80.42 kN;5.5 MN;1.40 kg/m;\r\n"
+    "chain-10;3.15 t;125.7 kN;8.5 MN;2.19 kg/m;10 mm\r\n";
+
+std::string complaints_about_table(const std::string& text) {
+  const TemporaryFolder folder;
+  folder.write("stock.csv", text);
+  Diagnostics diagnostics;
+  ModelLibrary({}).read_rigging("stock.csv", diagnostics);
+  return diagnostics.to_text();
+}
+
+TEST(RiggingTableTest, IsReadAsTheSameStock) {
+  const TemporaryFolder folder;
+  folder.write("stock.csv", sample_table);
+  Diagnostics diagnostics;
+  const auto stock = ModelLibrary({}).read_rigging("stock.csv", diagnostics);
+  ASSERT_EQ(diagnostics.to_text(), "");
+  EXPECT_EQ(stock->source, "certificates; loft 2");
+  ASSERT_EQ(stock->slings.size(), 2U);
+  EXPECT_EQ(stock->slings[0].name.value, "chain-8");
+  EXPECT_DOUBLE_EQ(stock->slings[0].rope.breaking_load, 80.42e3);
+  EXPECT_FALSE(stock->slings[0].rope.diameter);
+  EXPECT_DOUBLE_EQ(*stock->slings[1].rope.diameter, 0.010);
+  EXPECT_DOUBLE_EQ(stock->slings[1].working_load, 3150 * 9.80665);
+}
+
+TEST(RiggingTableTest, HasShacklesAndCommasToo) {
+  EXPECT_EQ(complaints_about_table(
+                "title,\"Bow \"\"shackles\"\"\"\nsource,tags\nrule,RR-C-271\nsafety_factor,4\n"
+                "formula,none\n\nshackle,working_load,breaking_load,body,pin,inside_width,mass\n"
+                "bow-8,8.5 t,34 t,25 mm,28.6 mm,43 mm,2.4 kg\n"),
+            "");
+}
+
+TEST(RiggingTableTest, NamesTheLineOfWhatIsWrong) {
+  EXPECT_THAT(complaints_about_table(with(sample_table, "3.15 t", "4.15 t")),
+              HasSubstr("stock.csv:10:1: error: chain-10: breaking load"));
+  EXPECT_THAT(complaints_about_table(with(sample_table, "80.42 kN", "80.42 m")),
+              HasSubstr("stock.csv:9:1: error"));
+  EXPECT_THAT(
+      complaints_about_table(with(sample_table, "source;\"certificates; loft 2\";;\r\n", "")),
+      HasSubstr("lacks the key \"source\""));
+  EXPECT_THAT(complaints_about_table(with(sample_table, "loft 2\"", "loft 2")),
+              HasSubstr("stock.csv:2:1: error: a quotation does not end on its line"));
+  EXPECT_THAT(
+      complaints_about_table(with(sample_table, "2.19 kg/m;10 mm", "2.19 kg/m;10 mm;x")),
+      HasSubstr("stock.csv:10:1: error: the row of \"chain-10\" has 7 cells, and there are 6 "
+                "headings"));
+  EXPECT_THAT(complaints_about_table(with(sample_table, ";mass;", ";weight;")),
+              HasSubstr("\"weight\""));
+  EXPECT_THAT(complaints_about_table(""), HasSubstr("the file is empty"));
 }
 
 // Every shipped file is read without complaint, so its strength lies in the range of its

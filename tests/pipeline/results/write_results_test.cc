@@ -117,7 +117,8 @@ TEST(WriteResults, HasTheCalculationWhereTheCaseNamesRules) {
     EXPECT_NE(calculation.find(text), std::string::npos) << text;
   const std::string word = test::text_of_file("results/calculation.docx");
   EXPECT_EQ(word.substr(0, 2), "PK");
-  for (const char* text : {"Design basis", "sling R4", "hash of input and factors", "small-lift   "})
+  for (const char* text :
+       {"Design basis", "sling R4", "hash of input and factors", "small-lift   "})
     EXPECT_NE(word.find(text), std::string::npos) << text;
   const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
   // What the two columns of a sling say of its motion is what the histories say.

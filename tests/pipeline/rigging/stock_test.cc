@@ -27,16 +27,21 @@ TEST(StockTest, GathersFilesTheWeakestFirst) {
   const TemporaryFolder folder;
   folder.write("loft/a.yaml", sling_file({300, 100}));
   folder.write("loft/b.yaml", sling_file({200}));
+  folder.write("loft/c.csv",
+               "title,t\nsource,a test\nrule,a fifth\nsafety_factor,5\nformula,f\n"
+               "construction,wire_rope\nsling,working_load,breaking_load,axial_stiffness,mass\n"
+               "s250,50 kN,250 kN,25 MN,1.6 kg/m\n");
   folder.write("loft/notes.yaml", "kind: rope\n");
   folder.write("loft/notes.txt", "nothing\n");
   ModelLibrary library({BLOCKLIFT_MODELS});
   Diagnostics diagnostics;
   const Stock stock = read_stock({"loft"}, {}, library, diagnostics);
   ASSERT_EQ(diagnostics.to_text(), "");
-  ASSERT_EQ(stock.slings.size(), 3U);
+  ASSERT_EQ(stock.slings.size(), 4U);
   EXPECT_EQ(stock.slings[0].name(), "s100");
   EXPECT_EQ(stock.slings[1].name(), "s200");
-  EXPECT_EQ(stock.slings[2].name(), "s300");
+  EXPECT_EQ(stock.slings[2].name(), "s250");
+  EXPECT_EQ(stock.slings[3].name(), "s300");
   EXPECT_EQ(stock.slings[0].rule, "a fifth");
 }
 
