@@ -113,6 +113,7 @@ constexpr double held_mass = 3.0, held_inertia = 2.0, k11 = 40.0, k15 = -12.0, k
 
 LiftSystem held_body(const Matrix6& damping, const Vector3& force, double duration) {
   MechanismBuilder builder;
+  builder.set_gravity(Vector3::Zero());
   builder.add_body({.name = "body",
                     .joint = {.kind = JointKind::free},
                     .mass = held_mass,
