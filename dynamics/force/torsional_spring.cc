@@ -1,25 +1,10 @@
 #include "dynamics/force/torsional_spring.h"
 
-#include <cmath>
-
 #include "dynamics/errors.h"
 #include "dynamics/force/spring.h"
+#include "dynamics/spatial/rotation_vector.h"
 
 namespace blocklift::dynamics {
-namespace {
-
-// How the rotation vector theta of R changes by a small turn of R from the left: the inverse of the
-// left Jacobian of SO(3) (Chirikjian 2012, section 10.2).
-Matrix3 inverse_left_jacobian(const Vector3& theta) {
-  const double angle = theta.norm();
-  const double square = angle < 1e-4
-                            ? 1.0 / 12.0 + angle * angle / 720.0
-                            : (1.0 - 0.5 * angle / std::tan(0.5 * angle)) / (angle * angle);
-  const Matrix3 cross = skew(theta);
-  return Matrix3::Identity() - 0.5 * cross + square * cross * cross;
-}
-
-}  // namespace
 
 TorsionalSpring::TorsionalSpring(Definition definition) : definition_(std::move(definition)) {
   require_spring_value(definition_.name, "stiffness", definition_.stiffness);

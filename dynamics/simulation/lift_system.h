@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "dynamics/force/applied_load.h"
+#include "dynamics/force/linear_restraint.h"
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
 #include "dynamics/force/torsional_spring.h"
@@ -29,7 +30,7 @@ using ForceElements =
                std::vector<WindArea>, std::vector<WindLoad>, std::vector<HullForce>,
                std::vector<DiffractionForce>, std::vector<MorisonMember>,
                std::vector<QuadraticDamping>, std::vector<MooringLine>, std::vector<TuggerLine>,
-               std::vector<AppliedLoad>, std::vector<JointLoad>>;
+               std::vector<AppliedLoad>, std::vector<JointLoad>, std::vector<LinearRestraint>>;
 
 /// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the
 /// works too.

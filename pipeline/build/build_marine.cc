@@ -329,11 +329,25 @@ void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vess
   std::get<std::vector<dynamics::QuadraticDamping>>(elements).emplace_back(damping);
 }
 
+void MarineBuilder::add_restraint(const VesselInCase& vessel, BodyIndex body,
+                                  dynamics::ForceElements& elements) const {
+  const RestraintInCase& model = *vessel.restraint;
+  const dynamics::Pose& X_WB = start(vessel.name.value);
+  dynamics::LinearRestraint::Definition restraint;
+  restraint.name = "restraint of " + vessel.name.value;
+  restraint.point = {body, model.about.value_or(vessel.model->model.centre_of_mass)};
+  restraint.X_WR = {X_WB.R, X_WB.apply(restraint.point.p_BoQ_B)};
+  restraint.stiffness = RestraintInCase::matrix(model.stiffness);
+  restraint.damping = RestraintInCase::matrix(model.damping);
+  std::get<std::vector<dynamics::LinearRestraint>>(elements).emplace_back(restraint);
+}
+
 void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool at_rest,
                                dynamics::ForceElements& elements) {
   const std::string& name = vessel.name.value;
   add_hull(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
            displaced_mass_.at(name), at_rest, elements);
+  if (vessel.restraint) add_restraint(vessel, body, elements);
   for (const MemberInCase& model : vessel.members) {
     dynamics::MorisonMember::Definition member;
     member.name = "member of " + name;

@@ -132,6 +132,8 @@ class MarineBuilder {
   std::shared_ptr<const dynamics::HullClusters> clusters(const Vessel& vessel);
   void add_vessel(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
                   dynamics::ForceElements& elements);
+  void add_restraint(const VesselInCase& vessel, dynamics::BodyIndex body,
+                     dynamics::ForceElements& elements) const;
   void add_lines(const BodyOf& point, dynamics::ForceElements& elements) const;
   /// A body that makes waves, at rest.
   struct Radiating {

@@ -65,6 +65,7 @@ const DimensionEntry& entry_of(Dimension dimension) {
        {{2, 0, 1, -1}, {"a density of a wave spectrum", "m^2 s/rad", "0.8 m^2 s/rad"}}},
       {Dimension::quadratic_rotational_damping,
        {{2, 1, 0, -2}, {"a quadratic rotational damping", "N m s^2/rad^2", "5 MN m s^2/rad^2"}}},
+      {Dimension::impulse, {{1, 1, -1, 0}, {"an impulse", "N s", "20 kN s"}}},
   };
   return entries.at(dimension);
 }
@@ -72,7 +73,7 @@ const DimensionEntry& entry_of(Dimension dimension) {
 /// The noun for exponents that a file has where others are due; empty if nobody has a name for
 /// them.
 std::string noun_of(const Exponents& exponents) {
-  for (int i = 0; i <= static_cast<int>(Dimension::quadratic_rotational_damping); ++i) {
+  for (int i = 0; i <= static_cast<int>(Dimension::impulse); ++i) {
     const DimensionEntry& entry = entry_of(static_cast<Dimension>(i));
     if (entry.exponents == exponents) return entry.text.noun;
   }

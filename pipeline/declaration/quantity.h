@@ -46,6 +46,7 @@ enum class Dimension {
   angle_per_length,
   wave_spectrum,
   quadratic_rotational_damping,
+  impulse,
 };
 
 /// Exponents of metre, kilogram, second and radian: what a unit or the result of an expression

@@ -110,6 +110,20 @@ struct MemberInCase {
   double drag_coefficient = 0;
 };
 
+/// Rows of a matrix of six freedoms as a file has them: surge, sway, heave, roll, pitch, yaw.
+using MatrixInCase = std::array<std::array<Quantity, 6>, 6>;
+
+/// Spring and damper of six freedoms that hold a vessel at its place.
+struct RestraintInCase {
+  std::optional<Located<MatrixInCase>> stiffness, damping;
+  std::optional<Vector3> about;  ///< in the vessel's frame, m; none: its centre of mass
+  bool symmetric = true;
+
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  /// (moment; force) by (turn; displacement), SI; zero if it is not given.
+  static Matrix6 matrix(const std::optional<Located<MatrixInCase>>& given);
+};
+
 enum class RadiationMethod { none, database, direct };
 
 /// A vessel afloat.
@@ -129,6 +143,7 @@ struct VesselInCase {
   std::shared_ptr<const dynamics::HydrodynamicDatabase> hydrodynamics;
   int hydrodynamic_body = 0;
   DampingInCase damping, quadratic_damping;
+  std::optional<RestraintInCase> restraint;
   std::vector<MemberInCase> members;
 };
 

@@ -1,5 +1,12 @@
 #include "pipeline/files/marine_parts.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "dynamics/force/linear_restraint.h"
+
 namespace blocklift::pipeline {
 namespace {
 
@@ -180,6 +187,97 @@ Format<DampingInCase> damping_format(const char* noun, Dimension linear, Dimensi
   return table.format();
 }
 
+/// What stands in a matrix where a displacement or a turn makes a force or a moment.
+struct MatrixDimensions {
+  Dimension straight, mixed, turning;
+
+  std::vector<Dimension> all() const { return {straight, mixed, turning, Dimension::ratio}; }
+  Dimension at(std::size_t row, std::size_t column) const {
+    if (row < 3 && column < 3) return straight;
+    return row < 3 || column < 3 ? mixed : turning;
+  }
+};
+constexpr MatrixDimensions stiffness_dimensions{Dimension::stiffness, Dimension::force,
+                                                Dimension::rotational_stiffness};
+constexpr MatrixDimensions damping_dimensions{Dimension::damping, Dimension::impulse,
+                                              Dimension::rotational_damping};
+
+Format<MatrixInCase> matrix_format(const MatrixDimensions& dimensions) {
+  return array_of<std::array<Quantity, 6>, 6>(array_of<Quantity, 6>(quantity_of(dimensions.all())));
+}
+
+void check_matrix(const char* key, const std::optional<Located<MatrixInCase>>& matrix,
+                  const MatrixDimensions& dimensions, Reading& reading) {
+  if (!matrix) return;
+  for (std::size_t row = 0; row < 6; ++row) {
+    for (std::size_t column = 0; column < 6; ++column) {
+      const Quantity& entry = matrix->value[row][column];
+      const Dimension due = dimensions.at(row, column);
+      if (entry.dimension == due || (entry.dimension == Dimension::ratio && entry.value == 0)) {
+        continue;
+      }
+      reading.error(matrix->mark,
+                    fmt::format("row {}, column {} of {} is {}; {} is due, or 0", row + 1,
+                                column + 1, key, text_of(entry.dimension).noun,
+                                text_of(due).noun + " such as \"" + text_of(due).example + "\""),
+                    {"rows and columns are surge, sway, heave, roll, pitch, yaw"});
+      return;
+    }
+  }
+}
+
+void check_restraint(const RestraintInCase& restraint, Reading& reading, const Mark& mark) {
+  if (!restraint.stiffness && !restraint.damping) {
+    reading.error(mark, "a restraint needs its stiffness or its damping");
+  }
+  check_matrix("stiffness", restraint.stiffness, stiffness_dimensions, reading);
+  check_matrix("damping", restraint.damping, damping_dimensions, reading);
+  const auto damping = RestraintInCase::matrix(restraint.damping);
+  if (restraint.damping && dynamics::LinearRestraint::adds_energy(damping)) {
+    reading.error(restraint.damping->mark,
+                  "the damping adds energy to some motions: its symmetric part has a negative "
+                  "eigenvalue");
+  }
+  if (!restraint.stiffness || !restraint.symmetric) return;
+  const MatrixInCase& rows = restraint.stiffness->value;
+  for (std::size_t row = 0; row < 6; ++row) {
+    for (std::size_t column = 0; column < row; ++column) {
+      const double below = rows[row][column].value, above = rows[column][row].value;
+      if (std::abs(below - above) <= 1e-6 * std::max(std::abs(below), std::abs(above))) continue;
+      reading.error(
+          restraint.stiffness->mark,
+          fmt::format("the stiffness is not symmetric: {:.6g} in row {}, column {}, and {:.6g} in "
+                      "row {}, column {} (SI)",
+                      below, row + 1, column + 1, above, column + 1, row + 1),
+          {"such a spring gives or takes energy on closed paths; \"symmetric: false\" allows it"});
+      return;
+    }
+  }
+}
+
+Format<RestraintInCase> restraint_format() {
+  Table<RestraintInCase> table(
+      "restraint",
+      "Spring and damper of all six freedoms between a vessel and its place at the start by "
+      "position, heading and draught, where the spring is free of force. Rows and columns: surge, "
+      "sway, heave, roll, pitch, yaw, along the vessel's axes at that place.");
+  table
+      .optional("stiffness", &RestraintInCase::stiffness,
+                located(matrix_format(stiffness_dimensions)),
+                "6 rows of 6: N/m where a displacement makes a force, N m/rad where a turn makes a "
+                "moment, N elsewhere, or 0 without a unit")
+      .optional("damping", &RestraintInCase::damping, located(matrix_format(damping_dimensions)),
+                "likewise N s/m, N m s/rad and N s; of the motion through the world, not through "
+                "the water")
+      .optional("about", &RestraintInCase::about, position_format(),
+                "point of the vessel's frame for which displacements, forces and moments are "
+                "meant; its centre of mass if left out")
+      .by_default("symmetric", &RestraintInCase::symmetric, boolean(), "true",
+                  "whether a stiffness that is not symmetric is refused")
+      .rule(check_restraint);
+  return table.format();
+}
+
 Format<MemberInCase> member_format() {
   Table<MemberInCase> table("member",
                             "A slender member with Morison's drag where it is in the water.");
@@ -193,6 +291,20 @@ Format<MemberInCase> member_format() {
 }
 
 }  // namespace
+
+RestraintInCase::Matrix6 RestraintInCase::matrix(
+    const std::optional<Located<MatrixInCase>>& given) {
+  Matrix6 result = Matrix6::Zero();
+  if (!given) return result;
+  for (std::size_t row = 0; row < 6; ++row) {
+    for (std::size_t column = 0; column < 6; ++column) {
+      // The file begins with what is straight, spatial vectors with what turns.
+      result(static_cast<Eigen::Index>((row + 3) % 6),
+             static_cast<Eigen::Index>((column + 3) % 6)) = given->value[row][column].value;
+    }
+  }
+  return result;
+}
 
 Format<DampingInCase> vessel_damping_format() {
   return damping_format("damping", Dimension::damping, Dimension::rotational_damping);
@@ -262,6 +374,8 @@ Format<VesselInCase> vessel_in_case_format() {
                   vessel_quadratic_damping_format(), "{}",
                   "with the square of the velocity relative to the current; in proportion to the "
                   "wet volume")
+      .optional("restraint", &VesselInCase::restraint, restraint_format(),
+                "linear spring and damper by matrices, such as a published mooring")
       .optional("members", &VesselInCase::members, list_of(member_format()),
                 "slender members with drag");
   return table.format();

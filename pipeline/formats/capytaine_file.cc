@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 
 #include <fmt/format.h>
@@ -9,8 +8,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
-#include "pipeline/formats/hdf5_handle.h"
-#include "pipeline/formats/results_store.h"
+#include "pipeline/formats/netcdf_file.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -20,56 +18,7 @@ using dynamics::modes_per_body;
 using dynamics::Vector3;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
-
-/// Numbers of a NetCDF variable with the names of its dimensions.
-struct Variable {
-  std::vector<std::string> dimensions;
-  Array<double> array;
-
-  /// Value at one index for each named dimension; dimensions that are not named have one place.
-  double at(const std::map<std::string, std::size_t>& place) const {
-    std::size_t index = 0;
-    for (std::size_t d = 0; d < dimensions.size(); ++d) {
-      const auto named = place.find(dimensions[d]);
-      index = index * array.shape[d] + (named == place.end() ? 0 : named->second);
-    }
-    return array.values[index];
-  }
-};
-
-/// Names of the dimensions of a variable: NetCDF-4 keeps references to them in an attribute.
-std::vector<std::string> read_dimensions(const std::filesystem::path& path,
-                                         const std::string& name) {
-  using hdf5::Handle;
-  const hdf5::QuietErrors quiet;
-  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  const Handle set(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
-  const Handle space(H5Dget_space(set.get()), H5Sclose);
-  const auto rank = static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get())));
-  if (rank == 0) return {};
-  // A variable of its own dimension has no list.
-  if (H5Aexists(set.get(), "DIMENSION_LIST") <= 0) return {name};
-  const Handle attribute(H5Aopen(set.get(), "DIMENSION_LIST", H5P_DEFAULT), H5Aclose);
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
-  const Handle list_space(H5Aget_space(attribute.get()), H5Sclose);
-  std::vector<hvl_t> lists(rank, hvl_t{0, nullptr});
-  if (H5Sget_simple_extent_npoints(list_space.get()) != static_cast<hssize_t>(rank) ||
-      H5Aread(attribute.get(), type.get(), lists.data()) < 0) {
-    throw HydrodynamicFileError(path.string() + ": the dimensions of \"" + name +
-                                "\" cannot be read");
-  }
-  std::vector<std::string> names;
-  for (hvl_t& list : lists) {
-    std::array<char, 256> text{};
-    if (list.len > 0) {
-      const Handle target(H5Rdereference2(set.get(), H5P_DEFAULT, H5R_OBJECT, list.p), H5Oclose);
-      H5Iget_name(target.get(), text.data(), text.size());
-    }
-    names.emplace_back(text[0] == '/' ? text.data() + 1 : text.data());
-  }
-  H5Dvlen_reclaim(type.get(), list_space.get(), H5P_DEFAULT, lists.data());
-  return names;
-}
+using Variable = NetcdfVariable;
 
 class CapytaineFile {
  public:
@@ -98,8 +47,7 @@ class CapytaineFile {
   }
 
   Variable variable(const std::string& name) const {
-    Variable result{{}, file_.read(name)};
-    result.dimensions = read_dimensions(path_, name);
+    Variable result = file_.read(name);
     if (result.dimensions.size() != result.array.shape.size()) {
       fail("\"" + name + "\" has dimensions without names");
     }
@@ -129,7 +77,7 @@ class CapytaineFile {
   }
 
   double scalar(const std::string& name) const {
-    const Array<double> array = file_.read(name);
+    const Array<double> array = file_.read(name).array;
     if (array.values.size() != 1) {
       fail(fmt::format("\"{}\" has {} values; a file of one water depth and density is due", name,
                        array.values.size()));
@@ -193,13 +141,13 @@ class CapytaineFile {
     database_.displaced_volumes.assign(bodies, 0.0);
     if (file_.has("disp_volume") || file_.has("displaced_volume")) {
       const char* const name = file_.has("disp_volume") ? "disp_volume" : "displaced_volume";
-      const std::vector<double> volumes = file_.read(name).values;
+      const std::vector<double> volumes = file_.read(name).array.values;
       if (volumes.size() == bodies) database_.displaced_volumes = volumes;
     }
     const auto points = [&](const char* name) {
       std::vector<Vector3> result;
       if (!file_.has(name)) return result;
-      const std::vector<double> values = file_.read(name).values;
+      const std::vector<double> values = file_.read(name).array.values;
       if (values.size() != 3 * bodies) return result;
       for (std::size_t b = 0; b < bodies; ++b) {
         result.emplace_back(values[3 * b], values[3 * b + 1], values[3 * b + 2]);
@@ -240,11 +188,31 @@ class CapytaineFile {
     copy(mass, static_cast<std::size_t>(infinite_place_), database_.infinite_added_mass);
   }
 
+  /// The dimension along which a force's real and imaginary part lie.
+  static std::string complex_dimension(const Variable& force) {
+    const auto& names = force.dimensions;
+    const bool short_name = std::find(names.begin(), names.end(), "reim") != names.end();
+    return short_name ? "reim" : "complex";
+  }
+
+  /// Where along it the real part is: first, unless the dimension's own names say otherwise.
+  std::size_t real_part(const std::string& dimension) const {
+    if (!file_.has(dimension) || !file_.holds_texts(dimension)) return 0;
+    const std::vector<std::string> names = file_.read_texts(dimension);
+    const auto real = std::find(names.begin(), names.end(), "re");
+    if (names.size() != 2 || real == names.end()) {
+      fail("\"" + dimension + "\" does not name a real part \"re\" and an imaginary one");
+    }
+    return static_cast<std::size_t>(real - names.begin());
+  }
+
   /// Adds a force, conjugated: the file's time factor is e^{-i w t}.
   void add_force(const std::string& name, std::vector<MatrixXcd>& force) const {
     const std::size_t headings = database_.headings.size();
+    const std::string parts = complex_dimension(file_.read(name));
+    const std::size_t real = real_part(parts);
     const Variable from = variable(name, {{frequency_dimension_, place_count_},
-                                          {"complex", 2},
+                                          {parts, 2},
                                           {"wave_direction", headings},
                                           {"influenced_dof", influenced_.size()}});
     for (std::size_t k = 0; k < places_.size(); ++k) {
@@ -252,11 +220,12 @@ class CapytaineFile {
         for (std::size_t i = 0; i < influenced_.size(); ++i) {
           const auto part = [&](std::size_t complex) {
             return from.at({{frequency_dimension_, places_[k]},
-                            {"complex", complex},
+                            {parts, complex},
                             {"wave_direction", h},
                             {"influenced_dof", i}});
           };
-          force[k](influenced_[i], static_cast<Eigen::Index>(h)) += std::complex(part(0), -part(1));
+          force[k](influenced_[i], static_cast<Eigen::Index>(h)) +=
+              std::complex(part(real), -part(1 - real));
         }
       }
     }
@@ -265,7 +234,7 @@ class CapytaineFile {
   void read_forces() {
     const bool apart = file_.has("Froude_Krylov_force") && file_.has("diffraction_force");
     const bool together = file_.has("excitation_force");
-    if (apart || together) database_.headings = file_.read("wave_direction").values;
+    if (apart || together) database_.headings = file_.read("wave_direction").array.values;
     database_.froude_krylov.assign(
         database_.frequencies.size(),
         MatrixXcd::Zero(database_.mode_count(),
@@ -294,7 +263,7 @@ class CapytaineFile {
   }
 
   std::filesystem::path path_;
-  ResultsReader file_;
+  NetcdfFile file_;
   HydrodynamicDatabase database_;
   std::string frequency_dimension_ = "omega";
   std::size_t place_count_ = 0;
@@ -303,21 +272,9 @@ class CapytaineFile {
   std::vector<Eigen::Index> radiating_, influenced_;  ///< mode of each degree of freedom
 };
 
-/// NetCDF-3 is another format altogether.
-void refuse_classic(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::array<char, 3> magic{};
-  stream.read(magic.data(), magic.size());
-  if (!stream || magic != std::array{'C', 'D', 'F'}) return;
-  throw HydrodynamicFileError(
-      path.string() + ": is NetCDF of the classic format; NetCDF-4 is due: \"nccopy -k nc4 " +
-      path.filename().string() + " new.nc\" makes one of the other");
-}
-
 }  // namespace
 
 HydrodynamicDatabase read_capytaine(const std::filesystem::path& path) {
-  refuse_classic(path);
   try {
     return CapytaineFile(path).read();
   } catch (const ResultsError& error) {

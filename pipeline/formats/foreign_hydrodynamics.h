@@ -45,10 +45,10 @@ dynamics::HydrodynamicDatabase read_wamit(const std::filesystem::path& name,
                                           const WamitScales& scales);
 void write_wamit(const std::filesystem::path& name, const dynamics::HydrodynamicDatabase& database);
 
-/// Capytaine's NetCDF-4 (an HDF5 file; NetCDF-3 is refused with what to do): added_mass,
-/// radiation_damping (omega, radiating_dof, influenced_dof), Froude_Krylov_force, diffraction_force
-/// (complex, omega, wave_direction, influenced_dof), dimensions in whatever order the file names;
-/// degrees of freedom "Heave" or "body__Heave". SI, headings in rad. Its time factor is e^{-i w t}:
+/// Capytaine's NetCDF, NetCDF-4 or of the classic formats: added_mass, radiation_damping (omega,
+/// radiating_dof, influenced_dof), Froude_Krylov_force and diffraction_force or excitation_force
+/// (complex or reim, omega, wave_direction, influenced_dof), dimensions in whatever order the file
+/// names; degrees of freedom "Heave" or "body__Heave", as strings or as characters. SI, headings in rad. Its time factor is e^{-i w t}:
 /// forces are conjugated. Rotations about rotation_center, else center_of_mass, else the world's
 /// origin. Source: Capytaine documentation, "Conventions" and "Export outputs".
 dynamics::HydrodynamicDatabase read_capytaine(const std::filesystem::path& path);

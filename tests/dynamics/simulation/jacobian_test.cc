@@ -53,6 +53,18 @@ std::vector<SupportPad> random_pads(Random& random, const Mechanism& mechanism) 
   return pads;
 }
 
+// Neither of its matrices is symmetric.
+LinearRestraint::Definition random_restraint(Random& random) {
+  LinearRestraint::Definition restraint{
+      .name = "restraint", .point = {1, random.vector(1)}, .X_WR = random.pose(1)};
+  for (int column = 0; column < 6; ++column) {
+    restraint.stiffness.col(column) = random.values(6, 10);
+    restraint.damping.col(column) = random.values(6, 1);
+  }
+  restraint.damping += 6.0 * LinearRestraint::Matrix6::Identity();
+  return restraint;
+}
+
 ForceElements random_elements(Random& random, const Mechanism& mechanism) {
   ForceElements elements;
   const auto spring = [&](const std::string& name) {
@@ -77,6 +89,7 @@ ForceElements random_elements(Random& random, const Mechanism& mechanism) {
                                     .damping = random.uniform(0, 3),
                                     .R_FT_free = random.pose(1).R});
   }
+  std::get<std::vector<LinearRestraint>>(elements).emplace_back(random_restraint(random));
   for (BodyIndex i = 1; i < mechanism.body_count(); ++i) {
     const Body& body = mechanism.body(i);
     if (body.nv() == 0) continue;

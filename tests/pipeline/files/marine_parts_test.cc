@@ -231,6 +231,89 @@ TEST(MarineParts, ComplainsAboutDatabases) {
   EXPECT_THAT(complaint("database_body: pontoon"), HasSubstr("is a body of no database"));
 }
 
+// In still water without other forces: a barge held by matrices.
+const std::string restrained = R"(mechanism: restrained
+sea: {}
+vessels:
+  B1:
+    model: vessels/barge
+    position: [3 m, 4 m]
+    heading: 90 deg
+    radiation: none
+    restraint:
+      stiffness:
+        - [400 kN/m, 0, 0, 0, -3 MN, 0]
+        - [0, 300 kN/m, 0, 0, 0, 0]
+        - [0, 0, 0, 0, 0, 0]
+        - [0, 0, 0, 0, 0, 0]
+        - [-3 MN, 0, 0, 0, 60 MN m/rad, 0]
+        - [0, 0, 0, 0, 0, 500 MN m/rad]
+      damping:
+        - [0, 0, 0, 0, 0, 0]
+        - [0, 20 kN s/m, 0, 0, 0, 0]
+        - [0, 0, 0, 0, 0, 0]
+        - [0, 0, 0, 0, 0, 0]
+        - [0, 0, 0, 0, 0, 0]
+        - [0, 0, 0, 0, 0, 0]
+initial: {positions: {B1: [3 m, 4.5 m, -2 m, 0 deg, 0 deg, 90 deg]}}
+simulate: {duration: 2 s, relative_tolerance: 1e-8}
+)";
+
+// Along its own x the barge moves with the mass of 1,640 t alone; it heads along the world's y.
+TEST(MarineParts, RestraintHoldsAVesselByMatrices) {
+  const MechanismFile file = sound(restrained);
+  const BuiltMechanism built = build_mechanism(file);
+  const auto& elements = built.system.elements();
+  const auto& restraints = std::get<std::vector<dynamics::LinearRestraint>>(elements);
+  ASSERT_EQ(restraints.size(), 1U);
+  const dynamics::LinearRestraint::Definition& d = restraints.front().definition();
+  EXPECT_LT((d.point.p_BoQ_B - Vector3(0, 0, 3)).norm(), 1e-12);
+  EXPECT_LT((d.X_WR.p - Vector3(3, 4, 1)).norm(), 1e-6);
+  EXPECT_EQ(d.stiffness(3, 3), 400e3);
+  EXPECT_EQ(d.stiffness(3, 1), -3e6);
+  EXPECT_EQ(d.stiffness(1, 3), -3e6);
+  EXPECT_EQ(d.stiffness(1, 1), 60e6);
+  EXPECT_EQ(d.stiffness(2, 2), 500e6);
+  EXPECT_EQ(d.damping(4, 4), 20e3);
+  dynamics::LiftWorkspace w(built.system);
+  Eigen::VectorXd y(built.system.state_size()), rate(built.system.state_size());
+  get_state(built.system, built.system.q_start(), built.system.v_start(), y);
+  const dynamics::Contacts contacts;
+  calc_right_hand_side(built.system, 0, y, &contacts, w, rate);
+  // Half a metre ahead: back by surge, and bow up or down by the mixed term.
+  const dynamics::ForceVector& F =
+      w.loads.F_Bo_W[static_cast<std::size_t>(built.system.mechanism().body_index("B1"))];
+  EXPECT_NEAR(F.force.y(), -0.5 * 400e3, 1.0);
+  EXPECT_NEAR(F.moment.x(), 0.5 * -3e6 - 3.0 * -0.5 * 400e3, 1e3);
+  const std::string about =
+      with(restrained, "      damping:", "      about: [0 m, 0 m, 0 m]\n      damping:");
+  const BuiltMechanism elsewhere = build_mechanism(sound(about));
+  const auto& second =
+      std::get<std::vector<dynamics::LinearRestraint>>(elsewhere.system.elements()).front();
+  EXPECT_EQ(second.definition().point.p_BoQ_B, Vector3::Zero());
+}
+
+TEST(MarineParts, ComplainsAboutRestraints) {
+  const auto complaints = [](const char* old_passage, const char* new_passage) {
+    std::string text;
+    read_floating(with(restrained, old_passage, new_passage), text);
+    return text;
+  };
+  EXPECT_THAT(complaints("[400 kN/m, 0,", "[400 kN, 0,"),
+              HasSubstr("row 1, column 1 of stiffness is a force; a stiffness such as"));
+  EXPECT_THAT(complaints("[400 kN/m, 0,", "[400, 0,"),
+              HasSubstr("row 1, column 1 of stiffness is a plain number"));
+  EXPECT_THAT(complaints("- [-3 MN, 0", "- [-2 MN, 0"),
+              HasSubstr("the stiffness is not symmetric: -2e+06 in row 5, column 1, and -3e+06 in "
+                        "row 1, column 5 (SI)"));
+  EXPECT_EQ(complaints("- [-3 MN, 0", "- [-2 MN, 0").find("20 kN s/m"), std::string::npos);
+  EXPECT_THAT(complaints("20 kN s/m", "-20 kN s/m"), HasSubstr("the damping adds energy"));
+  EXPECT_THAT(complaints("0, 500 MN m/rad]", "500 MN m/rad]"), HasSubstr("stiffness"));
+  std::string text = with(restrained, "- [-3 MN, 0", "- [-2 MN, 0");
+  text = with(text, "      damping:", "      symmetric: false\n      damping:");
+  sound(text);
+}
+
 TEST(MarineParts, IrregularSeas) {
   const auto waves = [](const std::string& text) {
     const MechanismFile file =
