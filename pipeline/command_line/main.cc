@@ -30,11 +30,19 @@
 #include "pipeline/templates/new_case.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/version.h"
+#include "structure/outside_files.h"
 #include "structure/process_group.h"
 
 namespace {
 
 using namespace blocklift::pipeline;
+
+/// Of each command that reads input which may come from others.
+void add_allow_outside(CLI::App& command) {
+  command.add_flag_callback("--allow-outside", blocklift::structure::allow_files_outside,
+                            "let the input name files outside its folder and the models; scripts "
+                            "of Gmsh may do anything");
+}
 
 void add_assess(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
@@ -59,6 +67,7 @@ void add_assess(CLI::App& app, int& code) {
                    "model:key=value; may be repeated")
       ->allow_extra_args(false);
   add_limits(*command);
+  add_allow_outside(*command);
   command->callback([path, output, decks, expect, set, &code] {
     code = assess_case(*path, *output, *decks, *expect, *set);
   });
@@ -110,6 +119,7 @@ void add_stress(CLI::App& app, int& code) {
   command->add_flag("--calculix", options->calculix,
                     "write part.inp as well: the same model for CalculiX");
   add_limits(*command);
+  add_allow_outside(*command);
   command->callback([options, &code] { code = stress(*options); });
 }
 
@@ -145,6 +155,7 @@ void add_hydro(CLI::App& app, int& code) {
                    "for WAMIT's files, m (deep if not given)")
       ->check(CLI::PositiveNumber);
   add_limits(*command, false);
+  add_allow_outside(*command);
   command->callback([options, &code] { code = hydro(*options); });
 }
 
@@ -164,6 +175,7 @@ void add_sweep(CLI::App& app, int& code) {
   command->add_flag("--worker", options->is_worker)->group("");
   command->add_option("--whole", options->whole)->group("");
   add_limits(*command);
+  add_allow_outside(*command);
   command->callback([options, &code] { code = sweep(*options); });
 }
 
@@ -229,6 +241,7 @@ void add_simulate(CLI::App& app, int& code) {
                       "folder of the results (results/<name> if not given)");
   command->add_flag("--csv", options->csv, "write a CSV file beside the HDF5 one");
   add_limits(*command);
+  add_allow_outside(*command);
   command->callback([options, &code] { code = simulate_file(*options); });
 }
 
@@ -242,6 +255,7 @@ void add_validate(CLI::App& app, int& code) {
   command->add_option("--pictures", *pictures,
                       "folder for a page of each block's mesh, with pictures of what was found in "
                       "it");
+  add_allow_outside(*command);
   command->callback([files, pictures, &code] { code = validate_files(*files, *pictures); });
 }
 

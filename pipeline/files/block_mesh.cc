@@ -10,6 +10,7 @@
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/block_model.h"
+#include "pipeline/files/named_file.h"
 #include "structure/error.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/nastran/reader.h"
@@ -86,8 +87,13 @@ std::string described(const structure::Finding& finding) {
 
 class MeshReader {
  public:
-  MeshReader(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics)
-      : block_(block), mesh_model_(*block.mesh), folder_(folder), diagnostics_(diagnostics) {}
+  MeshReader(BlockModel& block, const fs::path& folder, std::vector<fs::path> homes,
+             Diagnostics& diagnostics)
+      : block_(block),
+        mesh_model_(*block.mesh),
+        folder_(folder),
+        homes_(std::move(homes)),
+        diagnostics_(diagnostics) {}
 
   void read() {
     const std::size_t before = diagnostics_.error_count();
@@ -114,7 +120,10 @@ class MeshReader {
 
   bool read_deck(Deck& deck) {
     const fs::path named = mesh_model_.file.value;
-    const fs::path path = named.is_absolute() ? named : folder_ / named;
+    const std::optional<fs::path> found =
+        path_of_named_file(mesh_model_.file, folder_, diagnostics_, homes_);
+    if (!found) return false;
+    const fs::path& path = *found;
     const std::string ending = lower_case(named.extension().string());
     const bool is_nastran = ending == ".bdf" || ending == ".nas" || ending == ".dat";
     const bool is_bare_file = is_bare(mesh_model_);
@@ -353,6 +362,7 @@ class MeshReader {
   BlockModel& block_;
   MeshModel& mesh_model_;
   const fs::path& folder_;
+  std::vector<fs::path> homes_;
   Diagnostics& diagnostics_;
 };
 
@@ -408,7 +418,8 @@ bool is_bare(const MeshModel& mesh) {
   return structure::is_cad_file(file) || lower_case(fs::path(file).extension().string()) == ".msh";
 }
 
-void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics) {
+void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics,
+                     const std::optional<fs::path>& of_case) {
   if (!block.mesh || block.mesh->file.value.empty() || block.mesh->units.value.empty()) return;
   for (const auto& given : block.mesh->thicknesses) {
     MeshGroupModel group;
@@ -416,7 +427,9 @@ void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& dia
     group.thickness = given.value.value;
     block.mesh->groups.push_back(std::move(group));
   }
-  MeshReader(block, folder, diagnostics).read();
+  std::vector<fs::path> homes;
+  if (of_case) homes.push_back(*of_case);
+  MeshReader(block, folder, std::move(homes), diagnostics).read();
 }
 
 std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh) {

@@ -43,8 +43,10 @@ bool is_bare(const MeshModel& mesh);
 /// Reads the file of a block that names one, puts the block's lugs on it, and looks it over. All
 /// that is wrong is said by the deck's own files and lines, or by the block's.
 /// @param folder of the block's file.
+/// @param of_case the folder of the case that names the block, in which the file may lie too.
 void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
-                     Diagnostics& diagnostics);
+                     Diagnostics& diagnostics,
+                     const std::optional<std::filesystem::path>& of_case = std::nullopt);
 
 /// The deck's cards that are not, or not all, in the block; its loads and supports are among them.
 std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh);

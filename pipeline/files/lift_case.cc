@@ -6,6 +6,7 @@
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/reading.h"
 #include "pipeline/files/lift_case_check.h"
+#include "pipeline/files/named_file.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/series_file.h"
 
@@ -38,8 +39,10 @@ void read_measured_series(LiftCase& lift_case, Diagnostics& diagnostics) {
   for (Named<MeasuredSeries>& named : lift_case.compare->series) {
     MeasuredSeries& measured = named.value;
     if (measured.file.value.empty()) continue;
+    const auto path = path_of_named_file(measured.file, lift_case.file.parent_path(), diagnostics);
+    if (!path) continue;
     try {
-      const SeriesFile file = read_series_file(lift_case.file.parent_path() / measured.file.value);
+      const SeriesFile file = read_series_file(*path);
       if (file.columns.size() != 2) {
         throw SeriesFileError(measured.file.value + " has " + std::to_string(file.columns.size()) +
                               " columns; time in s and the tension are due");

@@ -11,6 +11,7 @@
 #include "dynamics/marine/loads/draught_shares.h"
 #include "dynamics/marine/waves/wave_spectrum.h"
 #include "pipeline/files/model_library.h"
+#include "pipeline/files/named_file.h"
 #include "pipeline/files/vessel_database.h"
 #include "pipeline/formats/series_file.h"
 
@@ -94,8 +95,10 @@ dynamics::Current make_current(const CurrentInCase& current, const dynamics::Wat
 
 void read_record(WaveRecordInCase& record, const std::filesystem::path& folder,
                  Diagnostics& diagnostics) {
+  const auto path = path_of_named_file(record.file, folder, diagnostics);
+  if (!path) return;
   try {
-    const SeriesFile series = read_series_file(folder / record.file.value);
+    const SeriesFile series = read_series_file(*path);
     if (series.columns.size() != 2 || series.row_count() < 4) {
       throw SeriesFileError(fmt::format(
           "{} has {} columns and {} rows; a record has two columns, time in s and elevation in m, "

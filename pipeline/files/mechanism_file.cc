@@ -10,6 +10,7 @@
 
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/file_kind.h"
+#include "pipeline/files/named_file.h"
 #include "pipeline/files/urdf_import.h"
 
 namespace blocklift::pipeline {
@@ -196,7 +197,9 @@ std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibr
   if (!document->root.IsMap()) return std::nullopt;
   if (mechanism.urdf && !mechanism.urdf->value.empty()) {
     const Mark& mark = mechanism.urdf->mark;
-    auto robot = import_urdf(file.parent_path() / mechanism.urdf->value, mark, diagnostics);
+    const auto description = path_of_named_file(*mechanism.urdf, file.parent_path(), diagnostics);
+    if (!description) return std::nullopt;
+    auto robot = import_urdf(*description, mark, diagnostics);
     if (!robot) return std::nullopt;
     add_robot(std::move(*robot), mark, mechanism, diagnostics);
   }

@@ -1,9 +1,7 @@
 #include "pipeline/files/model_library.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
-#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,8 +9,10 @@
 
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/reading.h"
+#include "pipeline/files/named_file.h"
 #include "pipeline/files/rigging_table.h"
 #include "pipeline/terminal/run_log.h"
+#include "structure/outside_files.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -99,34 +99,9 @@ void add_models(const fs::path& folder, const std::string& kind, std::vector<std
 /// The name without its folders.
 std::string last_part(const std::string& name) { return fs::path(name).filename().string(); }
 
-std::vector<fs::path> folders_of(const std::string& list) {
-  std::vector<fs::path> folders;
-  std::istringstream stream(list);
-  for (std::string folder; std::getline(stream, folder, ':');) {
-    if (!folder.empty()) folders.emplace_back(folder);
-  }
-  return folders;
-}
-
 }  // namespace
 
-ModelLibrary ModelLibrary::of_installation() {
-  if (const char* list = std::getenv("BLOCKLIFT_MODELS")) return ModelLibrary(folders_of(list));
-  std::vector<fs::path> folders;
-  std::error_code error;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    const fs::path place = executable.parent_path();
-    folders = {place / "models", place.parent_path() / "share" / "blocklift" / "models",
-               place.parent_path().parent_path() / "models"};
-  }
-  folders.emplace_back(BLOCKLIFT_SOURCE_MODELS);
-  std::erase_if(folders, [](const fs::path& folder) {
-    std::error_code ignored;
-    return !fs::is_directory(folder, ignored);
-  });
-  return ModelLibrary(folders);
-}
+ModelLibrary ModelLibrary::of_installation() { return ModelLibrary(model_path()); }
 
 std::vector<fs::path> ModelLibrary::files_of(const std::string& group,
                                              const std::string& file_name) const {
@@ -170,14 +145,26 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
   const bool is_short = kind == "standard" && name.value.find('/') == std::string::npos;
   if (is_short)
     for (const fs::path& folder : model_folders_) places.push_back(folder / "standards");
+  const bool is_free = structure::are_files_outside_allowed();
+  bool leads_somewhere = false, is_outside = false;
   for (const fs::path& place : places) {
-    const fs::path model = place / name.value;
-    for (const fs::path& file :
-         {model, fs::path(model.string() + ".yaml"), model / (kind + ".yaml")}) {
+    const fs::path named = name.value;
+    for (const fs::path& within :
+         {named, fs::path(named.string() + ".yaml"), named / (kind + ".yaml")}) {
+      const fs::path file = place / within;
+      if (!is_free && !is_within(within, place, beside, model_folders_)) {
+        is_outside |= is_file(file);
+        continue;
+      }
+      leads_somewhere = true;
       if (!is_file(file)) continue;
       log_entry(fmt::format("{} model \"{}\" is {}", kind, name.value, shown_path(file)));
       return file.lexically_normal();
     }
+  }
+  if (is_outside || !leads_somewhere) {
+    complain_about_outside(name, diagnostics);
+    return {};
   }
   std::vector<std::string> looked_in;
   for (const fs::path& place : places) {
@@ -261,7 +248,7 @@ std::shared_ptr<const BlockModel> ModelLibrary::load_block(const Located<std::st
                                                            const fs::path& beside,
                                                            Diagnostics& diagnostics) {
   const fs::path file = find_and_note(name, "block", {beside}, diagnostics);
-  return file.empty() ? nullptr : read_block(file, diagnostics);
+  return file.empty() ? nullptr : read_block(file, diagnostics, beside);
 }
 
 std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::string>& name,
@@ -271,7 +258,7 @@ std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::strin
   if (file.empty()) return nullptr;
   const auto known = vessels_.find(file);
   if (known != vessels_.end()) return known->second;
-  std::optional<Vessel> vessel = read_vessel(file, diagnostics);
+  std::optional<Vessel> vessel = read_vessel(file, diagnostics, {beside});
   return vessels_[file] = vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
 }
 
@@ -307,12 +294,13 @@ std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
 }
 
 std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
-                                                           Diagnostics& diagnostics) {
+                                                           Diagnostics& diagnostics,
+                                                           const std::optional<fs::path>& of_case) {
   const auto known = blocks_.find(file);
   if (known != blocks_.end()) return known->second;
   const std::shared_ptr<BlockModel> block =
       read_model(load(file, diagnostics), "block", block_model_format(), diagnostics);
-  if (block) read_block_mesh(*block, file.parent_path(), diagnostics);
+  if (block) read_block_mesh(*block, file.parent_path(), diagnostics, of_case);
   return blocks_[file] = block;
 }
 

@@ -32,14 +32,14 @@ struct FoundModel {
 /// names the crane, then in each folder of models,
 ///   cranes/goliath-600t, cranes/goliath-600t.yaml, cranes/goliath-600t/crane.yaml.
 /// A standard's name may do without its folder: nd-0027 is standards/nd-0027.
+/// A name that leads out of all these folders is refused, unless files outside are allowed.
 /// Each file is read once, however often it is named; a crane once for each set of parameters.
 class ModelLibrary {
  public:
   explicit ModelLibrary(std::vector<std::filesystem::path> model_folders)
       : model_folders_(std::move(model_folders)) {}
 
-  /// The folders that BLOCKLIFT_MODELS names (separated by colons) or, without it, `models` beside
-  /// or above the executable, of the installation, and of the source tree.
+  /// Of the folders of model_path().
   static ModelLibrary of_installation();
 
   const std::vector<std::filesystem::path>& folders() const { return model_folders_; }
@@ -100,8 +100,10 @@ class ModelLibrary {
       const std::filesystem::path& file, Diagnostics& diagnostics,
       const ParameterValues& parameters = {},
       const std::optional<std::filesystem::path>& of_case = std::nullopt);
-  std::shared_ptr<const BlockModel> read_block(const std::filesystem::path& file,
-                                               Diagnostics& diagnostics);
+  /// @param of_case the folder of the case that names the block, if there is one.
+  std::shared_ptr<const BlockModel> read_block(
+      const std::filesystem::path& file, Diagnostics& diagnostics,
+      const std::optional<std::filesystem::path>& of_case = std::nullopt);
   std::shared_ptr<const RopeModel> read_rope(const std::filesystem::path& file,
                                              Diagnostics& diagnostics);
   std::shared_ptr<const StandardRules> read_standard(const std::filesystem::path& file,

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "pipeline/files/named_file.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {
@@ -22,7 +23,9 @@ std::shared_ptr<const HydrodynamicDatabase> find_database(const Located<std::str
                                                           Diagnostics& diagnostics) {
   const auto [place, is_new] = known.try_emplace(file.value, nullptr);
   if (!is_new) return place->second;
-  const std::filesystem::path path = beside / file.value;
+  const auto found = path_of_named_file(file, beside, diagnostics);
+  if (!found) return nullptr;
+  const std::filesystem::path& path = *found;
   if (!std::filesystem::is_regular_file(path)) {
     diagnostics.error(file.mark, fmt::format("there is no database {}", path.string()),
                       {"make it with blocklift hydro VESSEL -o FILE, or take another program's "

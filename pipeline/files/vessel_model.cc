@@ -12,6 +12,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "pipeline/declaration/document.h"
+#include "pipeline/files/named_file.h"
 
 namespace blocklift::pipeline {
 
@@ -95,7 +96,8 @@ dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem:
   return model.hydrodynamics.as_meshed ? with_freeboard(hull) : hull;
 }
 
-std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics& diagnostics) {
+std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics& diagnostics,
+                                  const std::vector<std::filesystem::path>& homes) {
   const std::optional<Document> document = load_document(file, diagnostics);
   if (!document) return std::nullopt;
   const std::size_t errors_before = diagnostics.error_count();
@@ -104,6 +106,8 @@ std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics
   const Format<VesselModel> format = vessel_model_format();
   reading.with_owner("the vessel",
                      [&] { return format.read(document->root, reading, vessel.model); });
+  if (vessel.model.hull.file)
+    path_of_named_file(vessel.model.hull.file->path, file.parent_path(), diagnostics, homes);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   const Mark mark = vessel.model.hull.file ? vessel.model.hull.file->path.mark : vessel.model.place;
   try {

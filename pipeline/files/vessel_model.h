@@ -55,6 +55,8 @@ struct Vessel {
   dynamics::Hull hull;
   dynamics::FloatingBody body() const { return {model.mass, model.centre_of_mass}; }
 };
-std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics& diagnostics);
+/// @param homes folders besides the vessel's own in which the mesh of its hull may lie.
+std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics& diagnostics,
+                                  const std::vector<std::filesystem::path>& homes = {});
 
 }  // namespace blocklift::pipeline

@@ -13,6 +13,7 @@
 #include "dynamics/errors.h"
 #include "structure/child_process.h"
 #include "structure/error.h"
+#include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"
 
 namespace blocklift::pipeline {
@@ -69,6 +70,7 @@ structure::Packet read_here(const std::filesystem::path& path, bool is_geometry,
                             const HullReading& reading) {
   const structure::GmshSession session;
   try {
+    structure::require_closed_script(path.string());
     gmsh::open(path.string());
     if (is_geometry) {
       if (reading.panel_size) {

@@ -25,7 +25,7 @@ struct Loads {
 class LiftRunner {
  public:
   LiftRunner(LiftCase lift_case, const Progress& progress)
-      : assessment_{std::move(lift_case), {}, {}, {}, {}, 0}, progress_(progress) {
+      : assessment_{std::move(lift_case), {}, {}, {}, {}, {}, 0}, progress_(progress) {
     if (the_case().has_structure()) make_block();
   }
 

@@ -17,6 +17,7 @@
 
 #include "structure/error.h"
 #include "structure/mesh/files/capitals.h"
+#include "structure/outside_files.h"
 
 namespace blocklift::structure {
 
@@ -84,6 +85,7 @@ Keyword parse_keyword(const std::string& line) {
 class AbaqusReader {
  public:
   AbaqusMesh read(const std::string& path) {
+    folder_ = std::filesystem::path(path).parent_path();
     read_file(path, 0);
     finish_keyword();
     check_nodes();
@@ -130,6 +132,12 @@ class AbaqusReader {
       const std::string input = required("INPUT");
       const auto beside = std::filesystem::path(path_).parent_path() / input;
       keyword_ = {};
+      if (!are_files_outside_allowed() && !leads_into(beside, {folder_}))
+        fail(
+            fmt::format("*INCLUDE: \"{}\" lies outside the folder of this mesh; only files in it "
+                        "or below are included, unless --allow-outside, or {}=1 in the "
+                        "environment, says otherwise",
+                        input, allow_outside_variable));
       read_file(beside.string(), depth + 1);
       keyword_ = {};
     } else if (keyword_.name == "ELEMENT") {
@@ -337,6 +345,7 @@ class AbaqusReader {
   }
 
   AbaqusMesh mesh_;
+  std::filesystem::path folder_;  // of the file that is read first
   std::string path_;
   int line_ = 0, parts_ = 0;
   Keyword keyword_;

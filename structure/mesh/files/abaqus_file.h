@@ -33,7 +33,8 @@ struct AbaqusMesh {
 };
 
 /// Reads the mesh of an input file of Abaqus or CalculiX: *NODE, *ELEMENT, *NSET and *ELSET (with
-/// GENERATE, with names of other sets), *SURFACE of element faces or nodes, *INCLUDE. Other
+/// GENERATE, with names of other sets), *SURFACE of element faces or nodes, *INCLUDE of
+/// files in the folder of the first or below it, unless files outside are allowed. Other
 /// keywords are passed over with their lines. Names are as they are written first; as in Abaqus,
 /// capitals do not matter for finding them again.
 /// @throws ModelError with file and line: what is no number, element types that are not known,

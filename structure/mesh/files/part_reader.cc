@@ -17,6 +17,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus_model.h"
+#include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/msh_check.h"
 #include "structure/mesh/files/nastran_file.h"
@@ -98,6 +99,7 @@ void open_file(const std::string& path, std::map<std::string, std::vector<std::s
     }
   }
   require_known_nodes(path);
+  require_closed_script(path);
   gmsh::open(path);
 }
 

@@ -24,10 +24,8 @@ using ::testing::HasSubstr;
 class MeshCommand : public ::testing::Test {
  protected:
   MeshCommand() {
-    const fs::path cases = BLOCKLIFT_TEST_CASES;
-    fs::copy(cases / "mesh-lift", "mesh-lift", fs::copy_options::recursive);
-    fs::create_directory("small-lift");
-    fs::copy(cases / "small-lift" / "gantry", "small-lift/gantry", fs::copy_options::recursive);
+    fs::copy(fs::path(BLOCKLIFT_TEST_CASES) / "mesh-lift", "mesh-lift",
+             fs::copy_options::recursive);
   }
   static Outcome run(const std::string& arguments) {
     return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);

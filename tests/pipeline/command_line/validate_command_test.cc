@@ -122,6 +122,28 @@ TEST(ValidateCommand, FindsModelsWhereTheEnvironmentSays) {
             "case.yaml:6:12: error: there is no crane model \"cranes/small\"\n    ");
 }
 
+TEST(ValidateCommand, ReadsNothingOutsideUnlessThatIsAllowed) {
+  const TemporaryFolder folder;
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "model: gantry", "model: ../yard/gantry");
+  folder.write("case/case.yaml", lift.lift_case);
+  folder.write("case/plate.yaml", lift.block);
+  folder.write("case/ropes/tackle.yaml", lift.rope);
+  folder.write("yard/gantry.yaml", lift.crane);
+  const Outcome refused = run("validate case");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("case.yaml:6:12: error: \"../yard/gantry\" leads outside"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_EQ(run("validate case --allow-outside").exit_code, 0);
+  setenv("BLOCKLIFT_ALLOW_OUTSIDE", "1", 1);
+  EXPECT_EQ(run("validate case").exit_code, 0);
+  setenv("BLOCKLIFT_MODELS", (folder.path() / "yard").c_str(), 1);
+  unsetenv("BLOCKLIFT_ALLOW_OUTSIDE");
+  EXPECT_EQ(run("validate case").exit_code, 0);  // it lies among the models now
+  unsetenv("BLOCKLIFT_MODELS");
+}
+
 TEST(ValidateCommand, TellsWrongUseByItsExitCode) {
   const TemporaryFolder folder;
   EXPECT_EQ(run("").exit_code, 2);

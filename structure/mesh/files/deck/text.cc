@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "structure/outside_files.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -110,12 +112,11 @@ const DeckFiles::File& DeckFiles::open_included(const std::filesystem::path& pat
   const std::filesystem::path canonical = std::filesystem::canonical(wanted, error);
   if (error || !std::filesystem::is_regular_file(canonical))
     throw CardError{fmt::format("the file \"{}\" to be included cannot be read", path.string())};
-  const auto [end, rest] =
-      std::mismatch(folder_.begin(), folder_.end(), canonical.begin(), canonical.end());
-  if (end != folder_.end())
-    throw CardError{
-        fmt::format("\"{}\" lies outside the deck's folder; only files in it or below are included",
-                    path.string())};
+  if (!are_files_outside_allowed() && !leads_into(canonical, {folder_}))
+    throw CardError{fmt::format(
+        "\"{}\" lies outside the deck's folder; only files in it or below are included, "
+        "unless --allow-outside, or {}=1 in the environment, says otherwise",
+        path.string(), allow_outside_variable)};
   if (std::find(reading_.begin(), reading_.end(), canonical) != reading_.end())
     throw CardError{fmt::format("\"{}\" includes itself", path.string())};
   return load(wanted, canonical);

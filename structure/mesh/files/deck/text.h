@@ -35,7 +35,8 @@ class DeckFiles {
   };
   /// @throws DeckError if the file cannot be read or is no text.
   const File& open(const std::filesystem::path& path);
-  /// A file that another names: it must lie in the folder of the deck or below it.
+  /// A file that another names: it must lie in the folder of the deck or below it, unless files
+  /// outside are allowed.
   /// @throws CardError if it does not, does not exist, or is being read already.
   const File& open_included(const std::filesystem::path& path, const File& from);
   void close() { reading_.pop_back(); }

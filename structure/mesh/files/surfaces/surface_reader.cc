@@ -9,6 +9,7 @@
 
 #include "structure/child_process.h"
 #include "structure/index.h"
+#include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/msh_check.h"
 #include "structure/mesh/files/surfaces/cad_file.h"
@@ -45,6 +46,7 @@ class SurfaceReader {
  private:
   EntityRegions from_mesh() {
     require_known_nodes(path_);
+    require_closed_script(path_);
     try {
       gmsh::open(path_);
     } catch (const std::string& error) {

@@ -1,6 +1,7 @@
 // Meshes of other programs: Abaqus' input, STEP, Nastran.
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -108,6 +109,43 @@ bricks, S1
 *END STEP
 )";
 const char* const upper_nodes = "*NODE\n7,0,0,1\n8,1,0,1\n9,2,0,1\n10,0,1,1\n11,1,1,1\n12,2,1,1\n";
+
+TEST_F(MeshFiles, AbaqusIncludesNothingFromOutsideItsFolder) {
+  write("upper.inc", upper_nodes);
+  std::string deck = two_bricks;
+  deck.replace(
+      deck.find("upper.inc"), 9,
+      "../" + fs::path(write("bricks.inp", deck)).parent_path().filename().string() + "/upper.inc");
+  EXPECT_EQ(error_of(write("bricks.inp", deck)), "");  // out and in again
+  deck.replace(deck.find("../"), 3, "../../");
+  EXPECT_THAT(error_of(write("bricks.inp", deck)),
+              testing::AllOf(testing::HasSubstr("bricks.inp:11: *INCLUDE: \"../../"),
+                             testing::HasSubstr("lies outside the folder of this mesh")));
+  fs::create_symlink("/etc/hostname", fs::path(write("unused", "")).parent_path() / "link.inc");
+  deck = two_bricks;
+  deck.replace(deck.find("upper.inc"), 9, "link.inc");
+  EXPECT_THAT(error_of(write("bricks.inp", deck)), testing::HasSubstr("lies outside"));
+}
+
+TEST_F(MeshFiles, ScriptsOfGmshReachNothingElse) {
+  const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n";
+  const std::string aside = write("aside.geo", "");
+  for (const std::string statement :
+       {"SystemCall \"touch made\";", "Include \"aside.geo\";", "Merge \"aside.geo\";",
+        "Printf(\"> %g\", 1) > \"made\";", "Save \"made.msh\";", "Parse [ \"x = 1;\" ];",
+        "Field[1] = Structured;\nField[1].FileName = \"aside.geo\";"})
+    for (const std::string ending : {".geo", ".shape", ".msh"})
+      EXPECT_THAT(error_of(write("box" + ending, box + statement)),
+                  testing::ContainsRegex("line [34]: [A-Za-z]+ may reach other files"))
+          << statement << ending;
+  EXPECT_EQ(error_of(write("box.geo", box + "// Include \"aside.geo\";\n/* Merge */ Printf(\"> "
+                                            "Save; %g\", 1);\nMesh.MeshSizeMax = 1;\n")),
+            "");
+  // Allowed, it does what it says.
+  ::setenv("BLOCKLIFT_ALLOW_OUTSIDE", "1", 1);
+  EXPECT_EQ(error_of(write("box.geo", box + "Include \"aside.geo\";\n")), "");
+  ::unsetenv("BLOCKLIFT_ALLOW_OUTSIDE");
+}
 
 TEST_F(MeshFiles, AbaqusSetsBecomeGroups) {
   write("upper.inc", upper_nodes);
