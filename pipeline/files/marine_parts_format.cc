@@ -1,11 +1,10 @@
-#include "pipeline/files/marine_parts.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "dynamics/force/linear_restraint.h"
+#include "pipeline/files/marine_parts.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -71,7 +71,8 @@ TEST(BuildLiftTest, EqualisedHoistsCarryAlike) {
   SampleLift parts;
   parts.crane = with(parts.crane, "rope: {axial_stiffness: 200 MN, breaking_load: 100 t}",
                      "rope: ropes/tackle");
-  parts.lift_case = with(parts.lift_case, "model: gantry\n", "model: gantry\n    equalised: [left, right]\n");
+  parts.lift_case =
+      with(parts.lift_case, "model: gantry\n", "model: gantry\n    equalised: [left, right]\n");
   const TemporaryFolder folder;
   parts.write(folder);
   LoadMass mass = sample_mass();
