@@ -66,6 +66,8 @@ structure::BlockDescription describe_block(const BlockModel& model, const std::s
         plate.material.value.empty() ? model.materials.front().name.value : plate.material.value;
     if (plate.is_free()) {
       block.free_plates.push_back(describe_free_plate(plate, material));
+      if (plate.stiffeners && plate.stiffeners->profile)
+        block.free_stiffeners.push_back(describe_stiffeners(plate));
       continue;
     }
     block.plates.push_back({plate.name.value, axis_of(plate.normal), plate.at,
@@ -85,10 +87,25 @@ structure::BlockDescription describe_block(const BlockModel& model, const std::s
          opening.corner_radius ? opening.corner_radius->value : 0, opening.corners});
   }
   for (const PadModel& pad : model.pads) {
+    if (pad.is_in_plate_frame) {
+      const auto extent = intervals_of(pad.extent);
+      block.free_pads.push_back({pad.name.value,
+                                 pad.plate.value,
+                                 {extent[0], extent[1]},
+                                 pad.thickness,
+                                 pad.material.value});
+      continue;
+    }
     block.pads.push_back({pad.name.value, pad.plate.value, axis_of(pad.normal), pad.at,
                           intervals_of(pad.extent), pad.thickness, pad.material.value});
   }
   for (const LugModel& lug : model.lugs) {
+    if (lug.is_in_plate_frame) {
+      block.free_lugs.push_back({lug.name.value, lug.pad.value, axis_of(lug.normal), lug.at,
+                                 intervals_of(lug.extent), lug.thickness, lug.material.value,
+                                 lug.pin.value});
+      continue;
+    }
     block.lugs.push_back({lug.name.value, lug.pad.value, axis_of(lug.normal), lug.at,
                           intervals_of(lug.extent), lug.thickness, lug.material.value,
                           lug.pin.value});

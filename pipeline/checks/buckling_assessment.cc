@@ -20,12 +20,14 @@ constexpr std::size_t panels_in_summary = 40;
 
 BlockPanels make_panels(const LiftCase& lift_case, const structure::UnitResponses& responses) {
   std::vector<structure::PlateStiffening> stiffening;
-  for (const PlateModel& plate : lift_case.load.model->plates)
-    if (plate.stiffeners)
-      stiffening.push_back(
-          {plate.name.value,
-           structure::Vector3::Unit(static_cast<Eigen::Index>(plate.stiffeners->along)),
-           plate.stiffeners->spacing});
+  for (const PlateModel& plate : lift_case.load.model->plates) {
+    if (!plate.stiffeners) continue;
+    const auto along = static_cast<Eigen::Index>(plate.stiffeners->along);
+    const Eigen::Matrix3d axes = plate.corners
+                                     ? structure::frame_of_polygon(plate.corners->value).axes
+                                     : Eigen::Matrix3d::Identity();
+    stiffening.push_back({plate.name.value, axes.col(along), plate.stiffeners->spacing});
+  }
   return {responses.model(), responses.displacements(), stiffening};
 }
 

@@ -12,9 +12,9 @@
 namespace blocklift::pipeline {
 namespace {
 
-const char* axis_name(std::size_t axis) {
-  static constexpr std::array<const char*, 3> names = {"x", "y", "z"};
-  return names.at(axis);
+const char* axis_name(std::size_t axis, bool is_in_plate_frame = false) {
+  static constexpr std::array<const char*, 6> names = {"x", "y", "z", "u", "v", "n"};
+  return names.at(axis + (is_in_plate_frame ? 3 : 0));
 }
 
 /// Complains about a name that is not in the list; passes over one that could not be read.
@@ -102,18 +102,10 @@ bool share_an_area(const Extents& first, const Extents& second, std::size_t norm
   return true;
 }
 
-/// Unit normal of a polygon; not finite if it has no area.
-Vector3 normal_of(const std::vector<Vector3>& corners) {
-  Vector3 area = Vector3::Zero();
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    area += (corners[i] - corners[0]).cross(corners[(i + 1) % corners.size()] - corners[0]);
-  return area / area.norm();
-}
-
 /// Greatest distance of points from a polygon's plane, m.
 double distance_from_plane(const std::vector<Vector3>& corners,
                            const std::vector<Vector3>& points) {
-  const Vector3 normal = normal_of(corners);
+  const Vector3 normal = structure::normal_of_polygon(corners);
   double farthest = 0;
   for (const Vector3& point : points)
     farthest = std::max(farthest, std::abs(normal.dot(point - corners[0])));
@@ -126,7 +118,7 @@ constexpr std::size_t fewest_corners = 3;
 void check_corners(const PlateModel& plate, Reading& reading) {
   if (!plate.corners || plate.corners->value.size() < fewest_corners) return;
   const std::vector<Vector3>& corners = plate.corners->value;
-  if (!normal_of(corners).allFinite()) {
+  if (!structure::normal_of_polygon(corners).allFinite()) {
     reading.error(plate.corners->mark, "the corners of plate " + plate.name.value +
                                            " lie on one line, or their sides cross");
     return;
@@ -282,6 +274,52 @@ void check_opening(const BlockModel& block, const OpeningModel& opening, Reading
   check_opening_spares_pads(block, opening, *plate, reading);
 }
 
+/// Does a plane polygon hold a point of its frame? One on a side it does.
+bool holds(const std::vector<Vector3>& corners, const Vector3& point) {
+  double turned = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector3 a = corners[i] - point, b = corners[(i + 1) % corners.size()] - point;
+    const double cross = a.x() * b.y() - a.y() * b.x(), dot = a.x() * b.x() + a.y() * b.y();
+    const double length = (b - a).norm();
+    if (std::abs(cross) <= same_place * length && dot <= same_place * length) return true;
+    turned += std::atan2(cross, dot);
+  }
+  return std::abs(turned) > 1;
+}
+
+/// A pad in the frame of a plate by its corners lies on it.
+void check_free_pad(const PadModel& pad, const PlateModel& plate, Reading& reading) {
+  const std::string user = "pad " + pad.name.value;
+  if (!plate.corners) {
+    reading.error(pad.name.mark,
+                  fmt::format("{} is on plate {}, which is {}", user, plate.name.value,
+                              plate.is_free() ? "ruled between edges" : "normal to an axis"),
+                  {plate.is_free() ? "pads and lugs stand on plane plates"
+                                   : "give its normal, at, and extents along the block's axes"});
+    return;
+  }
+  if (!pad.is_in_plate_frame) {
+    reading.error(pad.name.mark,
+                  fmt::format("{} is on plate {}, which is no rectangle normal to an axis", user,
+                              plate.name.value),
+                  {"give u and v in the plate's own frame: u runs along its first side"});
+    return;
+  }
+  if (plate.corners->value.size() < fewest_corners || !pad.extent[0] || !pad.extent[1]) return;
+  const structure::PlaneFrame frame = structure::frame_of_polygon(plate.corners->value);
+  if (!frame.axes.allFinite()) return;
+  std::vector<Vector3> corners;
+  for (const Vector3& corner : plate.corners->value) corners.push_back(frame.coordinates(corner));
+  for (const double u : pad.extent[0]->value)
+    for (const double v : pad.extent[1]->value) {
+      if (holds(corners, {u, v, 0})) continue;
+      reading.error(pad.extent[0]->mark,
+                    fmt::format("{} reaches to u = {:.6g} m, v = {:.6g} m, beyond its plate {}",
+                                user, u, v, plate.name.value));
+      return;
+    }
+}
+
 void check_pad(const BlockModel& block, const PadModel& pad, Reading& reading) {
   const std::string user = "pad " + pad.name.value;
   if (!pad.material.value.empty()) {
@@ -289,11 +327,14 @@ void check_pad(const BlockModel& block, const PadModel& pad, Reading& reading) {
   }
   const PlateModel* plate = look_up(pad.plate, block.plates, user, "plate", reading);
   if (!plate) return;
-  if (plate->is_free()) {
+  if (pad.thickness <= plate->thickness) {
     reading.error(pad.name.mark,
-                  fmt::format("{} is on plate {}, which is no rectangle normal to an axis", user,
-                              plate->name.value),
-                  {"pads and lugs stand on such plates"});
+                  fmt::format("{} is {:.6g} m thick, its plate {} already {:.6g} m", user,
+                              pad.thickness, plate->name.value, plate->thickness),
+                  {"a pad's thickness is the total, the plate included"});
+  }
+  if (pad.is_in_plate_frame || plate->is_free()) {
+    check_free_pad(pad, *plate, reading);
     return;
   }
   if (pad.normal != plate->normal) {
@@ -307,12 +348,6 @@ void check_pad(const BlockModel& block, const PadModel& pad, Reading& reading) {
                   fmt::format("{} is at {:.6g} m, where plate {} does not stand", user, pad.at,
                               plate->name.value),
                   {"its positions are " + positions_text(*plate)});
-  }
-  if (pad.thickness <= plate->thickness) {
-    reading.error(pad.name.mark,
-                  fmt::format("{} is {:.6g} m thick, its plate {} already {:.6g} m", user,
-                              pad.thickness, plate->name.value, plate->thickness),
-                  {"a pad's thickness is the total, the plate included"});
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis == pad.normal || !pad.extent[axis] || !plate->extent[axis]) continue;
@@ -328,6 +363,10 @@ void check_pad(const BlockModel& block, const PadModel& pad, Reading& reading) {
   }
 }
 
+const char* frame_name(bool is_in_plate_frame) {
+  return is_in_plate_frame ? "the frame of its plate" : "that of the block";
+}
+
 void check_lug(const BlockModel& block, const LugModel& lug, Reading& reading) {
   const std::string user = "lug " + lug.name.value;
   if (lug.is_place) {
@@ -338,20 +377,31 @@ void check_lug(const BlockModel& block, const LugModel& lug, Reading& reading) {
   if (!lug.material.value.empty()) {
     look_up(lug.material, block.materials, user, "material", reading);
   }
-  look_up(lug.pad, block.pads, user, "pad", reading);
-  if (!lug.pin.value.allFinite()) return;
+  const PadModel* pad = look_up(lug.pad, block.pads, user, "pad", reading);
+  if (pad && pad->is_in_plate_frame != lug.is_in_plate_frame) {
+    reading.error(
+        lug.name.mark,
+        fmt::format("{} is given in {}, its pad {} in {}", user, frame_name(lug.is_in_plate_frame),
+                    pad->name.value, frame_name(pad->is_in_plate_frame)),
+        {"a lug on the pad of a plate by its corners has normal, at, extents and pin in "
+         "u, v and n"});
+    return;
+  }
+  const Vector3& pin = lug.is_in_plate_frame ? lug.pin_in_plate : lug.pin.value;
+  if (!pin.allFinite()) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double place = lug.pin.value[static_cast<Eigen::Index>(axis)];
+    const double place = pin[static_cast<Eigen::Index>(axis)];
     std::array<double, 2> range = {lug.at - lug.thickness / 2, lug.at + lug.thickness / 2};
     if (axis != lug.normal) {
       if (!lug.extent[axis]) continue;
       range = lug.extent[axis]->value;
     }
     if (place < range[0] - same_place || place > range[1] + same_place) {
-      reading.error(lug.pin.mark,
-                    fmt::format("the pin of {} is at {} = {:.6g} m, outside the lug plate, which "
-                                "reaches from {:.6g} m to {:.6g} m",
-                                user, axis_name(axis), place, range[0], range[1]));
+      reading.error(
+          lug.pin.mark,
+          fmt::format("the pin of {} is at {} = {:.6g} m, outside the lug plate, which "
+                      "reaches from {:.6g} m to {:.6g} m",
+                      user, axis_name(axis, lug.is_in_plate_frame), place, range[0], range[1]));
     }
   }
 }

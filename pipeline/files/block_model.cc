@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,9 @@ namespace {
 
 using Extent = std::optional<Located<std::array<double, 2>>>;
 
-const std::vector<std::pair<std::string, std::size_t>> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
+using Axes = std::vector<std::pair<std::string, std::size_t>>;
+const Axes axes = {{"x", 0}, {"y", 1}, {"z", 2}};
+const Axes plate_axes = {{"u", 0}, {"v", 1}, {"n", 2}};  // of a plate by its corners
 
 Format<std::array<double, 2>> extent_format() {
   const auto pair = array_of<double, 2>(quantity(Dimension::length));
@@ -99,9 +102,11 @@ struct Written : T {
   }
 };
 
+const char* const extent_meaning = "lower and upper end; left out along the normal";
+
 template <class T>
 Table<Written<T>>& extent_keys(Table<Written<T>>& table) {
-  const std::string meaning = "lower and upper end; left out along the normal";
+  const std::string meaning = extent_meaning;
   return table.optional("x", &Written<T>::x, extent_format(), meaning)
       .optional("y", &Written<T>::y, extent_format(), meaning)
       .optional("z", &Written<T>::z, extent_format(), meaning);
@@ -114,9 +119,10 @@ Format<T> taken(const Table<Written<T>>& table) {
 
 /// The extents across the normal are given, the one along it is not.
 template <class T>
-void check_rectangle(const Written<T>& written, Reading& reading, const Mark& mark) {
+void check_rectangle(const Written<T>& written, const Axes& names, Reading& reading,
+                     const Mark& mark) {
   const std::array<Extent, 3> extent = {written.x, written.y, written.z};
-  for (const auto& [name, axis] : axes) {
+  for (const auto& [name, axis] : names) {
     if (axis == written.normal && extent[axis]) {
       reading.error(
           extent[axis]->mark,
@@ -127,6 +133,11 @@ void check_rectangle(const Written<T>& written, Reading& reading, const Mark& ma
                     {"it is the extent along " + name + ": [lower end, upper end]"});
     }
   }
+}
+
+template <class T>
+void check_in_block(const Written<T>& written, Reading& reading, const Mark& mark) {
+  check_rectangle(written, axes, reading, mark);
 }
 
 Format<MaterialModel> material_format() {
@@ -149,13 +160,15 @@ void check_stiffeners(const StiffenersModel& row, Reading& reading, const Mark& 
                 {"without a profile stiffeners are not in the model: they divide panels alone"});
 }
 
-Format<StiffenersModel> stiffeners_format() {
+/// @param first what `first` is counted in.
+Format<StiffenersModel> stiffeners_format(const Axes& along, const std::string& first) {
   Table<StiffenersModel> table(
       "row of stiffeners",
       "Equal stiffeners that a plate carries, from edge to edge; openings cut them. They divide "
       "its panels where buckling is checked. With a profile they are beams of the model; without "
       "one the model leaves them out, and their mass belongs to the outfitting.");
-  table.required("along", &StiffenersModel::along, choice<std::size_t>(axes), "axis they run along")
+  table
+      .required("along", &StiffenersModel::along, choice<std::size_t>(along), "axis they run along")
       .required("spacing", &StiffenersModel::spacing,
                 quantity(Dimension::length, Range::positive()), "between neighbours")
       .optional("profile", &StiffenersModel::profile, profile_format(),
@@ -163,8 +176,8 @@ Format<StiffenersModel> stiffeners_format() {
       .by_default("side", &StiffenersModel::side, choice<int>({{"positive", 1}, {"negative", -1}}),
                   "positive", "of the plate on which they stand, along its normal")
       .optional("first", &StiffenersModel::first, quantity(Dimension::length),
-                "place of one of them across, as a coordinate of the block; the plate's lower "
-                "edge if left out")
+                "place of one of them across, as a coordinate of " + first +
+                    "; the plate's lower edge if left out")
       .optional("material", &StiffenersModel::material, reference(),
                 "one of the block's; that of the plate if left out")
       .rule(check_stiffeners);
@@ -183,7 +196,7 @@ Format<PlateModel> rectangle_format() {
                 "of the plate")
       .optional("material", &PlateModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
-      .optional("stiffeners", &PlateModel::stiffeners, stiffeners_format(),
+      .optional("stiffeners", &PlateModel::stiffeners, stiffeners_format(axes, "the block"),
                 "that the plate carries: beams with a profile, else left out of the model")
       .rule([](const Written<PlateModel>& plate, Reading& reading, const Mark& mark) {
         if (!plate.stiffeners || plate.stiffeners->along != plate.normal) return;
@@ -191,7 +204,7 @@ Format<PlateModel> rectangle_format() {
                       fmt::format("the stiffeners of {} run along its normal", reading.owner()),
                       {"they run along one of its two other axes"});
       })
-      .rule(check_rectangle<PlateModel>);
+      .rule(check_in_block<PlateModel>);
   return taken(table);
 }
 
@@ -226,7 +239,15 @@ Format<PlateModel> free_plate_format() {
                 "of the plate, half on each side")
       .optional("material", &PlateModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
+      .optional("stiffeners", &PlateModel::stiffeners,
+                stiffeners_format({{"u", 0}, {"v", 1}}, "the plate's own frame"),
+                "of a plane plate, in its own frame: its first corner is the origin, u runs along "
+                "its first side, n is the normal about which the corners run anticlockwise, v = n "
+                "x u")
       .rule([](const PlateModel& plate, Reading& reading, const Mark& mark) {
+        if (plate.edges && plate.stiffeners)
+          reading.error(mark, reading.owner() + " is ruled between edges, and has stiffeners",
+                        {"stiffeners stand on plane plates, by their corners"});
         if (plate.corners && plate.edges)
           reading.error(mark, reading.owner() + " has corners and also edges",
                         {"give its corners, or the two edges between which it is ruled"});
@@ -234,17 +255,23 @@ Format<PlateModel> free_plate_format() {
   return table.format();
 }
 
-/// Rectangles normal to an axis, or one plate of any orientation, told apart by their keys.
-Format<PlateModel> plate_format() {
-  const Format<PlateModel> rectangle = rectangle_format(), free = free_plate_format();
+/// One of several tables, told apart by their keys.
+template <class T>
+Format<T> one_of_tables(const std::vector<Format<T>>& formats,
+                        const std::function<std::size_t(const YAML::Node&)>& which) {
   auto description = std::make_shared<ValueDescription>();
   description->kind = ValueDescription::Kind::any_of;
-  description->alternatives = {rectangle.description, free.description};
-  return {description,
-          [rectangle, free](const YAML::Node& node, Reading& reading, PlateModel& plate) {
-            const bool is_free = node.IsMap() && (node["corners"] || node["edges"]);
-            return (is_free ? free : rectangle).read(node, reading, plate);
+  for (const Format<T>& format : formats) description->alternatives.push_back(format.description);
+  return {description, [formats, which](const YAML::Node& node, Reading& reading, T& value) {
+            return formats[node.IsMap() ? which(node) : 0].read(node, reading, value);
           }};
+}
+
+/// Rectangles normal to an axis, or one plate of any orientation, told apart by their keys.
+Format<PlateModel> plate_format() {
+  return one_of_tables<PlateModel>(
+      {rectangle_format(), free_plate_format()},
+      [](const YAML::Node& node) { return node["corners"] || node["edges"] ? 1 : 0; });
 }
 
 Format<OpeningModel> opening_format() {
@@ -271,7 +298,9 @@ Format<OpeningModel> opening_format() {
   return taken(table);
 }
 
-Format<PadModel> pad_format() {
+bool has_plate_axes(const YAML::Node& node) { return node["u"] || node["v"] || node["n"]; }
+
+Format<PadModel> axis_pad_format() {
   Table<Written<PadModel>> table("pad", "A region in which a plate is thicker, around a lug.");
   table.required("plate", &PadModel::plate, reference(), "the plate that it thickens")
       .required("normal", &Rectangle::normal, choice<std::size_t>(axes), "that of the plate")
@@ -281,8 +310,32 @@ Format<PadModel> pad_format() {
       .required("thickness", &PadModel::thickness, quantity(Dimension::length, Range::positive()),
                 "in total, the plate included")
       .optional("material", &PadModel::material, reference(), "that of the plate if left out")
-      .rule(check_rectangle<PadModel>);
+      .rule(check_in_block<PadModel>);
   return taken(table);
+}
+
+Format<PadModel> free_pad_format() {
+  Table<Written<PadModel>> table("pad",
+                                 "A region in which a plate by its corners is thicker, in the "
+                                 "plate's own frame.");
+  table.required("plate", &PadModel::plate, reference(), "the plate that it thickens")
+      .required("u", &Written<PadModel>::x, extent_format(), "lower and upper end")
+      .required("v", &Written<PadModel>::y, extent_format(), "lower and upper end")
+      .required("thickness", &PadModel::thickness, quantity(Dimension::length, Range::positive()),
+                "in total, the plate included")
+      .optional("material", &PadModel::material, reference(), "that of the plate if left out");
+  return converted<PadModel, PadModel>(taken(table), [](PadModel pad) {
+    pad.is_in_plate_frame = true;
+    pad.normal = 2;
+    pad.at = 0;
+    return pad;
+  });
+}
+
+Format<PadModel> pad_format() {
+  return one_of_tables<PadModel>(
+      {axis_pad_format(), free_pad_format()},
+      [](const YAML::Node& node) { return has_plate_axes(node) ? 1 : 0; });
 }
 
 /// A lug on a mesh.
@@ -316,41 +369,63 @@ Format<LugModel> place_format() {
   return table.format();
 }
 
-Format<LugModel> plate_lug_format() {
-  Table<Written<LugModel>> table("lug",
-                                 "A plate that stands on a pad. The rope pulls at the pin; "
-                                 "its force is spread over the lug plate.");
-  table.required("pad", &LugModel::pad, reference(), "the pad that it is joined to")
-      .required("normal", &Rectangle::normal, choice<std::size_t>(axes),
+/// Keys of a lug plate beside its extents.
+Table<Written<LugModel>>& lug_keys(Table<Written<LugModel>>& table, const Axes& of_normal,
+                                   const std::string& place_of_pin) {
+  return table.required("pad", &LugModel::pad, reference(), "the pad that it is joined to")
+      .required("normal", &Rectangle::normal, choice<std::size_t>(of_normal),
                 "axis across the lug plate")
-      .required("at", &LugModel::at, quantity(Dimension::length), "position of its mid-plane");
-  extent_keys(table)
+      .required("at", &LugModel::at, quantity(Dimension::length), "position of its mid-plane")
       .required("thickness", &LugModel::thickness, quantity(Dimension::length, Range::positive()),
                 "of the lug plate")
-      .required("pin", &LugModel::pin, position_format(), "centre of the pin")
+      .required("pin", &LugModel::pin, position_format(), place_of_pin)
       .optional("material", &LugModel::material, reference(), "that of the pad if left out")
       .optional("padeye", &LugModel::padeye, reference(),
                 "one of the block's padeyes: what the lug is made as, checked by hand formulae and "
                 "by a fine mesh")
-      .rule(check_rectangle<LugModel>);
+      .rule([of_normal](const Written<LugModel>& lug, Reading& reading, const Mark& mark) {
+        check_rectangle(lug, of_normal, reading, mark);
+      });
+}
+
+Format<LugModel> plate_lug_format() {
+  Table<Written<LugModel>> table("lug",
+                                 "A plate that stands on a pad. The rope pulls at the pin; "
+                                 "its force is spread over the lug plate.");
+  lug_keys(extent_keys(table), axes, "centre of the pin");
   return taken(table);
+}
+
+Format<LugModel> free_lug_format() {
+  Table<Written<LugModel>> table("lug",
+                                 "A plate that stands on the pad of a plate by its corners, in "
+                                 "that plate's own frame u, v, n.");
+  table.optional("u", &Written<LugModel>::x, extent_format(), extent_meaning)
+      .optional("v", &Written<LugModel>::y, extent_format(), extent_meaning)
+      .optional("n", &Written<LugModel>::z, extent_format(), extent_meaning);
+  lug_keys(table, plate_axes, "centre of the pin, [u, v, n]");
+  return converted<LugModel, LugModel>(taken(table), [](LugModel lug) {
+    lug.is_in_plate_frame = true;
+    lug.pin_in_plate = lug.pin.value;
+    return lug;
+  });
 }
 
 /// A plate on a pad or a place on a mesh, told apart by their keys.
 Format<LugModel> lug_format() {
-  const Format<LugModel> plate = plate_lug_format(), place = place_format();
-  auto description = std::make_shared<ValueDescription>();
-  description->kind = ValueDescription::Kind::any_of;
-  description->alternatives = {plate.description, place.description};
-  return {description, [plate, place](const YAML::Node& node, Reading& reading, LugModel& lug) {
-            const auto has = [&](const char* key) { return static_cast<bool>(node[key]); };
-            const bool is_place =
-                node.IsMap() && (has("node") || has("set") || has("radius") ||
-                                 (has("pin") && !has("pad") && !has("normal") && !has("at")));
-            const bool done = (is_place ? place : plate).read(node, reading, lug);
-            lug.is_place = is_place;
-            return done;
-          }};
+  const auto is_place = [](const YAML::Node& node) {
+    const auto has = [&](const char* key) { return static_cast<bool>(node[key]); };
+    return has("node") || has("set") || has("radius") ||
+           (has("pin") && !has("pad") && !has("normal") && !has("at"));
+  };
+  const auto place = converted<LugModel, LugModel>(place_format(), [](LugModel lug) {
+    lug.is_place = true;
+    return lug;
+  });
+  return one_of_tables<LugModel>({plate_lug_format(), free_lug_format(), place},
+                                 [is_place](const YAML::Node& node) {
+                                   return is_place(node) ? 2 : has_plate_axes(node) ? 1 : 0;
+                                 });
 }
 
 }  // namespace
@@ -366,6 +441,20 @@ const PlateModel* BlockModel::find_plate(const std::string& name) const {
     return plate.name.value == name;
   });
   return found == plates.end() ? nullptr : &*found;
+}
+
+std::optional<structure::PlaneFrame> BlockModel::find_frame(const PadModel& pad) const {
+  constexpr std::size_t fewest = 3;
+  const PlateModel* plate = find_plate(pad.plate.value);
+  if (!plate || !plate->corners || plate->corners->value.size() < fewest) return std::nullopt;
+  const structure::PlaneFrame frame = structure::frame_of_polygon(plate->corners->value);
+  if (!frame.axes.allFinite()) return std::nullopt;
+  return frame;
+}
+
+std::optional<structure::PlaneFrame> BlockModel::find_frame(const LugModel& lug) const {
+  const PadModel* pad = find_by_name(pads, lug.pad.value);
+  return pad ? find_frame(*pad) : std::nullopt;
 }
 
 const PadeyeDesign* BlockModel::find_padeye(const LugModel& lug) const {

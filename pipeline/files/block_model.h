@@ -10,6 +10,7 @@
 #include "pipeline/files/block_mesh.h"
 #include "pipeline/files/crane_model.h"
 #include "pipeline/files/padeye_format.h"
+#include "structure/mesh/plane_frame.h"
 #include "structure/mesh/sections.h"
 
 namespace blocklift::pipeline {
@@ -26,16 +27,18 @@ struct MaterialModel {
   double yield_stress = std::numeric_limits<double>::quiet_NaN();  ///< Pa
 };
 
-/// Rectangle normal to an axis of the block: its extent along the two other axes, m.
+/// Rectangle normal to an axis of the block, or of the frame of a plate by its corners
+/// (structure/mesh/plane_frame.h): its extent along the two other axes, m.
 struct Rectangle {
-  std::size_t normal = 0;  ///< 0, 1, 2 for x, y, z
+  std::size_t normal = 0;          ///< 0, 1, 2 for x, y, z, or u, v, n
+  bool is_in_plate_frame = false;  ///< the axes are u, v, n
   std::array<std::optional<Located<std::array<double, 2>>>, 3> extent;
 };
 
 /// Equal stiffeners that a plate carries: they divide its panels in the check of buckling. With a
 /// profile they are beams of the model, too; without one it leaves them out.
 struct StiffenersModel {
-  std::size_t along = 0;                                      ///< axis
+  std::size_t along = 0;  ///< axis: 0, 1, 2 for x, y, z; 0, 1 for u, v of a plate by its corners
   double spacing = std::numeric_limits<double>::quiet_NaN();  ///< m
   std::optional<structure::Profile> profile;                  ///< from its foot on the plate
   int side = 1;                                               ///< of the plate, along its normal
@@ -100,6 +103,7 @@ struct LugModel : Rectangle {
   Located<std::string> material;  ///< empty: that of the pad
   /// Centre of the pin, m. On a mesh it may be left out: then it is found when the mesh is read.
   Located<Vector3> pin{Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), {}};
+  Vector3 pin_in_plate = Vector3::Zero();      ///< (u, v, n) where the lug is in a plate's frame, m
   std::optional<Located<std::string>> padeye;  ///< that it is made as
   // On a mesh.
   std::optional<Located<int>> node;         ///< the number of the node that it stands at
@@ -129,6 +133,9 @@ struct BlockModel {
   const LugModel* find_lug(const std::string& name) const;
   const PadeyeDesign* find_padeye(const LugModel& lug) const;  ///< null: the lug has none
   const PlateModel* find_plate(const std::string& name) const;
+  /// The frame that a pad, or a lug with its pad, is given in; none without such a plate.
+  std::optional<structure::PlaneFrame> find_frame(const PadModel& pad) const;
+  std::optional<structure::PlaneFrame> find_frame(const LugModel& lug) const;
   std::vector<std::string> lug_names() const;
 };
 

@@ -26,6 +26,7 @@ class Placing {
     return {Vector3::Ones() - 2 * Vector3::Unit(axis), 2 * at * Vector3::Unit(axis)};
   }
 
+  bool is_mirror() const { return sign_.prod() < 0; }
   bool turns(std::size_t axis) const { return sign_[static_cast<Eigen::Index>(axis)] < 0; }
 
   double coordinate(std::size_t axis, double value) const {
@@ -57,6 +58,12 @@ class Placing {
 /// A row's profile points its flange to (along) x (away from the plate), which does not follow a
 /// reflection across the stiffeners: the profile itself is reflected then.
 void place_stiffeners(const Placing& placing, const PlateModel& plate, StiffenersModel& row) {
+  if (plate.is_free()) {  // mirrored, its own axes keep to its sides, and its normal turns about
+    if (!placing.is_mirror()) return;
+    row.side = -row.side;
+    if (row.profile) row.profile = structure::seen(*row.profile, false, false, true);
+    return;
+  }
   const std::size_t across = 3 - row.along - plate.normal;
   if (across > 2) return;  // along the normal: complained about elsewhere
   if (!row.first && placing.turns(across) && plate.extent[across])
@@ -77,11 +84,27 @@ void place_part(const Placing& placing, PlateModel& plate) {
 }
 
 void place_part(const Placing& placing, PadModel& pad) {
+  if (pad.is_in_plate_frame) return;
   pad.at = placing.coordinate(pad.normal, pad.at);
   placing.place(pad.extent);
 }
 
+/// In the frame of its plate, which is copied with it, a lug stays; but mirrored, n turns about.
+void place_in_plate(const Placing& placing, LugModel& lug) {
+  constexpr std::size_t n = 2;
+  if (!placing.is_mirror()) return;
+  lug.pin_in_plate.z() = -lug.pin_in_plate.z();
+  if (lug.normal == n) lug.at = -lug.at;
+  if (!lug.extent[n]) return;
+  const std::array<double, 2> reach = lug.extent[n]->value;
+  lug.extent[n]->value = {-reach[1], -reach[0]};
+}
+
 void place_part(const Placing& placing, LugModel& lug) {
+  if (lug.is_in_plate_frame) {
+    place_in_plate(placing, lug);
+    return;
+  }
   lug.at = placing.coordinate(lug.normal, lug.at);
   placing.place(lug.extent);
   placing.place(lug.pin.value);
@@ -111,6 +134,7 @@ Reach reach_of(const PlateModel& plate, std::size_t axis) {
 
 template <class T>
 Reach reach_of_one(const T& part, std::size_t axis) {
+  if (part.is_in_plate_frame) return {};
   return axis == part.normal ? Reach{part.at} : reach_of(part.extent, axis);
 }
 Reach reach_of(const PadModel& pad, std::size_t axis) { return reach_of_one(pad, axis); }
@@ -146,7 +170,8 @@ class Copying {
   void repeat(const RepeatModel& repeat) {
     if (repeat.count < 1 || !repeat.step.value.allFinite() || repeat.step.value.isZero(same_place))
       return;
-    const Selection selected = select(repeat);
+    Selection selected = select(repeat);
+    keep_with_plates(&repeat, selected);
     const Places places = places_of(selected);
     for (int i = 1; i <= repeat.count && has_room(repeat); ++i)
       copy(repeat, selected, places, Placing::moved(i * repeat.step.value),
@@ -156,7 +181,9 @@ class Copying {
   void mirror(const MirrorModel& mirror) {
     if (!std::isfinite(mirror.at.value) || !has_room(mirror)) return;
     Selection selected = select(mirror);
+    keep_with_plates(&mirror, selected);
     keep_beside(mirror, block_.plates, "plate", selected.plates);
+    keep_with_plates(nullptr, selected);  // a plate in the mirror plane stays with what it carries
     keep_openings_beside(mirror, selected);
     keep_beside(mirror, block_.pads, "pad", selected.pads);
     keep_beside(mirror, block_.lugs, "lug", selected.lugs);
@@ -214,6 +241,29 @@ class Copying {
         name.mark,
         fmt::format("\"{}\" is to be copied, and the block has no part of that name", name.value),
         {names_hint("its parts are", names, name.value)});
+  }
+
+  /// What is given in the frame of a plate is copied with it alone.
+  /// @param what hears complaints; null: nobody does.
+  void keep_with_plates(const CopiedParts* what, Selection& selected) {
+    const auto keep = [&](const auto& items, const char* noun, const auto& base,
+                          const std::set<std::string>& bases, std::set<std::string>& names) {
+      for (const auto& item : items) {
+        if (!item.is_in_plate_frame || has_name(bases, base(item)) ||
+            names.erase(item.name.value) == 0 || !what)
+          continue;
+        complain(what->place,
+                 fmt::format("{} {} would be copied without {}, in whose frame it is", noun,
+                             item.name.value, base(item)),
+                 {"name both"});
+      }
+    };
+    keep(
+        block_.pads, "pad", [](const PadModel& pad) { return pad.plate.value; }, selected.plates,
+        selected.pads);
+    keep(
+        block_.lugs, "lug", [](const LugModel& lug) { return lug.pad.value; }, selected.pads,
+        selected.lugs);
   }
 
   /// Complains once when there are too many parts.
@@ -410,8 +460,21 @@ Format<MirrorModel> mirror_format() {
   return table.format();
 }
 
+namespace {
+
+/// Pins that are given in the frames of plates have their places in the block's.
+BlockModel with_pins_in_place(BlockModel block) {
+  for (LugModel& lug : block.lugs) {
+    if (!lug.is_in_plate_frame) continue;
+    if (const auto frame = block.find_frame(lug)) lug.pin.value = frame->point(lug.pin_in_plate);
+  }
+  return block;
+}
+
+}  // namespace
+
 BlockModel with_copies(const BlockFile& file, Reading* reading) {
-  if (file.repeats.empty() && file.mirrors.empty()) return file;
+  if (file.repeats.empty() && file.mirrors.empty()) return with_pins_in_place(file);
   if (file.mesh) {
     const Mark& mark =
         file.repeats.empty() ? file.mirrors.front().place : file.repeats.front().place;
@@ -423,7 +486,7 @@ BlockModel with_copies(const BlockFile& file, Reading* reading) {
   Copying copying(file, reading);
   for (const RepeatModel& repeat : file.repeats) copying.repeat(repeat);
   for (const MirrorModel& mirror : file.mirrors) copying.mirror(mirror);
-  return copying.take();
+  return with_pins_in_place(copying.take());
 }
 
 }  // namespace blocklift::pipeline

@@ -127,13 +127,17 @@ std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const Block
   const auto axis_of = [](std::size_t axis) {
     return Vector3(Vector3::Unit(static_cast<Eigen::Index>(axis)));
   };
+  const std::optional<structure::PlaneFrame> frame =
+      lug.is_in_plate_frame ? block.find_frame(lug) : std::nullopt;
+  if (lug.is_in_plate_frame && !frame) return std::nullopt;
+  const Vector3& pin = frame ? lug.pin_in_plate : lug.pin.value;
   PlacedPadeye placed;
   placed.p_BP = lug.pin.value;
   placed.R_BP.col(1) = out.sign * axis_of(out.axis);
   placed.R_BP.col(2) = axis_of(lug.normal);
   placed.R_BP.col(0) = placed.R_BP.col(1).cross(placed.R_BP.col(2));
-  const double pin_out = lug.pin.value[static_cast<Eigen::Index>(out.axis)];
-  const double pin_side = lug.pin.value[static_cast<Eigen::Index>(side)];
+  const double pin_out = pin[static_cast<Eigen::Index>(out.axis)];
+  const double pin_side = pin[static_cast<Eigen::Index>(side)];
   const auto& width = lug.extent[side]->value;
   const bool along_axis = placed.R_BP.col(0).dot(axis_of(side)) > 0;
   const double lower = pin_side - width[0], upper = width[1] - pin_side;
@@ -158,8 +162,9 @@ std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const Block
         fmt::format("the main plate is {:.6g} mm thick, the lug in the block {:.6g} "
                     "mm",
                     1000 * design.thickness, 1000 * lug.thickness));
-  if (std::abs(lug.pin.value[static_cast<Eigen::Index>(lug.normal)] - lug.at) > same_place)
+  if (std::abs(pin[static_cast<Eigen::Index>(lug.normal)] - lug.at) > same_place)
     faults.emplace_back("its pin lies beside the middle of its plate");
+  if (frame) placed.R_BP = frame->axes * placed.R_BP;
   return placed;
 }
 

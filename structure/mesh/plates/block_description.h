@@ -118,6 +118,28 @@ struct Lug {
   Vector3 p_BPin = Vector3::Zero();
 };
 
+/// Thickened region of a plane free plate, in the plate's frame (structure/mesh/plane_frame.h).
+struct FreePad {
+  std::string name;
+  std::string plate;
+  std::array<Interval, 2> extent;  ///< along u and v, m
+  double thickness = 0;            ///< in total, m
+  std::string material;            ///< empty: that of the plate
+};
+
+/// Lug that stands on (or lies in) a free pad: a rectangle normal to u, v or n of the plate's frame
+/// (here x, y, z).
+struct FreeLug {
+  std::string name;
+  std::string pad;
+  Axis normal = Axis::x;
+  double position = 0;               ///< along its normal, m
+  std::array<Interval, 3> extent;    ///< along u, v, n, m
+  double thickness = 0;              ///< m
+  std::string material;              ///< empty: that of the pad
+  Vector3 p_BPin = Vector3::Zero();  ///< in the block's frame, m
+};
+
 /// Stiffened block of plates, as a block file describes it.
 struct BlockDescription {
   std::string name;
@@ -128,7 +150,11 @@ struct BlockDescription {
   std::vector<FreeOpening> free_openings;
   std::vector<Pad> pads;
   std::vector<Lug> lugs;
+  std::vector<FreePad> free_pads;
+  std::vector<FreeLug> free_lugs;
   std::vector<Stiffeners> stiffeners;
+  /// On plane free plates: x is u and y is v of the plate's frame, in which `first` counts.
+  std::vector<Stiffeners> free_stiffeners;
   /// Mass and centre of mass in the lift, outfitting included; absent: those of the plates alone.
   std::optional<double> total_mass;         ///< kg
   std::optional<Vector3> centre_of_mass_B;  ///< m

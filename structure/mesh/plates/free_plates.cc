@@ -20,6 +20,8 @@
 #include "structure/mesh/files/surfaces/deck_packet.h"
 #include "structure/mesh/files/surfaces/fragments.h"
 #include "structure/mesh/files/surfaces/surface_mesher.h"
+#include "structure/mesh/plane_frame.h"
+#include "structure/mesh/plates/free_sheets.h"
 
 namespace blocklift::structure {
 
@@ -28,17 +30,8 @@ namespace {
 namespace occ = gmsh::model::occ;
 
 constexpr double joint_tolerance = 1e-4;  // m
-constexpr double out_of_plane = 1e-3;     // m, that is taken as plane
 constexpr double share_at_lugs = 1.0 / 3;
 constexpr double seconds_to_mesh = 1800, most_memory = 8e9;  // s, bytes
-
-/// Unit normal of a plane polygon by its area vector.
-Vector3 normal_of(const std::vector<Vector3>& corners) {
-  Vector3 area = Vector3::Zero();
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    area += (corners[i] - corners[0]).cross(corners[(i + 1) % corners.size()] - corners[0]);
-  return area.normalized();
-}
 
 Vector3 centre_of_arc(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 u = b - a, v = c - a, n = u.cross(v);
@@ -106,8 +99,9 @@ class Drawing {
 class BlockDrawing {
  public:
   BlockDrawing(const BlockDescription& block, const SheetGrid& grid,
-               const std::vector<SheetPanel>& panels, const std::vector<BeamLine>& beams)
-      : block_(block), grid_(grid), panels_(panels), beams_(beams) {}
+               const std::vector<SheetPanel>& panels, const std::vector<FreeSheet>& free_sheets,
+               const std::vector<BeamLine>& beams)
+      : block_(block), grid_(grid), panels_(panels), free_sheets_(free_sheets), beams_(beams) {}
 
   Mesh mesh() {
     const GmshSession session;
@@ -116,6 +110,9 @@ class BlockDrawing {
     for (const HoleFrame& frame : grid_.frames()) owners_[{2, draw(frame)}] = frame.sheet;
     for (std::size_t i = 0; i < block_.free_plates.size(); ++i)
       draw(block_.free_plates[i], first_free() + static_cast<int>(i));
+    for (std::size_t i = block_.free_plates.size(); i < free_sheets_.size(); ++i)
+      owners_[{2, Drawing::plane({drawing_.polygon(free_sheets_[i].corners)})}] =
+          first_free() + static_cast<int>(i);
     // Beams have numbers of their own kind.
     for (std::size_t b = 0; b < beams_.size(); ++b)
       owners_[{1, drawing_.line(beams_[b].from, beams_[b].to)}] = static_cast<int>(b);
@@ -124,6 +121,7 @@ class BlockDrawing {
     sizes.largest = block_.largest_element;
     sizes.at_places = share_at_lugs * sizes.largest;
     for (const Lug& lug : block_.lugs) sizes.places.push_back(lug.p_BPin);
+    for (const FreeLug& lug : block_.free_lugs) sizes.places.push_back(lug.p_BPin);
     mesh_surfaces(sizes, 1);
     Deck deck;
     collect_cells(regions, 1, deck);
@@ -135,7 +133,7 @@ class BlockDrawing {
 
   std::string name_of_owner(int owner) const {
     return owner < first_free() ? grid_.sheets()[at(owner)].name
-                                : block_.free_plates[at(owner - first_free())].name;
+                                : free_sheets_[at(owner - first_free())].name;
   }
 
   Vector3 place(const std::array<int, 3>& planes) const {
@@ -198,7 +196,7 @@ class BlockDrawing {
 
   std::vector<int> draw(const FreeOpening& opening, const FreePlate& plate) {
     if (!opening.corners.empty()) return drawing_.polygon(opening.corners);
-    const Vector3 normal = normal_of(plate.corners);
+    const Vector3 normal = normal_of_polygon(plate.corners);
     const Vector3& first = opening.centres.front();
     const Vector3& last = opening.centres.back();
     Vector3 along = last - first;
@@ -220,38 +218,46 @@ class BlockDrawing {
         regions.curves[piece.second] = owners.front();
         continue;
       }
-      if (owners.size() > 1)
-        throw ModelError(
-            fmt::format("plate \"{}\" lies upon {}; where a plate is thicker, divide "
-                        "it",
-                        name_of_owner(owners.back()), name_of_owner(owners.front())));
-      regions.surfaces[piece.second] = owners.front();
+      regions.surfaces[piece.second] = owner_of_piece(owners);
     }
     return regions;
+  }
+
+  /// Of a free lug, its pad and its plate, the first that is there; nothing else lies upon another.
+  int owner_of_piece(const std::vector<int>& owners) const {
+    const auto rank = [&](int owner) {
+      return owner < first_free() ? SheetRank::plate : free_sheets_[at(owner - first_free())].rank;
+    };
+    const int top = *std::max_element(owners.begin(), owners.end(),
+                                      [&](int a, int b) { return rank(a) < rank(b); });
+    std::set<int> below{top};
+    for (int next = base_of(top); next >= 0; next = base_of(next)) below.insert(next);
+    for (const int owner : owners)
+      if (below.count(owner) == 0)
+        throw ModelError(
+            fmt::format("plate \"{}\" lies upon {}; where a plate is thicker, divide it",
+                        name_of_owner(std::max(owner, top)), name_of_owner(std::min(owner, top))));
+    if (rank(top) == SheetRank::pad && owners.size() == 1)
+      throw ModelError(fmt::format("pad \"{}\" reaches beyond its plate \"{}\" or over an opening",
+                                   name_of_owner(top), name_of_owner(base_of(top))));
+    return top;
+  }
+
+  /// What a free sheet lies on; -1: nothing.
+  int base_of(int owner) const {
+    if (owner < first_free()) return -1;
+    const int base = free_sheets_[at(owner - first_free())].base;
+    return base < 0 ? -1 : first_free() + base;
   }
 
   const BlockDescription& block_;
   const SheetGrid& grid_;
   const std::vector<SheetPanel>& panels_;
+  const std::vector<FreeSheet>& free_sheets_;
   const std::vector<BeamLine>& beams_;
   Drawing drawing_;
   std::map<Entity, int> owners_;
 };
-
-void check_free_plate(const FreePlate& plate) {
-  if (plate.corners.empty()) return;
-  const Vector3 normal = normal_of(plate.corners);
-  if (!normal.allFinite() || plate.corners.size() < 3)
-    throw ModelError(fmt::format("plate \"{}\" has no area", plate.name));
-  for (const Vector3& corner : plate.corners) {
-    const double distance = std::abs(normal.dot(corner - plate.corners[0]));
-    if (distance > out_of_plane)
-      throw ModelError(
-          fmt::format("the corners of plate \"{}\" are not in one plane: one lies {:.3g} "
-                      "mm off; a twisted plate is given by two edges",
-                      plate.name, 1000 * distance));
-  }
-}
 
 /// Turns a shell over: its normal points the other way.
 void turn_over(Shell& shell, Mesh& mesh) {
@@ -284,15 +290,15 @@ void number(Mesh& mesh) {
 
 Mesh mesh_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
                            const std::vector<SheetPanel>& panels,
+                           const std::vector<FreeSheet>& free_sheets,
                            const std::vector<BeamLine>& beams) {
-  for (const FreePlate& plate : block.free_plates) check_free_plate(plate);
   try {
     Packet packet = in_child_process(
         [&] {
           Packet result;
           try {
             Deck deck;
-            deck.mesh = BlockDrawing(block, grid, panels, beams).mesh();
+            deck.mesh = BlockDrawing(block, grid, panels, free_sheets, beams).mesh();
             put_surfaces(deck, result);
           } catch (const std::string& error) {
             throw ModelError("the block's plates cannot be meshed: " + error);
@@ -302,8 +308,12 @@ Mesh mesh_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
         {seconds_to_mesh, most_memory});
     Mesh mesh = take_surfaces(packet).mesh;
     for (Beam& beam : mesh.beams) {
-      const std::array<int, 2> vertices = beam.vertices;
-      beam = beams[at(beam.region)].pattern;
+      std::array<int, 2> vertices = beam.vertices;
+      const BeamLine& line = beams[at(beam.region)];
+      const auto place = [&](std::size_t end) { return mesh.vertices[at(vertices[end])]; };
+      // Which way a curve runs once it was cut is OpenCASCADE's; the profile's axis 3 follows it.
+      if ((place(1) - place(0)).dot(line.to - line.from) < 0) std::swap(vertices[0], vertices[1]);
+      beam = line.pattern;
       beam.vertices = vertices;
     }
     order_normals(grid, mesh);

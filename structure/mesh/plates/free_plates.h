@@ -7,6 +7,8 @@
 
 namespace blocklift::structure {
 
+struct FreeSheet;
+
 /// A line of a row of stiffeners between two points, and its beams with all but vertices and label.
 struct BeamLine {
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< m
@@ -20,10 +22,11 @@ struct BeamLine {
 /// A shell's region is the place of its sheet in the grid; those of free plates follow. Shells of
 /// sheets have their normals along the sheet's axis. Sections of shells are -1. It is done in a
 /// child process, since the libraries keep one global session.
-/// @throws ModelError naming free plates whose corners are not in one plane or which lie upon other
+/// @throws ModelError naming free plates which lie upon other plates, pads that reach beyond their
 ///   plates, openings outside of their plates, and what OpenCASCADE cannot make.
 Mesh mesh_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
                            const std::vector<SheetPanel>& panels,
+                           const std::vector<FreeSheet>& free_sheets,
                            const std::vector<BeamLine>& beams);
 
 /// @throws ModelError naming groups whose plates are not joined to the largest connected part.

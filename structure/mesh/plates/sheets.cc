@@ -53,7 +53,10 @@ void check_names(const BlockDescription& block) {
   check("plate", block.free_plates);
   check("pad", block.pads);
   check("lug", block.lugs);
+  check("pad", block.free_pads);
+  check("lug", block.free_lugs);
   check("row of stiffeners", block.stiffeners);
+  check("row of stiffeners", block.free_stiffeners);
 }
 
 void check_rectangle(const std::string& what, Axis normal, const std::array<Interval, 3>& extent) {
@@ -178,24 +181,11 @@ void cut_openings(const BlockDescription& block, std::vector<Sheet>& sheets) {
   }
 }
 
-void check_row(const std::string& what, const Stiffeners& row) {
-  if (!(std::isfinite(row.spacing) && row.spacing > 0))
-    throw ModelError(
-        fmt::format("{} has a spacing of {:g} m; it must be positive", what, row.spacing));
-  if (!(std::isfinite(row.section.area) && row.section.area > 0))
-    throw ModelError(
-        fmt::format("{} has a section of {:g} m^2; it must be positive", what, row.section.area));
-  if (row.side != 1 && row.side != -1)
-    throw ModelError(
-        fmt::format("{} stands on side {} of its plate; +1 and -1 are the sides along its normal",
-                    what, row.side));
-}
-
 void add_stiffeners(const BlockDescription& block, std::vector<Sheet>& sheets) {
   for (std::size_t r = 0; r < block.stiffeners.size(); ++r) {
     const Stiffeners& row = block.stiffeners[r];
     const std::string what = "row of stiffeners \"" + row.name + "\"";
-    check_row(what, row);
+    check_stiffeners(row);
     if (!row.material.empty()) place_of_material(block, what, row.material);
     const int along = static_cast<int>(row.along);
     for (Sheet* sheet : sheets_of(block, what + " stands on", row.plate, row.positions, sheets)) {
@@ -284,6 +274,20 @@ void add_pads_and_lugs(const BlockDescription& block, std::vector<Sheet>& sheets
 }
 
 }  // namespace
+
+void check_stiffeners(const Stiffeners& row) {
+  const std::string what = "row of stiffeners \"" + row.name + "\"";
+  if (!(std::isfinite(row.spacing) && row.spacing > 0))
+    throw ModelError(
+        fmt::format("{} has a spacing of {:g} m; it must be positive", what, row.spacing));
+  if (!(std::isfinite(row.section.area) && row.section.area > 0))
+    throw ModelError(
+        fmt::format("{} has a section of {:g} m^2; it must be positive", what, row.section.area));
+  if (row.side != 1 && row.side != -1)
+    throw ModelError(
+        fmt::format("{} stands on side {} of its plate; +1 and -1 are the sides along its normal",
+                    what, row.side));
+}
 
 int place_of_material(const BlockDescription& block, const std::string& what,
                       const std::string& material) {

@@ -47,6 +47,9 @@ struct Sheet {
 int place_of_material(const BlockDescription& block, const std::string& what,
                       const std::string& material);
 
+/// @throws ModelError unless a row of stiffeners has spacing, section and side.
+void check_stiffeners(const Stiffeners& row);
+
 /// Spreads a description into sheets, in the order plates, pads, lugs.
 /// @throws ModelError naming what is wrong: names used twice, unknown materials, plates or pads,
 ///   empty extents, thickness not positive, overlapping plates of different thickness in one plane,

@@ -16,6 +16,7 @@
 #include "structure/index.h"
 #include "structure/mesh/plates/cell_maker.h"
 #include "structure/mesh/plates/free_plates.h"
+#include "structure/mesh/plates/free_sheets.h"
 #include "structure/mesh/plates/sheet_grid.h"
 #include "structure/mesh/plates/sheets.h"
 
@@ -34,22 +35,25 @@ std::array<PanelEdge, 4> edges_of(const SheetPanel& panel) {
   return {{{panel.lower, right}, {left, panel.upper}, {panel.lower, left}, {right, panel.upper}}};
 }
 
+/// Groups: plates, pads, lugs, rows of stiffeners, then the free plates, pads, lugs and rows.
+/// Regions: the grid's sheets, then the free ones.
 void add_groups_and_regions(const BlockDescription& block, const std::vector<Sheet>& sheets,
-                            Mesh& mesh) {
+                            const std::vector<FreeSheet>& free_sheets, Mesh& mesh) {
   mesh.materials = block.materials;
   for (const auto& plate : block.plates) mesh.groups.push_back({plate.name, 0});
   for (const auto& pad : block.pads) mesh.groups.push_back({pad.name, 0});
   for (const auto& lug : block.lugs) mesh.groups.push_back({lug.name, 0});
   for (const auto& row : block.stiffeners) mesh.groups.push_back({row.name, 0});
-  for (const auto& plate : block.free_plates)
-    mesh.groups.push_back({plate.name, place_of_material(block, plate.name, plate.material)});
   for (const Sheet& sheet : sheets) {
     mesh.groups[at(sheet.group)].material = sheet.material;
     mesh.regions.push_back({sheet.name, sheet.group, sheet.rank == SheetRank::lug});
   }
-  const int first_free = static_cast<int>(mesh.groups.size() - block.free_plates.size());
-  for (std::size_t i = 0; i < block.free_plates.size(); ++i)
-    mesh.regions.push_back({block.free_plates[i].name, first_free + static_cast<int>(i), false});
+  for (const FreeSheet& sheet : free_sheets) {
+    mesh.regions.push_back(
+        {sheet.name, static_cast<int>(mesh.groups.size()), sheet.rank == SheetRank::lug});
+    mesh.groups.push_back({sheet.name, place_of_material(block, sheet.name, sheet.material)});
+  }
+  for (const auto& row : block.free_stiffeners) mesh.groups.push_back({row.name, 0});
 }
 
 /// Place of a thickness and material among the mesh's sections.
@@ -76,8 +80,8 @@ struct PatternedSpan {
 std::vector<PatternedSpan> beams_of(const BlockDescription& block, const SheetGrid& grid,
                                     Mesh& mesh) {
   std::vector<PatternedSpan> beams;
-  const int first_group =
-      static_cast<int>(mesh.groups.size() - block.stiffeners.size() - block.free_plates.size());
+  const auto first_group =
+      static_cast<int>(block.plates.size() + block.pads.size() + block.lugs.size());
   std::map<std::pair<int, int>, int> regions;   // (row, sheet)
   std::map<std::pair<int, int>, int> sections;  // (row, material)
   for (const StiffenerSpan& span : grid.stiffener_spans()) {
@@ -169,6 +173,11 @@ void check_joined(const SheetGrid& grid, const std::vector<SheetPanel>& panels) 
                    "; extend them until they reach another plate");
 }
 
+std::string not_on_pad(const std::string& lug, const std::string& pad) {
+  return "lug \"" + lug + "\" does not touch its pad \"" + pad +
+         "\"; let its plate end on the pad's edge or lie in it";
+}
+
 // A lug stands on its pad when they share a panel, or panels of theirs share an edge.
 void check_lug_on_pad(const std::vector<SheetPanel>& panels, const Lug& lug, int lug_sheet,
                       int pad_sheet) {
@@ -185,18 +194,18 @@ void check_lug_on_pad(const std::vector<SheetPanel>& panels, const Lug& lug, int
     if (has(panel, pad_sheet))
       for (const PanelEdge& edge : edges_of(panel))
         if (lug_edges.count(edge) != 0) return;
-  throw ModelError("lug \"" + lug.name + "\" does not touch its pad \"" + lug.pad +
-                   "\"; let its plate end on the pad's edge or lie in it");
+  throw ModelError(not_on_pad(lug.name, lug.pad));
 }
 
-void add_lifting_point(const Lug& lug, int lug_sheet, int pad_sheet, Mesh& mesh) {
-  LiftingPoint point{lug.name, lug.p_BPin, lug_sheet, pad_sheet, 0};
+void add_lifting_point(const std::string& name, const Vector3& p_BPin, int lug_sheet, int pad_sheet,
+                       Mesh& mesh) {
+  LiftingPoint point{name, p_BPin, lug_sheet, pad_sheet, 0};
   double size = 0, reach = 1e300;
   for (const Shell& shell : mesh.shells) {
     if (shell.region != lug_sheet && shell.region != pad_sheet) continue;
     const Vector3& first = mesh.vertices[at(shell.vertices[0])];
     for (const int v : shell.vertices) {
-      const double distance = (mesh.vertices[at(v)] - lug.p_BPin).norm();
+      const double distance = (mesh.vertices[at(v)] - p_BPin).norm();
       point.radius = std::max(point.radius, distance);
       if (shell.region != lug_sheet) continue;
       reach = std::min(reach, distance);
@@ -204,8 +213,8 @@ void add_lifting_point(const Lug& lug, int lug_sheet, int pad_sheet, Mesh& mesh)
     }
   }
   if (reach > 2 * size + 0.5)
-    throw ModelError(fmt::format("the pin of lug \"{}\" lies {:g} m away from the lug's plate",
-                                 lug.name, reach));
+    throw ModelError(
+        fmt::format("the pin of lug \"{}\" lies {:g} m away from the lug's plate", name, reach));
   mesh.lifting_points.push_back(point);
 }
 
@@ -220,7 +229,7 @@ void add_lifting_points(const BlockDescription& block, const SheetGrid& grid,
     const int lug_sheet = first_lug + static_cast<int>(i);
     const int pad_sheet = first_pad + static_cast<int>(pad - block.pads.begin());
     check_lug_on_pad(panels, lug, lug_sheet, pad_sheet);
-    add_lifting_point(lug, lug_sheet, pad_sheet, mesh);
+    add_lifting_point(lug.name, lug.p_BPin, lug_sheet, pad_sheet, mesh);
   }
 }
 
@@ -229,16 +238,65 @@ Vector3 place_in(const SheetGrid& grid, const Place& planes) {
           grid.planes(2)[at(planes[2])]};
 }
 
+/// The lugs on free pads, whose regions follow those of the grid's sheets.
+void add_free_lifting_points(const BlockDescription& block,
+                             const std::vector<FreeSheet>& free_sheets, int first_free,
+                             Mesh& mesh) {
+  const int first_lug = first_free + static_cast<int>(free_sheets.size() - block.free_lugs.size());
+  for (std::size_t i = 0; i < block.free_lugs.size(); ++i) {
+    const FreeLug& lug = block.free_lugs[i];
+    const int lug_region = first_lug + static_cast<int>(i);
+    const int pad_region = first_free + free_sheets[at(lug_region - first_free)].base;
+    std::set<int> of_lug, shared;
+    for (const Shell& shell : mesh.shells)
+      if (shell.region == lug_region) of_lug.insert(shell.vertices.begin(), shell.vertices.end());
+    for (const Shell& shell : mesh.shells)
+      if (shell.region == pad_region)
+        for (const int vertex : shell.vertices)
+          if (of_lug.count(vertex) != 0) shared.insert(vertex);
+    if (shared.size() < 2) throw ModelError(not_on_pad(lug.name, lug.pad));
+    add_lifting_point(lug.name, lug.p_BPin, lug_region, pad_region, mesh);
+  }
+}
+
+/// Rows on free plates, each with a region and a section of its own.
+void add_free_stiffeners(const BlockDescription& block, const std::vector<FreeSheet>& free_sheets,
+                         Mesh& mesh, std::vector<BeamLine>& lines) {
+  const auto first_group = mesh.groups.size() - block.free_stiffeners.size();
+  const auto first_section = static_cast<int>(mesh.beam_sections.size());
+  const auto first_region = static_cast<int>(mesh.regions.size());
+  for (std::size_t i = 0; i < block.free_stiffeners.size(); ++i) {
+    const Stiffeners& row = block.free_stiffeners[i];
+    const auto plate =
+        std::find_if(free_sheets.begin(), free_sheets.end(),
+                     [&](const FreeSheet& sheet) { return sheet.name == row.plate; });
+    const std::string& material =
+        row.material.empty() && plate != free_sheets.end() ? plate->material : row.material;
+    const auto group = static_cast<int>(first_group + i);
+    mesh.groups[at(group)].material = place_of_material(block, row.name, material);
+    mesh.beam_sections.push_back(row.section);
+    mesh.beam_sections.back().material = mesh.groups[at(group)].material;
+    mesh.regions.push_back({row.name, group, false});
+  }
+  for (BeamLine& line : free_stiffener_lines(block)) {
+    line.pattern.section += first_section;
+    line.pattern.region += first_region;
+    lines.push_back(line);
+  }
+}
+
 /// With plates of any orientation: cut and meshed together with the grid's panels.
 Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
                                const std::vector<SheetPanel>& panels) {
   Mesh parts;
-  add_groups_and_regions(block, grid.sheets(), parts);
+  const std::vector<FreeSheet> free_sheets = spread_free_sheets(block);
+  add_groups_and_regions(block, grid.sheets(), free_sheets, parts);
   std::vector<BeamLine> lines;
   for (const PatternedSpan& beam : beams_of(block, grid, parts))
     lines.push_back(
         {place_in(grid, beam.span.lower), place_in(grid, beam.span.upper), beam.pattern});
-  Mesh mesh = mesh_with_free_plates(block, grid, panels, lines);
+  add_free_stiffeners(block, free_sheets, parts, lines);
+  Mesh mesh = mesh_with_free_plates(block, grid, panels, free_sheets, lines);
   mesh.materials = std::move(parts.materials);
   mesh.groups = std::move(parts.groups);
   mesh.regions = std::move(parts.regions);
@@ -249,11 +307,12 @@ Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& g
       shell.section = section_of(grid.sheets()[at(shell.region)], mesh);
       continue;
     }
-    const FreePlate& plate = block.free_plates[at(shell.region - sheets)];
-    shell.section = section_of(plate.thickness, mesh.group_of_region(shell.region).material, mesh);
+    const FreeSheet& sheet = free_sheets[at(shell.region - sheets)];
+    shell.section = section_of(sheet.thickness, mesh.group_of_region(shell.region).material, mesh);
   }
   require_one_part(mesh);
   add_lifting_points(block, grid, panels, mesh);
+  add_free_lifting_points(block, free_sheets, sheets, mesh);
   return mesh;
 }
 
@@ -265,7 +324,7 @@ Mesh generate_shell_mesh(const BlockDescription& block) {
   if (!block.free_plates.empty()) return generate_with_free_plates(block, grid, panels);
   check_joined(grid, panels);
   Mesh mesh;
-  add_groups_and_regions(block, grid.sheets(), mesh);
+  add_groups_and_regions(block, grid.sheets(), {}, mesh);
   CellMaker maker(grid, panels, block.largest_element, mesh);
   for (const SheetPanel& panel : panels)
     if (panel.frame < 0) maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
