@@ -3,10 +3,18 @@
 namespace blocklift::pipeline {
 
 std::vector<VerificationCase> hydrodynamics_cases() {
-  return {
-      floating_cube(),    righting_arms_of_a_box(), closed_path_of_buoyancy(), panel_integrals(),
-      deep_sphere(),      floating_hemisphere(),    truncated_cylinder(),      two_hemispheres(),
-      haskind_relation(), standing_cylinder(),      free_decay_of_a_sphere()};
+  return {floating_cube(),
+          righting_arms_of_a_box(),
+          closed_path_of_buoyancy(),
+          panel_integrals(),
+          deep_sphere(),
+          floating_hemisphere(),
+          truncated_cylinder(),
+          two_hemispheres(),
+          haskind_relation(),
+          standing_cylinder(),
+          free_decay_of_a_sphere(),
+          sphere_through_files()};
 }
 
 }  // namespace blocklift::pipeline

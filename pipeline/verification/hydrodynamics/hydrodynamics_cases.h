@@ -32,5 +32,8 @@ VerificationCase haskind_relation();
 VerificationCase standing_cylinder();
 /// Free decay of a floating sphere, directly and by Cummins' equation; steps of the convolution.
 VerificationCase free_decay_of_a_sphere();
+/// The shipped sphere from its file to a database's file, and its decay in a mechanism that names
+/// it.
+VerificationCase sphere_through_files();
 
 }  // namespace blocklift::pipeline
