@@ -324,11 +324,12 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
 
   nlohmann::ordered_json summary = make_summary(assessment);
   summary[layout::run] = run;
+  const bool has_mesh = assessment.lift_case.load.model && assessment.lift_case.load.model->mesh;
+  if (has_mesh) summary["mesh_page"] = mesh_page_file;  // the report links to it
   const fs::path summary_path = preparation.folder() / layout::summary_file;
   write_file(summary_path, summary.dump(2));
   if (assessment.standard)
     write_file(preparation.folder() / package_file, calculation_package(assessment));
-  const bool has_mesh = assessment.lift_case.load.model && assessment.lift_case.load.model->mesh;
   if (has_mesh)
     write_file(preparation.folder() / mesh_page_file,
                mesh_page(*assessment.lift_case.load.model->mesh, assessment.lift_case.title));
