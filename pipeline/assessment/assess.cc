@@ -333,6 +333,8 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
 
   nlohmann::ordered_json summary = make_summary(assessment);
   summary[layout::run] = run;
+  const bool has_mesh = assessment.lift_case.load.model && assessment.lift_case.load.model->mesh;
+  if (has_mesh) summary["mesh_page"] = mesh_page_file;  // the report links to it
   const fs::path summary_path = preparation.folder() / layout::summary_file;
   write_file(summary_path, summary.dump(2));
   if (assessment.standard) {
@@ -341,7 +343,6 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
     write_file(preparation.folder() / package_word_file,
                word_document_of(package, calculation_foot(assessment)));
   }
-  const bool has_mesh = assessment.lift_case.load.model && assessment.lift_case.load.model->mesh;
   if (has_mesh)
     write_file(preparation.folder() / mesh_page_file,
                mesh_page(*assessment.lift_case.load.model->mesh, assessment.lift_case.title));

@@ -60,6 +60,9 @@ std::string document_table(const Json& data) {
   row("Made",
       escaped_at(lift_case, "created") + ", Blocklift " + escaped_at(lift_case, "program_version"));
   row("Hash of the input", "<code>" + escaped_at(lift_case, "hash") + "</code>");
+  if (const std::string page = escaped_at(data["summary"], "mesh_page"); !page.empty())
+    row("Mesh of the block",
+        fmt::format("<a href=\"{}\">what was read and what was found in it</a>", page));
   return html + "</dl>\n";
 }
 

@@ -48,6 +48,9 @@ TEST_F(MeshCommand, LiftsADeckAndNamesWhatItLeavesOut) {
   EXPECT_TRUE(fs::exists("out/report.html"));
   const auto summary = nlohmann::json::parse(text_of_file("out/summary.json"));
   EXPECT_NEAR(summary["structure"]["mass"]["total_kg"].get<double>(), 8000, 1e-3);
+  EXPECT_EQ(summary["mesh_page"], "mesh.html");
+  EXPECT_TRUE(fs::exists("out/mesh.html"));
+  EXPECT_THAT(text_of_file("out/report.html"), HasSubstr("<a href=\"mesh.html\">"));
 }
 
 TEST_F(MeshCommand, ValidateShowsTheDeck) {

@@ -71,6 +71,13 @@ TEST(Front, SaysThatTheVerdictIsIndicativeAndWhy) {
   EXPECT_THAT(front_html(data), HasSubstr("Indicative only: the mesh is &lt;coarse&gt;."));
 }
 
+TEST(Front, LinksToThePageOfTheMeshWhereThereIsOne) {
+  Json data = page(checks());
+  EXPECT_THAT(front_html(data), Not(HasSubstr("href")));
+  data["summary"]["mesh_page"] = "mesh.html";
+  EXPECT_THAT(front_html(data), HasSubstr("<dt>Mesh of the block</dt><dd><a href=\"mesh.html\">"));
+}
+
 TEST(Front, PutsTheDocumentsTextIntoTheMarginsAsStrings) {
   Json data = page(checks());
   data["summary"]["document"] = {{"project", "A \"quoted\" </style>"}, {"checked", "N. N."}};

@@ -20,10 +20,13 @@ std::string DeckLog::place(SourceLine line) const {
 
 void DeckLog::complain(SourceLine line, const std::string& text) {
   const auto [found, is_new] = complaint_of_.try_emplace(text, complaints_.size());
-  if (is_new)
+  if (is_new) {
     complaints_.push_back({line, text});
-  else
-    ++complaints_[found->second].count;
+    return;
+  }
+  // What several elements need is read, and found wrong, several times.
+  Complaint& known = complaints_[found->second];
+  if (line.file != known.line.file || line.line != known.line.line) ++known.count;
 }
 
 void DeckLog::remark(SourceLine line, const std::string& text) {

@@ -312,9 +312,11 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
     read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
     model.log.use(name);
     return model.bar_read[property] = read;
+  } catch (const UnusableProperty&) {
+    throw;
   } catch (const CardError& error) {
     model.log.complain(card.line(), error.text);
-    throw CardError{fmt::format("{} {} cannot be used", name, property)};
+    throw UnusableProperty{{fmt::format("{} {} cannot be used", name, property)}};
   }
 }
 

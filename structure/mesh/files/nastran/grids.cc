@@ -175,6 +175,8 @@ void NastranModel::for_each(const Handlers& handlers) {
     try {
       handler->second(CardView(bulk, card));
       log.use(card.name);
+    } catch (const UnusableProperty&) {
+      continue;  // every element of it would say the same
     } catch (const CardError& error) {
       log.complain(card.line, card.name + ": " + error.text);
     }

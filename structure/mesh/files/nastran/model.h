@@ -105,7 +105,10 @@ void take_stock_of_nastran_cards(NastranModel& model);
 /// Whether a card is a load that is noted as left out.
 bool is_load_left_out(std::string_view name);
 
-/// @throws CardError if there is no such material, or what it says cannot be.
+/// A property or material that something needs is wrong, and that has been said at its own line.
+struct UnusableProperty : CardError {};
+
+/// @throws CardError if there is no such material; UnusableProperty if what it says cannot be.
 const NastranMaterial& nastran_material(NastranModel& model, long number);
 /// Place of an isotropic material in the mesh. @throws CardError also if it is not isotropic.
 int nastran_material_place(NastranModel& model, long number);

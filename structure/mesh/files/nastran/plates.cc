@@ -37,8 +37,9 @@ NastranMaterial read_isotropic(NastranModel& model, const CardView& card) {
   check_plausible(solid, solid.name, model.units, model.log, card.line());
   if (has_modulus && has_shear && has_ratio && std::abs(shear / solid.shear_modulus() - 1) > 1e-3)
     model.log.remark(card.line(),
-                     fmt::format("{}: G is {:.3g} times what E and nu give; E and nu are used",
-                                 solid.name, shear / solid.shear_modulus()));
+                     fmt::format("{}: G is {:.2g} % {} than what E and nu give; E and nu are used",
+                                 solid.name, 100 * std::abs(shear / solid.shear_modulus() - 1),
+                                 shear > solid.shear_modulus() ? "more" : "less"));
   material.ply = isotropic_ply(solid);
   return material;
 }
@@ -252,9 +253,11 @@ template <typename Read>
 auto at_its_line(NastranModel& model, const CardView& card, const Read& read) {
   try {
     return read();
+  } catch (const UnusableProperty&) {
+    throw;
   } catch (const CardError& error) {
     model.log.complain(card.line(), card.name() + ": " + error.text);
-    throw CardError{fmt::format("{} {} cannot be used", card.name(), card.text(0))};
+    throw UnusableProperty{{fmt::format("{} {} cannot be used", card.name(), card.text(0))}};
   }
 }
 

@@ -607,6 +607,29 @@ TEST(NastranReader, UnitsAndTheirPlausibility) {
   EXPECT_THROW(unit_system("cm"), ModelError);
 }
 
+// A density in kg/m^3 where t/mm^3 are due: what uses the material does not say so again.
+TEST(NastranReader, AWrongMaterialIsSaidOnce) {
+  const std::string text = complaints_of_nastran(
+      "GRID,1,,0.,0.,0.\nGRID,2,,2000.,0.,0.\nGRID,3,,2000.,2000.,0.\n"
+      "CTRIA3,10,5,1,2,3\nCTRIA3,11,6,1,2,3\nCBAR,12,8,1,2,0.,0.,1.\nPSHELL,5,7,10.,7,,7\n"
+      "PSHELL,6,7,12.,7,,7\nPBAR,8,7,100.,1000.,1000.,1000.\nMAT1,7,206000.,,.3,7850.\n",
+      "mm-t-N");
+  EXPECT_THAT(text, HasSubstr("deck.bdf:10: error: MAT1: MAT1 7 has a density of 7.85e+15 kg/m^3"));
+  EXPECT_THAT(text, Not(HasSubstr("times)")));
+  EXPECT_EQ(text.find("error", text.find("error") + 1), std::string::npos) << text;
+}
+
+TEST(NastranReader, AShearModulusOfItsOwnIsSaid) {
+  const Deck deck = nastran(
+      "GRID,1,,0.,0.,0.\nGRID,2,,2000.,0.,0.\nGRID,3,,2000.,2000.,0.\n"
+      "CTRIA3,10,5,1,2,3\nPSHELL,5,7,10.,7,,7\nMAT1,7,208000.,79600.,.3,7.85-9\n",
+      "mm-t-N");
+  std::string remarks;
+  for (const auto& remark : deck.remarks) remarks += remark.text + "\n";
+  EXPECT_THAT(remarks,
+              HasSubstr("MAT1 7: G is 0.5 % less than what E and nu give; E and nu are used\n"));
+}
+
 TEST(NastranReader, SaysEverythingThatIsWrongAtOnce) {
   const std::string text = complaints_of_nastran(R"(GRID,1,,0.,0.,0.
 GRID,2,,nan,0.,0.
