@@ -122,6 +122,7 @@ dynamics::Hull read_gdf(const std::filesystem::path& path, double merge_toleranc
   const auto box = hull.bounds();
   const double tolerance = merge_tolerance * (box[1] - box[0]).norm();
   hull = merge_vertices(hull, tolerance);
+  if (hull.panel_count() == 0) numbers.fail("no panel has three vertices in different places");
   if (mirror_x) hull = with_mirror_image(hull, 0, tolerance);
   if (mirror_y) hull = with_mirror_image(hull, 1, tolerance);
   return hull;

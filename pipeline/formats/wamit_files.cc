@@ -122,6 +122,12 @@ void read_radiation(const fs::path& path, const WamitScales& scales, Periods& pe
   }
   const Eigen::Index bodies = (modes + modes_per_body - 1) / modes_per_body;
   modes = modes_per_body * bodies;
+  // Each body has a line at each period, or a few lines would ask for any memory.
+  const std::size_t periods_of_all = std::max<std::size_t>(periods.index.size(), 1);
+  if (static_cast<std::size_t>(bodies) * periods_of_all > lines.size())
+    throw HydrodynamicFileError(
+        fmt::format("{}: {} lines are too few for the {} periods and {} bodies that they name",
+                    path.string(), lines.size(), periods.index.size(), bodies));
   for (Eigen::Index b = 0; b < bodies; ++b) {
     database.body_names.push_back("body" + std::to_string(b + 1));
     database.reference_points.emplace_back(0, 0, 0);

@@ -251,6 +251,12 @@ class AbaqusReader {
     mesh_.elements.push_back(std::move(element));
   }
 
+  // Sets grow without end by large steps of numbers, or when they name themselves.
+  void require_few(std::size_t members) const {
+    constexpr std::size_t most = 20'000'000;
+    if (members > most) fail(fmt::format("the set has more than {} members", most));
+  }
+
   void read_set(const std::vector<std::string>& fields, const std::string& parameter,
                 std::map<std::string, std::vector<std::size_t>>& sets) {
     std::vector<std::size_t>& set = named(sets, required(parameter));
@@ -259,6 +265,7 @@ class AbaqusReader {
         fail("with GENERATE a line is first, last and step: 1, 99, 2");
       const std::size_t first = tag_of(fields[0]), last = tag_of(fields[1]);
       const std::size_t step = fields.size() == 3 ? tag_of(fields[2]) : 1;
+      if (first <= last) require_few((last - first) / step);
       for (std::size_t tag = first; tag <= last; tag += step) set.push_back(tag);
       return;
     }
@@ -270,6 +277,7 @@ class AbaqusReader {
       const auto* other = find(sets, field);
       if (!other) fail(fmt::format("there is no set \"{}\" before this line", field));
       const std::vector<std::size_t> copy = *other;
+      require_few(set.size() + copy.size());
       set.insert(set.end(), copy.begin(), copy.end());
     }
   }

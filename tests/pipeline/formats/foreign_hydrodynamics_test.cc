@@ -156,6 +156,8 @@ TEST(Wamit, SaysWhatIsWrong) {
     if (!excitation.empty()) folder.write("x.3", excitation);
     return message_of_import([] { read_wamit("x", {}); });
   };
+  EXPECT_THAT(message("8 3 3 1 1\n4 3 6000 1 1\n2 3 3 1 1\n"),
+              HasSubstr("x.1: 3 lines are too few for the 3 periods and 1000 bodies"));
   const std::string sound = "8 3 3 1 1\n4 3 3 1 1\n2 3 3 1 1\n";
   EXPECT_THAT(message("8 3 3 1 1\n4 3 3 NaN 1\n"), HasSubstr("x.1:2: \"NaN\" is not finite"));
   EXPECT_THAT(message("8 3 3 1 1\n4 3 3 1\n"), HasSubstr("x.1:2: 4 numbers where"));

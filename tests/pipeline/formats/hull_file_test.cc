@@ -78,6 +78,7 @@ TEST(HullFile, SaysWhatIsWrongWithAGdf) {
   fails("t\n1 17\n0 0\n1\n", "bad.gdf:2: GRAV is 17");
   fails("t\n1 9.8\n3 0\n1\n", "ISX is 3");
   fails("t\n1 9.8\n0 0\n1\n0 0 0 1 0 nan 1 1 0 0 1 0\n", "\"nan\" is no finite number");
+  fails("t\n1 9.8\n0 0\n1\n0 0 0 1 0 0 1 0 0 0 0 0\n", "no panel has three vertices");
   EXPECT_THAT([&] { read_hull(folder.path() / "none.gdf"); },
               ThrowsMessage<HullFileError>(HasSubstr("there is no such file")));
   const auto other = put(folder, "hull.obj", "x");

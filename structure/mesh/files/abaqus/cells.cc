@@ -9,6 +9,7 @@
 
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/deck/label_range.h"
 
 namespace blocklift::structure {
 
@@ -279,9 +280,8 @@ class Cells {
         const long from = abaqus_label(fields.front(), "first"),
                    to = fields.size() > 1 ? abaqus_label(fields[1], "last") : from,
                    step = fields.size() > 2 ? abaqus_label(fields[2], "step") : 1;
-        for (long label = from; label <= to; label += step)
-          if (const auto found = known.find(label); found != known.end())
-            into.push_back(found->second);
+        for (const long label : known_labels(known, from, to, step))
+          into.push_back(known.at(label));
         return;
       }
       for (const std::string_view field : fields) {

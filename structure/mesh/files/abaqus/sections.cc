@@ -76,6 +76,7 @@ class Sections {
 
   /// One region and group for each section.
   int region(const SectionBlocks& blocks, int material) {
+    (void)blocks.block->required("ELSET");  // before anything is made of it
     const std::string name = (blocks.scope->name.empty() ? "" : blocks.scope->name + ".") +
                              blocks.block->find("ELSET")->as_given;
     mesh_.groups.push_back({name, material});

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
 
 namespace blocklift::structure {
@@ -73,9 +74,8 @@ class Supports {
       if (!card.has(i)) continue;
       if (card.is(i, "THRU")) {
         const long from = card.label(i - 1, "grid"), to = card.label(++i, "last grid");
-        for (long label = from + 1; label <= to; ++label)
-          if (const auto found = model_.vertex_of.find(label); found != model_.vertex_of.end())
-            list.supports.push_back(support(found->second, held));
+        for (const long label : known_labels(model_.vertex_of, from + 1, to))
+          list.supports.push_back(support(model_.vertex_of.at(label), held));
       } else {
         list.supports.push_back(support(model_.vertex(card, i, "grid"), held));
       }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/nastran/model.h"
 
@@ -145,9 +146,8 @@ class Links {
       if (!card.has(i)) continue;
       if (card.is(i, "THRU")) {
         const long from = card.label(i - 1, "grid"), to = card.label(++i, "last grid");
-        for (long number = from + 1; number <= to; ++number)
-          if (const auto found = model_.vertex_of.find(number); found != model_.vertex_of.end())
-            slaves.push_back(found->second);
+        for (const long number : known_labels(model_.vertex_of, from + 1, to))
+          slaves.push_back(model_.vertex_of.at(number));
       } else if (!card.is_integer(i) && to_real(card.text(i))) {
         model_.log.leave_out("RBE2", "ALPHA (thermal expansion)");
       } else {

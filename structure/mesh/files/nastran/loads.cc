@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
 
 namespace blocklift::structure {
@@ -135,13 +136,9 @@ class Loads {
 
   void for_range(const CardView& card, long from, long to, const std::array<double, 4>& pressure,
                  const Vector3& direction) {
-    bool found = false;
-    for (long label = from; label <= to; ++label) {
-      if (model_.shell_of.count(label) == 0) continue;
-      found = true;
-      add_plate_load(card, label, pressure, direction);
-    }
-    if (!found) shell(card, from);
+    const std::vector<long> labels = known_labels(model_.shell_of, from, to);
+    for (const long label : labels) add_plate_load(card, label, pressure, direction);
+    if (labels.empty()) shell(card, from);
   }
 
   // PLOAD2 SID P EID1 EID2 ... or EID1 THRU EID2

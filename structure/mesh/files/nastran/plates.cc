@@ -1,6 +1,7 @@
 // Materials and the properties of shells.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -77,10 +78,12 @@ NastranMaterial read_orthotropic(NastranModel& model, const CardView& card) {
 /// MAT2 MID G11 G12 G13 G22 G23 G33 RHO
 NastranMaterial read_anisotropic(NastranModel& model, const CardView& card) {
   const double stress = model.units.stress();
-  const auto entry = [&](std::size_t i) { return card.real(i, "stiffness", 0.0) * stress; };
+  // All are read before any is put in: Eigen's list must not be left half given by an error.
+  std::array<double, 7> e{};
+  for (std::size_t i = 1; i < e.size(); ++i) e[i] = card.real(i, "stiffness", 0.0) * stress;
   NastranMaterial material;
   Eigen::Matrix3d& g = material.ply.in_plane;
-  g << entry(1), entry(2), entry(3), entry(2), entry(4), entry(5), entry(3), entry(5), entry(6);
+  g << e[1], e[2], e[3], e[2], e[4], e[5], e[3], e[5], e[6];
   // Across the plate MAT2 is read in the first two rows.
   material.ply.shear << g(0, 0), g(1, 1);
   material.ply.density = card.real(7, "density", 0.0) * model.units.density() * model.mass_factor;

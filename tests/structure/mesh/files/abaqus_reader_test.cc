@@ -1,9 +1,12 @@
 // Each keyword by a small deck of its own.
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,6 +40,28 @@ TEST(AbaqusReader, PlateWithSetsAndHeading) {
     EXPECT_THAT(set.vertices, ElementsAre(0, 1, 2, 3));
   }
   EXPECT_EQ(entry(deck, "*ELEMENT").used, 1);
+}
+
+// Each number of such a range tried by itself takes a quarter of a minute.
+TEST(AbaqusReader, RangesToTheLargestNumberTakeNoTime) {
+  std::string text = square_plate + "*NSET, NSET=ODD, GENERATE\n1, 999999999, 2\n";
+  for (int i = 1; i <= 20; ++i) text += fmt::format("*NSET, NSET=S{}, GENERATE\n1, 999999999\n", i);
+  const auto start = std::chrono::steady_clock::now();
+  const Deck deck = abaqus(text);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  const auto odd = std::find_if(deck.sets.begin(), deck.sets.end(),
+                                [](const NamedSet& set) { return set.name == "ODD"; });
+  ASSERT_NE(odd, deck.sets.end());
+  EXPECT_EQ(odd->vertices.size(), 2U);
+}
+
+TEST(AbaqusReader, SectionsWithoutElementsAreRefused) {
+  for (const std::string section : {"*SHELL SECTION, MATERIAL=Steel\n.01\n",
+                                    "*SHELL SECTION, ELS?T=Plate, MATERIAL=Steel\n.01\n",
+                                    "*SOLID SECTION, MATERIAL=Steel\n500.\n"})
+    EXPECT_THAT([&] { abaqus(square_plate + section); },
+                testing::ThrowsMessage<DeckError>(HasSubstr("ELSET")))
+        << section;
 }
 
 TEST(AbaqusReader, OffsetsOfShells) {

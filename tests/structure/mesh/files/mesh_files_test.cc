@@ -127,6 +127,18 @@ TEST_F(MeshFiles, AbaqusIncludesNothingFromOutsideItsFolder) {
   EXPECT_THAT(error_of(write("bricks.inp", deck)), testing::HasSubstr("lies outside"));
 }
 
+TEST_F(MeshFiles, AbaqusSetsStayInBounds) {
+  write("upper.inc", upper_nodes);
+  const auto with_set = [&](const std::string& lines) {
+    return error_of(write("bricks.inp", std::string(two_bricks) + lines));
+  };
+  EXPECT_THAT(with_set("*NSET, NSET=much, GENERATE\n1, 999999999999999999\n"),
+              HasSubstr("bricks.inp:36: the set has more than 20000000 members"));
+  std::string doubled = "*NSET, NSET=much\n1, 2\n";
+  for (int i = 0; i < 40; ++i) doubled += "much, much\n";
+  EXPECT_THAT(with_set(doubled), HasSubstr("more than 20000000 members"));
+}
+
 TEST_F(MeshFiles, ScriptsOfGmshReachNothingElse) {
   const std::string box = "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n";
   const std::string aside = write("aside.geo", "");

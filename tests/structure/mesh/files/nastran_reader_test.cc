@@ -1,10 +1,12 @@
 // Each card by a small deck of its own.
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -537,6 +539,24 @@ MAT1,7,206000.,,.3,7.85-9
       (plate * Vector3(1, 1, 0.1) + bar * Vector3(0.2, 0, 1.5) + point * Vector3(0, 0.5, 3)) /
       (plate + bar + point);
   expect_near(mass.centre, centre, 1e-12);
+}
+
+// Each number of such a range tried by itself takes a quarter of a minute.
+TEST(NastranReader, RangesToTheLargestNumberTakeNoTime) {
+  std::string text = square;
+  for (int i = 1; i <= 20; ++i) text += fmt::format("SPC1,{},123,1,THRU,999999999\n", i);
+  text += "RBE2,90,1,123,2,THRU,999999999\nPLOAD2,3,7.,10,THRU,999999999\n";
+  const auto start = std::chrono::steady_clock::now();
+  const Deck deck = nastran(text);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  EXPECT_EQ(deck.support_sets.at(19).supports.size(), deck.mesh.vertices.size());
+  EXPECT_EQ(deck.mesh.rigid_links.at(0).slaves.size(), deck.mesh.vertices.size() - 1);
+}
+
+// A list of Eigen's that an error leaves half given ends a build with assertions.
+TEST(NastranReader, DamagedStiffnessIsRefused) {
+  EXPECT_THAT([&] { nastran(square + "MAT2,3,2.06+5,,0.3,7.85-90.\n"); },
+              testing::ThrowsMessage<DeckError>(HasSubstr("stiffness")));
 }
 
 TEST(NastranReader, LoadsAndSubcases) {
