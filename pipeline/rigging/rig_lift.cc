@@ -83,16 +83,17 @@ void add_shackle(ChosenShackle chosen, std::vector<ChosenShackle>& shackles) {
     *known = std::move(chosen);
 }
 
-void require_slings(const LiftCase& lift_case) {
-  const bool has_slings =
-      std::any_of(lift_case.ropes.begin(), lift_case.ropes.end(),
-                  [](const RopeInCase& rope) { return !rope.lug().empty() && !rope.winch; });
-  if (has_slings) return;
+bool has_slings(const LiftCase& lift_case) {
+  return std::any_of(lift_case.ropes.begin(), lift_case.ropes.end(),
+                     [](const RopeInCase& rope) { return !rope.lug().empty() && !rope.winch; });
+}
+
+Diagnostics complain_of_no_slings(const LiftCase& lift_case) {
   Diagnostics diagnostics;
   diagnostics.error({std::make_shared<const std::string>(shown_path(lift_case.file)), 0, 0},
                     "the case has no slings to choose",
                     {"a sling is a rope that ends at a lug and has no winch of its own"});
-  throw InputError(diagnostics);
+  return diagnostics;
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ bool RiggedLift::pass() const {
 }
 
 RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
-  require_slings(lift_case);
+  if (!has_slings(lift_case)) throw InputError(complain_of_no_slings(lift_case));
   RiggedLift rigged;
   rigged.stock = std::move(stock);
   LiftRunner runner(std::move(lift_case), progress);

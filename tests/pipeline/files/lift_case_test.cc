@@ -88,8 +88,8 @@ TEST(LiftCaseTest, ReadsALoadTable) {
 TEST(LiftCaseErrors, UnknownKey) {
   EXPECT_EQ(complaints_about_case("settle: 10 s", "setle: 10 s"),
             "case.yaml:20:1: error: lift case has no key \"setle\"\n"
-            "    its keys are case, title, document, gravity, load, cranes, ropes, supports, wind, "
-            "sea, vessels, moorings, ... (21 in all); did you mean \"settle\"?\n"
+            "    its keys are case, title, document, gravity, load, cranes, ropes, ground, "
+            "supports, wind, sea, vessels, ... (23 in all); did you mean \"settle\"?\n"
             "1 error\n");
 }
 

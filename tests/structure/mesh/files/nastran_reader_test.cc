@@ -555,8 +555,9 @@ TEST(NastranReader, RangesToTheLargestNumberTakeNoTime) {
 
 // A list of Eigen's that an error leaves half given ends a build with assertions.
 TEST(NastranReader, DamagedStiffnessIsRefused) {
-  EXPECT_THAT([&] { nastran(square + "MAT2,3,2.06+5,,0.3,7.85-90.\n"); },
-              testing::ThrowsMessage<DeckError>(HasSubstr("stiffness")));
+  EXPECT_THAT(
+      [&] { nastran(square + "CTRIA3,11,6,1,2,3\nPSHELL,6,3,.01\nMAT2,3,2.06+5,,0.3,7.85-90.\n"); },
+      testing::ThrowsMessage<DeckError>(HasSubstr("stiffness")));
 }
 
 TEST(NastranReader, LoadsAndSubcases) {
