@@ -126,7 +126,7 @@ std::string ModelLibrary::hint_of_name(const std::string& name, const std::strin
   if (kind == "standard" && without_folder)
     for (std::string& one : shown)
       if (one.starts_with("standards/")) one = last_part(one);
-  const std::string hint = names_hint(fmt::format("the {} models are", kind), shown, name);
+  std::string hint = names_hint(fmt::format("the {} models are", kind), shown, name);
   if (!nearest_name(name, shown).empty()) return hint;
   // The folder may be wrong, or missing, and the name right.
   std::vector<std::string> last_parts;

@@ -38,7 +38,7 @@ void add_polygon(const std::vector<Vector3>& corners, std::vector<Triangle>& tri
 /// Points of an arc from the first of three points through the second to the third.
 std::vector<Vector3> divide_arc(const std::vector<Vector3>& points) {
   constexpr int pieces = 16;
-  const Vector3 a = points[0], b = points[1], c = points[2];
+  const Vector3 &a = points[0], &b = points[1], &c = points[2];
   const Vector3 normal = (b - a).cross(c - a);
   if (normal.norm() == 0) return points;
   // The centre is as far from all three, in their plane.
