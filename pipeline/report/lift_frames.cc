@@ -202,7 +202,7 @@ fs::path write_lift_frames(const fs::path& folder, int frames) {
   }
   fs::remove_all(place);
   fs::rename(aside, place);
-  const fs::path path = folder / "lift.pvd";
+  fs::path path = folder / "lift.pvd";
   write_file(path, collection + "</Collection>\n</VTKFile>\n");
   return path;
 }
