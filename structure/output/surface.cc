@@ -161,20 +161,37 @@ void Surface::take_envelopes_of_beams(const UnitResponses& responses,
                                       const std::vector<LoadHistory>& histories,
                                       Envelopes& largest) const {
   const Space& space = responses.model().space();
-  for (const BeamStation& station : stations_) {
-    const Eigen::MatrixXd stress =
-        as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
+  const auto stations = static_cast<int>(stations_.size());
+  Eigen::MatrixXd of_stations(static_cast<Eigen::Index>(histories.size()), stations);
+  in_batches(stations, 64, 0, [&](int first, int count) {
+    // The points of these sections, one below the other, and where those of each begin.
+    Eigen::MatrixXd stress(0, responses.count());
+    std::vector<Eigen::Index> begin{0};
+    for (int s = first; s < first + count; ++s) {
+      const BeamStation& station = stations_[at(s)];
+      const Eigen::MatrixXd here =
+          as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
+      stress.conservativeResize(stress.rows() + here.rows(), Eigen::NoChange);
+      stress.bottomRows(here.rows()) = here;
+      begin.push_back(stress.rows() / 6);
+    }
     for (std::size_t h = 0; h < histories.size(); ++h) {
       const PointExtremes extremes = find_von_mises_envelope(
-          histories[h], static_cast<int>(stress.rows() / 6),
-          [&](int first, int taken) -> Eigen::MatrixXd {
-            return stress.middleRows(6L * first, 6L * taken);
+          histories[h], static_cast<int>(begin.back()),
+          [&](int point, int taken) -> Eigen::MatrixXd {
+            return stress.middleRows(6L * point, 6L * taken);
           },
           1);
-      for (const int point : station.points)
-        largest[h][at(point)] = std::max(largest[h][at(point)], extremes.value.maxCoeff());
+      for (int i = 0; i < count; ++i)
+        of_stations(static_cast<Eigen::Index>(h), first + i) =
+            extremes.value.segment(begin[at(i)], begin[at(i + 1)] - begin[at(i)]).maxCoeff();
     }
-  }
+  });
+  for (std::size_t h = 0; h < histories.size(); ++h)
+    for (int s = 0; s < stations; ++s)
+      for (const int point : stations_[at(s)].points)
+        largest[h][at(point)] =
+            std::max(largest[h][at(point)], of_stations(static_cast<Eigen::Index>(h), s));
 }
 
 std::vector<SurfaceField> Surface::evaluate(const UnitResponses& responses,
@@ -235,7 +252,7 @@ void Surface::add_beams(const Space& space, const Eigen::MatrixXd& motions,
     const Vector3 centroid = beam_point(space, station.cell, station.xi).place;
     for (const int point : station.points) ++shares[at(point)];
     for (std::size_t k = 0; k < fields.size(); ++k) {
-      const Eigen::VectorXd motion = motions.col(static_cast<Eigen::Index>(k));
+      const auto motion = motions.col(static_cast<Eigen::Index>(k));
       const BeamMotion moved = beam_motion_at(space, station.cell, station.xi, motion);
       const double stress =
           beam_stresses(space, station.cell, station.xi, motion).cwiseAbs().maxCoeff();
