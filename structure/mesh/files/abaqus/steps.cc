@@ -198,7 +198,7 @@ class StepBlocks {
   }
 
   void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
-    if (element.solid >= 0) {
+    if (element.kind == AbaqusKind::solid) {
       model_.log.leave_out("*DLOAD", "pressure on solids");
       return;
     }
@@ -233,7 +233,7 @@ class StepBlocks {
     if (kind != "P") throw CardError{fmt::format("a load {} is not known; P is", kind)};
     for (const auto& [e, face] : surface->second.faces) {
       const AbaqusDeckElement& element = model_.elements[at(e)];
-      if (element.solid >= 0) {
+      if (element.kind == AbaqusKind::solid) {
         model_.log.leave_out("*DSLOAD", "pressure on solids");
         continue;
       }
