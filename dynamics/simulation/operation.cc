@@ -131,6 +131,7 @@ void OperationBuilder::check_free(const Track& track, Interval wanted) const {
   for (const Follower& follower : track.followers) {
     check(follower.interval.start, follower.interval.end);
   }
+  for (const Follower& part : track.stopped) check(part.interval.start, part.interval.end);
 }
 
 void OperationBuilder::add_move(std::string_view drive, const RestToRestMove& move) {
@@ -201,6 +202,31 @@ void OperationBuilder::add_stop(std::string_view drive, double time, double dura
   track.stop = Interval{time, time + duration};
 }
 
+void OperationBuilder::stop_moves(double from, double time, double duration) {
+  const double stand = time + duration;
+  for (Track& track : tracks_) {
+    const auto stop = [&](const MotionProfile& travel, Interval interval) {
+      if (interval.start >= stand) return;
+      // What a cam has at its start is no travel.
+      const double offset = travel.evaluate(interval.start).position;
+      MotionProfile stopped = MotionProfile::stopped(travel, time, duration);
+      if (offset != 0.0)
+        stopped = MotionProfile::sum({std::move(stopped), MotionProfile::constant(-offset)});
+      track.stopped.push_back(
+          {std::move(stopped), {interval.start, std::min(std::max(interval.end, time), stand)}});
+    };
+    const auto concerns = [&](double start) { return start >= from - touching; };
+    for (const RestToRestMove& move : track.moves)
+      if (concerns(move.start()))
+        stop(MotionProfile::sequence(0.0, {move}), {move.start(), move.end()});
+    for (const Follower& follower : track.followers)
+      if (concerns(follower.interval.start)) stop(follower.travel, follower.interval);
+    std::erase_if(track.moves, [&](const auto& move) { return concerns(move.start()); });
+    std::erase_if(track.followers,
+                  [&](const auto& follower) { return concerns(follower.interval.start); });
+  }
+}
+
 void OperationBuilder::add_parting(int rope, double time) {
   if (!(time >= 0.0) || !std::isfinite(time))
     throw ModelError("a rope cannot part at " + seconds(time));
@@ -222,7 +248,7 @@ MotionProfile OperationBuilder::make_profile(const Track& track) const {
 MotionProfile OperationBuilder::make_undisturbed_profile(const Track& track) {
   if (track.motion) return *track.motion;
   MotionProfile own = MotionProfile::sequence(track.start_value, track.moves);
-  if (track.followers.empty()) return own;
+  if (track.followers.empty() && track.stopped.empty()) return own;
   std::vector<MotionProfile> parts{std::move(own)};
   for (const Follower& follower : track.followers) {
     // The cam's own value at the leader's start is not travel.
@@ -230,6 +256,7 @@ MotionProfile OperationBuilder::make_undisturbed_profile(const Track& track) {
     const double offset = follower.travel.evaluate(follower.interval.start).position;
     if (offset != 0.0) parts.push_back(MotionProfile::constant(-offset));
   }
+  for (const Follower& part : track.stopped) parts.push_back(part.travel);
   return MotionProfile::sum(std::move(parts));
 }
 
