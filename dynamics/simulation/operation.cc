@@ -202,6 +202,21 @@ void OperationBuilder::add_stop(std::string_view drive, double time, double dura
   track.stop = Interval{time, time + duration};
 }
 
+void OperationBuilder::add_runaway(std::string_view winch, double time, double duration,
+                                   double speed, double ramp) {
+  Track& track = find_track(winch);
+  if (!track.is_winch)
+    throw ModelError("drive \"" + track.name + "\" is no winch and cannot run away");
+  if (!(duration > 0.0) || !(speed > 0.0) || !std::isfinite(duration * speed))
+    throw ModelError("winch \"" + track.name + "\" cannot run away for " + seconds(duration) +
+                     " at " + std::to_string(speed) + " m/s");
+  add_stop(winch, time, ramp);
+  // Its acceleration builds up in a hundredth of the ramp.
+  const double acceleration = speed / ramp;
+  track.runaway =
+      RestToRestMove(time, speed * duration, {speed, acceleration, 100.0 * acceleration / ramp});
+}
+
 void OperationBuilder::stop_moves(double from, double time, double duration) {
   const double stand = time + duration;
   for (Track& track : tracks_) {
@@ -241,8 +256,10 @@ void OperationBuilder::add_parting(int rope, double time) {
 MotionProfile OperationBuilder::make_profile(const Track& track) const {
   MotionProfile profile = make_undisturbed_profile(track);
   if (!track.stop) return profile;
-  return MotionProfile::stopped(std::move(profile), track.stop->start,
-                                track.stop->end - track.stop->start);
+  MotionProfile stopped = MotionProfile::stopped(std::move(profile), track.stop->start,
+                                                 track.stop->end - track.stop->start);
+  if (!track.runaway) return stopped;
+  return MotionProfile::sum({std::move(stopped), MotionProfile::sequence(0.0, {*track.runaway})});
 }
 
 MotionProfile OperationBuilder::make_undisturbed_profile(const Track& track) {

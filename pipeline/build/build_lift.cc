@@ -448,6 +448,9 @@ class LiftBuilder {
         if (name.value == mover.name || name.value == "all")
           builder.add_stop(mover.name, fault.at.value, fault.within);
     }
+    for (const Located<std::string>& winch : fault.runs_away)
+      builder.add_runaway(winch.value, fault.at.value, *fault.caught_after, *fault.speed,
+                          fault.within);
     for (const Located<std::string>& name : fault.parts) {
       for (const LiftRope& rope : ropes_)
         if (rope.name == name.value) builder.add_parting(rope.rope, fault.at.value);

@@ -147,12 +147,15 @@ struct StageInCase {
   std::optional<StageUntil> until = {};  ///< none: it ends with the last of its moves
 };
 
-/// What goes wrong at an instant: ropes part, drives come to a stand.
+/// What goes wrong at an instant: ropes part, drives come to a stand, winches run away.
 struct FaultInCase {
-  Located<double> at;                       ///< of the operation, s
-  std::vector<Located<std::string>> parts;  ///< ropes, or hoists whose tackle it is
-  std::vector<Located<std::string>> stops;  ///< drives and winches, or "all"
-  double within = 0;                        ///< in which they come to a stand, s
+  Located<double> at;                           ///< of the operation, s
+  std::vector<Located<std::string>> parts;      ///< ropes, or hoists whose tackle it is
+  std::vector<Located<std::string>> stops;      ///< drives and winches, or "all"
+  std::vector<Located<std::string>> runs_away;  ///< winches
+  std::optional<double> speed;                  ///< at which they pay out, m/s
+  std::optional<double> caught_after;           ///< s
+  double within = 0;  ///< in which drives come to a stand and winches to their speed, s
   Mark place;
 };
 

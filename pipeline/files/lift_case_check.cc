@@ -425,14 +425,18 @@ class FaultCheck {
       for (const HoistModel& hoist : crane.model->hoists)
         ropes_.push_back(crane.name.value + "." + hoist.name.value);
     }
-    for (const Mover& mover : schedule.movers) drives_.push_back(mover.name);
+    for (const Mover& mover : schedule.movers) {
+      drives_.push_back(mover.name);
+      if (mover.is_winch) winches_.push_back(mover.name);
+    }
     drives_.emplace_back("all");
   }
 
   void check(const FaultInCase& fault) {
-    if (fault.parts.empty() && fault.stops.empty())
+    if (fault.parts.empty() && fault.stops.empty() && fault.runs_away.empty())
       diagnostics_.error(fault.place, "the fault says not what goes wrong",
-                         {"give parts, ropes that break, or stops, drives that come to a stand"});
+                         {"give parts, ropes that break, stops, drives that come to a stand, or "
+                          "runs_away, winches that pay out"});
     if (duration_ > 0 && fault.at.value > duration_)
       diagnostics_.error(
           fault.at.mark,
@@ -442,6 +446,17 @@ class FaultCheck {
       check_name(rope, ropes_, "parts", "its ropes and hoists are", parted_);
     for (const Located<std::string>& drive : fault.stops)
       check_name(drive, drives_, "stops", "its drives and winches are", stopped_);
+    for (const Located<std::string>& winch : fault.runs_away)
+      check_name(winch, winches_, "runs away with", "its winches are", stopped_);
+    const bool told = fault.speed && fault.caught_after;
+    const bool nothing_told = !fault.speed && !fault.caught_after;
+    if (fault.runs_away.empty() ? !nothing_told : !told)
+      diagnostics_.error(fault.place,
+                         fault.runs_away.empty()
+                             ? "the fault has a speed or caught_after, and no winch that runs away"
+                             : "a winch runs away, and the fault lacks its speed or caught_after",
+                         {"for example: {at: 60 s, runs_away: [C1.main], speed: 20 m/min, "
+                          "caught_after: 2 s}"});
   }
 
  private:
@@ -459,7 +474,7 @@ class FaultCheck {
 
   Diagnostics& diagnostics_;
   double duration_;
-  std::vector<std::string> ropes_, drives_;
+  std::vector<std::string> ropes_, drives_, winches_;
   std::set<std::string> parted_, stopped_;
 };
 

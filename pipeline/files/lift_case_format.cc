@@ -500,8 +500,17 @@ Format<FaultInCase> fault_format() {
       .optional("stops", &FaultInCase::stops, list_of(located(reference()), 1),
                 "drives and winches that come to a stand and stay there; [all] for an emergency "
                 "stop")
+      .optional("runs_away", &FaultInCase::runs_away, list_of(located(reference()), 1),
+                "winches (hoists, or ropes with one) that leave their motion and pay out")
+      .optional("speed", &FaultInCase::speed, quantity(Dimension::speed, Range::positive()),
+                "at which they pay out; also beyond what the winch drives")
+      .optional("caught_after", &FaultInCase::caught_after,
+                quantity(Dimension::time, Range::positive()),
+                "from the instant until they are braked; then they stand")
       .by_default("within", &FaultInCase::within, quantity(Dimension::time, Range::positive()),
-                  "0.5 s", "in which they come to a stand, evenly")
+                  "0.5 s",
+                  "in which drives come to a stand, evenly, and winches that run away to their "
+                  "speed, and to a stand when they are caught")
       .place(&FaultInCase::place);
   return table.format();
 }

@@ -119,6 +119,9 @@ class Doubts {
           lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name(), parted.time,
           parted.tension / 1e3, parted.energy / 1e3);
     for (const FaultInCase& fault : case_.faults) {
+      for (const Located<std::string>& winch : fault.runs_away)
+        doubt("Winch {} runs away at {:g} s, {:.3g} m in {:g} s, as the case says.", winch.value,
+              fault.at.value, *fault.speed * *fault.caught_after, *fault.caught_after);
       if (fault.stops.empty()) continue;
       std::string names;
       for (const Located<std::string>& name : fault.stops)
