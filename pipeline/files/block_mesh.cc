@@ -102,6 +102,7 @@ class MeshReader {
     give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
     let_go(*deck);
+    remark_on_solids(*deck);
     if (deck->mesh.shells.empty())
       complain(fmt::format("{} has no plates; a block of bars alone is not assessed",
                            mesh_model_.file.value));
@@ -217,6 +218,8 @@ class MeshReader {
       for (const int vertex : shell.vertices) hold(vertex, all.data());
     for (const structure::Beam& beam : mesh.beams)
       for (const int vertex : beam.vertices) hold(vertex, all.data());
+    for (const structure::Solid& solid : mesh.solids)
+      for (const int vertex : solid.vertices) hold(vertex, all.data());
     for (const structure::SurfacePoint& point : mesh.surface_points) hold(point.vertex, all.data());
     for (const structure::Spring& spring : mesh.springs)
       for (const int vertex : spring.vertices) hold(vertex, all.data());
@@ -229,6 +232,17 @@ class MeshReader {
     std::vector<char> carries;
     for (const auto& of_vertex : held) carries.push_back(of_vertex == all ? 1 : 0);
     return carries;
+  }
+
+  /// What refinement does to plates it does not do to solids.
+  static void remark_on_solids(Deck& deck) {
+    if (deck.mesh.solids.empty()) return;
+    deck.remarks.push_back(
+        {deck.path.string(),
+         fmt::format("{} solids are computed as quadratic elements of the deck's own division: "
+                     "errors of the mesh are those of its plates",
+                     deck.mesh.solids.size()),
+         1});
   }
 
   /// A lifted block hangs on its ropes alone, and masses on it alone: solvers hold what hangs on
@@ -401,7 +415,8 @@ Format<MeshModel> mesh_model_format() {
                 names_to(located(quantity(Dimension::length, Range::positive()))),
                 "the same for plates of the block's only material")
       .by_default("leave_solids_out", &MeshModel::leave_solids_out, boolean(), "false",
-                  "lift without the file's solids rather than refuse it")
+                  "lift without the file's solids; those of CAD files and of Gmsh's meshes are "
+                  "refused otherwise, those of decks computed")
       .optional("element_size", &MeshModel::element_size,
                 located(quantity(Dimension::length, Range::positive())),
                 "longest edge of the elements that CAD surfaces are meshed with; circles have 24 "
@@ -449,12 +464,13 @@ std::string describe_block_mesh(const MeshModel& mesh) {
   if (!mesh.deck || !mesh.diagnosis) return {};
   const Deck& deck = *mesh.deck;
   std::string text = fmt::format(
-      "{} {}: {} nodes, {} shells, {} beams, {} masses, {} links, {} springs; {:.6g} t at "
+      "{} {}: {} nodes, {} shells, {} beams, {}{} masses, {} links, {} springs; {:.6g} t at "
       "({:.4g}, {:.4g}, {:.4g}) m\n",
       is_bare(mesh) ? "mesh of" : "deck", mesh.file.value, deck.mesh.vertices.size(),
-      deck.mesh.shells.size(), deck.mesh.beams.size(), deck.mesh.masses.size(),
-      deck.mesh.rigid_links.size() + deck.mesh.distributing_links.size(), deck.mesh.springs.size(),
-      mesh.diagnosis->mass.mass / 1000, mesh.diagnosis->mass.centre.x(),
+      deck.mesh.shells.size(), deck.mesh.beams.size(),
+      deck.mesh.solids.empty() ? "" : fmt::format("{} solids, ", deck.mesh.solids.size()),
+      deck.mesh.masses.size(), deck.mesh.rigid_links.size() + deck.mesh.distributing_links.size(),
+      deck.mesh.springs.size(), mesh.diagnosis->mass.mass / 1000, mesh.diagnosis->mass.centre.x(),
       mesh.diagnosis->mass.centre.y(), mesh.diagnosis->mass.centre.z());
   for (const structure::LedgerEntry& entry : unused_cards(mesh))
     text += fmt::format("  {}: {} of {} used{}{}\n", entry.name, entry.used, entry.read,

@@ -16,6 +16,8 @@ void add(ContentHash& hash, const structure::Deck& deck) {
     for (const int vertex : beam.vertices) hash.add(std::int64_t{vertex});
     hash.add(std::int64_t{beam.section});
   }
+  for (const structure::Solid& solid : deck.mesh.solids)
+    for (const int vertex : solid.vertices) hash.add(std::int64_t{vertex});
 }
 
 }  // namespace

@@ -285,7 +285,8 @@ Json structure_json(const Assessment& assessment) {
   }
   const structure::Material& material = model.mesh().materials.front();
   Json json{{"unknowns", model.space().unknowns()},
-            {"elements", model.space().shells().size() + model.space().beams().size()},
+            {"elements", model.space().shells().size() + model.space().beams().size() +
+                             model.mesh().solids.size()},
             {"element_degree", assessment.lift_case.structure.element_degree},
             {"mesh_size_m", assessment.lift_case.structure.largest_element},
             {"material", material.name},

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -40,6 +41,7 @@ class Doctor {
     check_parts();
     check_vertices();
     check_cells_twice();
+    check_solids();
     check_mechanisms();
     return std::move(result_);
   }
@@ -94,6 +96,8 @@ class Doctor {
       for (const int v : shell.vertices) used_[at(v)] = 1;
     for (const Beam& beam : mesh_.beams)
       for (const int v : beam.vertices) used_[at(v)] = 1;
+    for (const Solid& solid : mesh_.solids)
+      for (const int v : solid.vertices) used_[at(v)] = 1;
     for (const RigidLink& link : mesh_.rigid_links) {
       used_[at(link.master)] = 1;
       for (const int v : link.slaves) used_[at(v)] = 1;
@@ -265,6 +269,7 @@ class Doctor {
       };
       for (const Shell& shell : mesh_.shells) see(shell.vertices[0], shell.label);
       for (const Beam& beam : mesh_.beams) see(beam.vertices[0], beam.label);
+      for (const Solid& solid : mesh_.solids) see(solid.vertices[0], solid.label);
       for (const RigidLink& link : mesh_.rigid_links) see(link.master, link.label);
       for (const DistributingLink& link : mesh_.distributing_links) see(link.reference, link.label);
       for (const Spring& spring : mesh_.springs)
@@ -281,6 +286,37 @@ class Doctor {
       if (used_[v] == 0)
         add("unused vertices", Severity::note, label(static_cast<int>(v)), mesh_.vertices[v]);
     say("unused vertices", "{} vertices belong to nothing", count("unused vertices"));
+  }
+
+  /// Solids that are folded, and plates and beams that end on solids, which take no moments.
+  void check_solids() {
+    std::set<int> of_solids;
+    for (const Solid& solid : mesh_.solids) {
+      of_solids.insert(solid.vertices.begin(), solid.vertices.end());
+      const double ratio = least_jacobian_ratio(mesh_, solid);
+      const Vector3 centre = places_of(mesh_, solid).rowwise().mean();
+      if (!(ratio > 0)) add("folded solids", Severity::error, solid.label, centre);
+      if (ratio > 0 && ratio < 0.05) add("bad solids", Severity::warning, solid.label, centre);
+    }
+    say("folded solids", "{} solids are folded or have no volume", count("folded solids"));
+    say("bad solids", "{} solids are nearly folded", count("bad solids"));
+    const auto is_on_solid = [&](int v) { return of_solids.count(v) > 0; };
+    for (const Shell& shell : mesh_.shells) {
+      const std::vector<int> corners = around(shell);
+      const auto shared = std::count_if(corners.begin(), corners.end(), is_on_solid);
+      if (shared > 0 && shared < 3)
+        add("plates hinged to solids", Severity::warning, shell.label, centre(shell));
+    }
+    for (const Beam& beam : mesh_.beams)
+      if (is_on_solid(beam.vertices[0]) != is_on_solid(beam.vertices[1]))
+        add("beams hinged to solids", Severity::warning, beam.label, vertex(beam.vertices[0]));
+    say("plates hinged to solids",
+        "{} shells end on solids, whose nodes take no moments: the plate is hinged there unless it "
+        "goes on along the solid's face",
+        count("plates hinged to solids"));
+    say("beams hinged to solids",
+        "{} beams end on solids, whose nodes take no moments: the beam is hinged there",
+        count("beams hinged to solids"));
   }
 
   /// Vertices in the cells of a grid; neighbours are looked for in the cells around.

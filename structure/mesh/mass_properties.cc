@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -123,6 +125,17 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
     const double half = 0.5 / std::sqrt(3.0);
     for (const double place : {0.5 - half, 0.5 + half})
       of_region(beam.region).add(per_length * line.norm() / 2, from + place * line);
+  }
+  for (const Solid& solid : mesh.solids) {
+    const SolidRule& rule = rule_of(solid.shape);
+    const Eigen::Matrix3Xd places = places_of(mesh, solid);
+    for (std::size_t q = 0; q < rule.values.size(); ++q) {
+      const Eigen::Matrix3d jacobian = places * rule.slopes[q];
+      of_region(solid.region)
+          .add(rule.weights[static_cast<Eigen::Index>(q)] * jacobian.determinant() *
+                   mesh.materials[at(solid.material)].density,
+               places * rule.values[q]);
+    }
   }
   for (const PointMass& mass : mesh.masses) {
     sums.back().add(mass.mass, mesh.vertices[at(mass.vertex)] + mass.offset);

@@ -9,6 +9,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -45,6 +46,7 @@ void for_each_joint(const Mesh& mesh, const Visit& visit) {
     visit(std::vector<int>(shell.vertices.begin(), shell.vertices.end()));
   for (const Beam& beam : mesh.beams)
     visit(std::vector<int>(beam.vertices.begin(), beam.vertices.end()));
+  for (const Solid& solid : mesh.solids) visit(solid.vertices);
   for (const RigidLink& link : mesh.rigid_links) {
     std::vector<int> all = link.slaves;
     all.push_back(link.master);
@@ -145,6 +147,16 @@ void check_mesh(const Mesh& mesh) {
     require(along.norm() > 0, "beam", beam.label, "has no length");
     require(along.cross(beam.axis_2).norm() > 1e-6 * along.norm() * beam.axis_2.norm(), "beam",
             beam.label, "runs along the direction that is to tell its second axis");
+  }
+  for (const Solid& solid : mesh.solids) {
+    require(std::all_of(solid.vertices.begin(), solid.vertices.end(), exists), "solid", solid.label,
+            "names a vertex that is not there");
+    require(static_cast<int>(solid.vertices.size()) == topology_of(solid.shape).nodes(), "solid",
+            solid.label, "has another number of nodes than its shape");
+    require(solid.material >= 0 && solid.material < count(mesh.materials), "solid", solid.label,
+            "has no material");
+    require(least_jacobian_ratio(mesh, solid) > 0, "solid", solid.label,
+            "is folded or has no volume");
   }
   for (const PointMass& mass : mesh.masses)
     require(exists(mass.vertex) && mass.mass >= 0, "mass", mass.label,

@@ -85,6 +85,20 @@ struct Beam {
   long label = 0;
 };
 
+/// Form of a solid: 4, 6 or 8 corners.
+enum class SolidShape { tetrahedron, wedge, hexahedron };
+
+/// Quadratic solid element. Its vertices move without turning: a plate or beam that ends on them is
+/// hinged there.
+struct Solid {
+  SolidShape shape = SolidShape::hexahedron;
+  /// Corners, then the middles of the edges: the order of topology_of(shape).
+  std::vector<int> vertices = {};
+  int material = 0;  ///< place in Mesh::materials
+  int region = 0;    ///< place in Mesh::regions
+  long label = 0;
+};
+
 /// Mass at a vertex.
 struct PointMass {
   int vertex = 0;
@@ -161,7 +175,7 @@ struct LiftingPoint {
   int vertex = -1;
 };
 
-/// Conforming mesh of a structure: shells, beams, masses, links and springs on common vertices.
+/// Conforming mesh of a structure: shells, beams, solids, masses, links and springs on common vertices.
 ///
 /// Cells are joined where they share vertices: shells along edges, beams along shells' edges, and
 /// what else meets in a vertex. Any number of shells may meet along an edge.
@@ -177,6 +191,7 @@ struct Mesh {
   std::vector<Eigen::Matrix3Xd> curved_shells;
   std::vector<BeamSection> beam_sections;
   std::vector<Beam> beams;
+  std::vector<Solid> solids;
   std::vector<PointMass> masses;
   std::vector<RigidLink> rigid_links;
   std::vector<DistributingLink> distributing_links;

@@ -248,6 +248,8 @@ class DeckMaker {
     std::vector<char> is_corner(mesh_.vertices.size(), 0);
     for (const Shell& shell : mesh_.shells)
       for (const int vertex : shell.vertices) is_corner[at(vertex)] = 1;
+    for (const Solid& solid : mesh_.solids)
+      for (const int vertex : solid.vertices) is_corner[at(vertex)] = 1;
     for (const Spring& spring : mesh_.springs)
       for (const int vertex : spring.vertices)
         if (vertex >= 0) is_corner[at(vertex)] = 0;

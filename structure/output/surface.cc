@@ -13,11 +13,14 @@
 
 #include "structure/batches.h"
 #include "structure/formulation/beam.h"
+#include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/output/divided_cell.h"
 #include "structure/response/beam_stress.h"
 #include "structure/response/envelope.h"
 #include "structure/response/shell_stress.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 
@@ -51,11 +54,13 @@ class Surface::Builder {
     surface_.quad_groups_.clear();
     surface_.cell_points_.clear();
     surface_.stations_.clear();
+    surface_.solid_stations_.clear();
     known_.clear();
     for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell)
       add_shell(cell, division);
     for (int cell = 0; cell < static_cast<int>(space_.beams().size()); ++cell)
       add_beam(cell, std::min(division, space_.beams()[at(cell)].degree));
+    add_solids();
   }
 
  private:
@@ -99,6 +104,29 @@ class Surface::Builder {
     }
   }
 
+  // The faces that no other solid shares, by their corners.
+  void add_solids() {
+    const int first = static_cast<int>(space_.mesh().shells.size());  // no plate has such a number
+    std::map<std::pair<int, int>, int> known;
+    for (const SolidFace& face : outer_faces(space_.mesh())) {
+      const Solid& solid = space_.mesh().solids[at(face.solid)];
+      std::array<int, 4> quad{};
+      for (std::size_t i = 0; i < 4; ++i) {
+        // Against the outward normal, as quadrangles of plates run round theirs.
+        const int corner = face.corners[std::min(i, face.corners.size() - 1)];
+        const auto [entry, is_new] = known.try_emplace({face.solid, corner}, 0);
+        if (is_new) {
+          entry->second = point_at(first + solid.region,
+                                   space_.mesh().vertices[at(solid.vertices[at(corner)])]);
+          surface_.solid_stations_.push_back({face.solid, corner, entry->second});
+        }
+        quad[i] = entry->second;
+      }
+      surface_.quads_.push_back(quad);
+      surface_.quad_groups_.push_back(space_.mesh().regions[at(solid.region)].group);
+    }
+  }
+
   Surface& surface_;
   const Space& space_;
   std::map<std::tuple<int, std::int64_t, std::int64_t, std::int64_t>, int>
@@ -119,6 +147,7 @@ std::vector<std::vector<double>> Surface::envelopes(
   Envelopes largest(histories.size(), std::vector<double>(points_.size(), 0));
   take_envelopes_of_shells(responses, histories, largest);
   take_envelopes_of_beams(responses, histories, largest);
+  take_envelopes_of_solids(responses, histories, largest);
   return largest;
 }
 
@@ -194,6 +223,30 @@ void Surface::take_envelopes_of_beams(const UnitResponses& responses,
             std::max(largest[h][at(point)], of_stations(static_cast<Eigen::Index>(h), s));
 }
 
+void Surface::take_envelopes_of_solids(const UnitResponses& responses,
+                                       const std::vector<LoadHistory>& histories,
+                                       Envelopes& largest) const {
+  const Space& space = responses.model().space();
+  const int count = static_cast<int>(solid_stations_.size());
+  for (std::size_t h = 0; h < histories.size(); ++h) {
+    const PointExtremes extremes =
+        find_von_mises_envelope(histories[h], count, [&](int first, int taken) -> Eigen::MatrixXd {
+          Eigen::MatrixXd stress(6L * taken, responses.count()), of_solid;
+          for (int i = 0; i < taken; ++i) {
+            const SolidStation& station = solid_stations_[at(first + i)];
+            if (i == 0 || station.solid != solid_stations_[at(first + i - 1)].solid)
+              of_solid = solid_corner_stresses(space, station.solid, responses.displacements());
+            stress.middleRows<6>(6L * i) = of_solid.middleRows<6>(6L * station.corner);
+          }
+          return stress;
+        });
+    for (int i = 0; i < count; ++i) {
+      double& of_point = largest[h][at(solid_stations_[at(i)].point)];
+      of_point = std::max(of_point, extremes.value[i]);
+    }
+  }
+}
+
 std::vector<SurfaceField> Surface::evaluate(const UnitResponses& responses,
                                             const std::vector<LoadCase>& load_cases) const {
   const Space& space = responses.model().space();
@@ -208,6 +261,7 @@ std::vector<SurfaceField> Surface::evaluate(const UnitResponses& responses,
   std::vector<int> shares(points_.size(), 0);
   add_shells(space, motions, fields, shares);
   add_beams(space, motions, fields, shares);
+  add_solids(space, motions, fields, shares);
   for (SurfaceField& field : fields)
     for (std::size_t p = 0; p < points_.size(); ++p) field.von_mises[p] /= shares[p];
   return fields;
@@ -242,6 +296,25 @@ void Surface::add_shells(const Space& space, const Eigen::MatrixXd& motions,
                   .largest();
         }
       }
+    }
+  }
+}
+
+void Surface::add_solids(const Space& space, const Eigen::MatrixXd& motions,
+                         std::vector<SurfaceField>& fields, std::vector<int>& shares) const {
+  Eigen::MatrixXd stress;
+  int known = -1;
+  for (const SolidStation& station : solid_stations_) {
+    if (station.solid != known) stress = solid_corner_stresses(space, station.solid, motions);
+    known = station.solid;
+    const std::size_t point = at(station.point);
+    const Eigen::Index node = space.solid_nodes(station.solid)[station.corner];
+    ++shares[point];
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      fields[k].displacement[point] = motions.col(column).segment<3>(6 * node);
+      fields[k].von_mises[point] +=
+          von_mises(Stress(stress.col(column).segment<6>(6L * station.corner)));
     }
   }
 }

@@ -50,6 +50,12 @@ class Surface {
     double xi = 0;
     std::array<int, 2> points{};
   };
+  /// A corner of a solid on the block's surface.
+  struct SolidStation {
+    int solid = 0;
+    int corner = 0;
+    int point = 0;
+  };
   class Builder;
   using Envelopes = std::vector<std::vector<double>>;
   void take_envelopes_of_shells(const UnitResponses& responses,
@@ -58,6 +64,11 @@ class Surface {
   void take_envelopes_of_beams(const UnitResponses& responses,
                                const std::vector<LoadHistory>& histories, Envelopes& largest) const;
   void add_shells(const Space& space, const Eigen::MatrixXd& motions,
+                  std::vector<SurfaceField>& fields, std::vector<int>& shares) const;
+  void take_envelopes_of_solids(const UnitResponses& responses,
+                                const std::vector<LoadHistory>& histories,
+                                Envelopes& largest) const;
+  void add_solids(const Space& space, const Eigen::MatrixXd& motions,
                   std::vector<SurfaceField>& fields, std::vector<int>& shares) const;
   void add_beams(const Space& space, const Eigen::MatrixXd& motions,
                  std::vector<SurfaceField>& fields, std::vector<int>& shares) const;
@@ -69,6 +80,7 @@ class Surface {
   std::vector<std::string> group_names_;
   std::vector<int> cell_points_;  ///< (division + 1)^2 of each shell cell, xi fastest
   std::vector<BeamStation> stations_;
+  std::vector<SolidStation> solid_stations_;
 };
 
 }  // namespace blocklift::structure

@@ -11,19 +11,23 @@
 
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
+#include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/output/divided_cell.h"
 #include "structure/output/vtk_array.h"
 #include "structure/output/vtk_grid.h"
 #include "structure/response/beam_stress.h"
 #include "structure/response/shell_stress.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 
 namespace {
 
 /// VTK's numbers of cells' shapes.
-constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quad = 9;
+constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quad = 9, vtk_tetra = 10,
+                       vtk_hexahedron = 12, vtk_wedge = 13;
 
 struct Content {
   std::vector<float> points, displacement, von_mises, top, bottom, membrane, thickness;
@@ -38,6 +42,8 @@ class Collector {
   Content collect() {
     add_shells();
     for (int cell = 0; cell < static_cast<int>(space_.beams().size()); ++cell) add_beam(cell);
+    for (int solid = 0; solid < static_cast<int>(space_.mesh().solids.size()); ++solid)
+      add_solid(solid);
     return std::move(content_);
   }
 
@@ -87,6 +93,24 @@ class Collector {
       content_.types.push_back(vtk_line);
       add_cell(beam.region, space_.mesh().section_of(beam).material, 0);
     }
+  }
+
+  void add_solid(int number) {
+    const Solid& solid = space_.mesh().solids[at(number)];
+    const Eigen::VectorXd stress = solid_corner_stresses(space_, number, motion_);
+    const auto first = static_cast<std::int32_t>(content_.von_mises.size());
+    const int corners = topology_of(solid.shape).corners;
+    for (int corner = 0; corner < corners; ++corner) {
+      const Eigen::Index node = space_.solid_nodes(number)[corner];
+      const double here = von_mises(Stress(stress.segment<6>(6L * corner)));
+      add_point(space_.nodes().col(node), motion_.segment<3>(6 * node), {here, here, here});
+    }
+    // VTK's wedges begin with the triangle whose normal points out.
+    static constexpr std::array<std::int32_t, 6> wedge{0, 2, 1, 3, 5, 4};
+    for (int corner = 0; corner < corners; ++corner)
+      content_.connectivity.push_back(first + (corners == 6 ? wedge[at(corner)] : corner));
+    content_.types.push_back(corners == 4 ? vtk_tetra : corners == 6 ? vtk_wedge : vtk_hexahedron);
+    add_cell(solid.region, solid.material, 0);
   }
 
   void add_point(const Vector3& place, const Vector3& moved, const PlateVonMises& stress) {

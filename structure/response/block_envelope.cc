@@ -172,12 +172,15 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
     return of_point(responses, points, largest);
   };
   envelope.peak_von_mises = at_point(peak);
+  if (squares == 0) envelope.checked_von_mises = envelope.field_von_mises = envelope.peak_von_mises;
   envelope.largest_principal = at_point(peaks.largest_principal);
   envelope.smallest_principal = at_point(peaks.smallest_principal);
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[at(mesh.groups[g].material)];
-    envelope.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
-                               named(maxima.groups[g]), at_point(peaks.von_mises[g])});
+    const TimedExtreme peak_of_group = at_point(peaks.von_mises[g]);
+    envelope.groups.push_back(
+        {mesh.groups[g].name, material.name, material.yield_stress,
+         maxima.groups[g].point >= 0 ? named(maxima.groups[g]) : peak_of_group, peak_of_group});
   }
   envelope.displacement = largest_displacement(responses, history, threads);
   return envelope;

@@ -22,6 +22,7 @@ struct GroupEnvelope {
   std::string group;
   std::string material;
   double yield_stress = 0;  ///< Pa
+  /// Over squares of plating; of a group that has none (beams, solids) the peak.
   TimedExtreme checked_von_mises;
   TimedExtreme peak_von_mises;
 };

@@ -57,6 +57,8 @@ class Maxima {
     for (std::size_t i = 0; i < groups_.size(); ++i) merge(groups_[i], later.groups_[i]);
     for (std::size_t i = 0; i < lugs_.size(); ++i) merge(lugs_[i], later.lugs_[i]);
   }
+  bool is_empty() const { return all_.region < 0; }
+  bool is_empty(std::size_t group) const { return groups_[group].region < 0; }
   Extreme all() const { return all_.named(*mesh_); }
   Extreme group(std::size_t group) const { return groups_[group].named(*mesh_); }
   Extreme lug(std::size_t lug) const { return lugs_[lug].named(*mesh_); }
@@ -103,18 +105,28 @@ Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::Vect
                  space.nodes().col(node), region);
     }
   }
+  for (std::size_t s = 0; s < space.mesh().solids.size(); ++s) {
+    const Solid& solid = space.mesh().solids[s];
+    for (std::size_t i = 0; i < solid.vertices.size(); ++i) {
+      const int node = space.solid_nodes(static_cast<int>(s))[i];
+      moved.take(motion.segment<3>(6 * static_cast<Eigen::Index>(node)).norm(),
+                 space.nodes().col(node), solid.region);
+    }
+  }
   return moved;
 }
 
 void fill_in(const StressRecovery& recovery, const Mesh& mesh, const Maxima& checked,
              const Maxima& peak, const Maxima& moved, LoadCaseResult& result) {
-  result.checked_von_mises = checked.all();
+  result.checked_von_mises = checked.is_empty() ? peak.all() : checked.all();
   result.peak_von_mises = peak.all();
   result.displacement = moved.all();
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[at(mesh.groups[g].material)];
+    // Beams and solids have no squares.
     result.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
-                             checked.group(g), peak.group(g)});
+                             checked.is_empty(g) ? peak.group(g) : checked.group(g),
+                             peak.group(g)});
   }
   for (std::size_t i = 0; i < mesh.lifting_points.size(); ++i) {
     const LiftingPoint& lug = mesh.lifting_points[i];

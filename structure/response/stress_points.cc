@@ -5,7 +5,9 @@
 
 #include <Eigen/Dense>
 
+#include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/response/beam_stress.h"
 #include "structure/space/joints.h"
 
@@ -36,12 +38,17 @@ StressPoints::StressPoints(const Space& space)
       for (int point = 0; point < points; ++point)
         beam_points_.push_back({static_cast<int>(cell), end, point});
   }
+  const std::vector<Solid>& solids = space.mesh().solids;
+  for (std::size_t s = 0; s < solids.size(); ++s)
+    for (int corner = 0; corner < topology_of(solids[s].shape).corners; ++corner)
+      solid_points_.push_back({static_cast<int>(s), corner});
 }
 
 int StressPoints::region(int point) const {
   const Mesh& mesh = space_.mesh();
   if (point < shell_points_)
     return mesh.shells[at(space_.shells()[at(point / points_per_cell())].shell)].region;
+  if (is_of_solid(point)) return mesh.solids[at(solid_point(point).solid)].region;
   const BeamPointOf& of_beam = beam_points_[at(point - shell_points_)];
   return mesh.beams[at(space_.beams()[at(of_beam.cell)].beam)].region;
 }
@@ -50,6 +57,10 @@ Vector3 StressPoints::place(int point) const {
   if (point < shell_points_)
     return space_.nodes().col(
         space_.shell_nodes(point / points_per_cell())[point % points_per_cell() / 2]);
+  if (is_of_solid(point)) {
+    const SolidPointOf& of_solid = solid_point(point);
+    return space_.nodes().col(space_.solid_nodes(of_solid.solid)[of_solid.corner]);
+  }
   const BeamPointOf& of_beam = beam_points_[at(point - shell_points_)];
   const std::vector<int>& nodes = space_.beams()[at(of_beam.cell)].nodes;
   return space_.nodes().col(of_beam.end == 0 ? nodes.front() : nodes.back());
@@ -78,7 +89,16 @@ Eigen::MatrixXd StressPoints::stresses(int first, int count,
   const int shells = std::clamp(shell_points_ - first, 0, count);
   if (shells > 0) shell_stresses(first, shells, motions, rows.topRows(6 * shells));
   Eigen::MatrixXd of_end;
+  int known_solid = -1;
   for (int i = shells; i < count; ++i) {
+    if (is_of_solid(first + i)) {
+      const SolidPointOf& of_solid = solid_point(first + i);
+      if (of_solid.solid != known_solid)
+        of_end = solid_corner_stresses(space_, of_solid.solid, motions);
+      known_solid = of_solid.solid;
+      rows.middleRows<6>(6 * i) = of_end.middleRows<6>(6 * of_solid.corner);
+      continue;
+    }
     const BeamPointOf& point = beam_points_[at(first + i - shell_points_)];
     if (i == shells || point.at == 0)
       of_end = beam_stresses(space_, point.cell, point.end, motions);

@@ -12,6 +12,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/space/links.h"
 #include "structure/space/space_implementation.h"
@@ -227,6 +228,7 @@ Space::Space(const Mesh& mesh, const Resolution& resolution)
   nodes_.resize(3, 0);
   if (!mesh.shells.empty()) make_shells(resolution);
   if (!mesh.beams.empty()) make_beams(resolution);
+  if (!mesh.solids.empty()) make_solids();
   make_free_nodes();
   number_unknowns();
 }
@@ -329,6 +331,24 @@ void Space::make_beams(const Resolution& resolution) {
   }
 }
 
+// Each vertex of a solid is a node of its own; what else ends there is tied to it along the edges.
+void Space::make_solids() {
+  std::map<int, int> node_of;
+  for (const Solid& solid : mesh_->solids) {
+    solid_start_.push_back(static_cast<int>(solid_nodes_.size()));
+    for (const int vertex : solid.vertices) {
+      const int next = node_count() + static_cast<int>(node_of.size());
+      solid_nodes_.push_back(node_of.try_emplace(vertex, next).first->second);
+    }
+  }
+  const int first = node_count();
+  nodes_.conservativeResize(Eigen::NoChange, first + static_cast<Eigen::Index>(node_of.size()));
+  for (const auto& [vertex, node] : node_of) {
+    nodes_.col(node) = mesh_->vertices[at(vertex)];
+    node_of_vertex_[at(vertex)] = node;
+  }
+}
+
 // Vertices that no cell has, but links, masses or springs.
 void Space::make_free_nodes() {
   std::vector<char> has_cell(mesh_->vertices.size(), 0);
@@ -336,6 +356,8 @@ void Space::make_free_nodes() {
     for (const int vertex : shell.vertices) has_cell[at(vertex)] = 1;
   for (const Beam& beam : mesh_->beams)
     for (const int vertex : beam.vertices) has_cell[at(vertex)] = 1;
+  for (const Solid& solid : mesh_->solids)
+    for (const int vertex : solid.vertices) has_cell[at(vertex)] = 1;
   const auto want = [&](int vertex) {
     if (vertex < 0 || has_cell[at(vertex)] != 0 || node_of_vertex_[at(vertex)] >= 0) return;
     node_of_vertex_[at(vertex)] = node_count();
@@ -397,15 +419,20 @@ std::vector<int> Space::element_freedoms(int element) const {
   const auto take = [&](int node) {
     for (int c = 0; c < 6; ++c) freedoms.push_back(6 * node + c);
   };
-  const int shells = static_cast<int>(shells_.size()), beams = static_cast<int>(beams_.size());
+  const int shells = static_cast<int>(shells_.size()), beams = static_cast<int>(beams_.size()),
+            springs = static_cast<int>(mesh_->springs.size());
   if (element < shells) {
     for (int i = 0; i < nodes_per_shell(); ++i) take(shell_nodes(element)[i]);
   } else if (element < shells + beams) {
     for (const int node : beams_[at(element - shells)].nodes) take(node);
-  } else {
+  } else if (element < shells + beams + springs) {
     const Spring& spring = mesh_->springs[at(element - shells - beams)];
     for (const int vertex : spring.vertices)
       if (vertex >= 0) take(node_of_vertex(vertex));
+  } else {
+    const int solid = element - shells - beams - springs;
+    for (std::size_t i = 0; i < mesh_->solids[at(solid)].vertices.size(); ++i)
+      for (int c = 0; c < 3; ++c) freedoms.push_back(6 * solid_nodes(solid)[i] + c);
   }
   return freedoms;
 }
@@ -414,6 +441,17 @@ void Space::number_unknowns() {
   const Implementation& own = *implementation_;
   std::vector<EdgeTrace> traces;
   TraceCollector collector(*this, traces);
+  // Solids first: of edges of one length theirs is the polynomial that the others follow.
+  for (std::size_t s = 0; s < mesh_->solids.size(); ++s) {
+    const Solid& solid = mesh_->solids[s];
+    const SolidTopology& topology = topology_of(solid.shape);
+    const int* nodes = solid_nodes(static_cast<int>(s));
+    for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+      const auto [from, to] = topology.edges[e];
+      collector.add(solid.vertices[at(from)], solid.vertices[at(to)], 0, 1,
+                    {nodes[from], nodes[at(topology.corners) + e], nodes[to]});
+    }
+  }
   for (const auto& batch : own.shell_batches) collector.collect(*batch);
   for (const BeamCell& cell : beams_) {
     const auto& ends = mesh_->beams[at(cell.beam)].vertices;

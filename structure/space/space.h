@@ -83,6 +83,11 @@ class Space {
     return shell_nodes_.data() + static_cast<std::ptrdiff_t>(cell) * nodes_per_shell();
   }
   const std::vector<BeamCell>& beams() const { return beams_; }
+  /// The nodes of a solid of the mesh, which is an element as it is whatever the resolution; as
+  /// many as the solid has vertices.
+  const int* solid_nodes(int solid) const {
+    return solid_nodes_.data() + solid_start_[static_cast<std::size_t>(solid)];
+  }
 
   /// Place of a point of a shell cell's unit square, m.
   Vector3 place(int cell, const Eigen::Vector2d& xi) const;
@@ -106,12 +111,13 @@ class Space {
   Eigen::MatrixXd reduce(const Eigen::MatrixXd& forces) const;
 
   /// Groups of unknowns in order of elimination. Elements are shells(), then beams(), then
-  /// Mesh::springs.
+  /// Mesh::springs, then Mesh::solids.
   const Elimination& elimination() const { return elimination_; }
   int element_count() const {
-    return static_cast<int>(shells_.size() + beams_.size() + mesh_->springs.size());
+    return static_cast<int>(shells_.size() + beams_.size() + mesh_->springs.size() +
+                            mesh_->solids.size());
   }
-  /// Freedoms of an element, in the order of its stiffness: six a node.
+  /// Freedoms of an element, in the order of its stiffness: six a node, three of a solid's.
   std::vector<int> element_freedoms(int element) const;
 
   /// deal.II's triangulations, elements and mappings, for the sources of this folder and of
@@ -122,6 +128,7 @@ class Space {
  private:
   void make_shells(const Resolution& resolution);
   void make_beams(const Resolution& resolution);
+  void make_solids();
   void make_free_nodes();
   void add_surface_ties(dealii::AffineConstraints<double>& ties) const;
   void number_unknowns();
@@ -134,6 +141,7 @@ class Space {
   std::vector<ShellCell> shells_;
   std::vector<int> shell_nodes_;
   std::vector<BeamCell> beams_;
+  std::vector<int> solid_nodes_, solid_start_;
   std::vector<long> term_start_;
   std::vector<Term> terms_;
   Elimination elimination_;

@@ -13,6 +13,7 @@
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
+#include "structure/formulation/solid.h"
 #include "structure/index.h"
 #include "structure/limits.h"
 #include "structure/system/linear_solver.h"
@@ -177,7 +178,11 @@ class ElementStiffness {
     const int beams = static_cast<int>(space_.beams().size());
     if (element < shells) return (*shells_)(element);
     if (element < shells + beams) return own_ = beam_stiffness(space_, element - shells);
-    const Spring& spring = space_.mesh().springs[at(element - shells - beams)];
+    const Mesh& mesh = space_.mesh();
+    const int springs = static_cast<int>(mesh.springs.size());
+    if (element >= shells + beams + springs)
+      return own_ = solid_stiffness(mesh, mesh.solids[at(element - shells - beams - springs)]);
+    const Spring& spring = mesh.springs[at(element - shells - beams)];
     // How far it is stretched by the freedoms of its vertices.
     std::vector<double> row;
     for (std::size_t end = 0; end < 2; ++end) {

@@ -13,7 +13,9 @@
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
+#include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/space/space_implementation.h"
 
@@ -56,6 +58,24 @@ void visit_beams(const Space& space, const VisitMatter& visit) {
         point.place = strained.place + reach;
         visit(point);
       }
+    }
+  }
+}
+
+void visit_solids(const Space& space, const VisitMatter& visit) {
+  const Mesh& mesh = space.mesh();
+  for (std::size_t s = 0; s < mesh.solids.size(); ++s) {
+    const Solid& solid = mesh.solids[s];
+    const Eigen::Matrix3Xd places = places_of(mesh, solid);
+    for (const SolidPoint& integrated : solid_points(mesh, solid)) {
+      MatterPoint point;
+      point.nodes = space.solid_nodes(static_cast<int>(s));
+      point.values = integrated.values.data();
+      point.node_count = static_cast<int>(solid.vertices.size());
+      point.place = places * integrated.values;
+      point.volume = integrated.weight;
+      point.mass = integrated.weight * mesh.materials[at(solid.material)].density;
+      visit(point);
     }
   }
 }
@@ -138,6 +158,7 @@ void for_each_matter_point(const Space& space, const VisitMatter& visit) {
   std::iota(cells.begin(), cells.end(), 0);
   for_each_shell_point(space, cells, visit);
   visit_beams(space, visit);
+  visit_solids(space, visit);
   visit_masses(space, visit);
 }
 

@@ -29,7 +29,8 @@ using VisitMatter = std::function<void(const MatterPoint&)>;
 void for_each_shell_point(const Space& space, const std::vector<int>& cells,
                           const VisitMatter& visit);
 
-/// Visits all matter: shells, beams (four points a section, which carry its moments of inertia) and
+/// Visits all matter: shells, beams (four points a section, which carry its moments of inertia),
+/// solids and
 /// point masses (six points, likewise).
 void for_each_matter_point(const Space& space, const VisitMatter& visit);
 

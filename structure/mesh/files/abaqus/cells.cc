@@ -41,6 +41,14 @@ const std::map<std::string, ElementType>& element_types() {
       {"SPRING1", {Kind::spring, 1, 1}},   {"SPRING2", {Kind::spring, 2, 2}},
       {"SPRINGA", {Kind::spring, 2, 2}},   {"R3D3", {Kind::rigid, 3, 3}},
       {"R3D4", {Kind::rigid, 4, 4}},       {"RB3D2", {Kind::rigid, 2, 2}},
+      {"C3D4", {Kind::solid, 4, 4}},       {"C3D4H", {Kind::solid, 4, 4}},
+      {"C3D6", {Kind::solid, 6, 6}},       {"C3D8", {Kind::solid, 8, 8}},
+      {"C3D8R", {Kind::solid, 8, 8}},      {"C3D8I", {Kind::solid, 8, 8}},
+      {"C3D8H", {Kind::solid, 8, 8}},      {"C3D10", {Kind::solid, 10, 10}},
+      {"C3D10M", {Kind::solid, 10, 10}},   {"C3D10H", {Kind::solid, 10, 10}},
+      {"C3D10HS", {Kind::solid, 10, 10}},  {"C3D10T", {Kind::solid, 10, 10}},
+      {"C3D15", {Kind::solid, 15, 15}},    {"C3D20", {Kind::solid, 20, 20}},
+      {"C3D20R", {Kind::solid, 20, 20}},   {"C3D20H", {Kind::solid, 20, 20}},
       {"DASHPOT1", {Kind::nothing, 1, 1}}, {"DASHPOT2", {Kind::nothing, 2, 2}},
       {"DASHPOTA", {Kind::nothing, 2, 2}}};
   return types;
@@ -193,20 +201,17 @@ class Cells {
   void add_elements(const AbaqusBlock& block) {
     const std::string type = block.required("TYPE"), set = block.value("ELSET");
     ElementType known{AbaqusKind::nothing, 0, 0};
-    if (type.substr(0, 3) == "C3D" || type.substr(0, 3) == "SC6" || type.substr(0, 3) == "SC8") {
-      if (!model_.options.leave_solids_out)
-        throw CardError{
-            fmt::format("{}: solids are not lifted; leave them out, or make shells and "
-                        "beams of them",
-                        type)};
+    const bool is_solid =
+        type.starts_with("C3D") || type.starts_with("SC6") || type.starts_with("SC8");
+    if (is_solid && model_.options.leave_solids_out) {
       model_.log.leave_out("*ELEMENT", "solids, which were to be left out");
-      known = {AbaqusKind::solid, 1, 99};
+      known = {AbaqusKind::nothing, 1, 99};
     } else if (const auto found = element_types().find(type); found != element_types().end()) {
       known = found->second;
     } else {
       throw CardError{fmt::format("elements of type {} are not known here", type)};
     }
-    if (known.kind == AbaqusKind::nothing) model_.log.leave_out("*ELEMENT", "dampers");
+    if (known.kind == AbaqusKind::nothing && !is_solid) model_.log.leave_out("*ELEMENT", "dampers");
     // A line that ends in a comma goes on in the next.
     std::vector<std::string_view> all;
     for (const AbaqusLine& line : block.data) {
@@ -233,7 +238,7 @@ class Cells {
     if (fields.size() < 1 + known.nodes || fields.size() > 1 + known.most_nodes)
       throw CardError{fmt::format("element {} of type {} has {} nodes; {} are due", element.label,
                                   type, fields.size() - 1, known.nodes)};
-    for (std::size_t i = 1; known.kind != AbaqusKind::solid && i < fields.size(); ++i) {
+    for (std::size_t i = 1; known.most_nodes < 99 && i < fields.size(); ++i) {
       const long label = scope_ + 1 == static_cast<int>(model_.scopes.size())
                              ? 0
                              : abaqus_label(fields[i], "node");

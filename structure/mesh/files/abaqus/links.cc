@@ -198,8 +198,13 @@ class LinkBlocks {
     std::map<int, double> weights = surface.nodes;
     for (const auto& [e, face] : surface.faces) {
       const AbaqusDeckElement& element = model_.elements[at(e)];
+      if (element.solid >= 0) {
+        add_face(corners_of_face(element, face), weights);
+        continue;
+      }
       if (element.shell < 0)
-        throw CardError{fmt::format("element {} of the surface is no shell", element.label)};
+        throw CardError{
+            fmt::format("element {} of the surface is no shell and no solid", element.label)};
       const Shell& shell = mesh_.shells[at(element.shell)];
       const std::size_t corners = shell.is_triangle() ? 3 : 4;
       if (face == "SPOS" || face == "SNEG" || face == "SPOS,SNEG") {
@@ -218,6 +223,15 @@ class LinkBlocks {
       }
     }
     return weights;
+  }
+
+  void add_face(const std::vector<int>& corners, std::map<int, double>& weights) const {
+    Vector3 twice = Vector3::Zero();
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+      twice += (model_.place(corners[i]) - model_.place(corners[0]))
+                   .cross(model_.place(corners[i + 1]) - model_.place(corners[0]));
+    for (const int corner : corners)
+      weights[corner] += 0.5 * twice.norm() / static_cast<double>(corners.size());
   }
 
   /// Components that lines of "first, last" name; all if there are none.

@@ -25,6 +25,7 @@ struct AbaqusDeckElement {
   int scope = 0;
   SourceLine line;
   int shell = -1;          ///< place in the mesh
+  int solid = -1;          ///< likewise
   std::vector<int> beams;  ///< places in the mesh
 };
 
@@ -93,6 +94,8 @@ void read_abaqus_cells(AbaqusModel& model, const std::vector<AbaqusBlock>& block
 void read_abaqus_sections(AbaqusModel& model);
 /// Systems of axes at nodes, which springs, links, supports and loads count along.
 void read_abaqus_transforms(AbaqusModel& model);
+/// Vertices at the corners of a solid's face S1 to S6. @throws CardError for another name.
+std::vector<int> corners_of_face(const AbaqusDeckElement& solid, const std::string& face);
 /// Masses, springs, couplings, rigid bodies, equations.
 void read_abaqus_links(AbaqusModel& model);
 /// Nodes tied to surfaces of shells.

@@ -1,8 +1,9 @@
-// Sections of shells, beams and trusses, and the cells that have them.
+// Sections of shells, beams, trusses and solids, and the cells that have them.
 
 #include "structure/mesh/sections.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,6 +15,7 @@
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -59,7 +61,7 @@ class Sections {
           model_.guarded(block, [&] { add_beams(blocks, read_shape(blocks)); });
         if (name == "BEAM GENERAL SECTION")
           model_.guarded(block, [&] { add_beams(blocks, read_general(blocks)); });
-        if (name == "SOLID SECTION") model_.guarded(block, [&] { add_trusses(blocks); });
+        if (name == "SOLID SECTION") model_.guarded(block, [&] { add_solid_section(blocks); });
         if (name == "ORIENTATION") model_.guarded(block, [] {});
       }
     }
@@ -67,6 +69,7 @@ class Sections {
       for (const AbaqusBlock* block : scope.blocks)
         if (block->name == "RELEASE") model_.guarded(*block, [&] { release(scope, *block); });
     check_all_have_sections();
+    complete_solids();
   }
 
  private:
@@ -110,7 +113,7 @@ class Sections {
     const Vector3 axis_1 = section.laminate < 0 ? Vector3(Vector3::Zero()) : laminate_axis(blocks);
     for (const int e : elements(blocks)) {
       AbaqusDeckElement& element = model_.elements[at(e)];
-      if (element.kind == AbaqusKind::solid || element.kind == AbaqusKind::nothing) continue;
+      if (element.kind == AbaqusKind::nothing) continue;
       if (element.kind != AbaqusKind::shell)
         throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
       if (element.shell >= 0)
@@ -436,16 +439,63 @@ class Sections {
     });
   }
 
-  // *SOLID SECTION, ELSET = , MATERIAL = / area: of trusses
-  void add_trusses(const SectionBlocks& blocks) {
-    const AbaqusBlock& block = *blocks.block;
-    std::vector<int> trusses;
-    for (const int e : elements(blocks))
+  // *SOLID SECTION, ELSET = , MATERIAL = / area: of solids, or of trusses, which have an area
+  void add_solid_section(const SectionBlocks& blocks) {
+    std::vector<int> trusses, solids;
+    for (const int e : elements(blocks)) {
       if (model_.elements[at(e)].kind == AbaqusKind::truss) trusses.push_back(e);
-    if (trusses.empty()) {
-      model_.log.leave_out("*SOLID SECTION", "of solids");
-      return;
+      if (model_.elements[at(e)].kind == AbaqusKind::solid) solids.push_back(e);
     }
+    if (solids.empty() && trusses.empty())
+      model_.log.leave_out("*SOLID SECTION", "of nothing here");
+    if (!solids.empty()) add_solids(blocks, solids);
+    if (!trusses.empty()) add_trusses(blocks, trusses);
+  }
+
+  void add_solids(const SectionBlocks& blocks, const std::vector<int>& solids) {
+    const AbaqusBlock& block = *blocks.block;
+    if (block.has("COMPOSITE")) throw CardError{"solids of layers are not known"};
+    const int material = abaqus_material(model_, block.required("MATERIAL"));
+    const int of_region = region(blocks, material);
+    for (const int e : solids) {
+      AbaqusDeckElement& element = model_.elements[at(e)];
+      if (element.solid >= 0)
+        throw CardError{fmt::format("element {} has two sections", element.label)};
+      Solid solid;
+      const std::size_t count = element.nodes.size();
+      solid.shape = count == 4 || count == 10   ? SolidShape::tetrahedron
+                    : count == 6 || count == 15 ? SolidShape::wedge
+                                                : SolidShape::hexahedron;
+      solid.vertices = element.nodes;
+      const auto corners = solid.vertices.begin() + topology_of(solid.shape).corners;
+      for (auto corner = solid.vertices.begin(); corner != corners; ++corner)
+        if (std::find(corner + 1, corners, *corner) != corners)
+          throw CardError{
+              fmt::format("element {} has one node twice: a solid whose corners fall "
+                          "together is not known; give it as a C3D6 or C3D4",
+                          element.label)};
+      solid.material = material;
+      solid.region = of_region;
+      solid.label = element.label;
+      element.solid = static_cast<int>(mesh_.solids.size());
+      mesh_.solids.push_back(std::move(solid));
+    }
+  }
+
+  /// First those that tell their edges' middles, which others have in common with them.
+  void complete_solids() {
+    SolidEdgeMiddles middles(mesh_);
+    for (const bool is_told : {true, false})
+      for (Solid& solid : mesh_.solids) {
+        const SolidTopology& topology = topology_of(solid.shape);
+        const bool is_quadratic = static_cast<int>(solid.vertices.size()) > topology.corners &&
+                                  solid.vertices.back() >= 0;
+        if (is_told == is_quadratic) complete_solid(mesh_, solid, middles);
+      }
+  }
+
+  void add_trusses(const SectionBlocks& blocks, const std::vector<int>& trusses) {
+    const AbaqusBlock& block = *blocks.block;
     BeamSection section;
     section.area = 1;
     if (!block.data.empty())
@@ -497,6 +547,8 @@ class Sections {
       if ((element.kind == AbaqusKind::beam || element.kind == AbaqusKind::truss) &&
           element.beams.empty())
         model_.log.complain(element.line, "*ELEMENT: beams or trusses have no section");
+      if (element.kind == AbaqusKind::solid && element.solid < 0)
+        model_.log.complain(element.line, "*ELEMENT: solids have no *SOLID SECTION");
     }
   }
 
@@ -505,6 +557,24 @@ class Sections {
 };
 
 }  // namespace
+
+std::vector<int> corners_of_face(const AbaqusDeckElement& solid, const std::string& face) {
+  // The faces of C3D4, C3D6 and C3D8 as Abaqus numbers them.
+  static const std::array<std::vector<std::vector<std::size_t>>, 3> faces{
+      {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
+       {{0, 1, 2}, {3, 5, 4}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
+       {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}}};
+  const std::size_t count = solid.nodes.size();
+  const auto& own = faces[count == 4 || count == 10 ? 0 : count == 6 || count == 15 ? 1 : 2];
+  const auto number =
+      face.size() == 2 && face[0] == 'S' ? static_cast<std::size_t>(face[1] - '1') : own.size();
+  if (number >= own.size())
+    throw CardError{fmt::format("face {} of element {} ({}) is not known; S1 to S{} are", face,
+                                solid.label, solid.type, own.size())};
+  std::vector<int> corners;
+  for (const std::size_t i : own[number]) corners.push_back(solid.nodes[i]);
+  return corners;
+}
 
 void read_abaqus_sections(AbaqusModel& model) {
   read_abaqus_materials(model);

@@ -186,7 +186,8 @@ class StepBlocks {
       for (std::size_t e = 0; e < model_.elements.size(); ++e) {
         const AbaqusKind kind = model_.elements[e].kind;
         const bool has_mass = kind == AbaqusKind::shell || kind == AbaqusKind::beam ||
-                              kind == AbaqusKind::truss || kind == AbaqusKind::mass;
+                              kind == AbaqusKind::truss || kind == AbaqusKind::mass ||
+                              kind == AbaqusKind::solid;
         if (has_mass && set.count(static_cast<int>(e)) == 0)
           throw CardError{
               fmt::format("GRAV pulls \"{}\" alone, not element {}; gravity of all is due",
@@ -197,6 +198,10 @@ class StepBlocks {
   }
 
   void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
+    if (element.solid >= 0) {
+      model_.log.leave_out("*DLOAD", "pressure on solids");
+      return;
+    }
     if (kind == "P" && element.shell >= 0) {
       add_pressure(element.shell, value);
       return;
@@ -228,6 +233,10 @@ class StepBlocks {
     if (kind != "P") throw CardError{fmt::format("a load {} is not known; P is", kind)};
     for (const auto& [e, face] : surface->second.faces) {
       const AbaqusDeckElement& element = model_.elements[at(e)];
+      if (element.solid >= 0) {
+        model_.log.leave_out("*DSLOAD", "pressure on solids");
+        continue;
+      }
       if (element.shell < 0 || (face != "SPOS" && face != "SNEG"))
         throw CardError{
             fmt::format("pressure on face {} of element {}; SPOS and SNEG of shells are "

@@ -97,6 +97,10 @@ class Ties {
     for (const auto& [node, area] : surface->nodes) slaves.insert(node);
     for (const auto& [element, face] : surface->faces) {
       const AbaqusDeckElement& one = model_.elements[at(element)];
+      if (one.solid >= 0) {
+        for (const int corner : corners_of_face(one, face)) slaves.insert(corner);
+        continue;
+      }
       const std::size_t corners = one.shell >= 0 && mesh_.shells[at(one.shell)].is_triangle() ? 3
                                   : one.shell >= 0                                            ? 4
                                                    : one.nodes.size();

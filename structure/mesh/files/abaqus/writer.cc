@@ -14,6 +14,7 @@
 #include "structure/index.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -68,6 +69,7 @@ class AbaqusText {
     write_materials();
     write_shells();
     write_beams();
+    write_solids();
     write_masses();
     write_springs();
     write_links();
@@ -275,6 +277,25 @@ class AbaqusText {
                                                : "T";
         line(fmt::format("{}, S{}, {}", beam_number_[b], end + 1, code));
       }
+  }
+
+  /// One set and section for each region's solids of one shape and material.
+  void write_solids() {
+    std::map<std::tuple<int, int, SolidShape>, std::vector<const Solid*>> kinds;
+    for (const Solid& solid : mesh_.solids)
+      kinds[{solid.region, solid.material, solid.shape}].push_back(&solid);
+    for (const auto& [kind, solids] : kinds) {
+      const auto& [region, material, shape] = kind;
+      const std::string set = new_set();
+      line(fmt::format("*ELEMENT, TYPE=C3D{}, ELSET={}", topology_of(shape).nodes(), set));
+      for (const Solid* solid : solids) {
+        std::string text = std::to_string(elements_.take(solid->label));
+        for (std::size_t i = 0; i < solid->vertices.size(); ++i)
+          text += fmt::format("{}{}", i == 10 ? ",\n" : ", ", label(solid->vertices[i]));
+        line(text);
+      }
+      line(fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M{}", set, material + 1));
+    }
   }
 
   /// A node of its own, rigidly held by a vertex.

@@ -345,7 +345,7 @@ void read_nastran_cells(NastranModel& model) {
       if (card.name == "MAT1" || card.name == "MAT2" || card.name == "MAT8") materials(view);
       if (card.name == "PSHELL" || card.name == "PCOMP" || card.name == "PBAR" ||
           card.name == "PBARL" || card.name == "PBEAM" || card.name == "PBEAML" ||
-          card.name == "PROD" || card.name == "PTUBE")
+          card.name == "PROD" || card.name == "PTUBE" || card.name == "PSOLID")
         properties(view);
     } catch (const CardError& error) {
       model.log.complain(card.line, card.name + ": " + error.text);
@@ -353,12 +353,13 @@ void read_nastran_cells(NastranModel& model) {
   }
   Shells(model).read();
   Bars(model).read();
+  if (!model.options.leave_solids_out) read_nastran_solids(model);
   remark_on_nastran_plates(model);
   for (const auto& [number, card] : model.materials)
     if (model.material_read.count(number) == 0)
       model.log.leave_out(card.name(), "some are of no element");
   for (const auto& [number, card] : model.properties)
-    if (model.bar_read.count(number) == 0 &&
+    if (model.bar_read.count(number) == 0 && model.solid_material_of.count(number) == 0 &&
         std::none_of(
             model.shell_section_of.begin(), model.shell_section_of.end(),
             [&, number = number](const auto& entry) { return std::get<0>(entry.first) == number; }))

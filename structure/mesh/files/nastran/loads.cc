@@ -111,11 +111,11 @@ class Loads {
     }
   }
 
-  /// -1: a solid that is left out.
+  /// -1: a solid, on which no pressure acts.
   int shell(const CardView& card, long label) const {
     const auto found = model_.shell_of.find(label);
     if (found != model_.shell_of.end()) return found->second;
-    if (model_.options.leave_solids_out && model_.solids.count(label) > 0) {
+    if (model_.solids.count(label) > 0) {
       model_.log.leave_out(card.name(), "pressure on solids");
       return -1;
     }

@@ -58,7 +58,8 @@ struct NastranModel {
   std::vector<long> output_system;  ///< of each vertex
   /// Numbers that are taken: by plates, bars and springs; by rigid elements; by masses.
   std::array<std::unordered_set<long>, 3> elements;
-  std::unordered_set<long> solids;
+  std::unordered_set<long> solids;                  ///< read or left out
+  std::unordered_map<long, int> solid_material_of;  ///< property, place in Mesh::materials
   std::unordered_map<long, CardView> materials, properties;
   std::unordered_map<long, NastranMaterial> material_read;
   std::unordered_map<long, int> material_place;
@@ -93,6 +94,8 @@ struct NastranModel {
 void read_nastran_grids(NastranModel& model);
 /// CQUAD4 and so on, CBAR and so on, with their properties.
 void read_nastran_cells(NastranModel& model);
+/// CHEXA, CPENTA and CTETRA with PSOLID.
+void read_nastran_solids(NastranModel& model);
 /// Masses, rigid and distributing links, springs, equations.
 void read_nastran_links(NastranModel& model);
 /// Supports and loads by their sets, and case control that combines them.

@@ -17,13 +17,14 @@ namespace {
 /// Cards that some stage reads.
 const std::set<std::string, std::less<>>& cards_read() {
   static const std::set<std::string, std::less<>> names{
-      "GRID",    "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PARAM",
-      "CQUAD4",  "CQUAD8", "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",
-      "CTUBE",   "CONROD", "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",  "RBE1",   "RBE2",
-      "RBE3",    "RBAR",   "PSHELL", "PCOMP",  "PBAR",   "PBARL",  "PBEAM",  "PBEAML", "PROD",
-      "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "BAROR",  "BEAMOR", "SPC",
-      "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1",
-      "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE"};
+      "GRID",    "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S",  "PARAM",
+      "CQUAD4",  "CQUAD8", "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",   "CROD",
+      "CTUBE",   "CONROD", "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",  "RBE1",    "RBE2",
+      "RBE3",    "RBAR",   "PSHELL", "PCOMP",  "PBAR",   "PBARL",  "PBEAM",  "PBEAML",  "PROD",
+      "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "BAROR",  "BEAMOR",  "SPC",
+      "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT",  "MOMENT1",
+      "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE", "CHEXA",
+      "CPENTA",  "CTETRA", "PSOLID"};
   return names;
 }
 
@@ -69,7 +70,7 @@ const std::vector<Reason>& reasons() {
       {"which freedoms the solver keeps changes no result",
        {"ASET", "ASET1", "BSET", "BSET1", "CSET", "CSET1", "OMIT", "OMIT1", "QSET", "QSET1", "USET",
         "USET1", "SEQGP"}},
-      {"of solids", {"PSOLID", "PLSOLID", "PCOMPS", "MAT3", "MAT9", "MAT11"}},
+      {"of solids that are not read", {"PLSOLID", "PCOMPS", "MAT3", "MAT9", "MAT11"}},
       {"warping of beams", {"SPOINT"}},
       {"what is printed", {"STRESS", "BOLTSEQ", "ECHOON", "ECHOOFF", "HYPERMESH"}},
   };
@@ -92,17 +93,21 @@ void take_stock_of_nastran_cards(NastranModel& model) {
   for (const NastranCard& card : model.bulk.cards) {
     if (card.name.empty()) continue;  // complained of already
     model.log.read(card.name, card.line);
-    if (cards_read().count(card.name) > 0) continue;
-    if (card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CTETRA" ||
-        card.name == "CPYRAM") {
+    const bool is_solid = card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CTETRA" ||
+                          card.name == "CPYRAM";
+    if (is_solid && model.options.leave_solids_out) {
       if (const auto label = to_integer(CardView(model.bulk, card).text(0)))
         model.solids.insert(*label);
-      if (model.options.leave_solids_out)
-        model.log.leave_out(card.name, "solids are not lifted; they were to be left out");
-      else
-        model.log.complain(card.line, card.name +
-                                          ": solids are not lifted; leave them out, or make "
-                                          "shells and beams of them");
+      model.log.leave_out(card.name, "solids, which were to be left out");
+      continue;
+    }
+    if (card.name == "PSOLID" && model.options.leave_solids_out) {
+      model.log.leave_out(card.name, "of solids, which were to be left out");
+      continue;
+    }
+    if (cards_read().count(card.name) > 0) continue;
+    if (card.name == "CPYRAM") {
+      model.log.complain(card.line, "CPYRAM: pyramids are not known; make two CTETRA of each");
       continue;
     }
     if (card.name == "CSHEAR" || card.name == "PSHEAR")

@@ -15,13 +15,14 @@ namespace blocklift::structure {
 ///   isotropic material becomes a laminate, its nearest isotropic plate beside it
 /// - CBAR, CBEAM with offsets and pin flags, CROD, CTUBE, CONROD; PBAR, PBARL, PBEAM, PBEAML (of
 ///   one section from end to end), PROD, PTUBE
+/// - CHEXA, CPENTA, CTETRA with and without middles of edges, PSOLID
 /// - CONM1, CONM2, PARAM WTMASS; RBE1 (one independent grid), RBE2, RBAR, RBE3 of displacements;
 ///   MPC that says that two freedoms are equal or one is held; CELAS1, CELAS2, CBUSH, PELAS, PBUSH
 /// - SPC, SPC1, SPCADD, permanent constraints; FORCE and MOMENT with 1 and 2, PLOAD, PLOAD1 (even,
 ///   whole length), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
 ///
-/// Solids are refused, or left out if so asked. Cards of aeroelasticity, optimisation, dynamics and
-/// the like are in the ledger as left out; any other card is an error.
+/// Solids are left out if so asked. Cards of aeroelasticity, optimisation, dynamics and the like are
+/// in the ledger as left out; any other card is an error.
 ///
 /// @throws DeckError with file and line of everything that is wrong or cannot be honoured.
 Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,

@@ -16,6 +16,7 @@
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/nastran/card_writer.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -42,6 +43,7 @@ class NastranText {
     write_materials();
     write_shells();
     write_beams();
+    write_solids();
     write_masses();
     write_links();
     write_springs();
@@ -316,6 +318,27 @@ class NastranText {
                             beam.offset[0].isZero() && beam.offset[1].isZero() && is_bar;
       if (is_plain) fields.resize(7);
       out_.card(is_bar ? "CBAR" : "CBEAM", fields);
+    }
+  }
+
+  void write_solids() {
+    static const std::map<SolidShape, std::pair<const char*, std::vector<int>>> cards{
+        {SolidShape::tetrahedron, {"CTETRA", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}},
+        {SolidShape::wedge, {"CPENTA", {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11}}},
+        {SolidShape::hexahedron,
+         {"CHEXA", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}}}};
+    std::map<std::pair<int, int>, long> properties;
+    for (const Solid& solid : mesh_.solids) {
+      const auto [found, is_new] = properties.try_emplace({solid.region, solid.material}, 0);
+      if (is_new) {
+        found->second = properties_.take(0);
+        out_.card("PSOLID", {found->second, static_cast<long>(solid.material) + 1});
+        note_group(found->second, solid.region);
+      }
+      const auto& [name, order] = cards.at(solid.shape);
+      Fields fields{elements_.take(solid.label), found->second};
+      for (const int node : order) fields.emplace_back(label(solid.vertices[at(node)]));
+      out_.card(name, fields);
     }
   }
 

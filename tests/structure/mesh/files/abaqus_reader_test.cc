@@ -376,7 +376,7 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
   for (const char* line : {":3: error: *NODE: \"nan\" as coordinate is no finite number",
                            ":5: error: *NODE: node 1 is there twice",
                            ":7: error: *ELEMENT: element 10 names node 99, which does not exist",
-                           ":8: error: *ELEMENT: C3D8: solids are not lifted",
+                           ":9: error: *ELEMENT: solids have no *SOLID SECTION",
                            ":11: error: *ELEMENT: element 12 of type S3 has 2 nodes; 3 are due",
                            ":12: error: the keyword *CONTACT PAIR is not known here",
                            ":13: error: *SHELL SECTION: material GONE does not exist",

@@ -1,0 +1,225 @@
+#include "structure/mesh/solid_shape.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Dense>
+#include <deal.II/base/quadrature_lib.h>
+
+#include "structure/index.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+SolidTopology make_topology(const char* name, const Eigen::Matrix3Xd& corners,
+                            std::vector<std::array<int, 2>> edges,
+                            std::vector<std::vector<int>> faces, std::vector<int> mirrored) {
+  SolidTopology topology;
+  topology.corners = static_cast<int>(corners.cols());
+  topology.edges = std::move(edges);
+  topology.faces = std::move(faces);
+  topology.mirrored = std::move(mirrored);
+  ElementKind& kind = topology.kind;
+  kind.name = name;
+  kind.dimension = 3;
+  kind.order = 2;
+  kind.nodes = topology.nodes();
+  kind.corners = topology.corners;
+  kind.local.resize(3, kind.nodes);
+  kind.local.leftCols(corners.cols()) = corners;
+  for (std::size_t e = 0; e < topology.edges.size(); ++e)
+    kind.local.col(corners.cols() + static_cast<Eigen::Index>(e)) =
+        0.5 * (corners.col(topology.edges[e][0]) + corners.col(topology.edges[e][1]));
+  topology.linear_kind = kind;
+  topology.linear_kind.order = 1;
+  topology.linear_kind.nodes = kind.corners;
+  topology.linear_kind.local = corners;
+  return topology;
+}
+
+SolidTopology tetrahedron() {
+  Eigen::Matrix3Xd corners(3, 4);
+  corners << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  return make_topology("tetrahedron", corners, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
+                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}},
+                       {1, 0, 2, 3, 4, 6, 5, 8, 7, 9});
+}
+
+SolidTopology wedge() {
+  Eigen::Matrix3Xd corners(3, 6);
+  corners << 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, -1, -1, -1, 1, 1, 1;
+  return make_topology("wedge", corners,
+                       {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+                       {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
+                       {3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14});
+}
+
+SolidTopology hexahedron() {
+  Eigen::Matrix3Xd corners(3, 8);
+  corners << -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1;
+  return make_topology(
+      "hexahedron", corners,
+      {{0, 1},
+       {1, 2},
+       {2, 3},
+       {3, 0},
+       {4, 5},
+       {5, 6},
+       {6, 7},
+       {7, 4},
+       {0, 4},
+       {1, 5},
+       {2, 6},
+       {3, 7}},
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}},
+      {4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11, 16, 17, 18, 19});
+}
+
+// The three shapes, in the order of SolidShape.
+const std::array<SolidTopology, 3>& topologies() {
+  static const std::array<SolidTopology, 3> all{tetrahedron(), wedge(), hexahedron()};
+  return all;
+}
+
+dealii::Quadrature<3> unit_rule(SolidShape shape) {
+  if (shape == SolidShape::tetrahedron) return dealii::QGaussSimplex<3>(3);
+  if (shape == SolidShape::wedge) return dealii::QGaussWedge<3>(3);
+  return dealii::QGauss<3>(3);
+}
+
+SolidRule make_rule(SolidShape shape) {
+  const dealii::Quadrature<3> unit = unit_rule(shape);
+  const auto count = static_cast<Eigen::Index>(unit.size());
+  SolidRule rule;
+  rule.points.resize(3, count);
+  rule.weights.resize(count);
+  for (Eigen::Index q = 0; q < count; ++q) {
+    const auto& x = unit.point(static_cast<unsigned>(q));
+    // deal.II's unit cells end at 0 and 1; here hexahedra and the height of wedges at -1 and 1.
+    Vector3 xi(x[0], x[1], x[2]);
+    double stretch = 1;
+    if (shape == SolidShape::hexahedron) {
+      xi = 2 * xi - Vector3::Ones();
+      stretch = 8;
+    } else if (shape == SolidShape::wedge) {
+      xi.z() = 2 * xi.z() - 1;
+      stretch = 2;
+    }
+    rule.points.col(q) = xi;
+    rule.weights[q] = stretch * unit.weight(static_cast<unsigned>(q));
+    rule.values.push_back(shape_of(shape).values(xi));
+    rule.slopes.push_back(shape_of(shape).gradients(xi));
+  }
+  const int corners = topology_of(shape).corners;
+  Eigen::MatrixXd at_points(count, corners);
+  for (Eigen::Index q = 0; q < count; ++q)
+    at_points.row(q) = linear_shape_of(shape).values(rule.points.col(q)).transpose();
+  rule.to_corners = at_points.completeOrthogonalDecomposition().pseudoInverse();
+  return rule;
+}
+
+Vector3 centre_of(const SolidTopology& topology) {
+  return topology.linear_kind.local.rowwise().mean();
+}
+
+}  // namespace
+
+const SolidTopology& topology_of(SolidShape shape) {
+  return topologies()[static_cast<std::size_t>(shape)];
+}
+
+const ElementShape& shape_of(SolidShape shape) {
+  static const std::array<ElementShape, 3> all{ElementShape(topologies()[0].kind),
+                                               ElementShape(topologies()[1].kind),
+                                               ElementShape(topologies()[2].kind)};
+  return all[static_cast<std::size_t>(shape)];
+}
+
+const ElementShape& linear_shape_of(SolidShape shape) {
+  static const std::array<ElementShape, 3> all{ElementShape(topologies()[0].linear_kind),
+                                               ElementShape(topologies()[1].linear_kind),
+                                               ElementShape(topologies()[2].linear_kind)};
+  return all[static_cast<std::size_t>(shape)];
+}
+
+const SolidRule& rule_of(SolidShape shape) {
+  static const std::array<SolidRule, 3> rules{make_rule(SolidShape::tetrahedron),
+                                              make_rule(SolidShape::wedge),
+                                              make_rule(SolidShape::hexahedron)};
+  return rules[static_cast<std::size_t>(shape)];
+}
+
+Eigen::Matrix3Xd places_of(const Mesh& mesh, const Solid& solid) {
+  Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(solid.vertices.size()));
+  for (std::size_t i = 0; i < solid.vertices.size(); ++i)
+    places.col(static_cast<Eigen::Index>(i)) = mesh.vertices[at(solid.vertices[i])];
+  return places;
+}
+
+SolidEdgeMiddles::SolidEdgeMiddles(const Mesh& mesh) {
+  for (const long label : mesh.vertex_labels) next_label = std::max(next_label, label + 1);
+}
+
+void complete_solid(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles) {
+  const SolidTopology& topology = topology_of(solid.shape);
+  solid.vertices.resize(at(topology.nodes()), -1);
+  // The other way round at its centre: its nodes are counted against the rule.
+  const Eigen::Matrix3Xd corners = places_of(
+      mesh, {solid.shape, {solid.vertices.begin(), solid.vertices.begin() + topology.corners}});
+  const Eigen::Matrix3d jacobian =
+      corners * linear_shape_of(solid.shape).gradients(centre_of(topology));
+  if (jacobian.determinant() < 0) {
+    const std::vector<int> given = solid.vertices;
+    for (std::size_t i = 0; i < given.size(); ++i)
+      solid.vertices[i] = given[at(topology.mirrored[i])];
+  }
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+    int& middle = solid.vertices[at(topology.corners) + e];
+    const int a = solid.vertices[at(topology.edges[e][0])],
+              b = solid.vertices[at(topology.edges[e][1])];
+    const auto [known, is_new] = middles.vertices.try_emplace(std::minmax(a, b), middle);
+    if (middle < 0) middle = known->second;
+    if (middle >= 0) continue;
+    middle = known->second = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.push_back(0.5 * (mesh.vertices[at(a)] + mesh.vertices[at(b)]));
+    if (!mesh.vertex_labels.empty()) mesh.vertex_labels.push_back(middles.next_label++);
+  }
+}
+
+double least_jacobian_ratio(const Mesh& mesh, const Solid& solid) {
+  const SolidTopology& topology = topology_of(solid.shape);
+  const Eigen::Matrix3Xd places = places_of(mesh, solid);
+  const auto determinant = [&](const Vector3& xi) {
+    const Eigen::Matrix3d jacobian = places * shape_of(solid.shape).gradients(xi);
+    return jacobian.determinant();
+  };
+  double least = determinant(centre_of(topology)), largest = least;
+  for (Eigen::Index c = 0; c < topology.corners; ++c) {
+    const double here = determinant(topology.kind.local.col(c));
+    least = std::min(least, here);
+    largest = std::max(largest, here);
+  }
+  return largest > 0 ? least / largest : -1;
+}
+
+std::vector<SolidFace> outer_faces(const Mesh& mesh) {
+  std::map<std::vector<int>, std::pair<int, SolidFace>> faces;
+  for (std::size_t s = 0; s < mesh.solids.size(); ++s)
+    for (const std::vector<int>& face : topology_of(mesh.solids[s].shape).faces) {
+      std::vector<int> key;
+      for (const int corner : face) key.push_back(mesh.solids[s].vertices[at(corner)]);
+      std::sort(key.begin(), key.end());
+      auto& [count, known] = faces[key];
+      if (count++ == 0) known = {static_cast<int>(s), face};
+    }
+  std::vector<SolidFace> outer;
+  for (auto& [key, face] : faces)
+    if (face.first == 1) outer.push_back(std::move(face.second));
+  // In the solids' order, which is the file's.
+  std::stable_sort(outer.begin(), outer.end(),
+                   [](const SolidFace& a, const SolidFace& b) { return a.solid < b.solid; });
+  return outer;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/mesh/element_shape.h"
+#include "structure/mesh/mesh.h"
+
+namespace blocklift::structure {
+
+/// How the nodes of a solid of one shape lie: corners first, then the middles of its edges, as
+/// Abaqus counts them (C3D10, C3D15, C3D20).
+struct SolidTopology {
+  int corners = 0;
+  std::vector<std::array<int, 2>> edges;  ///< corners at their ends
+  std::vector<std::vector<int>> faces;    ///< corners around each, seen from outside
+  std::vector<int> mirrored;              ///< nodes in the order that turns the solid's inside out
+  ElementKind kind;         ///< quadratic: name, corners, nodes and their local coordinates
+  ElementKind linear_kind;  ///< of the corners alone
+
+  int nodes() const { return corners + static_cast<int>(edges.size()); }
+};
+
+const SolidTopology& topology_of(SolidShape shape);
+
+/// Shape functions through all nodes, and through the corners alone.
+const ElementShape& shape_of(SolidShape shape);
+const ElementShape& linear_shape_of(SolidShape shape);
+
+/// Integration rule of a shape in its local coordinates, exact for the stiffness of a quadratic
+/// solid with straight edges and parallel faces, and the shape functions at its points.
+struct SolidRule {
+  Eigen::Matrix3Xd points;
+  Eigen::VectorXd weights;
+  std::vector<Eigen::VectorXd> values;
+  std::vector<Eigen::MatrixX3d> slopes;  ///< nodes x 3: d N_i / d xi_a
+  /// Corners x points: the fit by the corners' shape functions of what is known at the points.
+  Eigen::MatrixXd to_corners;
+};
+const SolidRule& rule_of(SolidShape shape);
+
+/// Places of a solid's nodes, 3 x nodes, m.
+Eigen::Matrix3Xd places_of(const Mesh& mesh, const Solid& solid);
+
+/// The middles of edges that solids have in common, and the next free label of a vertex.
+struct SolidEdgeMiddles {
+  explicit SolidEdgeMiddles(const Mesh& mesh);
+
+  std::map<std::pair<int, int>, int> vertices;
+  long next_label = 1;
+};
+
+/// Makes a solid of corners quadratic: middles of edges that are not known become vertices of the
+/// mesh, with labels of their own. Turns it where its nodes run the other way round.
+void complete_solid(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles);
+
+/// The least determinant of the Jacobian at the corners and the centre, over the largest.
+double least_jacobian_ratio(const Mesh& mesh, const Solid& solid);
+
+/// A face that one solid alone has.
+struct SolidFace {
+  int solid = 0;
+  std::vector<int> corners;  ///< of the solid, in order around the face, seen from outside
+};
+std::vector<SolidFace> outer_faces(const Mesh& mesh);
+
+}  // namespace blocklift::structure

@@ -1,0 +1,158 @@
+// Solids of Nastran's and Abaqus' decks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/files/abaqus/reader.h"
+#include "structure/mesh/files/abaqus/writer.h"
+#include "structure/mesh/files/nastran/reader.h"
+#include "structure/mesh/files/nastran/writer.h"
+#include "structure/mesh/mass_properties.h"
+#include "structure/mesh/solid_shape.h"
+#include "tests/structure/mesh/files/deck_text.h"
+
+namespace blocklift::structure::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A cube of 1 m, a wedge of half of one on it, and a tetrahedron beside it.
+const std::string nastran_solids = R"(GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,5,,0.,0.,1.
+GRID,6,,1.,0.,1.
+GRID,7,,1.,1.,1.
+GRID,8,,0.,1.,1.
+GRID,9,,0.,0.,2.
+GRID,10,,1.,0.,2.
+GRID,11,,1.,1.,2.
+GRID,12,,2.,0.,0.
+CHEXA,101,5,1,2,3,4,5,6
+,7,8
+CPENTA,102,5,5,6,7,9,10,11
+CTETRA,103,6,2,12,3,6
+PSOLID,5,7
+PSOLID,6,7
+MAT1,7,206.+9,,.3,7850.
+)";
+
+TEST(SolidDecks, NastransCardsMakeQuadraticSolids) {
+  const Deck deck = nastran(nastran_solids);
+  ASSERT_EQ(deck.mesh.solids.size(), 3U);
+  EXPECT_EQ(deck.mesh.solids[0].shape, SolidShape::hexahedron);
+  EXPECT_EQ(deck.mesh.solids[1].shape, SolidShape::wedge);
+  EXPECT_EQ(deck.mesh.solids[2].shape, SolidShape::tetrahedron);
+  // 12 + 9 + 6 edges, of which the cube has 2 in common with the wedge and 2 with the tetrahedron.
+  EXPECT_EQ(deck.mesh.vertices.size(), 12U + 12 + 9 + 6 - 4);
+  EXPECT_EQ(deck.mesh.vertex_labels.size(), deck.mesh.vertices.size());
+  const MeshMass mass = mass_properties(deck.mesh);
+  EXPECT_NEAR(mass.mass, 7850 * (1 + 0.5 + 1 / 6.0), 1e-8 * 7850);
+  const Diagnosis diagnosis = diagnose(deck.mesh, {});
+  EXPECT_EQ(diagnosis.parts, 1);
+  EXPECT_EQ(diagnosis.find("unused vertices"), nullptr);
+  EXPECT_EQ(entry(deck, "CHEXA").used, 1);
+  EXPECT_EQ(entry(deck, "PSOLID").used, 2);
+  EXPECT_EQ(deck.mesh.groups.size(), 2U);
+}
+
+// Middles of edges in Nastran's order: a cube with one edge bulged by a quarter.
+TEST(SolidDecks, NastransMiddlesStandWhereTheyAreTold) {
+  const std::string grids =
+      nastran_solids.substr(0, nastran_solids.find("GRID,9")) +
+      "GRID,21,,.5,0.,0.\nGRID,22,,1.,.5,0.\nGRID,23,,.5,1.,0.\nGRID,24,,0.,.5,0.\n"
+      "GRID,25,,0.,0.,.5\nGRID,26,,1.,0.,.5\nGRID,27,,1.,1.,.5\nGRID,28,,0.,1.,.5\n"
+      "GRID,29,,.5,0.,1.\nGRID,30,,1.,.5,1.\nGRID,31,,.5,1.,1.\nGRID,32,,0.,.5,1.\n"
+      "CHEXA,101,5,1,2,3,4,5,6\n,7,8,21,22,23,24,25,26\n,27,28,29,30,31,32\n"
+      "PSOLID,5,7\nMAT1,7,206.+9,,.3,7850.\n";
+  const Deck deck = nastran(grids);
+  EXPECT_EQ(deck.mesh.vertices.size(), 20U);
+  const Solid& solid = deck.mesh.solids.front();
+  const SolidTopology& topology = topology_of(solid.shape);
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+    const auto place = [&](std::size_t i) {
+      return deck.mesh.vertices[static_cast<std::size_t>(solid.vertices[i])];
+    };
+    const Vector3 middle = 0.5 * (place(static_cast<std::size_t>(topology.edges[e][0])) +
+                                  place(static_cast<std::size_t>(topology.edges[e][1])));
+    EXPECT_LT((place(8 + e) - middle).norm(), 1e-12) << e;
+  }
+}
+
+const std::string abaqus_solids = R"(*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+9, .5, .5, 3.
+*ELEMENT, TYPE=C3D8R, ELSET=CUBE
+10, 1, 2, 3, 4, 5, 6, 7, 8
+*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL
+*SURFACE, NAME=TOP
+CUBE, S2
+*COUPLING, REF NODE=9, SURFACE=TOP, CONSTRAINT NAME=C
+*DISTRIBUTING
+*MATERIAL, NAME=STEEL
+*ELASTIC
+206.E9, .3
+*DENSITY
+7850.
+)";
+
+TEST(SolidDecks, AbaqusSolidsAndCouplingsOfTheirFaces) {
+  const Deck deck = abaqus(abaqus_solids);
+  ASSERT_EQ(deck.mesh.solids.size(), 1U);
+  EXPECT_EQ(deck.mesh.solids[0].label, 10);
+  EXPECT_NEAR(mass_properties(deck.mesh).mass, 7850, 1e-6);
+  ASSERT_EQ(deck.mesh.distributing_links.size(), 1U);
+  const DistributingLink& link = deck.mesh.distributing_links[0];
+  EXPECT_EQ(link.vertices.size(), 4U);
+  for (const int vertex : link.vertices)
+    EXPECT_NEAR(deck.mesh.vertices[static_cast<std::size_t>(vertex)].z(), 1, 1e-12);
+}
+
+TEST(SolidDecks, WrittenAndReadAgainTheyAreTheSame) {
+  const DeckFolder folder;
+  const auto expect_same_solids = [](const Deck& a, const Deck& b) {
+    ASSERT_EQ(a.mesh.solids.size(), b.mesh.solids.size());
+    for (std::size_t s = 0; s < a.mesh.solids.size(); ++s) {
+      EXPECT_EQ(a.mesh.solids[s].shape, b.mesh.solids[s].shape);
+      EXPECT_LT((places_of(a.mesh, a.mesh.solids[s]) - places_of(b.mesh, b.mesh.solids[s])).norm(),
+                1e-10);
+    }
+    EXPECT_NEAR(mass_properties(a.mesh).mass, mass_properties(b.mesh).mass, 1e-6);
+  };
+  const Deck first = nastran(nastran_solids);
+  write_nastran(first, folder.path() / "again.bdf");
+  expect_same_solids(first, read_nastran(folder.path() / "again.bdf", first.units));
+  const Deck second = abaqus(abaqus_solids);
+  write_abaqus(second, folder.path() / "again.inp");
+  expect_same_solids(second, read_abaqus(folder.path() / "again.inp", second.units));
+}
+
+TEST(SolidDecks, SaysWhatIsWrong) {
+  const std::string grids = nastran_solids.substr(0, nastran_solids.find("CHEXA"));
+  const std::string material = "MAT1,7,206.+9,,.3,7850.\n";
+  EXPECT_THAT(complaints_of_nastran(grids + "CTETRA,103,6,2,12,3,2\nPSOLID,6,7\n" + material),
+              HasSubstr("CTETRA: element 103 has grid 2 twice"));
+  EXPECT_THAT(complaints_of_nastran(grids + "CTETRA,103,6,2,12,3,6\n" + material),
+              HasSubstr("CTETRA: property 6 does not exist"));
+  EXPECT_THAT(complaints_of_nastran(grids + "CTETRA,103,6,2,12,3,6\nPSHELL,6,7,.01\n" + material),
+              HasSubstr("a solid has property 6, which is a PSHELL"));
+  EXPECT_THAT(complaints_of_nastran(grids + "CPYRAM,103,6,1,2,3,4,5\n"),
+              HasSubstr("CPYRAM: pyramids are not known"));
+  std::string without = abaqus_solids;
+  without.erase(without.find("*SOLID SECTION"), 43);
+  EXPECT_THAT(complaints_of_abaqus(without), HasSubstr("solids have no *SOLID SECTION"));
+  // Flat as a sheet.
+  const Deck flat = nastran(grids + "CTETRA,103,6,1,2,3,4\nPSOLID,6,7\n" + material);
+  ASSERT_NE(diagnose(flat.mesh, {}).find("folded solids"), nullptr);
+}
+
+}  // namespace
+}  // namespace blocklift::structure::test
