@@ -21,6 +21,10 @@ SupportPad::SupportPad(Definition definition) : definition_(std::move(definition
                        "must be finite and not negative");
     }
   }
+  if (d.ground && !(d.tangential_stiffness > 0.0)) {
+    throw ModelError("support \"" + d.name +
+                     "\" is ground: its tangential stiffness must be above zero");
+  }
   if (!(d.reach > 0.0)) {
     throw ModelError("support \"" + d.name + "\" reaches " + std::to_string(d.reach) +
                      " m; a length above zero is due");
@@ -30,10 +34,11 @@ SupportPad::SupportPad(Definition definition) : definition_(std::move(definition
   }
 }
 
-SupportLoad SupportPad::calc_depth(const Kinematics& kinematics) const {
+SupportLoad SupportPad::calc_depth(const Kinematics& kinematics, const Vector3& p_WG) const {
   const BodyPoint& point = definition_.point;
   SupportLoad load;
-  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - definition_.p_WG;
+  load.p_WG = p_WG;
+  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - p_WG;
   load.depth = std::min(-s.z(), definition_.reach - s.head<2>().norm());
   load.depth_rate = -point_velocity(kinematics, point.body, point.p_BoQ_B).z();
   load.elastic_force = definition_.stiffness * load.depth;
@@ -43,7 +48,7 @@ SupportLoad SupportPad::calc_depth(const Kinematics& kinematics) const {
 
 void SupportPad::set_force(const Kinematics& kinematics, SupportLoad& load) const {
   const BodyPoint& point = definition_.point;
-  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - definition_.p_WG;
+  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - load.p_WG;
   const Vector3 rate = point_velocity(kinematics, point.body, point.p_BoQ_B);
   Vector3 f = -(definition_.tangential_stiffness * s + definition_.tangential_damping * rate);
   f.z() = 0.0;
@@ -53,16 +58,17 @@ void SupportPad::set_force(const Kinematics& kinematics, SupportLoad& load) cons
   load.force_W = f + Vector3(0.0, 0.0, load.normal_force);
 }
 
-SupportLoad SupportPad::calc_load(const Kinematics& kinematics) const {
-  SupportLoad load = calc_depth(kinematics);
+SupportLoad SupportPad::calc_load(const Kinematics& kinematics, const Vector3& p_WG) const {
+  SupportLoad load = calc_depth(kinematics, p_WG);
   load.carries = load.indicator() > 0.0;
   load.normal_force = load.carries ? load.elastic_force + load.damping_force : 0.0;
   set_force(kinematics, load);
   return load;
 }
 
-SupportLoad SupportPad::calc_load(const Kinematics& kinematics, bool carries) const {
-  SupportLoad load = calc_depth(kinematics);
+SupportLoad SupportPad::calc_load(const Kinematics& kinematics, bool carries,
+                                  const Vector3& p_WG) const {
+  SupportLoad load = calc_depth(kinematics, p_WG);
   load.carries = carries;
   load.normal_force = carries ? load.elastic_force + load.damping_force : 0.0;
   set_force(kinematics, load);
@@ -83,7 +89,7 @@ void SupportPad::add_derivatives(const Kinematics& kinematics, const SupportLoad
   Matrix3 C = Matrix3::Zero();
   K(2, 2) = -definition_.stiffness;
   C(2, 2) = -definition_.damping;
-  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - definition_.p_WG;
+  const Vector3 s = point_position(kinematics, point.body, point.p_BoQ_B) - load.p_WG;
   const Vector3 rate = point_velocity(kinematics, point.body, point.p_BoQ_B);
   const Eigen::Vector2d f =
       -(definition_.tangential_stiffness * s + definition_.tangential_damping * rate).head<2>();

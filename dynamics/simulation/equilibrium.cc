@@ -334,6 +334,7 @@ bool EquilibriumSolver::Implementation::solve_at(double t, Eigen::VectorXd& q) {
 void EquilibriumSolver::Implementation::finish(Eigen::VectorXd& q) {
   Eigen::VectorXd residual(coordinates.size());
   calc_residual(Eigen::VectorXd::Zero(coordinates.size()), nullptr, residual);
+  carry_pads_along(system, w);
   w.joint_force = tau - w.loads.tau;
   if (w.loops) {
     Eigen::Index i = 0;
@@ -445,7 +446,8 @@ void EquilibriumSolver::follow(double t_from, double t, Eigen::VectorXd& q) {
 
 History static_sweep(const LiftSystem& system, const Eigen::VectorXd& times,
                      const Eigen::VectorXd& q_start, const EquilibriumSettings& settings,
-                     const std::function<void(double, double)>& progress) {
+                     const std::function<void(double, double)>& progress,
+                     const std::function<void(Eigen::Index, double, LiftWorkspace&)>& observe) {
   History history(system, times.size(), false);
   EquilibriumSolver solver(system, settings);
   Eigen::VectorXd q = q_start;
@@ -456,6 +458,7 @@ History static_sweep(const LiftSystem& system, const Eigen::VectorXd& times,
       solver.follow(times[i - 1], times[i], q);
     }
     history.record(system, i, times[i], solver.workspace());
+    if (observe) observe(i, times[i], solver.workspace());
     if (progress)
       progress(static_cast<double>(i + 1) / static_cast<double>(times.size()), times[i]);
   }

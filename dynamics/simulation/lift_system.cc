@@ -98,6 +98,7 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
                          ForceVector::zero());
   memory = memory_rate = Eigen::VectorXd::Zero(system.memory_count());
   water_velocity = water_force = entry_force = Eigen::VectorXd::Zero(added ? added->size() : 0);
+  for (const SupportPad& pad : system.supports()) standing_places.push_back(pad.definition().p_WG);
   for (std::size_t i = 0; i < feeds.size(); ++i) {
     feeds[i].unstretched_length = system.ropes()[i].definition().unstretched_length;
   }
@@ -169,6 +170,30 @@ void add_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
 
 }  // namespace
 
+void set_down_pad(const LiftSystem& system, std::size_t pad, LiftWorkspace& w) {
+  const SupportPad::Definition& definition = system.supports()[pad].definition();
+  if (!definition.ground) return;
+  w.standing_places[pad].head<2>() =
+      point_position(w.kinematics, definition.point.body, definition.point.p_BoQ_B).head<2>();
+}
+
+void carry_pads_along(const LiftSystem& system, LiftWorkspace& w) {
+  for (std::size_t i = 0; i < w.support_loads.size(); ++i) {
+    const SupportPad::Definition& pad = system.supports()[i].definition();
+    if (!pad.ground) continue;
+    if (!w.support_loads[i].carries) {
+      set_down_pad(system, i, w);
+      continue;
+    }
+    const double force = pad.friction_coefficient * std::max(0.0, w.support_loads[i].normal_force);
+    auto place = w.standing_places[i].head<2>();
+    const Eigen::Vector2d s =
+        point_position(w.kinematics, pad.point.body, pad.point.p_BoQ_B).head<2>() - place;
+    const double slid = s.norm() - force / pad.tangential_stiffness;
+    if (slid > 0.0) place += slid * s.normalized();
+  }
+}
+
 void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, LiftWorkspace& w) {
   compute_kinematics(system.mechanism(), w.q, w.v, w.kinematics);
   w.loads.set_zero();
@@ -188,8 +213,9 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
   const std::vector<SupportPad>& supports = system.supports();
   for (std::size_t i = 0; i < supports.size(); ++i) {
     SupportLoad& load = w.support_loads[i];
-    load = contacts ? supports[i].calc_load(w.kinematics, (*contacts)[ropes.size() + i] != 0)
-                    : supports[i].calc_load(w.kinematics);
+    const Vector3& place = w.standing_places[i];
+    load = contacts ? supports[i].calc_load(w.kinematics, (*contacts)[ropes.size() + i] != 0, place)
+                    : supports[i].calc_load(w.kinematics, place);
     supports[i].add_force(w.kinematics, load, w.loads);
   }
 }

@@ -155,8 +155,9 @@ struct LiftWorkspace {
   std::vector<RopeFeed> feeds;  ///< for each rope; which have parted the integration says
   std::vector<RopeLoad> rope_loads;
   std::vector<SupportLoad> support_loads;
-  RopePath path;                                ///< of the rope evaluated last
-  std::vector<RopeEndShifts> end_shifts;        ///< for each rope; zero at rigid bodies
+  std::vector<Vector3> standing_places;   ///< of each pad, m: p_WG, or where ground was touched
+  RopePath path;                          ///< of the rope evaluated last
+  std::vector<RopeEndShifts> end_shifts;  ///< for each rope; zero at rigid bodies
   std::vector<ElasticBody::Workspace> elastic;  ///< for each elastic body
 
   /// Inertia of the water; null: there is none.
@@ -177,6 +178,13 @@ void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w);
 /// Free coordinates and velocities of whole vectors q and v into a state; its memory stays as it
 /// is.
 void get_state(const LiftSystem& system, ConstVectorRef q, ConstVectorRef v, VectorRef y);
+
+/// Pads that are ground go along, at the workspace's kinematics and loads: those that carry nothing
+/// will stand where they are now, and those that have slid are held from as far behind as the
+/// friction's stiffness takes to its limit. Forces stay as they are.
+void carry_pads_along(const LiftSystem& system, LiftWorkspace& w);
+/// The pad stands where its point is now, at the workspace's kinematics, if it is ground.
+void set_down_pad(const LiftSystem& system, std::size_t pad, LiftWorkspace& w);
 
 /// Kinematics of the workspace's q, v and feeds, and the loads of ropes, elastic bodies and pads
 /// alone: all that calc_contact_indicators asks for. `contacts` as below.

@@ -282,6 +282,39 @@ Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w) {
   return result;
 }
 
+double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w, BodyIndex body,
+                            TangentMatrices& tangent) {
+  const Mechanism& mechanism = system.mechanism();
+  const Body& b = mechanism.body(body);
+  const std::vector<int>& free = mechanism.free_velocities();
+  const auto turn = std::find(free.begin(), free.end(), b.v_offset);
+  const double weight = b.inertia.mass * mechanism.gravity().norm();
+  if (b.joint.kind != JointKind::free || b.parent != world_index || turn == free.end() ||
+      !(weight > 0.0)) {
+    throw ModelError("body \"" + b.name +
+                     "\" has no righting height: it must have weight and a free joint to the "
+                     "world");
+  }
+  if (w.loops) find_multipliers(mechanism, w);
+  calc_tangent_matrices(system, t, w, tangent);
+  Eigen::MatrixXd tilts = Eigen::MatrixXd::Zero(2, system.nv_free());
+  // The increments of a free joint turn about the body's axes.
+  const Matrix3& R_WB = w.kinematics.X_WB[static_cast<std::size_t>(body)].R;
+  tilts.middleCols<3>(turn - free.begin()) = R_WB.topRows<2>();
+  Eigen::MatrixXd stiffness = tangent.stiffness;
+  if (w.loops) {
+    const Eigen::MatrixXd basis = motions_of_loops(mechanism, w);
+    stiffness = basis.transpose() * tangent.stiffness * basis;
+    tilts *= basis;
+  }
+  constexpr double holding = 1e-10;
+  stiffness.diagonal().array() += holding * stiffness.diagonal().cwiseAbs().maxCoeff();
+  const Eigen::Matrix2d compliance = tilts * stiffness.partialPivLu().solve(tilts.transpose());
+  const Eigen::Matrix2d symmetric = 0.5 * (compliance + compliance.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(symmetric, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().cwiseInverse().minCoeff() / weight;
+}
+
 std::vector<Linearisation> linearise_sweep(const LiftSystem& system,
                                            const std::vector<double>& times,
                                            const Eigen::VectorXd& q_start, double interval,

@@ -74,6 +74,20 @@ struct Linearisation {
 /// @throws SimulationError if the mass matrix is singular.
 Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w);
 
+/// How far a hanging body is from tipping, m: the least moment about a level axis that a small tilt
+/// meets, all other freedoms giving way, over its weight times the tilt. A body that hangs from one
+/// pin has the height of the pin above its centre of mass; below zero the equilibrium tips over.
+/// At the rest that an EquilibriumSolver has left in its workspace at time t.
+///
+///   G dz = tilt,  S = (G K^-1 G^T)^-1,  2 x 2; the lesser eigenvalue of S over m g
+/// (static condensation: Guyan 1965). Directions that nothing holds get a stiffness of 1e-10 of the
+/// largest.
+/// @param tangent a workspace; overwritten.
+/// @param body a child of the world on a free joint that no drive moves.
+/// @throws ModelError if it is none, or has no weight.
+double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w, BodyIndex body,
+                            TangentMatrices& tangent);
+
 /// Linearises where the lift hangs at rest at each of the ascending times (s), following the
 /// equilibrium from a guess q_start (nq) at t = 0 in steps of at most `interval` (s).
 /// @throws SimulationError where there is no equilibrium.

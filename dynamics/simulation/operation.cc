@@ -131,6 +131,7 @@ void OperationBuilder::check_free(const Track& track, Interval wanted) const {
   for (const Follower& follower : track.followers) {
     check(follower.interval.start, follower.interval.end);
   }
+  for (const Follower& part : track.stopped) check(part.interval.start, part.interval.end);
 }
 
 void OperationBuilder::add_move(std::string_view drive, const RestToRestMove& move) {
@@ -201,6 +202,46 @@ void OperationBuilder::add_stop(std::string_view drive, double time, double dura
   track.stop = Interval{time, time + duration};
 }
 
+void OperationBuilder::add_runaway(std::string_view winch, double time, double duration,
+                                   double speed, double ramp) {
+  Track& track = find_track(winch);
+  if (!track.is_winch)
+    throw ModelError("drive \"" + track.name + "\" is no winch and cannot run away");
+  if (!(duration > 0.0) || !(speed > 0.0) || !std::isfinite(duration * speed))
+    throw ModelError("winch \"" + track.name + "\" cannot run away for " + seconds(duration) +
+                     " at " + std::to_string(speed) + " m/s");
+  add_stop(winch, time, ramp);
+  // Its acceleration builds up in a hundredth of the ramp.
+  const double acceleration = speed / ramp;
+  track.runaway =
+      RestToRestMove(time, speed * duration, {speed, acceleration, 100.0 * acceleration / ramp});
+}
+
+void OperationBuilder::stop_moves(double from, double time, double duration) {
+  const double stand = time + duration;
+  for (Track& track : tracks_) {
+    const auto stop = [&](const MotionProfile& travel, Interval interval) {
+      if (interval.start >= stand) return;
+      // What a cam has at its start is no travel.
+      const double offset = travel.evaluate(interval.start).position;
+      MotionProfile stopped = MotionProfile::stopped(travel, time, duration);
+      if (offset != 0.0)
+        stopped = MotionProfile::sum({std::move(stopped), MotionProfile::constant(-offset)});
+      track.stopped.push_back(
+          {std::move(stopped), {interval.start, std::min(std::max(interval.end, time), stand)}});
+    };
+    const auto concerns = [&](double start) { return start >= from - touching; };
+    for (const RestToRestMove& move : track.moves)
+      if (concerns(move.start()))
+        stop(MotionProfile::sequence(0.0, {move}), {move.start(), move.end()});
+    for (const Follower& follower : track.followers)
+      if (concerns(follower.interval.start)) stop(follower.travel, follower.interval);
+    std::erase_if(track.moves, [&](const auto& move) { return concerns(move.start()); });
+    std::erase_if(track.followers,
+                  [&](const auto& follower) { return concerns(follower.interval.start); });
+  }
+}
+
 void OperationBuilder::add_parting(int rope, double time) {
   if (!(time >= 0.0) || !std::isfinite(time))
     throw ModelError("a rope cannot part at " + seconds(time));
@@ -215,14 +256,16 @@ void OperationBuilder::add_parting(int rope, double time) {
 MotionProfile OperationBuilder::make_profile(const Track& track) const {
   MotionProfile profile = make_undisturbed_profile(track);
   if (!track.stop) return profile;
-  return MotionProfile::stopped(std::move(profile), track.stop->start,
-                                track.stop->end - track.stop->start);
+  MotionProfile stopped = MotionProfile::stopped(std::move(profile), track.stop->start,
+                                                 track.stop->end - track.stop->start);
+  if (!track.runaway) return stopped;
+  return MotionProfile::sum({std::move(stopped), MotionProfile::sequence(0.0, {*track.runaway})});
 }
 
 MotionProfile OperationBuilder::make_undisturbed_profile(const Track& track) {
   if (track.motion) return *track.motion;
   MotionProfile own = MotionProfile::sequence(track.start_value, track.moves);
-  if (track.followers.empty()) return own;
+  if (track.followers.empty() && track.stopped.empty()) return own;
   std::vector<MotionProfile> parts{std::move(own)};
   for (const Follower& follower : track.followers) {
     // The cam's own value at the leader's start is not travel.
@@ -230,6 +273,7 @@ MotionProfile OperationBuilder::make_undisturbed_profile(const Track& track) {
     const double offset = follower.travel.evaluate(follower.interval.start).position;
     if (offset != 0.0) parts.push_back(MotionProfile::constant(-offset));
   }
+  for (const Follower& part : track.stopped) parts.push_back(part.travel);
   return MotionProfile::sum(std::move(parts));
 }
 

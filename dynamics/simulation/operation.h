@@ -119,6 +119,20 @@ class OperationBuilder {
   /// the duration not positive.
   void add_stop(std::string_view drive, double time, double duration);
 
+  /// A winch runs away: its own motion comes to a stand within `ramp` (s) from `time` (s) on, and it
+  /// pays out at `speed` (m/s) instead, which it reaches in `ramp`, until it is caught after
+  /// `duration` (s) and stands within `ramp`. There it stays.
+  /// @throws ModelError if there is no such winch, it is stopped already, the time is negative or
+  /// another number not positive.
+  void add_runaway(std::string_view winch, double time, double duration, double speed, double ramp);
+
+  /// Moves and followers that begin at `from` (s) or later, of those added so far, come to a stand
+  /// between `time` (s) and `duration` (s) later (MotionProfile::stopped): all by one clock, so that
+  /// followers keep to their leaders. What would begin after that does not. Moves that are added
+  /// afterwards go on from there.
+  /// @throws ModelError if the duration is not positive.
+  void stop_moves(double from, double time, double duration);
+
   /// A rope (its index in the lift) parts at a time (s).
   /// @throws ModelError if the time is negative or the rope parts already.
   void add_parting(int rope, double time);
@@ -148,8 +162,10 @@ class OperationBuilder {
     double start_value;
     std::vector<RestToRestMove> moves;
     std::vector<Follower> followers;
-    std::optional<MotionProfile> motion;  ///< in place of start, moves and followers
-    std::optional<Interval> stop = {};    ///< within which all that comes to a stand
+    std::optional<MotionProfile> motion;         ///< in place of start, moves and followers
+    std::optional<Interval> stop = {};           ///< within which all that comes to a stand
+    std::optional<RestToRestMove> runaway = {};  ///< besides, from the stop on
+    std::vector<Follower> stopped = {};  ///< moves and followers that were stopped on their way
   };
   Track& find_track(std::string_view drive);
   void add_track(const std::string& name, bool is_winch, std::size_t index, double start);

@@ -53,6 +53,13 @@ class Integrator {
   void record_samples(double up_to);
   void change_contacts(double t);
   void repair_contacts(double t);
+  void set_down(std::size_t contact, double t);
+  void slide_pads(double t);
+  void look_for_condition(double t, bool found);
+  int root_count() const { return system_.contact_count() + (settings_.awaited ? 1 : 0); }
+  bool is_over() const {
+    return settings_.awaited && (result_.met || time_ >= settings_.awaited->until);
+  }
   bool motion_jumps(double t) const;
   bool part_ropes(double t);
   double within_interval(double t) const { return std::clamp(t, from_, to_); }
@@ -81,10 +88,12 @@ class Integrator {
   std::optional<StateProjection> projection_;
   std::optional<MarchedSurface> surface_;
   Contacts contacts_;
+  bool on_ground_ = false;  ///< are there pads that are ground?
   Eigen::VectorXd sample_times_;
   Eigen::Index next_sample_ = 0;
   std::vector<Eigen::Index> relative_unknowns_;  ///< velocities and quaternions: within y
   Eigen::VectorXd indicators_;    ///< at the end of the last step, where no root was found
+  double awaited_value_ = -1.0;   ///< likewise of the awaited condition
   double from_ = 0.0, to_ = 0.0;  ///< times between which motions are evaluated now
   double time_ = 0.0;
   // Where the workspace holds the loads of an instant that may be asked for again: time and state.
@@ -131,6 +140,8 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   work_ = sundials::make_vector(4, context_);
   sampled_work_ = sundials::make_vector(4, context_);
   indicators_.setZero(system.contact_count());
+  for (const SupportPad& pad : system.supports())
+    on_ground_ = on_ground_ || pad.definition().ground;
   loaded_state_.setZero(size);
   sundials::view(work_.get()).setZero();
   projection_.emplace(system, w_);
@@ -216,7 +227,8 @@ int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
   return self.guarded([&] {
     const auto state = sundials::view(y);
     // At the end of a step the works have just been evaluated.
-    if (t != self.loaded_time_ || state != self.loaded_state_) {
+    const bool awaits = self.settings_.awaited.has_value();
+    if (awaits || t != self.loaded_time_ || state != self.loaded_state_) {
       self.loaded_time_ = not_a_number;
       set_state(self.system_, state, self.w_);
       set_drives(self.system_, self.within_interval(t), true, self.w_);
@@ -224,6 +236,12 @@ int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
     }
     calc_contact_indicators(self.w_, self.indicators_);
     Eigen::Map<Eigen::VectorXd>(g, self.system_.contact_count()) = self.indicators_;
+    if (!awaits) return;
+    const AwaitedCondition& awaited = *self.settings_.awaited;
+    // Before its time it counts as not met.
+    self.awaited_value_ =
+        self.to_ > awaited.from + beside ? awaited.indicator(self.system_, self.w_) : -1.0;
+    g[self.system_.contact_count()] = self.awaited_value_;
   });
 }
 
@@ -290,8 +308,8 @@ void Integrator::set_up_cvode() {
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(cvode_, newton_matrix), "CVodeSetLinSysFn");
   if (projection_->is_needed()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
-  if (system_.contact_count() > 0) {
-    check(CVodeRootInit(cvode_, system_.contact_count(), indicators), "CVodeRootInit");
+  if (root_count() > 0) {
+    check(CVodeRootInit(cvode_, root_count(), indicators), "CVodeRootInit");
     check(CVodeSetNoInactiveRootWarn(cvode_), "CVodeSetNoInactiveRootWarn");
   }
   if (settings_.works) {
@@ -384,16 +402,39 @@ void Integrator::record_samples(double up_to) {
 }
 
 void Integrator::change_contacts(double t) {
-  std::vector<int> found(contacts_.size());
+  std::vector<int> found(static_cast<std::size_t>(root_count()));
   sundials::check(CVodeGetRootInfo(cvode_, found.data()), "CVodeGetRootInfo");
-  for (std::size_t i = 0; i < found.size(); ++i) {
+  if (settings_.awaited && found.back() > 0) look_for_condition(t, true);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (found[i] == 0) continue;
     const bool acts = found[i] > 0;
     if (acts == (contacts_[i] != 0)) continue;
     contacts_[i] = acts ? 1 : 0;
     result_.events.push_back({t, static_cast<int>(i), acts});
     ++result_.statistics.contact_changes;
+    if (acts) set_down(i, t);
   }
+}
+
+// Where friction has slid over the ground it holds from there on; its force does not jump by that.
+void Integrator::slide_pads(double t) {
+  const auto first = contacts_.begin() + static_cast<std::ptrdiff_t>(system_.ropes().size());
+  if (std::find(first, contacts_.end(), 1) == contacts_.end()) return;
+  loaded_time_ = evaluated_time_ = not_a_number;
+  set_state(system_, sundials::view(y_.get()), w_);
+  set_drives(system_, within_interval(t), true, w_);
+  calc_contact_loads(system_, &contacts_, w_);
+  carry_pads_along(system_, w_);
+}
+
+// Friction holds a point of the load where it touches the ground.
+void Integrator::set_down(std::size_t contact, double t) {
+  if (contact < system_.ropes().size()) return;
+  loaded_time_ = evaluated_time_ = not_a_number;
+  set_state(system_, sundials::view(y_.get()), w_);
+  set_drives(system_, within_interval(t), true, w_);
+  compute_kinematics(system_.mechanism(), w_.q, w_.v, w_.kinematics);
+  set_down_pad(system_, contact - system_.ropes().size(), w_);
 }
 
 // A change that root-finding could not see (it began at the very start of a step) is made good at
@@ -407,6 +448,7 @@ void Integrator::repair_contacts(double t) {
     contacts_[i] = value > 0.0 ? 1 : 0;
     result_.events.push_back({t, static_cast<int>(i), value > 0.0});
     ++result_.statistics.contact_changes;
+    if (value > 0.0) set_down(i, t);
     changed = true;
   }
   if (changed) restart(t);
@@ -420,12 +462,20 @@ void Integrator::step(double end) {
     sundials::check(CVodeGetQuad(cvode_, &t, work_.get()), "CVodeGetQuad");
   }
   record_samples(time_);
+  if (on_ground_) slide_pads(time_);
   if (flag == CV_ROOT_RETURN) {
     change_contacts(time_);
     restart(time_);
   } else {
+    look_for_condition(time_, awaited_value_ > 0.0);
     repair_contacts(time_);
   }
+}
+
+void Integrator::look_for_condition(double t, bool found) {
+  if (!settings_.awaited || result_.met || !found) return;
+  if (t >= settings_.awaited->from - beside && t <= settings_.awaited->until + beside)
+    result_.met = t;
 }
 
 // Ropes that part now, with all that was taut in them. Does any?
@@ -473,6 +523,7 @@ void Integrator::integrate_interval(double start, double end) {
     step(stop);
     if (surface_) march_surface();
     report_progress(time_);
+    if (is_over()) return;
   }
 }
 
@@ -566,13 +617,14 @@ IntegrationResult Integrator::run() {
   set_up_cvode();
   record_samples(0.0);
   const std::vector<double>& breakpoints = system_.operation().breakpoints();
-  for (std::size_t i = 0; i + 1 < breakpoints.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < breakpoints.size() && !is_over(); ++i) {
     integrate_interval(breakpoints[i], breakpoints[i + 1]);
   }
   count_before_restart();
-  project_state(system_.operation().duration(), sundials::view(y_.get()));
+  const double end = is_over() ? time_ : system_.operation().duration();
+  project_state(end, sundials::view(y_.get()));
   set_state(system_, sundials::view(y_.get()), w_);
-  set_drives(system_, system_.operation().duration(), true, w_);
+  set_drives(system_, end, true, w_);
   result_.q_end = w_.q;
   result_.v_end = w_.v;
   system_.mechanism().normalise(result_.q_end);
@@ -580,6 +632,22 @@ IntegrationResult Integrator::run() {
 }
 
 }  // namespace
+
+double AwaitedCondition::indicator(const LiftSystem& system, const LiftWorkspace& w) const {
+  if (kind == Kind::slack || kind == Kind::taut) {
+    const double pull = 1e-3 * w.rope_loads[static_cast<std::size_t>(rope)].slack_indicator();
+    return kind == Kind::taut ? pull : -pull;
+  }
+  double by_pads = 0.0;
+  for (std::size_t i = 0; i < w.support_loads.size(); ++i) {
+    if (system.supports()[i].definition().point.body == body)
+      by_pads += w.support_loads[i].force_W.z();
+  }
+  if (kind == Kind::pads_at_least) return 1e-3 * (by_pads - force);
+  // calc_contact_loads has the loads of ropes and pads alone.
+  const double by_ropes = w.loads.F_Bo_W[static_cast<std::size_t>(body)].force.z() - by_pads;
+  return 1e-3 * (kind == Kind::ropes_at_least ? by_ropes - force : force - by_ropes);
+}
 
 IntegrationResult integrate(const LiftSystem& system, const Eigen::VectorXd& q,
                             const Eigen::VectorXd& v, const IntegrationSettings& settings) {

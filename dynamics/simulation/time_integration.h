@@ -7,6 +7,27 @@
 
 namespace blocklift::dynamics {
 
+/// What an integration may wait for, and end at.
+struct AwaitedCondition {
+  enum class Kind {
+    slack,           ///< the rope pulls no more
+    taut,            ///< it pulls
+    ropes_at_least,  ///< ropes bear this much of the body: their force upwards
+    ropes_at_most,   ///< or no more than this
+    pads_at_least    ///< pads bear this much of it
+  };
+  Kind kind = Kind::slack;
+  int rope = -1;
+  BodyIndex body = -1;
+  double force = not_a_number;  ///< N
+  double from = 0.0;            ///< s, a breakpoint of the operation: not before
+  double until = not_a_number;  ///< s: nor after
+
+  /// Positive where it is met, negative where it is not, continuous between, kN; of the instant that
+  /// calc_contact_loads has just evaluated.
+  double indicator(const LiftSystem& system, const LiftWorkspace& w) const;
+};
+
 struct IntegrationSettings {
   /// Local error allowed over one step, relative to 1 m for displacements, 1 rad for angles, and to
   /// the larger of 1 m/s (1 rad/s) and the value for velocities: it does not depend on where the
@@ -20,6 +41,8 @@ struct IntegrationSettings {
   /// water then has its added mass and no states.
   DirectRadiation* surface = nullptr;
   double surface_step = not_a_number;  ///< s
+  /// The run ends when this is met, or when it may not be met any more.
+  std::optional<AwaitedCondition> awaited = {};
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
   /// Called at each sample with its number and time (s) and the workspace of that instant:
@@ -62,6 +85,7 @@ struct IntegrationResult {
   std::vector<ContactEvent> events;  ///< in order of time
   Eigen::VectorXd q_end, v_end;      ///< state at the end, nq and nv
   std::vector<PartedRope> parted = {};
+  std::optional<double> met = {};  ///< when the awaited condition was, s; samples end there
 };
 
 /// Integrates the operation from (q, v) (nq and nv; driven entries are replaced by the drives')
@@ -74,6 +98,9 @@ struct IntegrationResult {
 /// from the method's own interpolation; accelerations, tensions and drive forces are computed anew
 /// from the interpolated state, so that each sample is consistent in itself. Largest loads are
 /// those of the samples.
+///
+/// A condition that is awaited is one more event: its instant is found as those of ropes and pads
+/// are.
 ///
 /// A rope that parts pulls no more from then on; the energy that it had stored counts as dissipated.
 ///

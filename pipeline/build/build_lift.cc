@@ -49,12 +49,13 @@ class LiftBuilder {
  public:
   LiftBuilder(const LiftCase& lift_case, const LoadMass& load,
               const dynamics::HydrodynamicSeries* radiation, const LoadFlexibility* flexibility,
-              MarchedWater marched)
+              MarchedWater marched, const std::vector<double>& met)
       : case_(lift_case),
         load_(load),
         radiation_(radiation),
         flexibility_(flexibility),
         marched_(std::move(marched)),
+        met_(met),
         marine_(lift_case, lift_case.gravity, floating_load(lift_case)) {
     marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
   }
@@ -391,12 +392,36 @@ class LiftBuilder {
       if (support.reach) pad.reach = *support.reach;
       pads.emplace_back(std::move(pad));
     }
+    if (case_.ground_contact) add_ground(*case_.ground_contact, pads);
     return pads;
+  }
+
+  /// The corners of the load's box, which come to stand on the ground wherever they touch it.
+  void add_ground(const GroundInCase& ground, std::vector<dynamics::SupportPad>& pads) const {
+    const BoxShape box = box_around(case_.load);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3 side((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
+                         (corner & 4) != 0 ? 0.5 : -0.5);
+      const Vector3 point = box.centre + box.size.cwiseProduct(side);
+      dynamics::SupportPad::Definition pad;
+      pad.name = fmt::format("ground_{}", corner + 1);
+      pad.point = {body_of_.at("load"), point};
+      pad.p_WG = load_pose().apply(point);
+      pad.p_WG.z() = case_.ground_height().value();
+      pad.stiffness = ground.stiffness;
+      pad.damping = ground.damping;
+      pad.friction_coefficient = ground.friction_coefficient;
+      pad.tangential_stiffness = ground.tangential_stiffness;
+      // Sliding is damped in the same time as sinking in.
+      pad.tangential_damping = ground.damping * ground.tangential_stiffness / ground.stiffness;
+      pad.ground = true;
+      pads.emplace_back(std::move(pad));
+    }
   }
 
   Schedule make_schedule() const {
     Diagnostics diagnostics;
-    Schedule schedule = schedule_operation(case_, diagnostics);
+    Schedule schedule = schedule_operation(case_, diagnostics, met_);
     if (diagnostics.has_errors()) throw InputError(diagnostics);
     return schedule;
   }
@@ -423,6 +448,9 @@ class LiftBuilder {
         if (name.value == mover.name || name.value == "all")
           builder.add_stop(mover.name, fault.at.value, fault.within);
     }
+    for (const Located<std::string>& winch : fault.runs_away)
+      builder.add_runaway(winch.value, fault.at.value, *fault.caught_after, *fault.speed,
+                          fault.within);
     for (const Located<std::string>& name : fault.parts) {
       for (const LiftRope& rope : ropes_)
         if (rope.name == name.value) builder.add_parting(rope.rope, fault.at.value);
@@ -442,6 +470,7 @@ class LiftBuilder {
   const dynamics::HydrodynamicSeries* radiation_;
   const LoadFlexibility* flexibility_;
   MarchedWater marched_;
+  const std::vector<double>& met_;
   MarineBuilder marine_;
   std::vector<BodyIndex> modes_;
   std::map<std::string, BodyIndex> body_of_;
@@ -472,12 +501,13 @@ RadiationProblem radiation_problem(const LiftCase& lift_case) {
 
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
                      const dynamics::HydrodynamicSeries* radiation,
-                     const LoadFlexibility* flexibility, MarchedWater marched) {
+                     const LoadFlexibility* flexibility, MarchedWater marched,
+                     const std::vector<double>& met) {
   if (lift_case.load_table) {
     throw std::invalid_argument("case " + lift_case.name +
                                 " is a load table: it has no cranes whose motion could be built");
   }
-  return LiftBuilder(lift_case, load, radiation, flexibility, std::move(marched)).build();
+  return LiftBuilder(lift_case, load, radiation, flexibility, std::move(marched), met).build();
 }
 
 }  // namespace blocklift::pipeline

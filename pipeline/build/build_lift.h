@@ -99,12 +99,15 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// waves.
 /// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints
 ///   to the world, see dynamics::ElasticBody.
+/// @param met when the conditions that end stages came about, s; see schedule_operation.
+/// @throws InputError if moves do not fit behind those instants.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.
 /// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
 ///   complaints does.
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
                      const dynamics::HydrodynamicSeries* radiation = nullptr,
-                     const LoadFlexibility* flexibility = nullptr, MarchedWater marched = {});
+                     const LoadFlexibility* flexibility = nullptr, MarchedWater marched = {},
+                     const std::vector<double>& met = {});
 
 /// Mass, centre of mass and inertia of a load that is a vessel.
 LoadMass load_mass(const VesselModel& vessel);

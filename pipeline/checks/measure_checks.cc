@@ -26,6 +26,8 @@ class MeasureChecks {
     add_at_most("tilt", "tilt: angle of the load against the plumb", limits.largest_tilt);
     add_at_least("sling angle", "angle of slings: smallest against the level",
                  limits.smallest_sling_angle);
+    add_at_least("righting height", "righting height: how far the suspension is from tipping",
+                 limits.smallest_righting_height);
     add_at_most("offlead", "offlead: largest angle in the plane of the radius",
                 limits.largest_offlead);
     add_at_most("sidelead", "sidelead: largest angle across the plane of the radius",

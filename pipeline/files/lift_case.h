@@ -127,19 +127,35 @@ struct MoveInCase {
   Mark place;
 };
 
+/// What ends a stage: one of the conditions, and how long it may take.
+struct StageUntil {
+  std::optional<Located<std::string>> slack;       ///< rope, or hoist whose tackle it is
+  std::optional<Located<std::string>> taut;        ///< likewise
+  std::optional<Located<double>> ropes_at_least;   ///< share of the load's weight that they bear
+  std::optional<Located<double>> ropes_at_most;    ///< likewise
+  std::optional<Located<double>> ground_at_least;  ///< share that pads and ground bear
+  double reaction = 0;           ///< from the instant to that at which drives begin to stop, s
+  std::optional<double> within;  ///< from the stage's start, s; none: until its moves end
+  Mark place;
+};
+
 /// A stage of the operation: its moves begin together, each after its own delay.
 struct StageInCase {
   Located<std::string> name;
   double pause = 0;  ///< before the stage, s
   std::vector<MoveInCase> moves;
+  std::optional<StageUntil> until = {};  ///< none: it ends with the last of its moves
 };
 
-/// What goes wrong at an instant: ropes part, drives come to a stand.
+/// What goes wrong at an instant: ropes part, drives come to a stand, winches run away.
 struct FaultInCase {
-  Located<double> at;                       ///< of the operation, s
-  std::vector<Located<std::string>> parts;  ///< ropes, or hoists whose tackle it is
-  std::vector<Located<std::string>> stops;  ///< drives and winches, or "all"
-  double within = 0;                        ///< in which they come to a stand, s
+  Located<double> at;                           ///< of the operation, s
+  std::vector<Located<std::string>> parts;      ///< ropes, or hoists whose tackle it is
+  std::vector<Located<std::string>> stops;      ///< drives and winches, or "all"
+  std::vector<Located<std::string>> runs_away;  ///< winches
+  std::optional<double> speed;                  ///< at which they pay out, m/s
+  std::optional<double> caught_after;           ///< s
+  double within = 0;  ///< in which drives come to a stand and winches to their speed, s
   Mark place;
 };
 
@@ -153,6 +169,15 @@ struct SupportInCase {
   double friction_coefficient = 0;
   double tangential_stiffness = 0;  ///< N/m
   std::optional<double> reach;      ///< level, beyond which there is no pad, m
+};
+
+/// Ground that bears the load wherever it is set down.
+struct GroundInCase {
+  double stiffness = std::numeric_limits<double>::quiet_NaN();  ///< at each corner, N/m
+  double damping = 0;                                           ///< N s/m
+  double friction_coefficient = 0;
+  double tangential_stiffness = 0;  ///< N/m
+  Mark place;
 };
 
 /// How the block gives way where the ropes pull at it.
@@ -202,11 +227,12 @@ struct CheckSettings {
   double smallest_tension = 0;            ///< N
   std::optional<double> largest_swing;    ///< rad
   // Of the lift's measures; absent: not checked.
-  std::optional<double> largest_tilt;          ///< of the load, rad
-  std::optional<double> smallest_sling_angle;  ///< against the level, rad
-  std::optional<double> largest_offlead;       ///< rad
-  std::optional<double> largest_sidelead;      ///< rad
-  std::optional<double> smallest_clearance;    ///< m
+  std::optional<double> largest_tilt;              ///< of the load, rad
+  std::optional<double> smallest_sling_angle;      ///< against the level, rad
+  std::optional<double> largest_offlead;           ///< rad
+  std::optional<double> largest_sidelead;          ///< rad
+  std::optional<double> smallest_clearance;        ///< m
+  std::optional<double> smallest_righting_height;  ///< m
 };
 
 /// A published or measured pair of largest loads, N.
@@ -272,6 +298,7 @@ struct LiftCase : MarineParts {
   std::vector<RopeInCase> ropes;
   std::vector<SupportInCase> supports;
   std::optional<double> ground;  ///< height of the ground or a dock's floor under the load, m
+  std::optional<GroundInCase> ground_contact;
   std::optional<WindInCase> wind;
   std::vector<StageInCase> operation;
   double settle = 0;  ///< after the last move, s
@@ -299,7 +326,8 @@ struct LiftCase : MarineParts {
 Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                                        bool breaking_load_required);
 /// A stage of an operation; shared with mechanism files.
-Format<StageInCase> stage_format();
+/// @param may_wait may it end by a condition? Of a lift case it may.
+Format<StageInCase> stage_format(bool may_wait);
 
 /// Constant wind; shared with mechanism files.
 Format<WindInCase> wind_format();

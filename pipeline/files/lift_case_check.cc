@@ -373,6 +373,7 @@ void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
     refuse(!lift_case.cranes.empty(), "cranes");
     refuse(!lift_case.ropes.empty(), "ropes");
     refuse(!lift_case.supports.empty(), "supports");
+    refuse(lift_case.ground_contact.has_value(), "ground_contact");
     refuse(lift_case.wind.has_value(), "wind");
     refuse(lift_case.sea.has_value(), "a sea");
     refuse(lift_case.load.vessel_name.has_value(), "a vessel as the load");
@@ -424,14 +425,18 @@ class FaultCheck {
       for (const HoistModel& hoist : crane.model->hoists)
         ropes_.push_back(crane.name.value + "." + hoist.name.value);
     }
-    for (const Mover& mover : schedule.movers) drives_.push_back(mover.name);
+    for (const Mover& mover : schedule.movers) {
+      drives_.push_back(mover.name);
+      if (mover.is_winch) winches_.push_back(mover.name);
+    }
     drives_.emplace_back("all");
   }
 
   void check(const FaultInCase& fault) {
-    if (fault.parts.empty() && fault.stops.empty())
+    if (fault.parts.empty() && fault.stops.empty() && fault.runs_away.empty())
       diagnostics_.error(fault.place, "the fault says not what goes wrong",
-                         {"give parts, ropes that break, or stops, drives that come to a stand"});
+                         {"give parts, ropes that break, stops, drives that come to a stand, or "
+                          "runs_away, winches that pay out"});
     if (duration_ > 0 && fault.at.value > duration_)
       diagnostics_.error(
           fault.at.mark,
@@ -441,6 +446,17 @@ class FaultCheck {
       check_name(rope, ropes_, "parts", "its ropes and hoists are", parted_);
     for (const Located<std::string>& drive : fault.stops)
       check_name(drive, drives_, "stops", "its drives and winches are", stopped_);
+    for (const Located<std::string>& winch : fault.runs_away)
+      check_name(winch, winches_, "runs away with", "its winches are", stopped_);
+    const bool told = fault.speed && fault.caught_after;
+    const bool nothing_told = !fault.speed && !fault.caught_after;
+    if (fault.runs_away.empty() ? !nothing_told : !told)
+      diagnostics_.error(fault.place,
+                         fault.runs_away.empty()
+                             ? "the fault has a speed or caught_after, and no winch that runs away"
+                             : "a winch runs away, and the fault lacks its speed or caught_after",
+                         {"for example: {at: 60 s, runs_away: [C1.main], speed: 20 m/min, "
+                          "caught_after: 2 s}"});
   }
 
  private:
@@ -458,9 +474,52 @@ class FaultCheck {
 
   Diagnostics& diagnostics_;
   double duration_;
-  std::vector<std::string> ropes_, drives_;
+  std::vector<std::string> ropes_, drives_, winches_;
   std::set<std::string> parted_, stopped_;
 };
+
+/// Conditions that end stages name ropes that are there, and ground that bears.
+void check_conditions(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  std::vector<std::string> ropes;
+  for (const RopeInCase& rope : lift_case.ropes) ropes.push_back(rope.name.value);
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.model) return;
+    for (const HoistModel& hoist : crane.model->hoists)
+      ropes.push_back(crane.name.value + "." + hoist.name.value);
+  }
+  for (const StageInCase& stage : lift_case.operation) {
+    if (!stage.until) continue;
+    for (const auto& rope : {stage.until->slack, stage.until->taut}) {
+      if (!rope || std::find(ropes.begin(), ropes.end(), rope->value) != ropes.end()) continue;
+      diagnostics.error(rope->mark,
+                        fmt::format("stage \"{}\" waits for \"{}\", which is no rope or hoist of "
+                                    "the case",
+                                    stage.name.value, rope->value),
+                        {names_hint("its ropes and hoists are", ropes, rope->value)});
+    }
+    if (stage.until->ground_at_least && lift_case.supports.empty() && !lift_case.ground_contact)
+      diagnostics.error(stage.until->ground_at_least->mark,
+                        fmt::format("stage \"{}\" waits for the ground to bear, and nothing is "
+                                    "there that would",
+                                    stage.name.value),
+                        {"give supports, or ground_contact"});
+  }
+}
+
+/// Ground that bears has a height, and names of its corners are its own.
+void check_ground(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (!lift_case.ground_contact) return;
+  if (!lift_case.ground_height())
+    diagnostics.error(lift_case.ground_contact->place,
+                      "the ground bears the load, and its height is not known",
+                      {"give ground: the height of a quay or of a dock's floor"});
+  for (const SupportInCase& support : lift_case.supports)
+    if (support.name.value.starts_with("ground_"))
+      diagnostics.error(support.name.mark,
+                        fmt::format("\"{}\" is the name of a corner of the load on the ground",
+                                    support.name.value),
+                        {"names that begin with ground_ are those of ground_contact"});
+}
 
 /// The keys of the natural modes, which one kind of flexibility alone reads.
 void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostics) {
@@ -577,6 +636,8 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   }
   check_ropes(lift_case, diagnostics);
   check_afloat(lift_case, diagnostics);
+  check_ground(lift_case, diagnostics);
+  check_conditions(lift_case, diagnostics);
   check_flexibility(lift_case.dynamics, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);

@@ -142,6 +142,24 @@ Format<SupportInCase> support_format() {
   return table.format();
 }
 
+Format<GroundInCase> ground_format() {
+  Table<GroundInCase> table("ground contact",
+                            "The ground bears the load at the eight corners of the box around it, "
+                            "wherever and however it comes down.");
+  table
+      .required("stiffness", &GroundInCase::stiffness,
+                quantity(Dimension::stiffness, Range::positive()), "of each corner")
+      .by_default("damping", &GroundInCase::damping,
+                  quantity(Dimension::damping, Range::not_negative()), "0 kN s/m", "of each corner")
+      .by_default("friction_coefficient", &GroundInCase::friction_coefficient,
+                  number(Range::between(0, 2)), "0.3", "level force over the load on the corner")
+      .by_default("tangential_stiffness", &GroundInCase::tangential_stiffness,
+                  quantity(Dimension::stiffness, Range::positive()), "1 MN/m",
+                  "against sliding from where the corner touched down, up to the friction")
+      .place(&GroundInCase::place);
+  return table.format();
+}
+
 Format<MoveInCase> move_format() {
   const auto limit = [](Dimension linear, Dimension angular) {
     return quantity_of({linear, angular}, Range::positive());
@@ -307,7 +325,11 @@ Format<CheckSettings> checks_format() {
                 quantity(Dimension::length, Range::not_negative()),
                 "smallest distance of load, hooks, tackles and cranes from one another, of hanging "
                 "loads from the ground; usual are 0.5 m ashore and 3 m afloat; not checked if left "
-                "out");
+                "out")
+      .optional("righting_height", &CheckSettings::smallest_righting_height,
+                quantity(Dimension::length),
+                "least moment against a tilt of the hanging load over its weight and the tilt, "
+                "0 m or more; not checked if left out");
   return table.format();
 }
 
@@ -356,6 +378,44 @@ Format<LoadTable> load_table_format() {
       .required("dynamic", &LoadTable::dynamic_loads, names_to(load),
                 "largest load in motion, by lug")
       .place(&LoadTable::place);
+  return table.format();
+}
+
+Format<StageUntil> stage_until_format() {
+  const auto share = located(quantity(Dimension::ratio, Range::between(0, 1.5)));
+  Table<StageUntil> table(
+      "condition",
+      "One condition that ends the stage. At its instant all moves of the stage "
+      "begin to stop together, as fast as their drives may brake, and the next "
+      "stage follows.");
+  table
+      .optional("slack", &StageUntil::slack, located(reference()),
+                "the rope, or the tackle of the hoist (C1.main), pulls no more")
+      .optional("taut", &StageUntil::taut, located(reference()), "it pulls")
+      .optional("ropes_bear_at_least", &StageUntil::ropes_at_least, share,
+                "share of the load's weight by which ropes pull it up, all together")
+      .optional("ropes_bear_at_most", &StageUntil::ropes_at_most, share,
+                "likewise: 20 % when 80 % of the weight is off")
+      .optional("ground_bears_at_least", &StageUntil::ground_at_least, share,
+                "share of the load's weight that pads and ground bear")
+      .by_default("reaction", &StageUntil::reaction,
+                  quantity(Dimension::time, Range::not_negative()), "0 s",
+                  "of the operator, before the drives begin to stop")
+      .optional("within", &StageUntil::within, quantity(Dimension::time, Range::positive()),
+                "time from the stage's start in which the condition comes about, or the run fails; "
+                "until the stage's moves end if left out")
+      .rule([](const StageUntil& until, Reading& reading, const Mark& mark) {
+        const int given = until.slack.has_value() + until.taut.has_value() +
+                          until.ropes_at_least.has_value() + until.ropes_at_most.has_value() +
+                          until.ground_at_least.has_value();
+        if (given == 1) return;
+        reading.diagnostics().error(
+            mark,
+            given == 0 ? "the stage does not say what ends it" : "the stage has several conditions",
+            {"give one of slack, taut, ropes_bear_at_least, ropes_bear_at_most and "
+             "ground_bears_at_least"});
+      })
+      .place(&StageUntil::place);
   return table.format();
 }
 
@@ -413,12 +473,18 @@ Format<WindInCase> wind_format() {
   return table.format();
 }
 
-Format<StageInCase> stage_format() {
-  Table<StageInCase> table("stage", "A part of the operation; it ends with the last of its moves.");
+Format<StageInCase> stage_format(bool may_wait) {
+  Table<StageInCase> table("stage", may_wait ? "A part of the operation; it ends with the last of "
+                                               "its moves, or by a condition."
+                                             : "A part of the operation; it ends with the last of "
+                                               "its moves.");
   table.required("stage", &StageInCase::name, text(), "its name, for people")
       .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
                   "0 s", "before the stage begins")
       .optional("moves", &StageInCase::moves, list_of(move_format()), "what moves");
+  if (may_wait)
+    table.optional("until", &StageInCase::until, stage_until_format(),
+                   "what ends the stage, before its moves have ended; they go as far as it takes");
   return table.format();
 }
 
@@ -434,8 +500,17 @@ Format<FaultInCase> fault_format() {
       .optional("stops", &FaultInCase::stops, list_of(located(reference()), 1),
                 "drives and winches that come to a stand and stay there; [all] for an emergency "
                 "stop")
+      .optional("runs_away", &FaultInCase::runs_away, list_of(located(reference()), 1),
+                "winches (hoists, or ropes with one) that leave their motion and pay out")
+      .optional("speed", &FaultInCase::speed, quantity(Dimension::speed, Range::positive()),
+                "at which they pay out; also beyond what the winch drives")
+      .optional("caught_after", &FaultInCase::caught_after,
+                quantity(Dimension::time, Range::positive()),
+                "from the instant until they are braked; then they stand")
       .by_default("within", &FaultInCase::within, quantity(Dimension::time, Range::positive()),
-                  "0.5 s", "in which they come to a stand, evenly")
+                  "0.5 s",
+                  "in which drives come to a stand, evenly, and winches that run away to their "
+                  "speed, and to a stand when they are caught")
       .place(&FaultInCase::place);
   return table.format();
 }
@@ -470,12 +545,14 @@ Format<LiftCase> lift_case_format() {
           "ground", &LiftCase::ground, quantity(Dimension::length),
           "height of the ground, or of a dock's floor, under the load: what the clearance from "
           "the ground counts from; without it the lowest pad's or zero ashore, none at sea")
+      .optional("ground_contact", &LiftCase::ground_contact, ground_format(),
+                "the ground bears the load; without it pads alone do")
       .optional("supports", &LiftCase::supports, named_tables(support_format()),
                 "pads on which the load stands at the start")
       .optional("wind", &LiftCase::wind, wind_format(), "none if left out");
   add_marine_keys(table);
   table
-      .optional("operation", &LiftCase::operation, list_of(stage_format()),
+      .optional("operation", &LiftCase::operation, list_of(stage_format(true)),
                 "stages, one after another")
       .by_default("settle", &LiftCase::settle, quantity(Dimension::time, Range::not_negative()),
                   "10 s", "time that is still simulated after the last move")

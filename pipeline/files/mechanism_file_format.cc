@@ -203,7 +203,7 @@ Format<MechanismFile> mechanism_file_format() {
   table
       .optional("drives", &MechanismFile::drives, named_tables(drive_format()),
                 "that prescribe coordinates of joints")
-      .optional("operation", &MechanismFile::operation, list_of(stage_format()),
+      .optional("operation", &MechanismFile::operation, list_of(stage_format(false)),
                 "stages of moves, one after another")
       .by_default("initial", &MechanismFile::initial, initial_format(), "{}",
                   "where the motion begins")

@@ -93,7 +93,61 @@ class Scheduler {
     for (const MoveInCase* move : moves) {
       if (move->follows) add_followers(*move);
     }
+    if (stage.until) end_by_condition(*stage.until);
     return schedule_.stages.back().end;
+  }
+
+  /// How far a drive of this stage has gone at any time since the stage's start.
+  struct Travel {
+    std::size_t mover;
+    dynamics::MotionProfile profile;
+  };
+
+  std::vector<Travel> travels_of_stage() const {
+    using dynamics::MotionProfile;
+    std::vector<Travel> travels;
+    for (const ScheduledMove& move : schedule_.moves)
+      if (move.stage == stage_index_)
+        travels.push_back({move.mover, MotionProfile::sequence(0, {move.move})});
+    for (const ScheduledFollower& follower : schedule_.followers) {
+      if (follower.stage != stage_index_) continue;
+      std::vector<dynamics::RestToRestMove> leading;
+      for (const ScheduledMove& move : schedule_.moves)
+        if (move.stage == stage_index_ && move.mover == follower.leader)
+          leading.push_back(move.move);
+      std::sort(leading.begin(), leading.end(),
+                [](const auto& a, const auto& b) { return a.start() < b.start(); });
+      travels.push_back(
+          {follower.mover, MotionProfile::cam(MotionProfile::sequence(0, std::move(leading)),
+                                              follower.own_travel_over_leaders)});
+    }
+    return travels;
+  }
+
+  void end_by_condition(const StageUntil& until) {
+    ScheduledStage& stage = schedule_.stages.back();
+    stage.limit = until.within ? stage.start + *until.within : stage.end;
+    if (conditions_ == plan_.met.size()) {
+      stage.end = std::max(stage.end, *stage.limit);
+      return;
+    }
+    const double planned_end = stage.end;
+    const double met = plan_.met[conditions_++];
+    const double time = met + until.reaction;
+    const std::vector<Travel> travels = travels_of_stage();
+    // One clock slows down for all, so that followers keep to their leaders.
+    constexpr double shortest = 0.1;  // s
+    double duration = shortest;
+    for (const Travel& travel : travels)
+      duration = std::max(duration, std::abs(travel.profile.evaluate(time).velocity) /
+                                        schedule_.movers[travel.mover].limits.acceleration);
+    stage.stop = {met, time, duration};
+    stage.end = time + duration;
+    for (const Travel& travel : travels) {
+      const auto stopped = dynamics::MotionProfile::stopped(travel.profile, time, duration);
+      coordinates_[travel.mover] +=
+          stopped.evaluate(stage.end).position - travel.profile.evaluate(planned_end).position;
+    }
   }
 
   /// Index of the drive of that name, or nothing: after a complaint, or because it is incomplete.
@@ -396,6 +450,7 @@ class Scheduler {
   const StageInCase* stage_ = nullptr;
   std::size_t stage_index_ = 0;
   std::size_t errors_before_stage_ = 0;
+  std::size_t conditions_ = 0;  // that came about so far
 };
 
 }  // namespace
@@ -429,11 +484,18 @@ Schedule schedule_operation(OperationPlan plan, Diagnostics& diagnostics) {
   return Scheduler(std::move(plan), diagnostics).run();
 }
 
-Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics) {
+Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics,
+                            const std::vector<double>& met) {
   return schedule_operation(
       {"the case", movers_of(lift_case), &lift_case.operation, lift_case.settle,
-       [&](const std::string& name) { return is_incomplete(lift_case, name); }},
+       [&](const std::string& name) { return is_incomplete(lift_case, name); }, met},
       diagnostics);
+}
+
+std::optional<std::size_t> Schedule::waiting_stage() const {
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (stages[i].limit && !stages[i].stop) return i;
+  return std::nullopt;
 }
 
 Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics) {
@@ -457,17 +519,21 @@ Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics)
 }
 
 void add_schedule(const Schedule& schedule, dynamics::OperationBuilder& builder) {
-  for (const ScheduledStage& stage : schedule.stages) {
+  for (std::size_t i = 0; i < schedule.stages.size(); ++i) {
+    const ScheduledStage& stage = schedule.stages[i];
     builder.add_stage(stage.name, stage.start, stage.end);
-  }
-  for (const ScheduledMove& move : schedule.moves) {
-    builder.add_move(schedule.movers[move.mover].name, move.move);
-  }
-  for (const ScheduledFollower& follower : schedule.followers) {
-    const ScheduledStage& stage = schedule.stages[follower.stage];
-    builder.add_follower(schedule.movers[follower.mover].name,
-                         schedule.movers[follower.leader].name, stage.start, stage.end,
-                         follower.own_travel_over_leaders);
+    for (const ScheduledMove& move : schedule.moves)
+      if (move.stage == i) builder.add_move(schedule.movers[move.mover].name, move.move);
+    for (const ScheduledFollower& follower : schedule.followers) {
+      if (follower.stage != i) continue;
+      double moves_end = stage.end;
+      for (const ScheduledMove& move : schedule.moves)
+        if (move.stage == i) moves_end = std::max(moves_end, move.move.end());
+      builder.add_follower(schedule.movers[follower.mover].name,
+                           schedule.movers[follower.leader].name, stage.start, moves_end,
+                           follower.own_travel_over_leaders);
+    }
+    if (stage.stop) builder.stop_moves(stage.start, stage.stop->time, stage.stop->duration);
   }
 }
 

@@ -29,9 +29,17 @@ std::vector<Mover> movers_of(const LiftCase& lift_case);
 
 /// A part of the operation in time, s.
 struct ScheduledStage {
+  /// When a condition came about, and how the stage's moves come to a stand then.
+  struct Stop {
+    double met = 0;       ///< s
+    double time = 0;      ///< from which on they stop: later by the reaction, s
+    double duration = 0;  ///< s
+  };
   std::string name;
   double start = 0;
   double end = 0;
+  std::optional<double> limit = {};  ///< until which it waits for its condition; none: it has none
+  std::optional<Stop> stop = {};     ///< none: not known yet
 };
 
 /// A move from rest to rest; its times count from the start of the operation.
@@ -58,6 +66,9 @@ struct Schedule {
   std::vector<ScheduledMove> moves;
   std::vector<ScheduledFollower> followers;
   double duration = 0;  ///< with the time to settle, s
+
+  /// The first stage whose condition has not come about yet, or nothing.
+  std::optional<std::size_t> waiting_stage() const;
 };
 
 /// What a schedule is made of.
@@ -68,16 +79,21 @@ struct OperationPlan {
   double settle = 0;  ///< after the last move, s
   /// Is it a drive that exists, but could not be read?
   std::function<bool(const std::string&)> is_incomplete;
+  /// When the conditions of the stages that have one came about, s: of the first ones, in order.
+  std::vector<double> met = {};
 };
 
 /// Sets the stages one after another: each begins when the one before has ended and its own pause
-/// is over, and ends with the last of its moves.
+/// is over, and ends with the last of its moves. One that ends by a condition ends when its moves
+/// have come to a stand behind the instant of it; where that is not known yet, when its moves have
+/// ended and its time is up.
 ///
 /// Complains about drives that do not exist, moves beyond a drive's limits or range, ropes that
 /// would be pulled through their sheave, drives that are moved twice at once, and followers that
 /// cannot follow. What was complained about is left out of the schedule.
 Schedule schedule_operation(OperationPlan plan, Diagnostics& diagnostics);
-Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics);
+Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics,
+                            const std::vector<double>& met = {});
 Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics);
 
 /// Adds a schedule's stages, moves and followers; the drives and winches that it moves come first.

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "dynamics/simulation/equilibrium.h"
+#include "dynamics/simulation/linearisation.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
+#include "pipeline/lift/stage_end.h"
 #include "pipeline/lift/stopwatch.h"
 
 namespace blocklift::pipeline {
@@ -47,8 +49,14 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   // Both histories begin at the same equilibrium.
   Eigen::VectorXd q = system.q_start();
   dynamics::EquilibriumSolver(at_rest).solve(0, q);
+  dynamics::TangentMatrices tangent(at_rest);
+  Eigen::VectorXd righting_height(times.size());
   dynamics::History static_history =
-      dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"));
+      dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"),
+                             [&](Eigen::Index sample, double time, dynamics::LiftWorkspace& w) {
+                               righting_height[sample] = dynamics::calc_righting_height(
+                                   at_rest, time, w, model.load, tangent);
+                             });
   std::vector<NaturalModes> natural_modes =
       find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
   const double static_s = watch.lap();
@@ -68,8 +76,14 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   dynamics::IntegrationResult dynamic_result =
       dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
   const double dynamic_s = watch.lap();
-  return {std::move(model), std::move(static_history), std::move(dynamic_result), static_s,
-          dynamic_s,        std::move(natural_modes),  std::move(elastic)};
+  return {std::move(model),
+          std::move(static_history),
+          std::move(dynamic_result),
+          static_s,
+          dynamic_s,
+          std::move(natural_modes),
+          std::move(elastic),
+          std::move(righting_height)};
 }
 
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
@@ -77,7 +91,14 @@ BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Pr
   const RadiationProblem problem = radiation_problem(lift_case);
   const auto radiation = find_radiation(
       problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
-  return build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem));
+  std::vector<double> met;
+  for (;;) {
+    BuiltLift model =
+        build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem), met);
+    const std::optional<std::size_t> stage = model.schedule.waiting_stage();
+    if (!stage) return model;
+    met.push_back(find_stage_end(lift_case, model, *stage, progress));
+  }
 }
 
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,

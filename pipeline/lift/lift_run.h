@@ -31,6 +31,8 @@ struct LiftRun {
   std::vector<NaturalModes> natural_modes = {};
   /// The largest at the samples of the motion; none if the block is rigid.
   std::optional<LugDisplacement> elastic_displacement = {};
+  /// Of the load at each sample at rest, m: dynamics::calc_righting_height.
+  Eigen::VectorXd righting_height = {};
 
   const dynamics::History& dynamic_history() const { return dynamic_result.history; }
   double simulated_s() const { return model.system.operation().duration(); }
@@ -42,7 +44,9 @@ struct LiftRun {
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
 
 /// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the
-/// rest.
+/// rest. Where stages end by a condition, the lift is run up to each of them first, so that all of
+/// the operation is known.
+/// @throws dynamics::SimulationError also if a condition does not come about in its time.
 /// @throws InputError, dynamics::ModelError, dynamics::SimulationError as find_radiation and
 /// build_lift.
 /// @param flexibility of the load; null: it is rigid.

@@ -79,6 +79,7 @@ std::vector<StageLoads> find_stage_loads(const LiftRun& lift) {
       loads.stage = stages[i].name;
       loads.start = start;
       loads.end = end;
+      if (const auto& stop = lift.model.schedule.stages[i].stop) loads.met = stop->met;
       for (const LiftRope& rope : lift.model.ropes)
         loads.ropes.push_back(maxima.of_rope(rope.name, rope.rope));
       for (const LiftHoist& hoist : lift.model.hoists)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,12 @@ struct StageLoad {
 /// settle to the last one.
 struct StageLoads {
   std::string stage;
-  double start = 0;               ///< s
-  double end = 0;                 ///< s
-  std::vector<StageLoad> ropes;   ///< in the order of the case
-  std::vector<StageLoad> hoists;  ///< in the order of cranes and their hoists
-  StageLoad load;                 ///< vertical force of all slings on the load
+  double start = 0;                ///< s
+  double end = 0;                  ///< s
+  std::optional<double> met = {};  ///< when the condition that ends it came about, s; none: no such
+  std::vector<StageLoad> ropes;    ///< in the order of the case
+  std::vector<StageLoad> hoists;   ///< in the order of cranes and their hoists
+  StageLoad load;                  ///< vertical force of all slings on the load
 };
 
 /// The lift's loads stage by stage, so that one phase does not hide another. Stages in which no

@@ -115,6 +115,14 @@ void add_margin(const LiftCase& lift_case, const LiftRun& lift,
   if (!margin.at_rest.array().isNaN().all()) measures.push_back(std::move(margin));
 }
 
+/// Vertical force of all slings on the load at a sample, N.
+double borne_by_slings(const LiftRun& lift, const dynamics::History& history, Eigen::Index sample) {
+  double borne = 0;
+  for (const LiftRope& rope : lift.model.ropes)
+    if (!rope.lug.empty()) borne += history_of_rope(history, rope).last_force(sample, 2);
+  return borne;
+}
+
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
@@ -161,11 +169,35 @@ double distance_within(const std::vector<Eigen::Vector2d>& points, const Eigen::
   return inside >= 0 ? inside : -outside;
 }
 
+LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift) {
+  const double weight =
+      lift.model.system.mechanism().body(lift.model.load).inertia.mass * lift_case.gravity;
+  const Eigen::VectorXd& times = lift.static_history.time;
+  return make_measure(
+      lift,
+      {.subject = "load",
+       .kind = "righting height",
+       .unit = "m",
+       .extreme = Extreme::smallest,
+       .meaning =
+           "least moment against tilting over weight and tilt, of the equilibrium: height of "
+           "an equal pendulum's pin above its centre of mass; below zero the load tips over; "
+           "while slings bear nine tenths of the weight"},
+      [&](const dynamics::History& history, Eigen::Index sample) {
+        const double* after =
+            std::upper_bound(times.data(), times.data() + times.size(), history.time[sample]);
+        const Eigen::Index at = std::max<Eigen::Index>(after - times.data() - 1, 0);
+        if (borne_by_slings(lift, lift.static_history, at) < 0.9 * weight) return nothing;
+        return lift.righting_height[at];
+      });
+}
+
 void add_load_measures(const LiftCase& lift_case, const LiftRun& lift,
                        std::vector<LiftMeasure>& measures) {
   add_attitude(lift, measures);
   add_sling_angles(lift, measures);
   add_margin(lift_case, lift, measures);
+  measures.push_back(righting_height(lift_case, lift));
 }
 
 }  // namespace blocklift::pipeline

@@ -11,6 +11,10 @@ namespace blocklift::pipeline {
 void add_load_measures(const LiftCase& lift_case, const LiftRun& lift,
                        std::vector<LiftMeasure>& measures);
 
+/// The load's dynamics::calc_righting_height, while slings bear nine tenths of its weight: of the
+/// equilibrium at each instant; in motion that of the last sample at rest.
+LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift);
+
 /// Distance of a point from the edge of the convex hull of others in the plane, m: positive inside,
 /// negative outside; not a number if the others span no area.
 double distance_within(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& point);

@@ -10,6 +10,7 @@
 
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
+#include "pipeline/measures/load_measures.h"
 
 namespace blocklift::pipeline {
 
@@ -40,6 +41,7 @@ class Doubts {
     doubt_place(lift);
     doubt_ground(lift);
     doubt_ropes(lift);
+    doubt_suspension(lift);
     say_faults(lift);
   }
 
@@ -89,10 +91,23 @@ class Doubts {
       when = lift.dynamic_history().time[i];
     }
     if (lowest < *ground - sunk)
+      doubt("The load reaches {:.2f} m below the ground (z = {:g} m) at {:.1f} s; {}.",
+            *ground - lowest, *ground, when,
+            case_.ground_contact ? "the ground of the case is as soft as that"
+                                 : "nothing is there that would bear it");
+  }
+
+  /// An equilibrium that tips over is one, yet no load stays there.
+  void doubt_suspension(const LiftRun& lift) {
+    constexpr double neutral = 1e-3;  // m
+    const LiftMeasure measure = righting_height(case_, lift);
+    const MeasurePeak peak = find_peak(lift.static_history.time, measure.at_rest, measure.extreme);
+    if (peak.value < -neutral)
       doubt(
-          "The load reaches {:.2f} m below the ground (z = {:g} m) at {:.1f} s; nothing is there "
-          "that would bear it.",
-          *ground - lowest, *ground, when);
+          "The equilibrium of {:g} s tips over: the load hangs as if its pin were {:.3g} m below "
+          "its "
+          "centre of mass. Histories at rest are not those of a lift there.",
+          peak.time, -peak.value);
   }
 
   /// What goes wrong on purpose stands beside what may be wrong.
@@ -104,6 +119,9 @@ class Doubts {
           lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name(), parted.time,
           parted.tension / 1e3, parted.energy / 1e3);
     for (const FaultInCase& fault : case_.faults) {
+      for (const Located<std::string>& winch : fault.runs_away)
+        doubt("Winch {} runs away at {:g} s, {:.3g} m in {:g} s, as the case says.", winch.value,
+              fault.at.value, *fault.speed * *fault.caught_after, *fault.caught_after);
       if (fault.stops.empty()) continue;
       std::string names;
       for (const Located<std::string>& name : fault.stops)

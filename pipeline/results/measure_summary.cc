@@ -51,6 +51,7 @@ Json stages_json(const LiftRun& lift) {
                     {"ropes", loads_json(stage.ropes)},
                     {"hoists", loads_json(stage.hoists)},
                     {"load", std::move(load)}});
+    if (stage.met) rows.back()["condition_met_s"] = *stage.met;
   }
   return rows;
 }

@@ -73,6 +73,39 @@ TEST(Linearisation, CompoundPendulum) {
   EXPECT_EQ(l.modes[0].elastic_share, 0.0);
 }
 
+// A block on two plumb ropes whose pins are h above its centre of mass, or below it, rights itself
+// about the line of the pins by m g h times the tilt, however the ropes give way; about the other
+// axis the ropes hold it much better.
+TEST(Linearisation, RightingHeightIsThatOfThePins) {
+  for (const double height : {1.5, 0.2, -0.4}) {
+    MechanismBuilder builder;
+    builder.set_gravity({0, 0, -g});
+    const BodyIndex block = builder.add_body({.name = "block",
+                                              .joint = {.kind = JointKind::free},
+                                              .mass = 20e3,
+                                              .I_BBcm_B = Vector3(4e4, 9e4, 1e5).asDiagonal()});
+    const Mechanism mechanism = builder.build();
+    constexpr double stiffness = 1e7, length = 10.0;  // N, m
+    const double stretched = length * (1 + 20e3 * g / 2 / stiffness);
+    std::vector<Rope> ropes;
+    for (const double x : {-3.0, 3.0}) {
+      RopeDefinition rope;
+      rope.name = x < 0 ? "left" : "right";
+      rope.points = {{world_index, {x, 0, stretched + height}}, {block, {x, 0, height}}};
+      rope.axial_stiffness = stiffness;
+      rope.unstretched_length = length;
+      ropes.emplace_back(mechanism, rope);
+    }
+    const LiftSystem system = at_rest(mechanism, ropes, mechanism.zero_configuration());
+    EquilibriumSolver solver(system);
+    Eigen::VectorXd q = system.q_start();
+    solver.solve(0.0, q);
+    TangentMatrices tangent(system);
+    EXPECT_NEAR(calc_righting_height(system, 0.0, solver.workspace(), block, tangent), height,
+                1e-6);
+  }
+}
+
 // Two equal point masses on equal rods: omega^2 = (2 -+ sqrt 2) g / l (Landau and Lifshitz,
 // Mechanics, section 23, problem 2).
 TEST(Linearisation, DoublePendulum) {

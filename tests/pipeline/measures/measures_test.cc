@@ -291,6 +291,50 @@ TEST(Faults, StopDrivesAndPartRopes) {
   EXPECT_GT(history.rope("R2").tension.maxCoeff(), 10e3 * g);
 }
 
+// The winch lets out 0.2 m/s for two seconds and stands: its end of the load, 4 m long, hangs lower
+// by that.
+TEST(Faults, AWinchRunsAway) {
+  test::SampleLift parts;
+  parts.lift_case +=
+      "faults: [{at: 30 s, runs_away: [C1.left], speed: 12 m/min, caught_after: 2 s}]\n";
+  const test::TemporaryFolder folder;
+  parts.write(folder);
+  const LiftCase lift_case = read_lift_case("case.yaml");
+  LoadMass load;
+  load.mass = 10e3;
+  load.p_BoBcm_B = {2, 0, 0.5};
+  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
+  const LiftRun run = run_lift(lift_case, build_lift(lift_case, load), [](auto&&...) {});
+  const dynamics::History& history = run.dynamic_history();
+  const Eigen::Index last = history.sample_count() - 1;
+  EXPECT_NEAR(history.ropes[0].unstretched_length[last], 5 - 2 + 2 * 0.2, 1e-9);
+  EXPECT_NEAR(history.ropes[1].unstretched_length[last], 5 - 2, 1e-9);
+  const Eigen::Matrix3d R =
+      run.static_history.body("load").X_WB(run.static_history.sample_count() - 1).R;
+  EXPECT_NEAR(R(2, 0), 0.4 / 4, 0.01);
+}
+
+TEST(Faults, ARunawayNeedsAWinchWithSpeedAndEnd) {
+  const auto read = [](const std::string& fault) {
+    test::SampleLift parts;
+    parts.lift_case += "faults: [" + fault + "]\n";
+    const test::TemporaryFolder folder;
+    parts.write(folder);
+    read_lift_case("case.yaml");
+  };
+  EXPECT_THAT([&] { read("{at: 30 s, runs_away: [C1.left], speed: 1 m/s}"); },
+              ::testing::ThrowsMessage<InputError>(HasSubstr("lacks its speed or caught_after")));
+  EXPECT_THAT([&] { read("{at: 30 s, runs_away: [C1.travel], speed: 1 m/s, caught_after: 1 s}"); },
+              ::testing::ThrowsMessage<InputError>(HasSubstr("its winches are")));
+}
+
+// Plumb tackles and slings hold the load by its pins, 0.7 m above its centre of mass.
+TEST(Measures, RightingHeightIsThatOfThePinsAboveTheCentreOfMass) {
+  const LiftMeasure& measure = watched().measure("load: righting height");
+  EXPECT_NEAR(measure.at_rest[0], 0.7, 2e-3);
+  EXPECT_NEAR(measure.in_motion[0], 0.7, 2e-3);
+}
+
 TEST(LoadChart, TakesTheCapacityOfTheNextLargerRadius) {
   const LoadChart chart{{{6, 80e3}, {7, 50e3}}};
   EXPECT_EQ(chart.capacity(1), 80e3);

@@ -47,7 +47,7 @@ export interface LoadMaxima {
 }
 /** The loads of one stage of the operation. */
 export interface StageLoads {
-  name: string; start_s?: number; end_s?: number; ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; load?: LoadMaxima;
+  name: string; start_s?: number; end_s?: number; condition_met_s?: number; ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; load?: LoadMaxima;
 }
 /** A figure that follows from the motion, where it is furthest out. */
 export interface Measure {

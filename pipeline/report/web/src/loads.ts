@@ -1,7 +1,7 @@
 // Load tables: largest loads, what the other ropes carry at that instant, hoists and cranes.
 import { Clock } from "./clock";
 import { addToAnnex } from "./annex";
-import { known, LoadMaxima, PageData, stageAt, State, states } from "./data";
+import { known, LoadMaxima, PageData, StageLoads, stageAt, State, states } from "./data";
 import { Child, Column, h, table } from "./dom";
 import type { Section } from "./section";
 import { change, fixed, kilonewtons, missing, ratio, seconds, share, tonnesForce } from "./numbers";
@@ -47,7 +47,7 @@ function ropeTable(data: PageData, clock: Clock): Child {
 /** Static, dynamic and their ratio of each rope, stage by stage. */
 function stageTable(data: PageData): Child {
   const stages = data.summary.stages ?? [];
-  if (stages.length < 2) return null;
+  if (stages.length < 2 && !stages.some((stage) => known(stage.condition_met_s))) return null;
   const names = [...(stages[0].ropes ?? []).map((rope) => rope.name), ...(stages[0].hoists ?? []).map((hoist) => hoist.name)];
   const columns: Column[] = [{ head: "Stage", align: "left" }, { head: "from, s" }, { head: "to, s" },
     ...names.map((name) => ({ head: name })), { head: "all slings" }];
@@ -59,7 +59,7 @@ function stageTable(data: PageData): Child {
   };
   const rows = stages.map((stage) => {
     const loads = [...stage.ropes ?? [], ...stage.hoists ?? []];
-    return [stage.name, seconds(stage.start_s), seconds(stage.end_s),
+    return [stageName(stage), seconds(stage.start_s), seconds(stage.end_s),
       ...names.map((name) => cell(loads.find((load) => load.name === name))), cell(stage.load)];
   });
   const caption = "Stage by stage: largest load at rest and in motion, tonnes, and what motion adds";
@@ -67,12 +67,17 @@ function stageTable(data: PageData): Child {
   addToAnnex("Loads", table(caption, columns, rows));
   const short = stages.map((stage) => {
     const worst = [...stage.ropes ?? []].sort((a, b) => (b.max_dynamic_tension_N ?? 0) - (a.max_dynamic_tension_N ?? 0))[0];
-    return [stage.name, seconds(stage.start_s), seconds(stage.end_s), worst?.name ?? missing, ...both3(worst), ...both3(stage.load)];
+    return [stageName(stage), seconds(stage.start_s), seconds(stage.end_s), worst?.name ?? missing, ...both3(worst), ...both3(stage.load)];
   });
   return table("Stage by stage: the rope with the largest load, and all slings together (each rope: annex)", [
     { head: "Stage", align: "left" }, { head: "from, s" }, { head: "to, s" }, { head: "Rope", align: "left" },
     { head: "Static, tonnes" }, { head: "Dynamic, tonnes" }, { head: "more" },
     { head: "All slings static, tonnes" }, { head: "Dynamic, tonnes" }, { head: "more" }], short);
+}
+
+function stageName(stage: StageLoads): Child {
+  if (!known(stage.condition_met_s)) return stage.name;
+  return [stage.name, h("br", {}), h("span", { class: "stage" }, `its condition at ${seconds(stage.condition_met_s)} s`)];
 }
 
 function both3(load: LoadMaxima | undefined): Child[] {

@@ -1,0 +1,86 @@
+#include "pipeline/lift/stage_end.h"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/simulation/equilibrium.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+using Kind = dynamics::AwaitedCondition::Kind;
+
+int rope_of(const BuiltLift& model, const std::string& name) {
+  for (const LiftRope& rope : model.ropes)
+    if (rope.name == name) return rope.rope;
+  for (const LiftHoist& hoist : model.hoists)
+    if (hoist.name == name) return hoist.rope;
+  throw dynamics::ModelError("the lift has no rope or hoist \"" + name + "\"");
+}
+
+dynamics::AwaitedCondition condition_of(const StageUntil& until, const LiftCase& lift_case,
+                                        const BuiltLift& model) {
+  dynamics::AwaitedCondition awaited;
+  awaited.body = model.load;
+  const double weight = model.system.mechanism().body(model.load).inertia.mass * lift_case.gravity;
+  const auto pull = [&](Kind kind, const std::string& rope) {
+    awaited.kind = kind;
+    awaited.rope = rope_of(model, rope);
+  };
+  const auto bear = [&](Kind kind, double share) {
+    awaited.kind = kind;
+    awaited.force = share * weight;
+  };
+  if (until.slack) pull(Kind::slack, until.slack->value);
+  if (until.taut) pull(Kind::taut, until.taut->value);
+  if (until.ropes_at_least) bear(Kind::ropes_at_least, until.ropes_at_least->value);
+  if (until.ropes_at_most) bear(Kind::ropes_at_most, until.ropes_at_most->value);
+  if (until.ground_at_least) bear(Kind::pads_at_least, until.ground_at_least->value);
+  return awaited;
+}
+
+std::string in_words(const StageUntil& until) {
+  const auto percent = [](double share) { return fmt::format("{:g} % of the load", 100 * share); };
+  if (until.slack) return until.slack->value + " to go slack";
+  if (until.taut) return until.taut->value + " to pull";
+  if (until.ropes_at_least)
+    return "ropes to bear " + percent(until.ropes_at_least->value) + " or more";
+  if (until.ropes_at_most)
+    return "ropes to bear " + percent(until.ropes_at_most->value) + " or less";
+  return "the ground to bear " + percent(until.ground_at_least->value) + " or more";
+}
+
+}  // namespace
+
+double find_stage_end(const LiftCase& lift_case, const BuiltLift& model, std::size_t stage,
+                      const Progress& progress) {
+  const StageUntil& until = *lift_case.operation[stage].until;
+  const ScheduledStage& scheduled = model.schedule.stages[stage];
+  const dynamics::LiftSystem& system = model.system;
+  Eigen::VectorXd q = system.q_start();
+  dynamics::EquilibriumSolver(model.at_rest()).solve(0, q);
+  dynamics::IntegrationSettings settings;
+  settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
+  settings.sample_interval = lift_case.dynamics.sample_interval;
+  settings.surface = model.marched.radiation.get();
+  settings.surface_step = model.marched.step;
+  settings.awaited = condition_of(until, lift_case, model);
+  settings.awaited->from = scheduled.start;
+  settings.awaited->until = *scheduled.limit;
+  settings.progress = [&](double, double time) {
+    progress("end of stage " + scheduled.name, time / *scheduled.limit,
+             fmt::format("t = {:.0f} s", time));
+  };
+  const dynamics::IntegrationResult result =
+      dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+  if (result.met) return *result.met;
+  throw dynamics::SimulationError(fmt::format(
+      "stage \"{}\" waits for {}, which has not come about at {:.6g} s, {:.6g} s after its "
+      "beginning; let its moves go further, or give it more time (within)",
+      scheduled.name, in_words(until), *scheduled.limit, *scheduled.limit - scheduled.start));
+}
+
+}  // namespace blocklift::pipeline

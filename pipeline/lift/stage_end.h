@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+
+#include "pipeline/lift/lift_run.h"
+
+namespace blocklift::pipeline {
+
+/// When the condition of a stage comes about, s: the operation is integrated up to it, with what
+/// the model's schedule knows of earlier stages.
+/// @throws dynamics::SimulationError if it does not in the stage's time, or the integration fails.
+double find_stage_end(const LiftCase& lift_case, const BuiltLift& model, std::size_t stage,
+                      const Progress& progress);
+
+}  // namespace blocklift::pipeline
