@@ -69,7 +69,7 @@ TEST(RiggingFacts, TolerancesRaiseTheLoads) {
     EXPECT_GT(*computed.skew, 1);
     EXPECT_GT(*computed.centre_box, 1);
     EXPECT_LT(*computed.centre_box, 1.5);
-    EXPECT_FALSE(rigging.weight_of(s));
+    EXPECT_FALSE(rigging.weight_of(rigging.slings()[s]));
   }
 }
 
