@@ -7,7 +7,6 @@
 #include <Eigen/Dense>
 
 #include "dynamics/errors.h"
-#include "dynamics/multibody/kinematics.h"
 #include "dynamics/simulation/equilibrium.h"
 
 namespace blocklift::pipeline {
