@@ -308,7 +308,8 @@ Format<CheckSettings> checks_format() {
                 quantity(Dimension::angle, Range::positive()), "the same across that plane")
       .optional("clearance", &CheckSettings::smallest_clearance,
                 quantity(Dimension::length, Range::not_negative()),
-                "smallest distance of load, hooks, tackles and cranes from one another, of hanging "
+                "smallest distance of load, hooks, spreaders, tackles and cranes from one another, "
+                "of hanging "
                 "loads from the ground; usual are 0.5 m ashore and 3 m afloat; not checked if left "
                 "out");
   return table.format();

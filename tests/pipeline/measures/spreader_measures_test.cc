@@ -1,5 +1,6 @@
 #include "pipeline/measures/spreader_measures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/checks/measure_checks.h"
+#include "pipeline/measures/clearance.h"
 #include "tests/pipeline/spreader_lift.h"
 
 namespace blocklift::pipeline {
@@ -112,6 +114,19 @@ TEST(SpreaderMeasures, CompressionFollowsTheMotion) {
   const Eigen::VectorXd pull = history.rope("R1").tension + history.rope("R2").tension;
   EXPECT_GT(N.maxCoeff() / N[0], 1.01);
   for (Eigen::Index i = 0; i < N.size(); ++i) EXPECT_NEAR(N[i] / N[0], pull[i] / pull[0], 1e-3);
+}
+
+// The bar's lower face is 0.1 + 1.5 m over the lugs' pins less half of the pipe, these 0.2 m over the
+// plate's top, and the slings stretch.
+TEST(SpreaderMeasures, BarKeepsItsDistanceFromTheLoad) {
+  const BarLift& lift = plain_lift();
+  std::vector<LiftMeasure> measures;
+  add_clearances(lift.lift_case, lift.run, measures);
+  const auto clearance = std::find_if(measures.begin(), measures.end(), [](const LiftMeasure& one) {
+    return one.subject == "load to B1";
+  });
+  ASSERT_NE(clearance, measures.end());
+  EXPECT_NEAR(clearance->at_rest[0], 0.1 + 1.5 + 0.2 - 0.1683 / 2, 2e-3);
 }
 
 TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
