@@ -192,6 +192,14 @@ void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& 
   block.assessment = assess_load_table(*block.responses, recovery, static_forces, dynamic_forces);
 }
 
+/// What errors in the lengths of slings do.
+void find_lengths(const LoadMass& load, const LoadFlexibility* flexibility,
+                  const Progress& progress, Assessment& assessment) {
+  progress("lengths of slings", 0, "");
+  assessment.sling_lengths =
+      find_sling_lengths(assessment.lift_case, load, flexibility, *assessment.lift);
+}
+
 /// Checks of what the motion alone says.
 void check_motion(const Progress& progress, Assessment& assessment) {
   const LiftRun& lift = *assessment.lift;
@@ -214,6 +222,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
         run_lift(the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
                  progress);
     check_motion(progress, assessment);
+    find_lengths(load_mass(the_case.load.vessel->model), nullptr, progress, assessment);
     check_by_standard(assessment);
     assessment.total_s = total.lap();
     return assessment;
@@ -241,6 +250,8 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
                                    flexibility ? &*flexibility : nullptr);
     assessment.lift = run_lift(the_case, std::move(model), progress);
     check_motion(progress, assessment);
+    find_lengths(load_mass(block.model->mass_properties()), flexibility ? &*flexibility : nullptr,
+                 progress, assessment);
   }
   if (!block.responses) respond();
   block.first_elastic_period = find_first_elastic_period(*block.responses);

@@ -12,6 +12,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/build/body_box.h"
+#include "pipeline/build/spreader_start.h"
 #include "pipeline/files/crane_pose.h"
 #include "pipeline/mechanism/build_parts.h"
 
@@ -67,6 +68,7 @@ class LiftBuilder {
       register_body(builder, MarineBuilder::body(vessel), "vessel", {box_around(*vessel.model)});
     }
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) add_crane(builder, i);
+    for (const SpreaderInCase& bar : case_.spreaders) add_spreader(builder, bar);
     add_load(builder);
     if (flexibility_) add_modes(builder);
     const dynamics::Mechanism mechanism = builder.build();
@@ -93,6 +95,7 @@ class LiftBuilder {
             std::move(bodies_),
             std::move(hoists_),
             std::move(ropes_),
+            std::move(spreaders_),
             std::move(schedule),
             moves ? std::optional(system(true)) : std::nullopt,
             marched_,
@@ -195,6 +198,19 @@ class LiftBuilder {
     rope.name += " and " + added.name;
     rope.crane_stiffness = 1 / (1 / rope.crane_stiffness + 1 / hoist.crane_stiffness);
     rope.unstretched_length += length;
+  }
+
+  void add_spreader(dynamics::MechanismBuilder& builder, const SpreaderInCase& bar) {
+    BodyDefinition body;
+    body.name = bar.name.value;
+    body.joint.kind = dynamics::JointKind::free;
+    body.mass = bar.mass();
+    body.I_BBcm_B = bar.inertia();
+    const BarSection& section = bar.section.value;
+    const Vector3 size(bar.length.value, section.width(), section.height());
+    const BodyIndex index =
+        register_body(builder, body, "spreader", {BoxShape{size, {0, 0, 0}, {0, 0, 0}}});
+    spreaders_.push_back({bar.name.value, index, {}});
   }
 
   void add_load(dynamics::MechanismBuilder& builder) {
@@ -305,6 +321,19 @@ class LiftBuilder {
       q_start_.segment<3>(mechanism.body(hook.hook).q_offset) =
           X_WT.apply(hook.sheave.p_BoQ_B) - Vector3(0, 0, hook.length);
     }
+    if (!case_.spreaders.empty()) set_spreaders(mechanism, kinematics);
+  }
+
+  void set_spreaders(const dynamics::Mechanism& mechanism, dynamics::Kinematics& kinematics) {
+    dynamics::compute_kinematics(mechanism, q_start_, Eigen::VectorXd::Zero(mechanism.nv()),
+                                 kinematics);
+    const auto place = [&](const ResolvedPoint& point) -> Vector3 {
+      const std::string body = point.body_name(case_.cranes);
+      if (body == "world") return point.point;
+      return kinematics.X_WB[static_cast<std::size_t>(body_of_.at(body))].apply(point.point);
+    };
+    for (const auto& [name, X_WB] : spreader_starts(case_, place))
+      set_free_start(mechanism, name, X_WB);
   }
 
   void set_free_start(const dynamics::Mechanism& mechanism, const std::string& body,
@@ -349,13 +378,18 @@ class LiftBuilder {
       set_rope(definition, rope.rope, rope.end_stiffness, rope.length.value);
       const int index = static_cast<int>(rope_definitions_.size());
       if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
-      const ResolvedPoint& first = rope.path.front();
       ropes_.push_back(
-          {rope.name.value, index, rope.lug(),
-           first.kind == ResolvedPoint::Kind::hook ? first.body_name(case_.cranes) : "",
-           rope.rope.breaking_load});
+          {rope.name.value, index, rope.lug(), case_.hook_above(rope), rope.rope.breaking_load});
+      note_end(rope.path.front(), {index, false, rope.path.front().point});
+      note_end(rope.path.back(), {index, true, rope.path.back().point});
       rope_definitions_.push_back(std::move(definition));
     }
+  }
+
+  void note_end(const ResolvedPoint& point, const LiftSpreader::End& end) {
+    if (point.kind != ResolvedPoint::Kind::spreader) return;
+    for (LiftSpreader& bar : spreaders_)
+      if (bar.name == point.part) bar.ends.push_back(end);
   }
 
   void add_wind_areas(bool at_rest, dynamics::ForceElements& elements) const {
@@ -479,6 +513,7 @@ class LiftBuilder {
   std::vector<LiftBody> bodies_;
   std::vector<LiftHoist> hoists_;
   std::vector<LiftRope> ropes_;
+  std::vector<LiftSpreader> spreaders_;
   std::vector<DrivenJoint> driven_joints_;
   std::vector<HookStart> hook_starts_;
   std::vector<WinchStart> winches_;

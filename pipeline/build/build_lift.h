@@ -47,16 +47,30 @@ struct LiftHoist {
 /// A rope of the case within the dynamics.
 struct LiftRope {
   std::string name;
-  int rope = -1;                                  ///< index in the system
-  std::string lug;                                ///< that it ends at; empty if none
-  std::string hoist;                              ///< whose hook it begins at; empty if none
+  int rope = -1;    ///< index in the system
+  std::string lug;  ///< that it ends at; empty if none
+  /// On whose hook it hangs, at once or by way of spreaders; empty if on none, or on several.
+  std::string hoist;
   double breaking_load = dynamics::not_a_number;  ///< N
+};
+
+/// A spreader of the case within the dynamics.
+struct LiftSpreader {
+  /// An end of a rope at the bar.
+  struct End {
+    int rope = -1;                      ///< index in the system
+    bool last = false;                  ///< the rope ends here, else it begins here
+    Vector3 p_BoQ_B = Vector3::Zero();  ///< from the bar's middle, in its frame, m
+  };
+  std::string name;
+  dynamics::BodyIndex body = -1;
+  std::vector<End> ends;
 };
 
 /// A body of the lift for the drawing: which boxes stand for it.
 struct LiftBody {
   std::string name;  ///< "C1.gantry", "C1.upper_1", "load"
-  std::string kind;  ///< "crane", "vessel", "hook block", "load"
+  std::string kind;  ///< "crane", "vessel", "hook block", "spreader", "load"
   dynamics::BodyIndex body = -1;
   std::vector<BoxShape> boxes;
 };
@@ -66,8 +80,9 @@ struct BuiltLift {
   dynamics::LiftSystem system;
   dynamics::BodyIndex load = -1;
   std::vector<LiftBody> bodies;
-  std::vector<LiftHoist> hoists;  ///< in the order of cranes and their hoists
-  std::vector<LiftRope> ropes;    ///< in the order of the case
+  std::vector<LiftHoist> hoists;        ///< in the order of cranes and their hoists
+  std::vector<LiftRope> ropes;          ///< in the order of the case
+  std::vector<LiftSpreader> spreaders;  ///< in the order of the case
   Schedule schedule;
   /// The same lift without waves and in mean wind, where there are waves or gusts.
   std::optional<dynamics::LiftSystem> calm = {};
@@ -89,7 +104,7 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// Bodies are named "C1.gantry", hook blocks as their hoists ("C1.upper_1"), the block "load". A
 /// hook block is a body on a translational joint to the world, its tackle a rope from the sheave to
 /// its centre. Tackles of equalised hoists are one rope, from hook block to hook block, which leaves
-/// out what lies between the sheaves. The load is free; its start and that of the hook blocks (plumb below their sheaves,
+/// out what lies between the sheaves. The load and spreaders are free; its start and that of the hook blocks (plumb below their sheaves,
 /// by the unstretched length) are guesses from which the equilibrium is found.
 ///
 /// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave

@@ -11,6 +11,7 @@
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/lift/history_assessment.h"
 #include "pipeline/lift/lift_run.h"
+#include "pipeline/lift/sling_lengths.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/standards/standard_assessment.h"
 #include "structure/response/accuracy.h"
@@ -42,7 +43,8 @@ struct Assessment {
   BlockRun block;
   std::optional<StandardAssessment> standard;  ///< none: the case names no rules
   std::vector<Check> checks;
-  double total_s = 0;  ///< wall-clock time up to the writing of results
+  double total_s = 0;                              ///< wall-clock time up to the writing of results
+  std::optional<SlingLengths> sling_lengths = {};  ///< none: the load hangs on no slings
 
   bool pass() const { return all_pass(checks); }
 };

@@ -83,26 +83,39 @@ class LiftedFacts {
     std::map<std::string, int> on_hook;
     for (const LiftRope& sling : rigging_.slings()) ++on_hook[sling.hoist];
     for (std::size_t i = 0; i < rigging_.slings().size(); ++i) {
-      const LiftRope& rope = rigging_.slings()[i];
-      const RopeModel& model = case_.find_rope(rope.name)->rope;
-      SlingFacts sling;
-      sling.name = rope.name;
-      sling.lug = rope.lug;
-      sling.hook = rope.hoist;
       Index sample = 0;
-      sling.load = load_of(rope.rope, sample);
+      SlingFacts sling = sling_facts(rigging_.slings()[i], on_hook, sample);
       sling.computed = rigging_.of_sling(i, sample);
-      sling.breaking_load = rope.breaking_load;
-      if (model.material) sling.material = model.material->value;
-      if (model.termination) sling.termination = model.termination->value;
-      sling.diameter = model.diameter;
-      sling.slings_on_hook = on_hook[rope.hoist];
-      const auto weight = rigging_.weight_of(i);
-      facts_.has_rigging_weight = facts_.has_rigging_weight && weight;
-      facts_.rigging += weight.value_or(0);
-      rigging_at_[rope.hoist] += weight.value_or(0);
       facts_.slings.push_back(std::move(sling));
     }
+    for (const LiftRope& rope : lift_.model.ropes) {
+      if (!rope.lug.empty() || !case_.find_rope(rope.name)->is_sling()) continue;
+      Index sample = 0;
+      facts_.slings.push_back(sling_facts(rope, on_hook, sample));
+    }
+    // The motion has their weight in the loads of hooks, and not in those of the lugs.
+    for (const SpreaderInCase& bar : case_.spreaders) facts_.rigging += bar.mass() * case_.gravity;
+  }
+
+  SlingFacts sling_facts(const LiftRope& rope, const std::map<std::string, int>& on_hook,
+                         Index& sample) {
+    const RopeModel& model = case_.find_rope(rope.name)->rope;
+    SlingFacts sling;
+    sling.name = rope.name;
+    sling.lug = rope.lug;
+    sling.hook = rope.hoist;
+    sling.load = load_of(rope.rope, sample);
+    sling.breaking_load = rope.breaking_load;
+    if (model.material) sling.material = model.material->value;
+    if (model.termination) sling.termination = model.termination->value;
+    sling.diameter = model.diameter;
+    const auto count = on_hook.find(rope.hoist);
+    sling.slings_on_hook = count == on_hook.end() ? 1 : count->second;
+    const auto weight = rigging_.weight_of(rope);
+    facts_.has_rigging_weight = facts_.has_rigging_weight && weight;
+    facts_.rigging += weight.value_or(0);
+    rigging_at_[rope.hoist] += weight.value_or(0);
+    return sling;
   }
 
   void add_hook(std::size_t index) {

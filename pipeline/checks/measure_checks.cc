@@ -1,9 +1,14 @@
 #include "pipeline/checks/measure_checks.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/measures/spreader_measures.h"
 
 namespace blocklift::pipeline {
 
@@ -33,6 +38,7 @@ class MeasureChecks {
     add_at_most("sidelead", "sidelead: largest angle across the plane of the radius",
                 limits.largest_sidelead);
     add_at_least("clearance", "clearance: smallest distance", limits.smallest_clearance);
+    for (const SpreaderInCase& bar : case_.spreaders) add_spreader(bar);
     if (limits.crane_capacity) {
       add_charts();
       add_supports();
@@ -71,6 +77,32 @@ class MeasureChecks {
     if (!limit) return;
     if (const auto worst = worst_of(kind))
       note(*worst, check_at_least(name, worst->peak.value, *limit, worst->measure->unit));
+  }
+
+  /// A bar against buckling by its compression alone, and with bending.
+  void add_spreader(const SpreaderInCase& bar) {
+    const double factor = spreader_factor(case_.checks);
+    const std::string subject = "spreader " + bar.name.value;
+    for (const LiftMeasure& measure : measures_) {
+      if (measure.subject != bar.name.value) continue;
+      const MeasurePeak peak = find_peak(lift_, measure);
+      Check check;
+      if (measure.kind == "compression") {
+        check = check_at_most(
+            fmt::format("{}: compression against buckling load / {:g}", subject, factor),
+            std::max(0.0, peak.value), structure::buckling_resistance(bar.column()) / factor, "N");
+        check.note = "EN 1993-1-1, 6.3.1.1";
+      } else if (measure.kind == "share of the resistance") {
+        check =
+            check_at_most(fmt::format("{}: compression with bending, times {:g}", subject, factor),
+                          peak.value, 1, "1");
+        check.note = "EN 1993-1-1, 6.3.1.1, moments growing by 5.2.2(5)";
+      } else {
+        continue;
+      }
+      check.time = peak.time;
+      checks_.push_back(std::move(check));
+    }
   }
 
   void add_charts() {

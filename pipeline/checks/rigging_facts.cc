@@ -47,8 +47,8 @@ VectorXd RiggingFacts::hook_load(const dynamics::History& history) const {
   return sum;
 }
 
-std::optional<double> RiggingFacts::weight_of(std::size_t sling) const {
-  const RopeInCase& rope = *case_.find_rope(slings_[sling].name);
+std::optional<double> RiggingFacts::weight_of(const LiftRope& sling) const {
+  const RopeInCase& rope = *case_.find_rope(sling.name);
   if (!rope.rope.mass_per_length) return {};
   return *rope.rope.mass_per_length * rope.length.value * case_.gravity;
 }
@@ -108,12 +108,14 @@ const RiggingFacts::State& RiggingFacts::at(Index sample) const {
   auto state = std::make_shared<State>();
   state->at_rest.resize(index(count));
   for (std::size_t i = 0; i < count; ++i) state->at_rest[index(i)] = ropes[i].tension;
-  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say.
-  const bool has_equalised = std::any_of(
-      hoists.begin(), hoists.end(), [](const LiftHoist& hoist) { return hoist.hook_is_first; });
-  if (share && !has_equalised && slings_.size() <= RiggingBalance::most_toleranced)
+  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say; nor
+  // has one that knows of no bars between ropes.
+  const bool is_balanced = lift_.model.spreaders.empty() &&
+                           std::none_of(hoists.begin(), hoists.end(),
+                                        [](const LiftHoist& hoist) { return hoist.hook_is_first; });
+  if (share && is_balanced && slings_.size() <= RiggingBalance::most_toleranced)
     state->largest_by_tolerance = balance.largest_by_tolerance(tolerance);
-  if (const auto& box = standard.centre_box; box && !has_equalised)
+  if (const auto& box = standard.centre_box; box && is_balanced)
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d shift((corner & 1) != 0 ? box->x() : -box->x(),
                            (corner & 2) != 0 ? box->y() : -box->y(),

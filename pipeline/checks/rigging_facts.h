@@ -28,7 +28,7 @@ class RiggingFacts {
   /// Vertical part of all slings' forces on the load, at each sample, N.
   Eigen::VectorXd hook_load(const dynamics::History& history) const;
   /// Weight of a sling by its model's mass, N; none without.
-  std::optional<double> weight_of(std::size_t sling) const;
+  std::optional<double> weight_of(const LiftRope& sling) const;
 
   /// Factors at a sample at rest, for slings and for hooks.
   ComputedFactors of_sling(std::size_t sling, Eigen::Index sample) const;

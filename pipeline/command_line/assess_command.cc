@@ -81,6 +81,39 @@ void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   fmt::print("\n{}", table.text());
 }
 
+/// What errors in the lengths of slings do, and the lengths that hang the load level.
+void print_sling_lengths(const SlingLengths& lengths) {
+  if (!lengths.trouble.empty()) {
+    print_wrapped("what the lengths of slings do was not found: " + lengths.trouble);
+    return;
+  }
+  TextTable table({{"sling"},
+                   {"length m"},
+                   {"at rest t", 4},
+                   {"one off t", 4},
+                   {"worst set t", 4},
+                   {"level by m"},
+                   {"then t", 4}});
+  for (Eigen::Index i = 0; i < lengths.lengths.size(); ++i) {
+    double largest = 0;
+    for (const SlingLengthError& error : lengths.errors)
+      largest = std::max({largest, error.longer.tensions[i], error.shorter.tensions[i]});
+    std::vector<TextTable::Cell> row = {
+        lengths.slings[static_cast<std::size_t>(i)], fmt::format("{:.3f}", lengths.lengths[i]),
+        lengths.meant.tensions[i] / newton_per_tonne, largest / newton_per_tonne};
+    row.emplace_back(lengths.worst_tensions.size() > 0
+                         ? TextTable::Cell(lengths.worst_tensions[i] / newton_per_tonne)
+                         : TextTable::Cell("-"));
+    const bool has_level = lengths.level_lengths.size() > 0;
+    row.emplace_back(has_level ? fmt::format("{:.3f}", lengths.level_lengths[i]) : "-");
+    row.emplace_back(has_level ? TextTable::Cell(lengths.level.tensions[i] / newton_per_tonne)
+                               : TextTable::Cell("-"));
+    table.add_row(std::move(row));
+  }
+  fmt::print("\nslings at {:.1f} s, their lengths off by {:.2f} %\n{}", lengths.time,
+             100 * lengths.tolerance, table.text());
+}
+
 /// The load's own slow motions at the start, and what the integration cost.
 void print_motion(const LiftRun& lift) {
   if (!lift.natural_modes.empty()) {
@@ -203,6 +236,7 @@ void print_results(const Assessment& assessment) {
     fmt::print("\n{}", describe_block_mesh(*block->mesh));
   if (assessment.lift) {
     print_loads(*assessment.lift, assessment.lift_case);
+    if (assessment.sling_lengths) print_sling_lengths(*assessment.sling_lengths);
     print_motion(*assessment.lift);
   }
   if (assessment.block.model) {

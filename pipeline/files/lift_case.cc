@@ -1,6 +1,7 @@
 #include "pipeline/files/lift_case.h"
 
 #include <cmath>
+#include <set>
 #include <system_error>
 
 #include "pipeline/declaration/document.h"
@@ -101,6 +102,7 @@ std::string ResolvedPoint::body_name(const std::vector<CraneInCase>& cranes) con
     case Kind::load:
       return "load";
     case Kind::vessel:
+    case Kind::spreader:
       return part;
     case Kind::crane_body:
     case Kind::hook:
@@ -142,6 +144,32 @@ const CraneInCase* LiftCase::find_crane(const std::string& crane) const {
 
 const RopeInCase* LiftCase::find_rope(const std::string& rope) const {
   return find_by_name(ropes, rope);
+}
+
+const SpreaderInCase* LiftCase::find_spreader(const std::string& spreader) const {
+  return find_by_name(spreaders, spreader);
+}
+
+std::string LiftCase::hook_above(const RopeInCase& rope) const {
+  std::string hook;
+  std::set<std::string> passed;  // spreaders; a ring of them hangs on nothing
+  std::vector<const RopeInCase*> open = {&rope};
+  while (!open.empty()) {
+    const ResolvedPoint& first = open.back()->path.front();
+    open.pop_back();
+    if (first.kind == ResolvedPoint::Kind::hook) {
+      const std::string found = first.body_name(cranes);
+      if (!hook.empty() && found != hook) return {};
+      hook = found;
+    } else if (first.kind == ResolvedPoint::Kind::spreader) {
+      if (!passed.insert(first.part).second) continue;
+      for (const RopeInCase& above : ropes)
+        if (above.ends_at_spreader(first.part)) open.push_back(&above);
+    } else {
+      return {};
+    }
+  }
+  return hook;
 }
 
 std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& library,

@@ -15,6 +15,7 @@
 #include "pipeline/files/hot_spot_format.h"
 #include "pipeline/files/marine_parts.h"
 #include "pipeline/files/model_library.h"
+#include "pipeline/files/spreader.h"
 #include "pipeline/files/standard_in_case.h"
 
 namespace blocklift::pipeline {
@@ -61,18 +62,19 @@ struct LoadInCase {
   dynamics::Pose pose_afloat() const;
 };
 
-/// Where a rope begins, turns or ends: a hook (`C1.upper_1`), a lug (`L1`), or any point of a body.
+/// Where a rope begins, turns or ends: a hook (`C1.upper_1`), a lug (`L1`), an eye of a spreader
+/// (`B1.upper_a`), or any point of a body.
 struct RopePoint {
-  Located<std::string> name;                 ///< of the hook or lug; empty where `body` is given
+  Located<std::string> name;  ///< of the hook, lug or eye; empty where `body` is given
   std::optional<Located<std::string>> body;  ///< "world", "load", "C1.gantry", "C1.upper_1"
   Vector3 point = Vector3::Zero();           ///< in the body's frame, m
 };
 
 /// What a rope point is after its names have been looked up.
 struct ResolvedPoint {
-  enum class Kind { world, load, crane_body, hook, vessel } kind = Kind::world;
+  enum class Kind { world, load, crane_body, hook, vessel, spreader } kind = Kind::world;
   std::size_t crane = 0;  ///< index of the crane, for crane_body and hook
-  std::string part;       ///< name of the body or hoist within the crane, or of the vessel
+  std::string part;       ///< name of the body or hoist within the crane, of the vessel or spreader
   std::string lug;        ///< name of the lug, if the point is one
   Vector3 point = Vector3::Zero();  ///< in the body's frame, m
 
@@ -95,6 +97,16 @@ struct RopeInCase {
 
   /// The lug at its end, empty if it ends elsewhere.
   std::string lug() const { return path.empty() ? std::string() : path.back().lug; }
+  /// Does it end at a lug or at a spreader?
+  bool is_sling() const {
+    return !path.empty() &&
+           (!path.back().lug.empty() || path.back().kind == ResolvedPoint::Kind::spreader);
+  }
+  /// Is it a sling from above to that spreader?
+  bool ends_at_spreader(const std::string& spreader) const {
+    return !path.empty() && path.back().kind == ResolvedPoint::Kind::spreader &&
+           path.back().part == spreader;
+  }
 };
 
 /// Wind, steady or with gusts.
@@ -224,6 +236,7 @@ struct CheckSettings {
   double lug_consequence_factor = 0;      ///< on forces and stresses of padeyes
   double lug_side_load = 0;               ///< least force along a padeye's pin, share of the rope's
   std::optional<double> buckling_factor;  ///< absent: yield_factor
+  std::optional<double> spreader_factor;  ///< absent: yield_factor
   double smallest_tension = 0;            ///< N
   std::optional<double> largest_swing;    ///< rad
   // Of the lift's measures; absent: not checked.
@@ -295,7 +308,9 @@ struct LiftCase : MarineParts {
   double gravity = std::numeric_limits<double>::quiet_NaN();  ///< m/s^2
   LoadInCase load;
   std::vector<CraneInCase> cranes;
+  std::vector<SpreaderInCase> spreaders;
   std::vector<RopeInCase> ropes;
+  double sling_tolerance = 0;  ///< share of a sling's length by which it may be off
   std::vector<SupportInCase> supports;
   std::optional<double> ground;  ///< height of the ground or a dock's floor under the load, m
   std::optional<GroundInCase> ground_contact;
@@ -320,6 +335,10 @@ struct LiftCase : MarineParts {
   std::optional<double> ground_height() const;
   const CraneInCase* find_crane(const std::string& name) const;
   const RopeInCase* find_rope(const std::string& name) const;
+  const SpreaderInCase* find_spreader(const std::string& name) const;
+  /// The hook that a rope hangs on by its first point, "C1.main": at once, or by way of spreaders
+  /// whose slings from above all hang on the same. Empty if it hangs on none, or on several.
+  std::string hook_above(const RopeInCase& rope) const;
 };
 
 /// The keys of a rope; its points are given as the file at hand gives them.

@@ -33,6 +33,8 @@ std::vector<std::string> parts_of(const CraneInCase& crane, bool with_bodies) {
   return parts;
 }
 
+std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
+
 /// Looks up one point of a rope. `does` says in messages what the rope does there: "ends at".
 class PointResolver {
  public:
@@ -45,6 +47,8 @@ class PointResolver {
     subject_ = fmt::format("rope {} {}", rope.name.value, does);
     if (p.body) return resolve_body(*p.body, p.point);
     if (p.name.value.empty()) return std::nullopt;
+    if (const SpreaderInCase* bar = case_.find_spreader(before_dot(p.name.value)))
+      return resolve_eye(p.name, *bar);
     if (p.name.value.find('.') != std::string::npos && !is_lug(p.name.value)) {
       return resolve_part(p.name, false, Vector3::Zero());
     }
@@ -67,16 +71,48 @@ class PointResolver {
       resolved.part = body.value;
       return resolved;
     }
+    if (case_.find_spreader(body.value)) {
+      resolved.kind = ResolvedPoint::Kind::spreader;
+      resolved.part = body.value;
+      return resolved;
+    }
     if (body.value.find('.') == std::string::npos) {
-      const char* kinds =
-          "a body is \"world\", \"load\", a vessel, or crane and body, for example C1.gantry";
-      fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
-           case_.vessels.empty() ? kinds
-                                 : names_hint(std::string(kinds) + "; the vessels are",
-                                              names_of(case_.vessels), body.value));
+      fail_body(body);
       return std::nullopt;
     }
     return resolve_part(body, true, point);
+  }
+
+  void fail_body(const Located<std::string>& body) {
+    const std::string kinds =
+        "a body is \"world\", \"load\", a vessel, a spreader, or crane and body, for example "
+        "C1.gantry";
+    std::vector<std::string> known = names_of(case_.vessels);
+    for (const SpreaderInCase& bar : case_.spreaders) known.push_back(bar.name.value);
+    fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
+         known.empty() ? kinds
+                       : names_hint(kinds + "; the vessels and spreaders are", known, body.value));
+  }
+
+  std::optional<ResolvedPoint> resolve_eye(const Located<std::string>& name,
+                                           const SpreaderInCase& bar) {
+    ResolvedPoint resolved;
+    resolved.kind = ResolvedPoint::Kind::spreader;
+    resolved.part = bar.name.value;
+    const std::size_t dot = name.value.find('.');
+    const std::optional<Vector3> eye =
+        bar.eye(dot == std::string::npos ? std::string() : name.value.substr(dot + 1));
+    if (eye) {
+      resolved.point = *eye;
+      return resolved;
+    }
+    std::vector<std::string> known;
+    for (const std::string& one : spreader_eyes) known.push_back(bar.name.value + "." + one);
+    fail(name,
+         fmt::format("{} \"{}\", which is no eye of spreader {}", subject_, name.value,
+                     bar.name.value),
+         names_hint("its eyes are", known, name.value));
+    return std::nullopt;
   }
 
   std::optional<ResolvedPoint> resolve_part(const Located<std::string>& name, bool bodies_too,
@@ -168,16 +204,61 @@ bool same_point(const ResolvedPoint& a, const ResolvedPoint& b) {
   return a.kind == b.kind && a.crane == b.crane && a.part == b.part && a.point == b.point;
 }
 
-/// Complains about sheaves on the load: only the forces of rope ends reach its stress.
+/// Complains about sheaves on the load or a spreader: only the forces of rope ends reach its stress.
 void check_sheaves(const RopeInCase& rope, Diagnostics& diagnostics) {
   for (std::size_t i = 1; i + 1 < rope.path.size(); ++i) {
-    if (rope.path[i].kind != ResolvedPoint::Kind::load) continue;
+    const bool on_load = rope.path[i].kind == ResolvedPoint::Kind::load;
+    if (!on_load && rope.path[i].kind != ResolvedPoint::Kind::spreader) continue;
     diagnostics.error(
         rope.through[i - 1].mark,
-        fmt::format("rope {} runs over a sheave on the load, whose force on the block would be "
+        fmt::format("rope {} runs over a sheave on {}, whose force on the {} would be "
                     "missing from its stress",
-                    rope.name.value),
-        {"ropes begin or end at lugs; sheaves stand on cranes, hooks or the world"});
+                    rope.name.value, on_load ? "the load" : "spreader " + rope.path[i].part,
+                    on_load ? "block" : "bar"),
+        {on_load ? "ropes begin or end at lugs; sheaves stand on cranes, hooks or the world"
+                 : "ropes begin or end at the eyes of a spreader"});
+  }
+}
+
+/// Slings from one hook to both ends of a bar must reach around it.
+void check_reach(const LiftCase& lift_case, const SpreaderInCase& bar, Diagnostics& diagnostics) {
+  for (const RopeInCase& one : lift_case.ropes) {
+    if (!one.ends_at_spreader(bar.name.value)) continue;
+    for (const RopeInCase& other : lift_case.ropes) {
+      if (&other <= &one || !other.ends_at_spreader(bar.name.value)) continue;
+      const double apart = (one.path.back().point - other.path.back().point).norm();
+      if (!same_point(one.path.front(), other.path.front()) ||
+          one.length.value + other.length.value > apart)
+        continue;
+      diagnostics.error(
+          one.length.mark,
+          fmt::format("slings {} and {} are too short: {:g} m and {:g} m from one point do not "
+                      "reach the eyes of spreader {}, which are {:g} m apart",
+                      one.name.value, other.name.value, one.length.value, other.length.value,
+                      bar.name.value, apart));
+    }
+  }
+}
+
+void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const SpreaderInCase& bar : lift_case.spreaders) {
+    int above = 0, below = 0;
+    bool all_known = true;
+    for (const RopeInCase& rope : lift_case.ropes) {
+      all_known &= !rope.path.empty();
+      if (rope.path.empty()) continue;
+      above += int{rope.ends_at_spreader(bar.name.value)};
+      const ResolvedPoint& first = rope.path.front();
+      below += int{first.kind == ResolvedPoint::Kind::spreader && first.part == bar.name.value};
+    }
+    if (all_known && (above == 0 || below == 0))
+      diagnostics.error(bar.name.mark,
+                        fmt::format("no sling {} spreader {}", above == 0 ? "ends at" : "begins at",
+                                    bar.name.value),
+                        {fmt::format("slings from above end at {0}.upper_a and {0}.upper_b, those "
+                                     "to the load begin at {0}.lower_a and {0}.lower_b",
+                                     bar.name.value)});
+    check_reach(lift_case, bar, diagnostics);
   }
 }
 
@@ -307,6 +388,20 @@ void check_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
   }
 }
 
+void check_spreader_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const SpreaderInCase& bar : lift_case.spreaders) {
+    const std::string& name = bar.name.value;
+    if (name == "world" || name == "load")
+      diagnostics.error(bar.name.mark, fmt::format("a spreader cannot be named \"{}\"", name));
+    const char* other = lift_case.find_crane(name)    ? "crane"
+                        : lift_case.find_vessel(name) ? "vessel"
+                                                      : nullptr;
+    if (other)
+      diagnostics.error(bar.name.mark,
+                        fmt::format("a spreader and a {} are both named \"{}\"", other, name));
+  }
+}
+
 void check_comparison(const LiftCase& lift_case, Diagnostics& diagnostics) {
   if (!lift_case.compare) return;
   std::vector<std::string> known = names_of(lift_case.ropes);
@@ -372,6 +467,7 @@ void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
     };
     refuse(!lift_case.cranes.empty(), "cranes");
     refuse(!lift_case.ropes.empty(), "ropes");
+    refuse(!lift_case.spreaders.empty(), "spreaders");
     refuse(!lift_case.supports.empty(), "supports");
     refuse(lift_case.ground_contact.has_value(), "ground_contact");
     refuse(lift_case.wind.has_value(), "wind");
@@ -629,12 +725,14 @@ void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics) {
 void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_kind_of_case(lift_case, diagnostics);
   check_names(lift_case, diagnostics);
+  check_spreader_names(lift_case, diagnostics);
   for (const CraneInCase& crane : lift_case.cranes) {
     if (!crane.model || lift_case.load_table) continue;
     check_start(crane, diagnostics);
     check_equalised(crane, diagnostics);
   }
   check_ropes(lift_case, diagnostics);
+  check_spreaders(lift_case, diagnostics);
   check_afloat(lift_case, diagnostics);
   check_ground(lift_case, diagnostics);
   check_conditions(lift_case, diagnostics);

@@ -106,7 +106,7 @@ Format<Located<RopePoint>> rope_point_format() {
   Table<RopePoint> table("point", "A point of a body of the lift.");
   table
       .required("body", &RopePoint::body, reference(),
-                "\"world\", \"load\", a vessel, or crane and body (C1.gantry)")
+                "\"world\", \"load\", a vessel, a spreader, or crane and body (C1.gantry)")
       .by_default("point", &RopePoint::point, position_format(), zero_position,
                   "in the body's frame");
   const auto by_name = converted<Located<std::string>, RopePoint>(located(reference()),
@@ -304,6 +304,9 @@ Format<CheckSettings> checks_format() {
       .optional("buckling_factor", &CheckSettings::buckling_factor, number(Range::at_least(1)),
                 "critical stress of a plate panel over the stress in it; the yield factor if left "
                 "out")
+      .optional("spreader_factor", &CheckSettings::spreader_factor, number(Range::at_least(1)),
+                "on the forces in spreaders, against yield and buckling; the yield factor if left "
+                "out")
       .by_default("smallest_tension", &CheckSettings::smallest_tension,
                   quantity(Dimension::load, Range::not_negative()), "0 kN",
                   "below which a rope counts as slack")
@@ -323,7 +326,8 @@ Format<CheckSettings> checks_format() {
                 quantity(Dimension::angle, Range::positive()), "the same across that plane")
       .optional("clearance", &CheckSettings::smallest_clearance,
                 quantity(Dimension::length, Range::not_negative()),
-                "smallest distance of load, hooks, tackles and cranes from one another, of hanging "
+                "smallest distance of load, hooks, spreaders, tackles and cranes from one another, "
+                "of hanging "
                 "loads from the ground; usual are 0.5 m ashore and 3 m afloat; not checked if left "
                 "out")
       .optional("righting_height", &CheckSettings::smallest_righting_height,
@@ -426,7 +430,7 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
   Table<RopeInCase> table("rope",
                           "A rope, sling or line of the lift. Its ends and the sheaves "
                           "between them are hooks (crane and hoist: C1.upper_1), lugs of "
-                          "the load (L1), or points of bodies.");
+                          "the load (L1), eyes of spreaders (B1.lower_a), or points of bodies.");
   table.required("from", &RopeInCase::from, point, "upper end")
       .optional("through", &RopeInCase::through, list_of(point), "frictionless sheaves on its way")
       .required("to", &RopeInCase::to, point, "lower end")
@@ -539,8 +543,14 @@ Format<LiftCase> lift_case_format() {
                   "acceleration of gravity; nothing hangs without")
       .required("load", &LiftCase::load, load_format(), "the block or vessel that is lifted")
       .optional("cranes", &LiftCase::cranes, named_tables(crane_format()), "by name")
+      .optional("spreaders", &LiftCase::spreaders, named_tables(spreader_format()),
+                "bars between slings from above and slings to the load, by name")
       .optional("ropes", &LiftCase::ropes,
                 named_tables(rope_in_case_format(rope_point_format(), true)), "by name")
+      .by_default("sling_tolerance", &LiftCase::sling_tolerance,
+                  quantity(Dimension::ratio, Range::between(0, 0.1)), "0.25 %",
+                  "of its length by which a sling may be longer or shorter than meant: what that "
+                  "does is shown, sling by sling; 0 % to leave it out")
       .optional(
           "ground", &LiftCase::ground, quantity(Dimension::length),
           "height of the ground, or of a dock's floor, under the load: what the clearance from "

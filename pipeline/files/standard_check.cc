@@ -124,7 +124,7 @@ void check_standard(const LiftCase& lift_case, Diagnostics& diagnostics) {
   if (rules.sling) wear = rules.sling->wear;
   check.choice("wear", "wear", standard.wear, wear, moves);
   for (const RopeInCase& rope : lift_case.ropes)
-    if (!rope.lug().empty()) check.sling(rope);
+    if (rope.is_sling()) check.sling(rope);
   check.shackles();
 }
 

@@ -133,6 +133,7 @@ class Clearances {
       add_pair(load_, {vessel.name.value, body, Solid(surface_of(vessel.model->hull))});
     }
     add_hooks();
+    add_spreaders();
     add_slings();
     for (std::size_t i = 0; i < cranes_.size(); ++i)
       for (std::size_t j = i + 1; j < cranes_.size(); ++j) add_cranes(cranes_[i], cranes_[j]);
@@ -206,6 +207,17 @@ class Clearances {
       add_rope(tackle, load_);
       for (const PlacedSolid& body : cranes_[hoist.crane])
         if (body.body != sheave.body) add_rope(tackle, body);
+    }
+  }
+
+  /// Bars, against the load below them and all cranes.
+  void add_spreaders() {
+    for (const LiftBody& body : lift_.model.bodies) {
+      if (body.kind != "spreader") continue;
+      const PlacedSolid bar{body.name, body.body, Solid(surface_of(body.boxes.front()))};
+      add_pair(load_, bar);
+      for (const auto& crane : cranes_)
+        for (const PlacedSolid& part : crane) add_pair(bar, part);
     }
   }
 

@@ -6,6 +6,7 @@
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/crane_measures.h"
 #include "pipeline/measures/load_measures.h"
+#include "pipeline/measures/spreader_measures.h"
 
 namespace blocklift::pipeline {
 
@@ -48,6 +49,7 @@ MeasurePeak find_peak(const LiftRun& lift, const LiftMeasure& measure) {
 std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun& lift) {
   std::vector<LiftMeasure> measures;
   add_load_measures(lift_case, lift, measures);
+  add_spreader_measures(lift_case, lift, measures);
   add_crane_measures(lift_case, lift, measures);
   add_clearances(lift_case, lift, measures);
   return measures;

@@ -37,8 +37,8 @@ MeasurePeak find_peak(const Eigen::VectorXd& time, const Eigen::VectorXd& values
 /// Of both histories, whichever is further out.
 MeasurePeak find_peak(const LiftRun& lift, const LiftMeasure& measure);
 
-/// All measures of a lift: attitude of the load and angles of its slings, radius, leads and
-/// capacity of hooks, what cranes press on, clearances.
+/// All measures of a lift: attitude of the load and angles of its slings, forces in spreaders,
+/// radius, leads and capacity of hooks, what cranes press on, clearances.
 std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun& lift);
 
 }  // namespace blocklift::pipeline

@@ -18,6 +18,11 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
   list.emplace_back(
       "Ropes are weightless springs with damping along their paths; they pull and never push. All "
       "falls of a tackle are taken together.");
+  if (!lift_case.spreaders.empty()) {
+    list.emplace_back(
+        "Spreaders are rigid bars, their mass spread evenly over their length. As columns they are "
+        "pinned at their ends, in both planes.");
+  }
   list.emplace_back(
       "Drives and winches follow their motion profiles exactly, whatever force that takes.");
   list.push_back(fmt::format(

@@ -20,6 +20,7 @@
 #include "pipeline/results/padeye_summary.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/result_file.h"
+#include "pipeline/results/sling_summary.h"
 #include "pipeline/results/standard_summary.h"
 #include "pipeline/version.h"
 
@@ -474,6 +475,8 @@ Json make_summary(const Assessment& assessment) {
     add_loads(assessment.lift_case, *lift, summary);
     add_watched(*lift, assessment.measures, summary);
   }
+  if (assessment.sling_lengths)
+    summary["sling_lengths"] = sling_lengths_json(*assessment.sling_lengths);
   if (assessment.lift_case.compare)
     summary["comparison"] = comparison_json(assessment.lift_case, lift);
   if (assessment.block.model) summary["structure"] = structure_json(assessment);

@@ -85,14 +85,15 @@ void add_shackle(ChosenShackle chosen, std::vector<ChosenShackle>& shackles) {
 
 bool has_slings(const LiftCase& lift_case) {
   return std::any_of(lift_case.ropes.begin(), lift_case.ropes.end(),
-                     [](const RopeInCase& rope) { return !rope.lug().empty() && !rope.winch; });
+                     [](const RopeInCase& rope) { return rope.is_sling() && !rope.winch; });
 }
 
 Diagnostics complain_of_no_slings(const LiftCase& lift_case) {
   Diagnostics diagnostics;
-  diagnostics.error({std::make_shared<const std::string>(shown_path(lift_case.file)), 0, 0},
-                    "the case has no slings to choose",
-                    {"a sling is a rope that ends at a lug and has no winch of its own"});
+  diagnostics.error(
+      {std::make_shared<const std::string>(shown_path(lift_case.file)), 0, 0},
+      "the case has no slings to choose",
+      {"a sling is a rope that ends at a lug or a spreader and has no winch of its own"});
   return diagnostics;
 }
 
@@ -133,8 +134,10 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
     const std::size_t index = rigged.settled.choice[i];
     rigged.slings.push_back(
         {loads.demands[i], {index, checks.of(rigged.stock.slings[index], loads.demands[i])}});
-    add_shackle(choose_shackle(rigged.stock, runner.the_case(), loads.facts, loads.demands[i]),
-                rigged.shackles);
+    // Those at the eyes of a spreader are its own.
+    if (!loads.demands[i].lug.empty())
+      add_shackle(choose_shackle(rigged.stock, runner.the_case(), loads.facts, loads.demands[i]),
+                  rigged.shackles);
   }
   rigged.lift_case = runner.take_case();
   return rigged;

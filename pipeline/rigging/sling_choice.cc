@@ -111,7 +111,8 @@ std::vector<SlingDemand> sling_demands(const LiftCase& lift_case, const LiftRun&
   const auto in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
   std::vector<SlingDemand> demands;
   for (const LiftRope& rope : lift.model.ropes) {
-    if (rope.lug.empty() || lift_case.find_rope(rope.name)->winch) continue;
+    const RopeInCase& in_case = *lift_case.find_rope(rope.name);
+    if (!in_case.is_sling() || in_case.winch) continue;
     const auto i = static_cast<std::size_t>(rope.rope);
     demands.push_back({rope.name, rope.lug, at_rest[i].tension, in_motion[i].tension});
   }

@@ -15,7 +15,7 @@ namespace blocklift::pipeline {
 /// What a run asks of a sling.
 struct SlingDemand {
   std::string rope;
-  std::string lug;
+  std::string lug;       ///< that it ends at; empty for a sling to a spreader
   double at_rest = 0;    ///< largest tension of the equilibria, N
   double in_motion = 0;  ///< largest tension of the motion, N
 };
@@ -55,7 +55,7 @@ struct ChosenSling {
 /// @throws InputError where every sling of the stock has an obstacle.
 ChosenSling choose_sling(const Stock& stock, const SlingChecks& checks, const SlingDemand& demand);
 
-/// Largest tensions of the ropes that end at lugs and have no winch of their own.
+/// Largest tensions of the ropes that end at lugs or spreaders and have no winch of their own.
 std::vector<SlingDemand> sling_demands(const LiftCase& lift_case, const LiftRun& lift);
 
 }  // namespace blocklift::pipeline

@@ -88,7 +88,7 @@ struct StressFacts {
 struct LiftFacts {
   std::string rest_is_from = "equilibria of the operation";  ///< where loads at rest come from
   double net_weight = 0;                                     ///< N
-  double rigging = 0;                                        ///< of all slings, N
+  double rigging = 0;                                        ///< of all slings and spreaders, N
   bool has_rigging_weight = true;                            ///< every sling's model gives its mass
   double at_rest = 0;            ///< largest load on all hooks together, hook blocks apart, N
   double in_motion = 0;          ///< likewise

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/checks/gather_facts.h"
 #include "tests/pipeline/small_lift.h"
+#include "tests/pipeline/spreader_lift.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -69,8 +71,39 @@ TEST(RiggingFacts, TolerancesRaiseTheLoads) {
     EXPECT_GT(*computed.skew, 1);
     EXPECT_GT(*computed.centre_box, 1);
     EXPECT_LT(*computed.centre_box, 1.5);
-    EXPECT_FALSE(rigging.weight_of(s));
+    EXPECT_FALSE(rigging.weight_of(rigging.slings()[s]));
   }
+}
+
+// A standard takes slings above a bar as it takes those to lugs, and the bar's weight as rigging's;
+// what a balance of single ropes would compute is left out.
+TEST(RiggingFacts, TakeSlingsAboveASpreader) {
+  const test::TemporaryFolder folder;
+  test::spreader_lift().write(folder);
+  LiftCase lift_case = read_lift_case("case.yaml");
+  lift_case.standard.emplace();
+  lift_case.standard->length_tolerance = 0.0025;
+  LoadMass load;
+  load.mass = 10e3;
+  load.p_BoBcm_B = {2, 0, 0.5};
+  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
+  LiftRun run = run_lift(lift_case, build_lift(lift_case, load), [](auto&&...) {});
+  const double bar = lift_case.find_spreader("B1")->mass() * lift_case.gravity;
+  const Assessment assessment{std::move(lift_case), std::move(run), {}, {}, {}, {}, 0};
+  const LiftFacts facts = gather_facts(assessment);
+  ASSERT_EQ(facts.slings.size(), 4U);
+  EXPECT_EQ(facts.slings[0].name, "R1");
+  EXPECT_EQ(facts.slings[2].name, "U1");
+  EXPECT_EQ(facts.slings[2].lug, "");
+  EXPECT_GT(facts.slings[2].load.at_rest, facts.slings[0].load.at_rest);
+  for (const SlingFacts& sling : facts.slings) {
+    EXPECT_EQ(sling.hook, "C1.left");
+    EXPECT_EQ(sling.slings_on_hook, 2);
+    EXPECT_FALSE(sling.computed.skew);
+  }
+  EXPECT_NEAR(facts.rigging, bar, 1e-9 * bar);
+  // The loads of the hook in the motion have the bar already.
+  EXPECT_EQ(facts.hooks[0].rigging, 0);
 }
 
 }  // namespace

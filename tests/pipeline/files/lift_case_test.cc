@@ -4,9 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/sample_lift.h"
+#include "tests/pipeline/spreader_lift.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 using test::SampleLift;
 using test::TemporaryFolder;
 using test::with;
+using ::testing::HasSubstr;
 
 /// What is said about a lift, with no models but those beside its case.
 std::string complaints_about(const SampleLift& lift) {
@@ -88,8 +90,8 @@ TEST(LiftCaseTest, ReadsALoadTable) {
 TEST(LiftCaseErrors, UnknownKey) {
   EXPECT_EQ(complaints_about_case("settle: 10 s", "setle: 10 s"),
             "case.yaml:20:1: error: lift case has no key \"setle\"\n"
-            "    its keys are case, title, document, gravity, load, cranes, ropes, ground, "
-            "supports, wind, sea, vessels, ... (23 in all); did you mean \"settle\"?\n"
+            "    its keys are case, title, document, gravity, load, cranes, spreaders, ropes, "
+            "sling_tolerance, ground, supports, wind, ... (25 in all); did you mean \"settle\"?\n"
             "1 error\n");
 }
 
@@ -191,6 +193,57 @@ TEST(LiftCaseErrors, WinchThatPullsItsRopeThroughTheSheave) {
             "outside its range\n"
             "    its range is 1 m to 9 m, and it starts the operation at 5 m\n"
             "1 error\n");
+}
+
+std::string complaints_about_spreader(const std::string& old_passage,
+                                      const std::string& new_passage) {
+  SampleLift lift = test::spreader_lift();
+  lift.lift_case = with(lift.lift_case, old_passage, new_passage);
+  return complaints_about(lift);
+}
+
+TEST(LiftCaseErrors, EyeThatASpreaderDoesNotHave) {
+  EXPECT_EQ(
+      complaints_about_spreader("to: B1.upper_b", "to: B1.uper_b"),
+      "case.yaml:18:27: error: rope U2 ends at \"B1.uper_b\", which is no eye of spreader B1\n"
+      "    its eyes are B1.upper_a, B1.upper_b, B1.lower_a, B1.lower_b; did you mean "
+      "\"B1.upper_b\"?\n1 error\n");
+}
+
+TEST(LiftCaseErrors, SlingsThatDoNotReachAroundASpreader) {
+  EXPECT_EQ(
+      complaints_about_spreader("upper_b, model: ropes/tackle, length: 2.5 m",
+                                "upper_b, model: ropes/tackle, length: 1.5 m"),
+      "case.yaml:17:68: error: slings U1 and U2 are too short: 2.5 m and 1.5 m from one point "
+      "do not reach the eyes of spreader B1, which are 4 m apart\n1 error\n");
+}
+
+TEST(LiftCaseErrors, SpreaderThatHangsOnNothing) {
+  EXPECT_EQ(complaints_about_spreader("spreaders:\n",
+                                      "spreaders:\n"
+                                      "  B2: {length: 2 m, section: {pipe: [100 mm, 5 mm]}, "
+                                      "yield_stress: 235 MPa}\n"),
+            "case.yaml:9:3: error: no sling ends at spreader B2\n"
+            "    slings from above end at B2.upper_a and B2.upper_b, those to the load begin at "
+            "B2.lower_a and B2.lower_b\n1 error\n");
+}
+
+TEST(LiftCaseErrors, SpreaderOfAThinOrImpossibleWall) {
+  EXPECT_EQ(complaints_about_spreader("[168.3 mm, 8 mm]", "[168.3 mm, 2 mm]"),
+            "case.yaml:11:14: error: the wall of spreader B1 is too thin: diameter over thickness "
+            "is 84.2\n    up to 59.6 a wall of this steel yields before it buckles "
+            "(EN 1993-1-1, table 5.2, class 3)\n1 error\n");
+  EXPECT_THAT(complaints_about_spreader("[168.3 mm, 8 mm]", "[168.3 mm, 90 mm]"),
+              HasSubstr("a wall of 90 mm is thicker than half of the section's 168.3 mm"));
+  EXPECT_THAT(complaints_about_spreader("pipe: [168.3 mm, 8 mm]", ""),
+              HasSubstr("has 0 shapes, and one is due"));
+}
+
+TEST(LiftCaseErrors, SpreaderWithAnothersName) {
+  EXPECT_THAT(complaints_about_spreader("  B1:\n",
+                                        "  load: {length: 2 m, section: {pipe: [100 mm, "
+                                        "5 mm]}, yield_stress: 235 MPa}\n  B1:\n"),
+              HasSubstr("a spreader cannot be named \"load\""));
 }
 
 // From rest to rest over 2 m at 0.1 m/s, 0.1 m/s2, 0.2 m/s3: 2/0.1 + 0.1/0.1 + 0.1/0.2 = 21.5 s

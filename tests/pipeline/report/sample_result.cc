@@ -179,6 +179,21 @@ nlohmann::ordered_json standard_summary() {
           {"chains", json::array({chain})}};
 }
 
+nlohmann::ordered_json sling_lengths() {
+  using json = nlohmann::ordered_json;
+  const json tensions{{"R1", 5e5}, {"R2", 5e5}}, changed{{"R1", 4.5e5}, {"R2", 5.5e5}};
+  const json meant{{"tensions_N", tensions}, {"tilt_rad", 0.0}};
+  const json off{{"tensions_N", changed}, {"tilt_rad", 0.025}};
+  const json error{{"sling", "R1"}, {"longer", off}, {"shorter", off}};
+  return {{"tolerance", 0.0025},
+          {"time_s", 0.0},
+          {"lengths_m", {{"R1", 10.0}, {"R2", 10.0}}},
+          {"meant", meant},
+          {"errors", json::array({error})},
+          {"worst", {{"tensions_N", {{"R1", 6.2e5}, {"R2", 6.2e5}}}, {"tilt_rad", 0.03}}},
+          {"level", {{"tensions_N", tensions}, {"lengths_m", {{"R1", 9.876}, {"R2", 10.1}}}}}};
+}
+
 }  // namespace
 
 void write_sample_result(const std::filesystem::path& folder, const SampleParts& parts) {
@@ -213,6 +228,7 @@ void write_sample_result(const std::filesystem::path& folder, const SampleParts&
     write_scene(writer);
     write_modes(writer);
     summary["natural_periods"] = natural_periods();
+    summary["sling_lengths"] = sling_lengths();
   }
   if (parts.structure) {
     write_structure(writer);

@@ -12,7 +12,7 @@
 
 #include "pipeline/rigging/rigged_case.h"
 #include "tests/pipeline/rigging/sample_stock.h"
-#include "tests/pipeline/sample_lift.h"
+#include "tests/pipeline/spreader_lift.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -48,6 +48,21 @@ RiggedLift rig_sample(const TemporaryFolder& folder, const std::string& lift_cas
   auto read = read_lift_case("case.yaml", library, diagnostics);
   if (!read) throw InputError(diagnostics);
   return rig_lift(std::move(*read), std::move(stock), ignore_progress);
+}
+
+// Slings that lean by 2 m in 1.5 m over the bar's eyes carry 5 / 3 of those below them.
+TEST(RigLiftTest, ChoosesSlingsAboveASpreaderToo) {
+  const TemporaryFolder folder;
+  const RiggedLift rigged =
+      rig_sample(folder, test::spreader_lift().lift_case, {200, 245, 270, 460, 600});
+  EXPECT_TRUE(rigged.pass());
+  ASSERT_EQ(rigged.slings.size(), 4U);
+  const std::vector<double> chosen = {460e3, 460e3, 270e3, 270e3};
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_DOUBLE_EQ(rigged.stock.slings[rigged.slings[i].chosen.index].sling.rope.breaking_load,
+                     chosen[i]);
+  ASSERT_EQ(rigged.shackles.size(), 2U);
+  EXPECT_EQ(rigged.shackles[0].lug, "L1");
 }
 
 // Half the weight, 49.05 kN, asks for 245.25 kN and 5.0 t; the motion adds a few per cent.

@@ -54,6 +54,16 @@ export interface Measure {
   name: string; subject: string; kind: string; unit: string; extreme?: string; meaning?: string;
   static?: Maybe<number>; time_of_static_s?: Maybe<number>; dynamic?: Maybe<number>; time_of_dynamic_s?: Maybe<number>;
 }
+/** The lift at rest with slings of some lengths. */
+export interface SlingState {
+  tensions_N?: Record<string, Maybe<number>>; tilt_rad?: Maybe<number>; trim_rad?: Maybe<number>; list_rad?: Maybe<number>;
+}
+export interface SlingLengths {
+  tolerance?: number; time_s?: number; trouble?: string; lengths_m?: Record<string, number>; meant?: SlingState;
+  errors?: { sling: string; longer: SlingState; shorter: SlingState }[];
+  worst?: { tensions_N?: Record<string, Maybe<number>>; tilt_rad?: Maybe<number> };
+  level?: SlingState & { lengths_m?: Record<string, number> };
+}
 export interface StructureState {
   checked_von_mises_Pa?: Maybe<number>; peak_von_mises_Pa?: Maybe<number>; max_displacement_m?: Maybe<number>;
   force_residual?: Maybe<number>; moment_residual?: Maybe<number>; reaction_over_weight?: Maybe<number>;
@@ -154,6 +164,7 @@ export interface Standard {
   name: string; title?: string; edition?: string; source?: string; notes?: string[]; governing?: string; chains: Chain[];
 }
 export interface Summary {
+  sling_lengths?: SlingLengths;
   standard?: Maybe<Standard>;
   verdict?: string; verdict_reasons?: string[]; checks?: Check[];
   ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[]; loops?: LoadMaxima[];

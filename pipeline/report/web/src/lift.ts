@@ -13,7 +13,7 @@ import { kilonewtons, missing, seconds, significant, tonnesForce } from "./numbe
 import { BlockSurface } from "./surface";
 import { canDraw, Viewer } from "./viewer";
 
-const shades: Record<string, number> = { crane: 0xdfe5ea, trolley: 0xb9c6d1, "hook block": 0xe0b04c, load: 0xa9bccd };
+const shades: Record<string, number> = { crane: 0xdfe5ea, trolley: 0xb9c6d1, "hook block": 0xe0b04c, spreader: 0xe0b04c, load: 0xa9bccd };
 
 interface Rope { name: string; sling: boolean; segments: three.Mesh[]; label?: { point: three.Vector3 }; path: (time: number) => Vector[] }
 

@@ -12,6 +12,7 @@ import { measuresSection } from "./measures";
 import { modesSection, VibrationPlayer } from "./modes";
 import { padeyesSection } from "./padeyes";
 import { Section } from "./section";
+import { slingsSection } from "./slings";
 import { standardSection } from "./standard";
 import { stressSection } from "./stress";
 import { structureSection } from "./structure";
@@ -36,7 +37,7 @@ function show(): void {
   let annex = document.getElementById("annex");
   if (!annex) report.append(annex = h("section", { id: "annex" }, h("h2", {}, "Annex")));
   const makers: (() => Section | null)[] = [
-    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock), () => measuresSection(data, clock),
+    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock), () => measuresSection(data, clock), () => slingsSection(data),
     () => stressSection(data), () => structureSection(data), () => padeyesSection(data),
     () => standardSection(data), () => accuracySection(data), () => methodSection(data),
   ];

@@ -11,6 +11,7 @@ import type { Section } from "./section";
 export function measureText(value: unknown, unit: string): string {
   if (!known(value)) return missing;
   if (unit === "N") return `${kilonewtons(value)} kN`;
+  if (unit === "N m") return `${kilonewtons(value)} kN m`;
   if (unit === "rad") return `${fixed(value * 180 / Math.PI, 2)}\u00a0°`;
   if (unit === "m") return `${fixed(value, 2)} m`;
   return unit === "1" ? share(value) : `${value} ${unit}`;

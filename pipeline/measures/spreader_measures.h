@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/measures/measure.h"
+#include "structure/practice/column.h"
+
+namespace blocklift::pipeline {
+
+/// A force on a bar at a point, both in the bar's frame.
+struct BarForce {
+  Vector3 p_BoQ_B = Vector3::Zero();  ///< m
+  Vector3 f_B = Vector3::Zero();      ///< N
+};
+
+/// The largest compression along a straight bar about its middle (the largest pull, negative, if it
+/// is pressed nowhere), and the largest moments about its axes y and z, each by itself.
+///
+/// Weight and inertia are those of an even rod: a load along it, linear in x, that balances forces
+/// and moments exactly, so that no acceleration is asked for. Moments are those about the bar's axis
+/// where it is straight: that of an eye beside it joins at the eye.
+structure::ColumnForces largest_forces(const std::vector<BarForce>& forces, double length);
+
+/// The factor on the forces in spreaders.
+double spreader_factor(const CheckSettings& checks);
+
+/// For each spreader its compression, its bending moment, and what it bears over what it may, by
+/// structure::column_utilisation.
+void add_spreader_measures(const LiftCase& lift_case, const LiftRun& lift,
+                           std::vector<LiftMeasure>& measures);
+
+}  // namespace blocklift::pipeline

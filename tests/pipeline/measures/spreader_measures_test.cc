@@ -1,0 +1,169 @@
+#include "pipeline/measures/spreader_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/checks/measure_checks.h"
+#include "pipeline/measures/clearance.h"
+#include "tests/pipeline/spreader_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr double gravity = 9.81;
+
+/// A lift of the sample's plate of 10 t on a bar.
+struct BarLift {
+  LiftCase lift_case;
+  LiftRun run;
+  std::vector<LiftMeasure> measures;
+
+  const LiftMeasure& measure(const std::string& name) const {
+    for (const LiftMeasure& one : measures)
+      if (one.name() == name) return one;
+    throw std::out_of_range(name);
+  }
+};
+
+BarLift lift_on_bar(const test::SampleLift& parts) {
+  const test::TemporaryFolder folder;
+  parts.write(folder);
+  LiftCase lift_case = read_lift_case("case.yaml");
+  LoadMass load;
+  load.mass = 10e3;
+  load.p_BoBcm_B = {2, 0, 0.5};
+  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
+  LiftRun run = run_lift(lift_case, build_lift(lift_case, load), [](auto&&...) {});
+  std::vector<LiftMeasure> measures;
+  add_spreader_measures(lift_case, run, measures);
+  return {std::move(lift_case), std::move(run), std::move(measures)};
+}
+
+const BarLift& plain_lift() {
+  static const BarLift lift = lift_on_bar(test::spreader_lift());
+  return lift;
+}
+
+// A bar between two slings that lean by a, under a load of W at each end: N = W tan a, and the
+// eyes e above it bend it by N e, as its own weight w does by w L^2 / 8.
+TEST(LargestForces, OfABarUnderTwoSlings) {
+  const double W = 50e3, w = 600, L = 8, e = 0.3, tangent = 0.75;
+  const double V = W + w * L / 2, H = V * tangent;
+  const auto forces = largest_forces({{{-L / 2, 0, e}, {H, 0, V}},
+                                      {{L / 2, 0, e}, {-H, 0, V}},
+                                      {{-L / 2, 0, -0.1}, {0, 0, -W}},
+                                      {{L / 2, 0, -0.1}, {0, 0, -W}}},
+                                     L);
+  EXPECT_NEAR(forces.compression, H, 1e-9 * H);
+  EXPECT_NEAR(forces.moments[0], H * e + w * L * L / 8, 1e-9 * H);
+  EXPECT_NEAR(forces.moments[1], 0, 1e-9 * H);
+}
+
+// Eyes on the axis: the weight alone bends, upwards sagging in the middle.
+TEST(LargestForces, OfABarsOwnWeight) {
+  const double w = 500, L = 10;
+  const auto forces =
+      largest_forces({{{-L / 2, 0, 0}, {0, 0, w * L / 2}}, {{L / 2, 0, 0}, {0, 0, w * L / 2}}}, L);
+  EXPECT_NEAR(forces.compression, 0, 1e-9);
+  EXPECT_NEAR(forces.moments[0], w * L * L / 8, 1e-9 * w * L * L);
+}
+
+// A free rod pushed sideways at its end: the largest moment, 4/27 F L, lies a third of the way from
+// the other end (Timoshenko and Young, Advanced dynamics).
+TEST(LargestForces, OfARodThatIsAccelerated) {
+  const double F = 1e3, L = 6;
+  const auto forces = largest_forces({{{L / 2, 0, 0}, {0, F, 0}}}, L);
+  EXPECT_NEAR(forces.moments[1], 4.0 / 27 * F * L, 0.003 * F * L);
+  EXPECT_LE(forces.moments[1], 4.0 / 27 * F * L * (1 + 1e-12));
+}
+
+TEST(LargestForces, OfABarThatIsPulledAreNegative) {
+  const auto forces = largest_forces({{{-1, 0, 0}, {-7, 0, 0}}, {{1, 0, 0}, {7, 0, 0}}}, 2);
+  EXPECT_NEAR(forces.compression, -7, 1e-12);
+}
+
+// Slings of 2.5 m from one hook to the ends of a bar of 4 m rise by 1.5 m: N = V tan = V 2 / 1.5 of
+// half the load and half the bar.
+TEST(SpreaderMeasures, CompressionAtRestIsThatOfTheTriangle) {
+  const BarLift& lift = plain_lift();
+  const double bar = lift.lift_case.find_spreader("B1")->mass();
+  const double pi = std::acos(-1.0), outer = 0.08415, inner = 0.07615;
+  EXPECT_NEAR(bar, 7850 * 4 * pi * (outer * outer - inner * inner), 1e-9 * bar);
+  const double V = (10e3 + bar) * gravity / 2;
+  const double stretched = 2.5 * (1 + V * 2.5 / 1.5 / 200e6);
+  const double H = V * 2 / std::sqrt(stretched * stretched - 4);
+  EXPECT_NEAR(lift.measure("B1: compression").at_rest[0], H, 1e-6 * H);
+  const double M = H * 0.2 + bar * gravity * 4 / 8;
+  EXPECT_NEAR(lift.measure("B1: bending moment").at_rest[0], M, 1e-5 * M);
+  const structure::Column column = lift.lift_case.find_spreader("B1")->column();
+  EXPECT_NEAR(lift.measure("B1: share of the resistance").at_rest[0],
+              structure::column_utilisation(
+                  column, {lift.measure("B1: compression").at_rest[0], {M, 0}}, 1.5),
+              1e-5);
+}
+
+// In motion the bar is pressed as the sum of the slings below asks, within its own small inertia.
+TEST(SpreaderMeasures, CompressionFollowsTheMotion) {
+  const BarLift& lift = plain_lift();
+  const Eigen::VectorXd& N = lift.measure("B1: compression").in_motion;
+  const dynamics::History& history = lift.run.dynamic_history();
+  const Eigen::VectorXd pull = history.rope("R1").tension + history.rope("R2").tension;
+  EXPECT_GT(N.maxCoeff() / N[0], 1.01);
+  for (Eigen::Index i = 0; i < N.size(); ++i) EXPECT_NEAR(N[i] / N[0], pull[i] / pull[0], 1e-3);
+}
+
+// The bar's lower face is 0.1 + 1.5 m over the lugs' pins less half of the pipe, these 0.2 m over the
+// plate's top, and the slings stretch.
+TEST(SpreaderMeasures, BarKeepsItsDistanceFromTheLoad) {
+  const BarLift& lift = plain_lift();
+  std::vector<LiftMeasure> measures;
+  add_clearances(lift.lift_case, lift.run, measures);
+  const auto clearance = std::find_if(measures.begin(), measures.end(), [](const LiftMeasure& one) {
+    return one.subject == "load to B1";
+  });
+  ASSERT_NE(clearance, measures.end());
+  EXPECT_NEAR(clearance->at_rest[0], 0.1 + 1.5 + 0.2 - 0.1683 / 2, 2e-3);
+}
+
+TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
+  const BarLift& lift = plain_lift();
+  const std::vector<Check> checks = check_measures(lift.lift_case, lift.run, lift.measures);
+  ASSERT_EQ(checks.size(), 2U);
+  EXPECT_EQ(checks[0].name, "spreader B1: compression against buckling load / 1.5");
+  const structure::Column column = lift.lift_case.find_spreader("B1")->column();
+  EXPECT_NEAR(checks[0].limit, structure::buckling_resistance(column) / 1.5, 1e-6);
+  EXPECT_TRUE(checks[0].pass);
+  EXPECT_EQ(checks[1].name, "spreader B1: compression with bending, times 1.5");
+  EXPECT_GT(checks[1].demand, checks[0].utilisation);
+}
+
+// Two tiers: the hook bears a short bar, from whose ends a long one hangs; all plumb but the top.
+TEST(SpreaderMeasures, TwoTiersFindTheirPlaces) {
+  test::SampleLift parts = test::spreader_lift();
+  parts.lift_case = test::with(
+      parts.lift_case,
+      "ropes:\n  U1: {from: C1.left, to: B1.upper_a, model: ropes/tackle, length: 2.5 m}\n"
+      "  U2: {from: C1.left, to: B1.upper_b, model: ropes/tackle, length: 2.5 m}\n",
+      "  B2: {length: 2 m, section: {box: [150 mm, 100 mm, 8 mm]}, yield_stress: 355 MPa}\n"
+      "ropes:\n"
+      "  T1: {from: C1.left, to: B2.upper_a, model: ropes/tackle, length: 1.25 m}\n"
+      "  T2: {from: C1.left, to: B2.upper_b, model: ropes/tackle, length: 1.25 m}\n"
+      "  U1: {from: B2.lower_a, to: B1.upper_a, model: ropes/tackle, length: 1.25 m}\n"
+      "  U2: {from: B2.lower_b, to: B1.upper_b, model: ropes/tackle, length: 1.25 m}\n");
+  const BarLift lift = lift_on_bar(parts);
+  const double lower = lift.lift_case.find_spreader("B1")->mass();
+  const double upper = lift.lift_case.find_spreader("B2")->mass();
+  // Both tiers lean by 0.75 m in 1 m.
+  const double H1 = (10e3 + lower) * gravity / 2 / 0.75;
+  const double H2 = (10e3 + lower + upper) * gravity / 2 / 0.75;
+  EXPECT_NEAR(lift.measure("B1: compression").at_rest[0], H1, 2e-3 * H1);
+  EXPECT_NEAR(lift.measure("B2: compression").at_rest[0], H2 - H1, 1e-3 * H1);
+  EXPECT_EQ(lift.run.model.ropes[4].hoist, "C1.left");
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
