@@ -15,10 +15,6 @@ namespace {
 using dynamics::BodyIndex;
 
 constexpr int heading_count = 72;  // every 5 degrees
-// Errors of the fitted memory over its peak, and the states that may be spent on them.
-constexpr double close_fit = 0.005, fair_fit = 0.02, loose_fit = 0.1;
-constexpr int states_of_close_fit = 400, states_of_loose_fit = 600;
-
 dynamics::Water water_of(const SeaInCase& sea, double gravity) {
   dynamics::Water water;
   water.density = sea.density;
@@ -65,6 +61,17 @@ double wave_length(double frequency, const dynamics::Water& water) {
 }
 
 }  // namespace
+
+dynamics::MemoryFit memory_fit_of_vessels() {
+  dynamics::MemoryFit fit;
+  fit.tolerance = 0.005;
+  fit.most_states = 400;
+  fit.acceptable_error = 0.02;
+  // Water that swings long between two hulls takes more states.
+  fit.loose_tolerance = 0.1;
+  fit.most_loose_states = 600;
+  return fit;
+}
 
 int RadiationProblem::lowered_body() const {
   const auto found = std::find_if(bodies.begin(), bodies.end(),
@@ -422,12 +429,7 @@ std::shared_ptr<const dynamics::RadiatedWater> MarineBuilder::make_water(
   }
   water.series = std::make_shared<const dynamics::HydrodynamicSeries>(*series);
   water.mark = draught_mark(vessels, point);
-  water.memory_tolerance = close_fit;
-  water.most_states = states_of_close_fit;
-  water.acceptable_error = fair_fit;
-  // Water that swings long between two hulls takes more states.
-  water.loose_tolerance = loose_fit;
-  water.most_loose_states = states_of_loose_fit;
+  water.fit = memory_fit_of_vessels();
   return std::make_shared<const dynamics::RadiatedWater>(water);
 }
 

@@ -82,6 +82,10 @@ dynamics::PanelModel make_panel_model(const RadiationProblem& problem);
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
                                                  const dynamics::PanelModel& model);
 
+/// How closely the memory of vessels' water is fitted: to 0.5 % of its peak, or to 2 or 10 % where
+/// water that swings between hulls would take too many states.
+dynamics::MemoryFit memory_fit_of_vessels();
+
 /// Makes of marine parts the bodies that float and what acts on them. The parts must outlive the
 /// builder and be sound.
 class MarineBuilder {
@@ -113,8 +117,8 @@ class MarineBuilder {
   void add_hull(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
                 const DampingInCase& linear, const DampingInCase& quadratic, double displaced_mass,
                 bool at_rest, dynamics::ForceElements& elements);
-  /// The radiated water of the vessels; null without databases. Its memory is fitted to 0.5 % of
-  /// its peak, or to 2 or 10 % where water that swings between hulls would take too many states.
+  /// The radiated water of the vessels; null without databases. Its memory is that
+  /// of the series, or is fitted by memory_fit_of_vessels().
   /// With a surface that is marched the water has its added mass, and no memory of its own.
   /// @throws dynamics::ModelError if even that is not reached.
   std::shared_ptr<const dynamics::RadiatedWater> make_water(
