@@ -39,7 +39,13 @@ struct RadiationProblem {
   std::vector<double> frequencies;  ///< rad/s, ascending
   std::vector<double> headings;     ///< rad, a whole turn
   Mark place;                       ///< of what the file says about radiation
-  bool direct = false;              ///< the surface is marched beside the vessels: no database
+  /// Of the one vessel whose mean drift is asked for, floating freely, 6 x 6 about its reference
+  /// point along the axes of D; none: no drift, or one that `given` tells.
+  struct FreeVessel {
+    Eigen::MatrixXd mass, stiffness, damping;
+  };
+  std::optional<FreeVessel> drifting = std::nullopt;
+  bool direct = false;  ///< the surface is marched beside the vessels: no database
   std::vector<dynamics::RegularWave> waves;  ///< that they scatter meanwhile, in D
   dynamics::WaveRamp ramp;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of D in W, m
@@ -138,6 +144,11 @@ class MarineBuilder {
                   dynamics::ForceElements& elements);
   void add_restraint(const VesselInCase& vessel, dynamics::BodyIndex body,
                      dynamics::ForceElements& elements) const;
+  void add_current_load(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
+                        dynamics::ForceElements& elements);
+  /// As it floats, with what stands on it at its own centre of mass.
+  RadiationProblem::FreeVessel free_vessel(const VesselInCase& vessel,
+                                           const Vector3& p_BoR_B) const;
   void add_lines(const BodyOf& point, dynamics::ForceElements& elements) const;
   /// A body that makes waves, at rest.
   struct Radiating {

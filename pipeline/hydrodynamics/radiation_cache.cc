@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/mean_drift.h"
+#include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/formats/hull_hash.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
 #include "pipeline/formats/memory_file.h"
@@ -66,6 +68,8 @@ std::string identity_of(const RadiationProblem& problem) {
   hash.add(problem.water.depth);
   hash.add(problem.frequencies);
   hash.add(problem.headings);
+  // Others are kept under the names that they had before there was a far field.
+  if (problem.drifting) hash.add("far field");
   return hash.digits();
 }
 
@@ -235,6 +239,14 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
     series = find_series(problem, say);
   } else {
     series = {0, {0.0}, {find_database(problem, "", say)}};
+  }
+  if (problem.drifting) {
+    dynamics::HydrodynamicDatabase& database = series.databases.front();
+    database.hydrostatic_stiffness = problem.drifting->stiffness;
+    database.mean_drift = calc_mean_drift(
+        database,
+        calc_response_amplitudes(database, problem.drifting->mass, problem.drifting->damping),
+        problem.drifting->damping);
   }
   series.memories = find_memories(series.databases, memory_fit_of_vessels(), say);
   return std::make_shared<const dynamics::HydrodynamicSeries>(std::move(series));

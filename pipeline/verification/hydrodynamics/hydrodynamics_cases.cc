@@ -13,6 +13,8 @@ std::vector<VerificationCase> hydrodynamics_cases() {
           two_hemispheres(),
           haskind_relation(),
           standing_cylinder(),
+          mean_drift_of_waves(),
+          drag_of_a_current(),
           free_decay_of_a_sphere(),
           sphere_through_files()};
 }
