@@ -94,7 +94,8 @@ dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem:
   dynamics::Hull hull =
       read_hull(folder / model.hull.file->path.value,
                 {.close_openings = model.hull.file->close_openings, .panel_size = panel_size});
-  for (const int axis : model.hull.file->symmetric_in) hull = made_symmetric(hull, axis);
+  const std::vector<int>& axes = model.hull.file->symmetric_in;
+  if (!axes.empty()) hull = made_symmetric(hull, axes);
   return model.hydrodynamics.as_meshed ? with_freeboard(hull) : hull;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "dynamics/errors.h"
@@ -114,7 +115,15 @@ class PositiveHalf {
   std::map<std::pair<int, int>, int> crossings_;
 };
 
-void require_symmetric(const Hull& hull, const Hull& symmetric, int axis) {
+std::string planes_of(const std::vector<int>& axes) {
+  std::string text;
+  for (const int axis : axes) {
+    text += (text.empty() ? "" : " and ") + std::string(axis == 0 ? "x = 0" : "y = 0");
+  }
+  return text;
+}
+
+void require_symmetric(const Hull& hull, const Hull& symmetric, const std::vector<int>& axes) {
   const EnclosedVolume before = calc_enclosed_volume(hull);
   const EnclosedVolume after = calc_enclosed_volume(symmetric);
   const auto [low, high] = hull.bounds();
@@ -125,8 +134,8 @@ void require_symmetric(const Hull& hull, const Hull& symmetric, int axis) {
   const double off_inertia = difference.norm() / inertia.norm();
   if (off_volume <= 0.01 && off_centre <= 0.01 && off_inertia <= 0.02) return;
   std::ostringstream text;
-  text << "the hull is not symmetric in the plane " << (axis == 0 ? "x" : "y")
-       << " = 0 of its frame: its positive side with the image of that holds " << after.volume
+  text << "the hull is not symmetric in " << planes_of(axes)
+       << " of its frame: what lies on the positive side, with its images, holds " << after.volume
        << " m3 about (" << after.centre.transpose() << ") m, and the mesh " << before.volume
        << " m3 about (" << before.centre.transpose() << ") m";
   throw ModelError(text.str());
@@ -134,16 +143,19 @@ void require_symmetric(const Hull& hull, const Hull& symmetric, int axis) {
 
 }  // namespace
 
-Hull made_symmetric(const Hull& hull, int axis) {
-  const Hull half = PositiveHalf(moved_onto_plane(hull, axis), axis).take();
-  if (half.panel_count() == 0) {
-    throw ModelError(std::string("no panel of the hull lies at positive ") +
-                     (axis == 0 ? "x" : "y"));
+Hull made_symmetric(const Hull& hull, const std::vector<int>& axes) {
+  Hull part = hull;
+  for (const int axis : axes) {
+    part = PositiveHalf(moved_onto_plane(part, axis), axis).take();
+    if (part.panel_count() == 0) {
+      throw ModelError("the hull is not symmetric in " + planes_of(axes) +
+                       " of its frame: no panel lies at positive " + (axis == 0 ? "x" : "y"));
+    }
   }
   const auto [low, high] = hull.bounds();
-  Hull both = with_mirror_image(half, axis, 1e-9 * (high - low).norm());
-  require_symmetric(hull, both, axis);
-  return both;
+  for (const int axis : axes) part = with_mirror_image(part, axis, 1e-9 * (high - low).norm());
+  require_symmetric(hull, part, axes);
+  return part;
 }
 
 }  // namespace blocklift::dynamics

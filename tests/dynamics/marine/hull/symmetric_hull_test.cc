@@ -60,7 +60,7 @@ void expect_images(const Hull& hull, int axis) {
 TEST(SymmetricHull, IsClosedAndItsOwnImage) {
   const Hull sphere = slanted_sphere(5.0);
   ASSERT_THAT(diagnose(sphere, {.largest_warp = 0.5}), IsEmpty());
-  const Hull both = made_symmetric(made_symmetric(sphere, 1), 0);
+  const Hull both = made_symmetric(sphere, {1, 0});
   EXPECT_THAT(diagnose(both, {.largest_warp = 0.5}), IsEmpty());
   expect_images(both, 0);
   expect_images(both, 1);
@@ -81,18 +81,18 @@ TEST(SymmetricHull, IsClosedAndItsOwnImage) {
 // What is symmetric already keeps its volume to the last digit.
 TEST(SymmetricHull, ABargeStaysABarge) {
   const Hull barge = make_barge({.length = 40, .breadth = 20, .depth = 6}, {8, 5, 3, 2});
-  const Hull both = made_symmetric(barge, 1);
+  const Hull both = made_symmetric(barge, {1});
   EXPECT_THAT(diagnose(both, {}), IsEmpty());
   EXPECT_NEAR(calc_enclosed_volume(both).volume, 40 * 20 * 6, 1e-9);
 }
 
 TEST(SymmetricHull, RefusesWhatIsNotSymmetric) {
   const Hull aside = transform(Pose::translation({0, 1.0, 0}), slanted_sphere(5.0));
-  EXPECT_THAT([&] { made_symmetric(aside, 1); },
-              ThrowsMessage<ModelError>(HasSubstr("not symmetric in the plane y = 0")));
+  EXPECT_THAT([&] { made_symmetric(aside, {1}); },
+              ThrowsMessage<ModelError>(HasSubstr("not symmetric in y = 0")));
   const Hull beyond = transform(Pose::translation({-20.0, 0, 0}), slanted_sphere(5.0));
-  EXPECT_THAT([&] { made_symmetric(beyond, 0); },
-              ThrowsMessage<ModelError>(HasSubstr("no panel of the hull lies at positive x")));
+  EXPECT_THAT([&] { made_symmetric(beyond, {0}); },
+              ThrowsMessage<ModelError>(HasSubstr("no panel lies at positive x")));
 }
 
 }  // namespace
