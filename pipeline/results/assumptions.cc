@@ -90,8 +90,8 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
         "on "
         "the vessel as it floats freely in regular waves (Maruo's formula, or those of the "
         "database "
-        "that the case names). The little of it that the waves' pressure on the moving hull has "
-        "already is counted twice.",
+        "that the case names). What the waves' pressure on the moving hull has of it already is "
+        "counted twice.",
         drifting));
   }
   if (lift_case.load.vessel) {

@@ -114,7 +114,6 @@ TEST_F(HydroCommand, ComputesMeanDriftOfASingleVessel) {
   while (lines >> period >> heading >> other >> mode >> modulus >> phase >> real >> imaginary) {
     if (mode != 1 || heading != 0.0) continue;
     EXPECT_GT(real, 0.0) << period;
-    EXPECT_LT(real, 4.0) << "half of 8 m of breadth, were all waves thrown back";
     ++from_astern;
   }
   EXPECT_EQ(from_astern, 4);

@@ -158,7 +158,7 @@ TEST(Wamit, ScalesAsItsManualSays) {
 TEST(Wamit, TakesMeanDriftOver) {
   const test::TemporaryFolder folder;
   std::string radiation, excitation, drift, momentum;
-  for (const std::string period : {"4.0", "8.0"}) {
+  for (const std::string period : {"4.0", "8.0", "16.0"}) {
     radiation += period + " 3 3 0.7 0.2\n";
     for (const std::string heading : {"0.0", "90.0"}) {
       excitation += period + " " + heading + " 3 5.0 53.13 3.0 4.0\n";
@@ -172,10 +172,10 @@ TEST(Wamit, TakesMeanDriftOver) {
   folder.write("barge.3", excitation);
   folder.write("barge.8", momentum);
   const WamitScales scales{2.0, {1000.0, 10.0}};
-  EXPECT_DOUBLE_EQ(read_wamit("barge", scales).mean_drift.at(1)(0, 1), 10000 * 2 * 9.0);
+  EXPECT_DOUBLE_EQ(read_wamit("barge", scales).mean_drift.at(2)(0, 1), 10000 * 2 * 9.0);
   folder.write("barge.9", drift);
   const HydrodynamicDatabase database = read_wamit("barge", scales);
-  ASSERT_EQ(database.mean_drift.size(), 2U);
+  ASSERT_EQ(database.mean_drift.size(), 3U);
   EXPECT_DOUBLE_EQ(database.mean_drift[0](0, 1), -10000 * 2 * 0.5);
   EXPECT_DOUBLE_EQ(database.mean_drift[1](5, 0), 10000 * 4 * 0.25);
   EXPECT_EQ(database.mean_drift[0](1, 0), 0.0);
@@ -184,7 +184,7 @@ TEST(Wamit, TakesMeanDriftOver) {
               HasSubstr("heading 45 degrees are not among those"));
   folder.write("barge.9", "4.0 0.0 0.0 1 9.0 0.0 9.0 0.0\n");
   EXPECT_THAT(message_of_import([&] { read_wamit("barge", scales); }),
-              HasSubstr("mean drift for 1 of 4 periods and headings"));
+              HasSubstr("mean drift for 1 of 6 periods and headings"));
 }
 
 TEST(Wamit, MeanDriftComesBack) {
