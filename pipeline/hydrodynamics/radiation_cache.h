@@ -19,13 +19,13 @@ std::filesystem::path cache_folder();
 /// that stay.
 std::string identity_of(const RadiationProblem& problem);
 
-/// What tells fitted memories apart: a hash of the retardation functions and of how closely they are
-/// fitted.
+/// What tells fitted memories apart: a hash of the retardation functions and of how closely they
+/// are fitted.
 std::string identity_of(const std::vector<dynamics::HydrodynamicDatabase>& databases,
                         const dynamics::MemoryFit& fit);
 
-/// The memories of databases (dynamics::fit_memories): from the cache if they lie there, else fitted
-/// and put there, as find_radiation does with databases.
+/// The memories of databases (dynamics::fit_memories): from the cache if they lie there, else
+/// fitted and put there, as find_radiation does with databases.
 /// @throws dynamics::ModelError as fit_memories.
 std::vector<dynamics::MemoryStateSpace> find_memories(
     const std::vector<dynamics::HydrodynamicDatabase>& databases, const dynamics::MemoryFit& fit,

@@ -4,9 +4,9 @@
 
 namespace blocklift::dynamics {
 
-/// A hull that is symmetric in planes through Bo square to `axes` (0: x, 1: y) but whose mesh is not:
-/// what lies on the positive side of all planes, cut there, with its mirror images. Vertices nearer
-/// to a plane than a twentieth of their smallest panel are moved onto it first, so that no slivers
+/// A hull that is symmetric in planes through Bo square to `axes` (0: x, 1: y) but whose mesh is
+/// not: what lies on the positive side of all planes, cut there, with its mirror images. Vertices
+/// nearer to a plane than a twentieth of their smallest panel are moved onto it first: no slivers
 /// arise. Panels across a plane that are warped are divided into their triangles.
 /// @throws ModelError if the hull is not symmetric: the result's volume, or its centre over the
 ///   hull's size, differ by more than a hundredth, or the moments of volume by two hundredths.

@@ -8,9 +8,9 @@
 
 namespace blocklift::dynamics {
 
-/// Drag of the current on a hull by coefficients over the heading (FlowCoefficients), the flow being
-/// the current at the height of the reference point P relative to P, times the share of the hull
-/// that is in the water,
+/// Drag of the current on a hull by coefficients over the heading (FlowCoefficients), the flow
+/// being the current at the height of the reference point P relative to P, times the share of the
+/// hull that is in the water,
 ///
 ///   s = min(1, displaced volume / reference volume).
 ///

@@ -13,12 +13,12 @@ namespace blocklift::dynamics {
 ///   eta = Re a H(theta) exp(i (w t - k R)) / sqrt(R),
 ///
 /// a being the amplitude of a mode's motion (m, rad) or of the wave that is scattered (m). The
-/// Kochin function, scaled as an elevation. Source: Newman (1967), J. Ship Research 11; Kochin (1939).
+/// Kochin function, scaled as an elevation. Source: Newman (1967), J. Ship Research 11.
 struct FarField {
   std::vector<double> directions;  ///< theta, rad, evenly round a whole turn from 0
   /// For each frequency: directions x 6N, of unit motion; m^(1/2), m^(3/2) for rotations.
   std::vector<Eigen::MatrixXcd> radiated;
-  /// For each frequency: directions x headings, of bodies held in a wave of unit amplitude; m^(1/2).
+  /// For each frequency: directions x headings, bodies held in a wave of unit amplitude; m^(1/2).
   std::vector<Eigen::MatrixXcd> scattered;
 
   bool empty() const { return directions.empty(); }

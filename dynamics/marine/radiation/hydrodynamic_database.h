@@ -42,8 +42,8 @@ struct HydrodynamicDatabase {
   /// frequencies from panels of twice the size to these, relative; empty: unknown. It bounds the
   /// panels' error: at first order it is the error itself, at second order three times as much.
   Eigen::VectorXd change_from_coarser;
-  /// Mean forces of second order on each body that floats as its file says, in regular waves of unit
-  /// amplitude (calc_mean_drift): 6N x headings for each frequency; N/m2, N m/m2; empty: unknown.
+  /// Mean forces of second order on each body as it floats, in regular waves of unit amplitude
+  /// (calc_mean_drift): 6N x headings for each frequency; N/m2, N m/m2; empty: unknown.
   std::vector<Eigen::MatrixXd> mean_drift;
   FarField far_field;  ///< empty: unknown
 

@@ -9,12 +9,12 @@ namespace blocklift::dynamics {
 ///
 ///   (-w^2 (m + A(w)) + i w B(w) + C) xi = X(w, theta),   motion Re xi a exp(i w t).
 ///
-/// Damping is that of the radiated waves; viscous damping, which governs roll at resonance, joins it
-/// by `damping`, 6N x 6N (kg/s, kg m/s, kg m2/s; empty: none). `mass` is m, 6N x 6N about the
+/// Damping is that of the radiated waves; viscous damping, which governs roll at resonance, joins
+/// it by `damping`, 6N x 6N (kg/s, kg m/s, kg m2/s; empty: none). `mass` is m, 6N x 6N about the
 /// reference points (kg, kg m, kg m2).
 /// @returns for each frequency a matrix 6N x headings, m/m and rad/m.
-/// @throws ModelError if mass or damping have another size than the database, or that lacks its hydrostatic
-/// stiffness.
+/// @throws ModelError if mass or damping have another size than the database, or that lacks its
+/// hydrostatic stiffness.
 std::vector<Eigen::MatrixXcd> calc_response_amplitudes(const HydrodynamicDatabase& database,
                                                        const Eigen::MatrixXd& mass,
                                                        const Eigen::MatrixXd& damping = {});

@@ -231,8 +231,8 @@ TEST(MarineParts, ComplainsAboutDatabases) {
   EXPECT_THAT(complaint("database_body: pontoon"), HasSubstr("is a body of no database"));
 }
 
-// The free vessel whose mean drift is asked for: mass with what stands on it, about the point in the
-// water line above the origin, in the world's axes (the barge heads along y).
+// The free vessel whose mean drift is asked for: mass with what stands on it, about the point in
+// the water line above the origin, in the world's axes (the barge heads along y).
 TEST(MarineParts, DriftAsksForTheFarField) {
   EXPECT_FALSE(radiation_problem(sound(floating)).drifting);
   const MechanismFile file = sound(with(floating, "damping:", "drift: newman, damping:"));

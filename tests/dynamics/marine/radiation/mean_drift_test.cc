@@ -96,8 +96,8 @@ HydrodynamicDatabase standing_column(double ka, double theta, const Vector3& p) 
   return database;
 }
 
-// rho g a^2 R 4/(pi^2 (k R)^3) times the sum: Havelock (1940). It tends to 2/3 in short waves, where
-// each strip of the surface throws the waves back as a wall does.
+// rho g a^2 R 4/(pi^2 (k R)^3) times the sum: Havelock (1940). It tends to 2/3 in short waves,
+// where each strip of the surface throws the waves back as a wall does.
 TEST(MeanDrift, OfAStandingColumnIsHavelocks) {
   for (const double ka : {0.3, 1.0, 2.5, 6.0}) {
     const double exact = 4.0 / (pi * pi * ka * ka * ka) * havelock_sum(ka);
@@ -126,7 +126,7 @@ TEST(MeanDrift, MomentIsThatOfTheForce) {
   EXPECT_NEAR(calc_mean_drift(database, {}).at(0)(yaw, 0), 0.0, 1e-8);
 }
 
-// What a damper takes out of waves that are not changed presses by P/c: a point absorber of no size.
+// What a damper takes out of waves that are not changed presses by P/c.
 TEST(MeanDrift, PowerThatIsTakenOutPresses) {
   HydrodynamicDatabase database = standing_column(1.0, 0.0, Vector3::Zero());
   database.far_field.scattered[0].setZero();
