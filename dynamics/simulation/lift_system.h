@@ -11,9 +11,11 @@
 #include "dynamics/force/torsional_spring.h"
 #include "dynamics/force/wind.h"
 #include "dynamics/force/wind_load.h"
+#include "dynamics/marine/loads/current_load.h"
 #include "dynamics/marine/loads/diffraction_force.h"
 #include "dynamics/marine/loads/hull_force.h"
 #include "dynamics/marine/loads/radiated_water.h"
+#include "dynamics/marine/loads/slow_drift.h"
 #include "dynamics/marine/loads/viscous.h"
 #include "dynamics/multibody/constrained_dynamics.h"
 #include "dynamics/multibody/forward_dynamics.h"
@@ -28,9 +30,10 @@ namespace blocklift::dynamics {
 using ForceElements =
     std::tuple<std::vector<PointSpring>, std::vector<JointSpring>, std::vector<TorsionalSpring>,
                std::vector<WindArea>, std::vector<WindLoad>, std::vector<HullForce>,
-               std::vector<DiffractionForce>, std::vector<MorisonMember>,
-               std::vector<QuadraticDamping>, std::vector<MooringLine>, std::vector<TuggerLine>,
-               std::vector<AppliedLoad>, std::vector<JointLoad>, std::vector<LinearRestraint>>;
+               std::vector<DiffractionForce>, std::vector<SlowDrift>, std::vector<CurrentLoad>,
+               std::vector<MorisonMember>, std::vector<QuadraticDamping>, std::vector<MooringLine>,
+               std::vector<TuggerLine>, std::vector<AppliedLoad>, std::vector<JointLoad>,
+               std::vector<LinearRestraint>>;
 
 /// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the
 /// works too.

@@ -7,6 +7,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/wetted_body.h"
+#include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/simulation/marched_surface.h"
 
 namespace blocklift::pipeline {
@@ -15,10 +16,6 @@ namespace {
 using dynamics::BodyIndex;
 
 constexpr int heading_count = 72;  // every 5 degrees
-// Errors of the fitted memory over its peak, and the states that may be spent on them.
-constexpr double close_fit = 0.005, fair_fit = 0.02, loose_fit = 0.1;
-constexpr int states_of_close_fit = 400, states_of_loose_fit = 600;
-
 dynamics::Water water_of(const SeaInCase& sea, double gravity) {
   dynamics::Water water;
   water.density = sea.density;
@@ -65,6 +62,17 @@ double wave_length(double frequency, const dynamics::Water& water) {
 }
 
 }  // namespace
+
+dynamics::MemoryFit memory_fit_of_vessels() {
+  dynamics::MemoryFit fit;
+  fit.tolerance = 0.005;
+  fit.most_states = 400;
+  fit.acceptable_error = 0.02;
+  // Water that swings long between two hulls takes more states.
+  fit.loose_tolerance = 0.1;
+  fit.most_loose_states = 600;
+  return fit;
+}
 
 int RadiationProblem::lowered_body() const {
   const auto found = std::find_if(bodies.begin(), bodies.end(),
@@ -126,6 +134,7 @@ dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem
   settings.frequencies = problem.frequencies;
   settings.headings = problem.headings;
   settings.with_coarser = true;
+  settings.with_far_field = problem.drifting.has_value();
   return compute_database(model, settings);
 }
 
@@ -249,6 +258,10 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   for (int i = 0; i < heading_count; ++i) {
     problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
   }
+  for (const VesselInCase& vessel : parts_.vessels) {
+    if (vessel.drift.value == DriftMethod::none || problem.given) continue;
+    problem.drifting = free_vessel(vessel, problem.bodies.front().p_BoR_B);
+  }
   problem.direct = std::any_of(
       parts_.vessels.begin(), parts_.vessels.end(),
       [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });
@@ -342,11 +355,58 @@ void MarineBuilder::add_restraint(const VesselInCase& vessel, BodyIndex body,
   std::get<std::vector<dynamics::LinearRestraint>>(elements).emplace_back(restraint);
 }
 
+RadiationProblem::FreeVessel MarineBuilder::free_vessel(const VesselInCase& vessel,
+                                                        const Vector3& p_BoR_B) const {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  const VesselModel& model = vessel.model->model;
+  const dynamics::Pose& X_WB = start(vessel.name.value);
+  const Vector3 p_BoBcm_W = X_WB.R * model.centre_of_mass;
+  // Motion of the centre of mass by that of the reference point: displacement + rotation x arm.
+  Matrix6 at_centre = Matrix6::Identity();
+  at_centre.topRightCorner<3, 3>() = -dynamics::skew(p_BoBcm_W - X_WB.R * p_BoR_B);
+  Matrix6 turned = Matrix6::Zero();
+  turned.topLeftCorner<3, 3>() = X_WB.R;
+  turned.bottomRightCorner<3, 3>() = X_WB.R;
+  Eigen::Matrix<double, 6, 1> linear;
+  const Eigen::Matrix<double, 6, 1> given = vessel.damping.vector();
+  linear << given.tail<3>(), given.head<3>();
+  const auto about_reference = [&](const Matrix6& matrix) {
+    return Eigen::MatrixXd(at_centre.transpose() * matrix * at_centre);
+  };
+  const dynamics::Hydrostatics rest =
+      calc_hydrostatics(dynamics::HullClusters(vessel.model->hull), X_WB);
+  return {about_reference(dynamics::make_mass_matrix(displaced_mass_.at(vessel.name.value),
+                                                     model.radii_of_gyration, X_WB.R)),
+          about_reference(parts_.sea->density * gravity_ *
+                          dynamics::calc_floating_stiffness_over_rho_g(rest, p_BoBcm_W)),
+          about_reference(turned * linear.asDiagonal() * turned.transpose())};
+}
+
+void MarineBuilder::add_current_load(const VesselInCase& vessel, BodyIndex body, bool at_rest,
+                                     dynamics::ForceElements& elements) {
+  const CurrentLoadInCase& model = *vessel.current_load;
+  const double draught = -start(vessel.name.value).p.z();
+  const double low = vessel.model->hull.bounds()[0].z();
+  dynamics::CurrentLoad::Definition load;
+  load.name = "current on " + vessel.name.value;
+  load.reference = {body, model.about.value_or(Vector3(0, 0, 0.5 * (low + draught)))};
+  load.coefficients = {model.area, model.area, 0.0, model.length, {}};
+  for (const std::array<Quantity, 4>& row : model.coefficients.value) {
+    load.coefficients.table.push_back(
+        {row[0].value, row[1].value, row[2].value, 0.0, 0.0, row[3].value});
+  }
+  load.sea = sea(at_rest);
+  load.hull = clusters(*vessel.model);
+  load.reference_volume = displaced_mass_.at(vessel.name.value) / parts_.sea->density;
+  std::get<std::vector<dynamics::CurrentLoad>>(elements).emplace_back(load);
+}
+
 void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool at_rest,
                                dynamics::ForceElements& elements) {
   const std::string& name = vessel.name.value;
   add_hull(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
            displaced_mass_.at(name), at_rest, elements);
+  if (vessel.current_load) add_current_load(vessel, body, at_rest, elements);
   if (vessel.restraint) add_restraint(vessel, body, elements);
   for (const MemberInCase& model : vessel.members) {
     dynamics::MorisonMember::Definition member;
@@ -396,8 +456,16 @@ void MarineBuilder::add_elements(const BodyOf& point, const dynamics::Hydrodynam
   // The elements share one copy.
   const auto shared = std::make_shared<const dynamics::HydrodynamicSeries>(*series);
   const std::vector<Radiating> vessels = radiating();
+  std::shared_ptr<const dynamics::HydrodynamicDatabase> drift;
   int index = 0;
   for (const Radiating& vessel : vessels) {
+    const VesselInCase* in_case = parts_.find_vessel(vessel.name);
+    if (in_case && in_case->drift.value == DriftMethod::newman) {
+      if (!drift) drift = {shared, &shared->databases.front()};
+      std::get<std::vector<dynamics::SlowDrift>>(elements).emplace_back(
+          dynamics::SlowDrift::Definition{"drift of " + vessel.name, radiation_frame(vessel, point),
+                                          drift, index, sea(at_rest)});
+    }
     dynamics::DiffractionForce::Definition force;
     force.name = "diffraction about " + vessel.name;
     force.frame = radiation_frame(vessel, point);
@@ -422,12 +490,7 @@ std::shared_ptr<const dynamics::RadiatedWater> MarineBuilder::make_water(
   }
   water.series = std::make_shared<const dynamics::HydrodynamicSeries>(*series);
   water.mark = draught_mark(vessels, point);
-  water.memory_tolerance = close_fit;
-  water.most_states = states_of_close_fit;
-  water.acceptable_error = fair_fit;
-  // Water that swings long between two hulls takes more states.
-  water.loose_tolerance = loose_fit;
-  water.most_loose_states = states_of_loose_fit;
+  water.fit = memory_fit_of_vessels();
   return std::make_shared<const dynamics::RadiatedWater>(water);
 }
 

@@ -39,7 +39,13 @@ struct RadiationProblem {
   std::vector<double> frequencies;  ///< rad/s, ascending
   std::vector<double> headings;     ///< rad, a whole turn
   Mark place;                       ///< of what the file says about radiation
-  bool direct = false;              ///< the surface is marched beside the vessels: no database
+  /// Of the one vessel whose mean drift is asked for, floating freely, 6 x 6 about its reference
+  /// point along the axes of D; none: no drift, or one that `given` tells.
+  struct FreeVessel {
+    Eigen::MatrixXd mass, stiffness, damping;
+  };
+  std::optional<FreeVessel> drifting = std::nullopt;
+  bool direct = false;  ///< the surface is marched beside the vessels: no database
   std::vector<dynamics::RegularWave> waves;  ///< that they scatter meanwhile, in D
   dynamics::WaveRamp ramp;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of D in W, m
@@ -82,6 +88,10 @@ dynamics::PanelModel make_panel_model(const RadiationProblem& problem);
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
                                                  const dynamics::PanelModel& model);
 
+/// How closely the memory of vessels' water is fitted: to 0.5 % of its peak, or to 2 or 10 % where
+/// water that swings between hulls would take too many states.
+dynamics::MemoryFit memory_fit_of_vessels();
+
 /// Makes of marine parts the bodies that float and what acts on them. The parts must outlive the
 /// builder and be sound.
 class MarineBuilder {
@@ -113,8 +123,8 @@ class MarineBuilder {
   void add_hull(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
                 const DampingInCase& linear, const DampingInCase& quadratic, double displaced_mass,
                 bool at_rest, dynamics::ForceElements& elements);
-  /// The radiated water of the vessels; null without databases. Its memory is fitted to 0.5 % of
-  /// its peak, or to 2 or 10 % where water that swings between hulls would take too many states.
+  /// The radiated water of the vessels; null without databases. Its memory is that
+  /// of the series, or is fitted by memory_fit_of_vessels().
   /// With a surface that is marched the water has its added mass, and no memory of its own.
   /// @throws dynamics::ModelError if even that is not reached.
   std::shared_ptr<const dynamics::RadiatedWater> make_water(
@@ -134,6 +144,11 @@ class MarineBuilder {
                   dynamics::ForceElements& elements);
   void add_restraint(const VesselInCase& vessel, dynamics::BodyIndex body,
                      dynamics::ForceElements& elements) const;
+  void add_current_load(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
+                        dynamics::ForceElements& elements);
+  /// As it floats, with what stands on it at its own centre of mass.
+  RadiationProblem::FreeVessel free_vessel(const VesselInCase& vessel,
+                                           const Vector3& p_BoR_B) const;
   void add_lines(const BodyOf& point, dynamics::ForceElements& elements) const;
   /// A body that makes waves, at rest.
   struct Radiating {

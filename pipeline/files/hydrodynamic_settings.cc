@@ -92,6 +92,9 @@ Format<HydrodynamicSettings> hydrodynamic_settings_format() {
           choice<bool>({{"by weight", false}, {"as meshed", true}}), "by weight",
           "as meshed: z = 0 of the hull's own frame; a mesh that ends there goes on upright "
           "above it by as much as it is deep")
+      .by_default("mean_drift", &HydrodynamicSettings::mean_drift, boolean(), "false",
+                  "compute mean drift forces of the hull that floats freely, from the waves it "
+                  "sends far away; of a single vessel")
       .by_default("symmetry", &HydrodynamicSettings::symmetry, boolean(), "true",
                   "compute a half or a quarter where the hulls are symmetric in x = 0 or y = 0")
       .rule(check_settings);

@@ -27,6 +27,7 @@ struct HydrodynamicSettings {
   std::optional<double> panel_size;                                 ///< m; none: the vessel's own
   std::vector<double> draughts;  ///< upright, m, ascending; empty: afloat by its own weight
   bool as_meshed = false;        ///< z = 0 of the hull's own frame is the water
+  bool mean_drift = false;       ///< compute mean drift forces of the hull afloat
   bool symmetry = true;          ///< use the planes of symmetry that there are
 };
 

@@ -655,6 +655,13 @@ void check_draughts(const LiftCase& lift_case, Diagnostics& diagnostics) {
                         fmt::format("the load has draughts, as vessel {} has", vessel.name.value),
                         {"one body may be lowered into the water that they share"});
     }
+    if (vessel.drift.value != DriftMethod::none && !vessel.database) {
+      diagnostics.error(
+          vessel.drift.mark,
+          fmt::format("vessel {} drifts, and shares its water with the load, which has draughts",
+                      vessel.name.value),
+          {"the waves far away tell the drift of both together only: leave out one of the two"});
+    }
     if (vessel.radiation.value == RadiationMethod::direct) {
       diagnostics.error(
           load.draughts->mark,

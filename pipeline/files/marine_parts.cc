@@ -9,6 +9,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "dynamics/marine/loads/draught_shares.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "dynamics/marine/waves/wave_spectrum.h"
 #include "pipeline/files/model_library.h"
 #include "pipeline/files/named_file.h"
@@ -237,6 +238,38 @@ void check_radiation(const std::vector<VesselInCase>& vessels, Diagnostics& diag
   }
 }
 
+/// Drift needs mean forces: of one vessel alone from its far field, or of its database.
+void check_drift(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+  const auto radiating = std::count_if(vessels.begin(), vessels.end(), [](const auto& vessel) {
+    return vessel.radiation.value != RadiationMethod::none;
+  });
+  for (const VesselInCase& vessel : vessels) {
+    if (vessel.drift.value == DriftMethod::none) continue;
+    const std::string& name = vessel.name.value;
+    const auto refuse = [&](const std::string& why, const std::string& hint) {
+      diagnostics.error(vessel.drift.mark, fmt::format("vessel {} drifts, {}", name, why), {hint});
+    };
+    if (vessel.radiation.value != RadiationMethod::database) {
+      refuse("and its radiation is " +
+                 std::string(vessel.radiation.value == RadiationMethod::none ? "none" : "direct"),
+             "mean drift forces come with a database: radiation: database");
+    } else if (vessel.draughts) {
+      refuse("and is lowered: its draughts have no mean drift forces",
+             "leave out one of drift and draughts");
+    } else if (vessel.database) {
+      if (vessel.hydrodynamics && vessel.hydrodynamics->mean_drift.empty()) {
+        refuse(
+            fmt::format("and the database {} holds no mean drift forces", vessel.database->value),
+            "blocklift hydro computes them where the vessel's hydrodynamics say mean_drift: "
+            "true; other programs' files have them in .7, .8, .9 or mean_drift");
+      }
+    } else if (radiating > 1) {
+      refuse("and shares its water: the waves far away tell the drift of all vessels together only",
+             "name a database that holds mean drift forces of each, or leave out drift");
+    }
+  }
+}
+
 class LineChecker {
  public:
   LineChecker(const MarineParts& parts, const std::vector<std::string>& bodies,
@@ -328,6 +361,7 @@ void check_marine_parts(const MarineParts& parts, double gravity,
   for (const VesselInCase& vessel : parts.vessels) check_vessel(vessel, diagnostics);
   check_radiation(parts.vessels, diagnostics);
   check_vessel_databases(parts, gravity, diagnostics);
+  check_drift(parts.vessels, diagnostics);
   if (parts.sea && sound_so_far) {
     check_sea(parts, gravity, diagnostics);
     for (const VesselInCase& vessel : parts.vessels) {

@@ -124,6 +124,18 @@ struct RestraintInCase {
   static Matrix6 matrix(const std::optional<Located<MatrixInCase>>& given);
 };
 
+/// Drag of the current by coefficients over the heading.
+struct CurrentLoadInCase {
+  double area = std::numeric_limits<double>::quiet_NaN();    ///< m2
+  double length = std::numeric_limits<double>::quiet_NaN();  ///< of the yawing moment, m
+  /// Angle of the relative flow (rad), C_X, C_Y, C_N.
+  Located<std::vector<std::array<Quantity, 4>>> coefficients;
+  std::optional<Vector3> about;  ///< in the vessel's frame, m; none: half way down its draught
+  Mark place;
+};
+
+enum class DriftMethod { none, newman };
+
 enum class RadiationMethod { none, database, direct };
 
 /// A vessel afloat.
@@ -142,7 +154,9 @@ struct VesselInCase {
   /// After the look-up, and which of its bodies it is; null: computed by the panel method.
   std::shared_ptr<const dynamics::HydrodynamicDatabase> hydrodynamics;
   int hydrodynamic_body = 0;
+  Located<DriftMethod> drift{DriftMethod::none, {}};
   DampingInCase damping, quadratic_damping;
+  std::optional<CurrentLoadInCase> current_load;
   std::optional<RestraintInCase> restraint;
   std::vector<MemberInCase> members;
 };

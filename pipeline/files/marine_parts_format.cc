@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -277,6 +278,61 @@ Format<RestraintInCase> restraint_format() {
   return table.format();
 }
 
+void check_current_load(const CurrentLoadInCase& load, Reading& reading, const Mark&) {
+  const auto& rows = load.coefficients.value;
+  constexpr double half_turn = std::numbers::pi;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto ratio = [](const Quantity& entry) { return entry.dimension == Dimension::ratio; };
+    const bool angle = rows[k][0].dimension == Dimension::angle;
+    if (!angle || !ratio(rows[k][1]) || !ratio(rows[k][2]) || !ratio(rows[k][3])) {
+      reading.error(load.coefficients.mark,
+                    fmt::format("row {} of the coefficients is no angle with three numbers", k + 1),
+                    {"such as [90 deg, 0, 0.8, 0.02]: heading of the flow, C_X, C_Y, C_N"});
+      return;
+    }
+    if (k > 0 && rows[k][0].value <= rows[k - 1][0].value) {
+      reading.error(load.coefficients.mark,
+                    fmt::format("row {} of the coefficients is for {:.4g} deg, after {:.4g} deg: "
+                                "angles must ascend",
+                                k + 1, rows[k][0].value * 180.0 / half_turn,
+                                rows[k - 1][0].value * 180.0 / half_turn));
+      return;
+    }
+  }
+  if (rows.size() < 2) return;  // the reader has complained
+  const double end = rows.back()[0].value;
+  const bool whole = std::abs(end - half_turn) < 1e-6 || std::abs(end - 2.0 * half_turn) < 1e-6;
+  if (std::abs(rows.front()[0].value) < 1e-6 && whole) return;
+  reading.error(load.coefficients.mark,
+                fmt::format("the coefficients run from {:.4g} to {:.4g} deg",
+                            rows.front()[0].value * 180.0 / half_turn, end * 180.0 / half_turn),
+                {"from 0 to 180 deg for a vessel that is alike on both sides, else to 360 deg"});
+}
+
+Format<CurrentLoadInCase> current_load_format() {
+  Table<CurrentLoadInCase> table(
+      "current load",
+      "Drag of the current by coefficients: with V the speed of the water relative to the vessel, "
+      "forces rho/2 V^2 area C_X along x and C_Y along y, and the moment rho/2 V^2 area length C_N "
+      "about z, in proportion to the wet volume.");
+  const auto row = array_of<Quantity, 4>(quantity_of({Dimension::angle, Dimension::ratio}));
+  table
+      .required("area", &CurrentLoadInCase::area, quantity(Dimension::area, Range::positive()),
+                "that the coefficients are meant for; OCIMF: length times draught")
+      .required("length", &CurrentLoadInCase::length,
+                quantity(Dimension::length, Range::positive()), "of the moment; OCIMF: of the ship")
+      .required("coefficients", &CurrentLoadInCase::coefficients, located(list_of(row, 2)),
+                "[[0 deg, C_X, C_Y, C_N], ...] by where the water flows to, from the vessel's +x "
+                "(from astern) towards +y, linear between: from 0 to 180 deg, the other side "
+                "mirrored, or to 360 deg")
+      .optional("about", &CurrentLoadInCase::about, position_format(),
+                "point of the vessel's frame where the forces act and the current is taken; half "
+                "way down the draught above its origin if left out")
+      .place(&CurrentLoadInCase::place)
+      .rule(check_current_load);
+  return table.format();
+}
+
 Format<MemberInCase> member_format() {
   Table<MemberInCase> table("member",
                             "A slender member with Morison's drag where it is in the water.");
@@ -373,10 +429,28 @@ Format<VesselInCase> vessel_in_case_format() {
                   vessel_quadratic_damping_format(), "{}",
                   "with the square of the velocity relative to the current; in proportion to the "
                   "wet volume")
+      .by_default("drift", &VesselInCase::drift,
+                  located(choice<DriftMethod>(
+                      {{"none", DriftMethod::none}, {"newman", DriftMethod::newman}})),
+                  "none",
+                  "newman: slow drift by Newman's approximation from the mean drift forces of the "
+                  "vessel afloat by itself, or of its database; of a vessel that shares its water "
+                  "from a database only")
+      .optional("current_load", &VesselInCase::current_load, current_load_format(),
+                "drag of the current by coefficients over its heading, in place of quadratic "
+                "damping of surge and sway")
       .optional("restraint", &VesselInCase::restraint, restraint_format(),
                 "linear spring and damper by matrices, such as a published mooring")
       .optional("members", &VesselInCase::members, list_of(member_format()),
-                "slender members with drag");
+                "slender members with drag")
+      .rule([](const VesselInCase& vessel, Reading& reading, const Mark&) {
+        const DampingInCase& damping = vessel.quadratic_damping;
+        if (!vessel.current_load || (damping.surge == 0.0 && damping.sway == 0.0)) return;
+        reading.error(vessel.current_load->place,
+                      "the drag of surge and sway is given twice, as current_load and as "
+                      "quadratic_damping",
+                      {"leave surge and sway out of quadratic_damping; yaw stays there"});
+      });
   return table.format();
 }
 

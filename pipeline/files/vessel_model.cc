@@ -11,6 +11,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/hull_diagnosis.h"
+#include "dynamics/marine/hull/symmetric_hull.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/named_file.h"
 
@@ -90,9 +91,11 @@ dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem:
     require_few_panels(*model.hull.ship, panel_size);
     return make_ship(*model.hull.ship, division_of(*model.hull.ship, panel_size));
   }
-  const dynamics::Hull hull =
+  dynamics::Hull hull =
       read_hull(folder / model.hull.file->path.value,
                 {.close_openings = model.hull.file->close_openings, .panel_size = panel_size});
+  const std::vector<int>& axes = model.hull.file->symmetric_in;
+  if (!axes.empty()) hull = made_symmetric(hull, axes);
   return model.hydrodynamics.as_meshed ? with_freeboard(hull) : hull;
 }
 

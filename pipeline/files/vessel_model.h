@@ -12,10 +12,11 @@
 
 namespace blocklift::pipeline {
 
-/// A mesh from a file as the hull.
+/// A mesh from a file as the hull. One that is symmetric by key is cut in half and mirrored.
 struct HullFileModel {
   Located<std::string> path;  ///< from the folder of the model
   bool close_openings = false;
+  std::vector<int> symmetric_in;  ///< axes square to its planes of symmetry, 0: x, 1: y
 };
 
 /// The hull of a vessel: one of three.

@@ -72,7 +72,12 @@ Format<VesselHullModel> hull_format() {
   file.required("file", &HullFileModel::path, located(text()),
                 "beside the model: .msh, .geo, .stl (Gmsh) or .gdf (WAMIT)")
       .by_default("close_openings", &HullFileModel::close_openings, boolean(), "false",
-                  "close flat openings by lids: for meshes of the wetted surface alone");
+                  "close flat openings by lids: for meshes of the wetted surface alone")
+      .by_default("symmetric_in", &HullFileModel::symmetric_in,
+                  list_of(choice<int>({{"x", 0}, {"y", 1}}), 0, 2), "[]",
+                  "planes in which the hull, if not its mesh, is symmetric: [y] the centre plane, "
+                  "[x] the one amidships. The half at positive y, or x, is cut off there and "
+                  "mirrored, so that half of the panels, or a quarter, are computed");
   Table<VesselHullModel> table("hull", "The hull, by one of three descriptions.");
   table.optional("barge", &VesselHullModel::barge, barge_format(), "a pontoon")
       .optional("ship", &VesselHullModel::ship, ship_format(), "a ship-shaped hull")

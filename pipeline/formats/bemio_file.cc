@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,7 @@ class BemioFile {
     if (bodies_ == 0) fail("holds no group /body1");
     allocate();
     for (std::size_t b = 0; b < bodies_; ++b) read_body(b);
+    read_mean_drift();
     if (database_.retardation.empty()) add_retardation(database_);
     require_sound(database_);
     return std::move(database_);
@@ -206,6 +208,34 @@ class BemioFile {
     read_force(b, group + "scattering/", database_.diffraction);
   }
 
+  /// By the method that all bodies have: that of a control surface or of the pressure tells bodies
+  /// apart, that of momentum does not.
+  void read_mean_drift() {
+    if (database_.headings.empty()) return;
+    for (const char* method :
+         {"control_surface", "pressure_integration", "momentum_conservation"}) {
+      const auto dataset = [&](std::size_t b) {
+        return body_group(b) + "/hydro_coeffs/mean_drift/" + method + "/val";
+      };
+      bool whole = bodies_ == 1 || method != std::string_view("momentum_conservation");
+      for (std::size_t b = 0; b < bodies_; ++b) whole = whole && file_.has(dataset(b));
+      if (!whole) continue;
+      const auto headings = static_cast<Eigen::Index>(database_.headings.size());
+      database_.mean_drift.assign(
+          database_.frequencies.size(),
+          MatrixXd::Zero(static_cast<Eigen::Index>(modes_per_body * bodies_), headings));
+      const double rho_g = scaled_ ? 1.0 : database_.water.density * database_.water.gravity;
+      for (std::size_t b = 0; b < bodies_; ++b) {
+        const auto first = static_cast<Eigen::Index>(modes_per_body * b);
+        read_rows(dataset(b), database_.headings.size(), database_.frequencies.size(),
+                  [&](Eigen::Index i, Eigen::Index h, std::size_t k, double x) {
+                    database_.mean_drift[k](first + i, h) = rho_g * x;
+                  });
+      }
+      return;
+    }
+  }
+
   std::filesystem::path path_;
   ResultsReader file_;
   HydrodynamicDatabase database_;
@@ -318,6 +348,16 @@ void write_coefficients(ResultsWriter& file, std::size_t b, const HydrodynamicDa
   write_force(file, group + "excitation/", first, database, sum);
   write_force(file, group + "excitation/froude-krylov/", first, database, database.froude_krylov);
   write_force(file, group + "excitation/scattering/", first, database, database.diffraction);
+  if (database.mean_drift.empty()) return;
+  // Where bodies are told apart, momentum far away has not done it.
+  const std::string method =
+      database.body_count() == 1 ? "momentum_conservation" : "control_surface";
+  write_rows(
+      file, group + "mean_drift/" + method + "/val", database.headings.size(), count,
+      [&](Eigen::Index i, Eigen::Index h, std::size_t k) {
+        return database.mean_drift[k](first + i, h) / rho_g;
+      },
+      "over rho g");
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path, const W
 /// unless `scaled` is set; headings in degrees; force Re X e^{+i w t} of the wave
 /// cos(w t - k.x). Rotations and moments about the centre of gravity cg, which is given from the
 /// water surface. Froude-Krylov and scattering forces are read where they are (else the whole
-/// excitation counts as diffraction). Source: WEC-Sim documentation, "BEMIO"; conventions of its
+/// excitation counts as diffraction), mean drift forces / (rho g), shaped as the excitation, from
+/// hydro_coeffs/mean_drift/METHOD/val, METHOD being control_surface, pressure_integration or, of a
+/// single body, momentum_conservation. Source: WEC-Sim documentation, "BEMIO"; conventions of its
 /// radiation and excitation terms.
 dynamics::HydrodynamicDatabase read_bemio(const std::filesystem::path& path);
 void write_bemio(const std::filesystem::path& path, const dynamics::HydrodynamicDatabase& database);
@@ -36,11 +38,13 @@ void write_bemio(const std::filesystem::path& path, const dynamics::Hydrodynamic
 ///   .1    PER I J A [B]                   A / (rho L^k), B / (rho L^k w)
 ///   .3    PER BETA I |X| phase Re Im      X / (rho g a L^m)
 ///   .hst  I J C                           C / (rho g L^(k-1))
+///   .7, .9, .8   PER BETA1 BETA2 I |F| phase Re Im   F / (rho g a^2 L^(m-1)), where BETA1 = BETA2
+/// Mean drift forces come from the first of these endings that is there, .8 for a single body only.
 /// k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the period, s; 0: infinite
 /// frequency, negative: zero frequency (passed over). BETA in degrees, force Re X e^{+i w t} of the
 /// wave cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies' own origins, which the
 /// files do not tell: here the world's. Written with 17 digits. Source: WAMIT User Manual v7,
-/// sections 4.2, 4.3 and 4.5.
+/// sections 3.8, 4.2, 4.3, 4.5 and 4.13.
 dynamics::HydrodynamicDatabase read_wamit(const std::filesystem::path& name,
                                           const WamitScales& scales);
 void write_wamit(const std::filesystem::path& name, const dynamics::HydrodynamicDatabase& database);

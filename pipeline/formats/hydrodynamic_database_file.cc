@@ -39,15 +39,42 @@ void write_matrices(ResultsWriter& file, const std::string& dataset,
 }
 
 void write_complex(ResultsWriter& file, const std::string& group,
-                   const std::vector<MatrixXcd>& matrices, const HydrodynamicDatabase& database,
-                   const std::string& what) {
+                   const std::vector<MatrixXcd>& matrices, std::size_t rows, std::size_t columns,
+                   const Meaning& meaning) {
   using Complex = std::complex<double>;
+  write_matrices(file, group + "/re", matrices, rows, columns, [](Complex x) { return x.real(); },
+                 {meaning.units, meaning.description + ", real part"});
+  write_matrices(file, group + "/im", matrices, rows, columns, [](Complex x) { return x.imag(); },
+                 {meaning.units, meaning.description + ", imaginary part: Re x a exp(i w t)"});
+}
+
+void write_forces(ResultsWriter& file, const std::string& group,
+                  const std::vector<MatrixXcd>& matrices, const HydrodynamicDatabase& database,
+                  const std::string& what) {
+  write_complex(file, group, matrices, static_cast<std::size_t>(database.mode_count()),
+                database.headings.size(),
+                {"N m-1", what + " by frequency, mode (N/m; rotations N) and heading"});
+}
+
+void write_drift(ResultsWriter& file, const std::string& group,
+                 const HydrodynamicDatabase& database) {
   const auto modes = static_cast<std::size_t>(database.mode_count());
   const std::size_t headings = database.headings.size();
-  write_matrices(file, group + "/re", matrices, modes, headings, [](Complex x) { return x.real(); },
-                 {"N m-1", what + " by frequency, mode (N/m; rotations N) and heading, real part"});
-  write_matrices(file, group + "/im", matrices, modes, headings, [](Complex x) { return x.imag(); },
-                 {"N m-1", what + ", imaginary part: the force is Re X a exp(i w t)"});
+  if (!database.mean_drift.empty()) {
+    write_matrices(file, group + "/mean_drift", database.mean_drift, modes, headings,
+                   [](double x) { return x; },
+                   {"N m-2",
+                    "mean force in a wave of unit amplitude by frequency, mode (rotations: N m-1) "
+                    "and heading"});
+  }
+  const dynamics::FarField& far = database.far_field;
+  if (far.empty()) return;
+  file.write(group + "/far_field/directions", std::span<const double>(far.directions),
+             {"rad", "into which waves are sent"});
+  write_complex(file, group + "/far_field/radiated", far.radiated, far.directions.size(), modes,
+                {"m0.5", "far field of unit motion by frequency, direction and mode"});
+  write_complex(file, group + "/far_field/scattered", far.scattered, far.directions.size(),
+                headings, {"m0.5", "far field of held bodies by frequency, direction and heading"});
 }
 
 void write_state(ResultsWriter& file, const std::string& group,
@@ -87,10 +114,11 @@ void write_state(ResultsWriter& file, const std::string& group,
   write_matrices(file, group + "/retardation", database.retardation, modes, modes, same,
                  {"kg s-2", "by time, force mode and motion mode (rotations: kg m/s2, kg m2/s2)"});
   file.write_attribute(group + "/retardation", "time_step", database.time_step);
-  write_complex(file, group + "/froude_krylov", database.froude_krylov, database,
-                "force of the undisturbed wave of unit amplitude");
-  write_complex(file, group + "/diffraction", database.diffraction, database,
-                "force of the wave's diffraction");
+  write_forces(file, group + "/froude_krylov", database.froude_krylov, database,
+               "force of the undisturbed wave of unit amplitude");
+  write_forces(file, group + "/diffraction", database.diffraction, database,
+               "force of the wave's diffraction");
+  write_drift(file, group, database);
 }
 
 void write_all(const std::filesystem::path& path, const HydrodynamicFile& contents) {
@@ -240,6 +268,17 @@ HydrodynamicDatabase read_state(const Source& source, const std::string& group,
   database.time_step = source.file().read_number_attribute(retardation, "time_step");
   database.froude_krylov = source.complex(group + "/froude_krylov", frequencies, modes, headings);
   database.diffraction = source.complex(group + "/diffraction", frequencies, modes, headings);
+  if (source.file().has(group + "/mean_drift")) {
+    database.mean_drift = source.matrices(group + "/mean_drift", frequencies, modes, headings);
+  }
+  const std::string far = group + "/far_field";
+  if (source.file().has(far)) {
+    database.far_field.directions = source.read_row(far + "/directions");
+    const std::size_t directions = database.far_field.directions.size();
+    database.far_field.radiated = source.complex(far + "/radiated", frequencies, directions, modes);
+    database.far_field.scattered =
+        source.complex(far + "/scattered", frequencies, directions, headings);
+  }
   return database;
 }
 

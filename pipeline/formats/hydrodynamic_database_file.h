@@ -23,6 +23,9 @@
 ///     added_mass, damping   [F, 6N, 6N]
 ///     retardation           [T, 6N, 6N], attribute time_step
 ///     froude_krylov/{re,im}, diffraction/{re,im}   [F, 6N, H]
+///     mean_drift            [F, 6N, H], where known
+///     far_field, where known: directions [D], radiated/{re,im} [F, D, 6N], scattered/{re,im}
+///                           [F, D, H]
 ///
 /// Modes, units and signs are those of dynamics::HydrodynamicDatabase.
 namespace blocklift::pipeline {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -5,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -201,6 +203,69 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
                   path.string(), found.size(), database.frequencies.size() * headings.size()));
 }
 
+/// The file of mean drift forces that tells most; none if there is none of use.
+std::optional<fs::path> find_mean_drift(const fs::path& name, int bodies) {
+  // A control surface, pressure, or momentum far away, which does not tell bodies apart.
+  for (const char* ending : {".7", ".9", ".8"}) {
+    if (bodies > 1 && ending == std::string_view(".8")) continue;
+    if (fs::path path = with_ending(name, ending); fs::exists(path)) return path;
+  }
+  return std::nullopt;
+}
+
+void read_mean_drift(const fs::path& path, const WamitScales& scales, const Periods& periods,
+                     HydrodynamicDatabase& database) {
+  const TextFile file(path);
+  const Eigen::Index modes = database.mode_count();
+  const auto columns = static_cast<Eigen::Index>(database.headings.size());
+  database.mean_drift.assign(database.frequencies.size(), MatrixXd::Zero(modes, columns));
+  std::set<std::pair<std::size_t, Eigen::Index>> found;
+  for (const Line& line : file.lines()) {
+    file.require_columns(line, 7, "period, two headings, mode, modulus, phase, real part");
+    // Two waves that cross drift a body otherwise than each alone; that is not kept.
+    if (line.values[1] != line.values[2]) continue;
+    const auto period = periods.index.find(line.values[0]);
+    const auto heading = std::find_if(
+        database.headings.begin(), database.headings.end(),
+        [&](double known) { return std::abs(known - line.values[1] * degree) < 1e-9; });
+    if (period == periods.index.end() || heading == database.headings.end()) {
+      file.fail(line.number,
+                fmt::format("period {} s and heading {} degrees are not among those of the .1 and "
+                            ".3 files",
+                            line.values[0], line.values[1]));
+    }
+    const Eigen::Index mode = file.mode(line, 3);
+    if (mode >= modes) file.fail(line.number, "a mode that the .1 file does not have");
+    const auto h = static_cast<Eigen::Index>(heading - database.headings.begin());
+    const double scale = scales.water.density * scales.water.gravity *
+                         std::pow(scales.length, is_rotation(mode) ? 2 : 1);
+    database.mean_drift[period->second](mode, h) = scale * line.values[6];
+    found.emplace(period->second, h);
+  }
+  if (found.size() == database.frequencies.size() * database.headings.size()) return;
+  throw HydrodynamicFileError(fmt::format(
+      "{}: mean drift for {} of {} periods and headings: lines are missing", path.string(),
+      found.size(), database.frequencies.size() * database.headings.size()));
+}
+
+std::string mean_drift_text(const HydrodynamicDatabase& database) {
+  const double scale = database.water.density * database.water.gravity;
+  std::string text;
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const MatrixXd D = database.mean_drift[k] / scale;
+    for (Eigen::Index h = 0; h < D.cols(); ++h) {
+      const double heading = database.headings[static_cast<std::size_t>(h)] / degree;
+      for (Eigen::Index i = 0; i < D.rows(); ++i) {
+        text += fmt::format(
+            "{:23.16E} {:23.16E} {:23.16E} {:5d} {:23.16E} {:23.16E} {:23.16E} {:23.16E}\n",
+            two_pi / database.frequencies[k], heading, heading, i + 1, std::abs(D(i, h)),
+            D(i, h) < 0.0 ? 180.0 : 0.0, D(i, h), 0.0);
+      }
+    }
+  }
+  return text;
+}
+
 void read_stiffness(const fs::path& path, const WamitScales& scales,
                     HydrodynamicDatabase& database) {
   const TextFile file(path);
@@ -281,6 +346,10 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
   if (const fs::path path = with_ending(name, ".3"); fs::exists(path)) {
     read_excitation(path, scales, periods, database);
   }
+  if (const auto path = find_mean_drift(name, database.body_count());
+      path && !database.headings.empty()) {
+    read_mean_drift(*path, scales, periods, database);
+  }
   database.froude_krylov.assign(
       database.frequencies.size(),
       Eigen::MatrixXcd::Zero(modes, static_cast<Eigen::Index>(database.headings.size())));
@@ -300,6 +369,10 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
 void write_wamit(const fs::path& name, const HydrodynamicDatabase& database) {
   write_file(with_ending(name, ".1"), radiation_text(database));
   if (!database.headings.empty()) write_file(with_ending(name, ".3"), excitation_text(database));
+  if (!database.mean_drift.empty()) {
+    write_file(with_ending(name, database.body_count() == 1 ? ".8" : ".9"),
+               mean_drift_text(database));
+  }
   if (database.hydrostatic_stiffness.size() > 0) {
     write_file(with_ending(name, ".hst"), stiffness_text(database));
   }

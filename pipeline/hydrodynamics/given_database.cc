@@ -86,6 +86,10 @@ HydrodynamicDatabase ordered(const RadiationProblem& problem) {
       matrix = Eigen::MatrixXcd(matrix(modes, Eigen::all));
     }
   }
+  for (Eigen::MatrixXd& matrix : database.mean_drift) {
+    matrix = Eigen::MatrixXd(matrix(modes, Eigen::all));
+  }
+  database.far_field = {};
   square(database.infinite_added_mass);
   square(database.hydrostatic_stiffness);
   database.change_from_coarser = {};

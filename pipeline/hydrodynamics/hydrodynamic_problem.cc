@@ -8,6 +8,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/wetted_body.h"
+#include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/files/hull_places.h"
 #include "pipeline/formats/hull_hash.h"
@@ -140,6 +141,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   state.settings.frequencies = problem.frequencies;
   state.settings.headings = problem.headings;
   state.settings.with_coarser = true;
+  state.settings.with_far_field = problem.mean_drift;
   state.settings.rankine.memory_limit = problem.memory_limit;
   require_panels(problem, *state.model);
   state.bytes = database_bytes(*state.model, state.settings);
@@ -158,6 +160,7 @@ std::string identity_of(const HydrodynamicProblem& problem) {
   hash.add(problem.frequencies);
   hash.add(problem.headings);
   hash.add(static_cast<std::int64_t>(problem.symmetry));
+  hash.add(static_cast<std::int64_t>(problem.mean_drift));
   for (const HydrodynamicBody& body : problem.bodies) {
     hash.add(std::string_view(body.name));
     hash.add(body.body.mass);
@@ -190,6 +193,9 @@ dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
     database.hydrostatic_stiffness.block<6, 6>(first, first) =
         problem.water.density * problem.water.gravity *
         calc_floating_stiffness_over_rho_g(rest, p_BoBcm_W);
+  }
+  if (problem.mean_drift) {
+    database.mean_drift = calc_mean_drift(database, calc_response_amplitudes(database, state.mass));
   }
   return database;
 }

@@ -104,7 +104,16 @@ std::string wave_table(const HydrodynamicDatabase& database,
       return responses[k].row(m).cwiseAbs().maxCoeff() / (is_rotation(m) ? degree : 1.0);
     });
   }
-  const std::string text = excitation.text() + (responses.empty() ? "" : response.text());
+  std::string text = excitation.text() + (responses.empty() ? "" : response.text());
+  if (!database.mean_drift.empty()) {
+    ModeTable drift("mean drift, kN/m2, kN m/m2");
+    for (const std::size_t k : chosen_frequencies(database)) {
+      drift.add(frequency_label(database, k), first, [&](Eigen::Index m) {
+        return database.mean_drift[k].row(m).cwiseAbs().maxCoeff() / 1e3;
+      });
+    }
+    text += drift.text();
+  }
   return "\nthe largest over all headings:" + text;
 }
 
@@ -172,6 +181,11 @@ std::string charts_of_mode(const HydrodynamicDatabase& database,
       [&](std::size_t k, Eigen::Index h) {
         return std::abs(database.froude_krylov[k](m, h) + database.diffraction[k](m, h)) / 1e3;
       }));
+  if (!database.mean_drift.empty() && !database.mean_drift.front().row(m).isZero(0.0)) {
+    page += to_svg(by_heading(
+        database, "mean drift, " + name, rotation ? "kN m/m2" : "kN/m2",
+        [&](std::size_t k, Eigen::Index h) { return database.mean_drift[k](m, h) / 1e3; }));
+  }
   if (responses.empty()) return page;
   return page + to_svg(by_heading(database, "response, " + name, rotation ? "deg/m" : "m/m",
                                   [&](std::size_t k, Eigen::Index h) {

@@ -10,8 +10,11 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/mean_drift.h"
+#include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/formats/hull_hash.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/formats/memory_file.h"
 #include "pipeline/hydrodynamics/cache_lock.h"
 #include "pipeline/hydrodynamics/given_database.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
@@ -65,6 +68,29 @@ std::string identity_of(const RadiationProblem& problem) {
   hash.add(problem.water.depth);
   hash.add(problem.frequencies);
   hash.add(problem.headings);
+  // Others are kept under the names that they had before there was a far field.
+  if (problem.drifting) hash.add("far field");
+  return hash.digits();
+}
+
+std::string identity_of(const std::vector<dynamics::HydrodynamicDatabase>& databases,
+                        const dynamics::MemoryFit& fit) {
+  ContentHash hash;
+  hash.add("memory of the water");
+  hash.add(std::int64_t{dynamics::memory_fit_version});
+  hash.add(fit.tolerance);
+  hash.add(std::int64_t{fit.most_states});
+  hash.add(fit.acceptable_error);
+  hash.add(fit.loose_tolerance);
+  hash.add(std::int64_t{fit.most_loose_states});
+  for (const dynamics::HydrodynamicDatabase& database : databases) {
+    hash.add(database.time_step);
+    hash.add(static_cast<std::int64_t>(database.retardation.size()));
+    for (const Eigen::MatrixXd& K : database.retardation) {
+      hash.add(static_cast<std::int64_t>(K.rows()));
+      hash.add(std::span<const double>(K.data(), static_cast<std::size_t>(K.size())));
+    }
+  }
   return hash.digits();
 }
 
@@ -75,6 +101,28 @@ using Say = std::function<void(const std::string&)>;
 void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
   const std::string doubt = doubt_about_panels(database);
   if (!doubt.empty()) say("warning: " + doubt);
+}
+
+/// What `read` finds of an entry of the cache, or what `compute` makes and `write` puts there. What
+/// another run is making is waited for.
+/// @param read gives an optional: none if the entry is not there, or of no use.
+/// @param wait called before another run is waited for.
+template <class Read, class Compute, class Write>
+auto take_or_make(const fs::path& file, const Read& read, const std::function<void()>& wait,
+                  const Compute& compute, const Write& write) {
+  if (auto known = read()) return std::move(*known);
+  std::error_code ignored;
+  fs::create_directories(file.parent_path(), ignored);
+  const CacheLock lock(file, wait);
+  // The other run may have been waited for.
+  if (auto known = read()) return std::move(*known);
+  auto made = compute();
+  try {
+    write(made);
+  } catch (const std::runtime_error&) {
+    // What cannot be kept is made again.
+  }
+  return made;
 }
 
 /// The database of an entry of the cache; none if there is none that is whole and of this version.
@@ -112,25 +160,20 @@ dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
   if (folder.empty()) return compute_database(problem, of_what, say);
   const std::string identity = identity_of(problem);
   const fs::path file = folder / (identity + ".h5");
-  const auto take = [&](dynamics::HydrodynamicDatabase known) {
-    say("from " + file.string());
-    say_doubt(known, say);
+  const auto read = [&] {
+    auto known = read_entry(file, identity);
+    if (known) {
+      say("from " + file.string());
+      say_doubt(*known, say);
+    }
     return known;
   };
-  if (auto known = read_entry(file, identity)) return take(std::move(*known));
-  std::error_code ignored;
-  fs::create_directories(folder, ignored);
-  const CacheLock lock(file,
-                       [&] { say("waiting for another run that computes that of " + of_what); });
-  // The other run may have been waited for.
-  if (auto known = read_entry(file, identity)) return take(std::move(*known));
-  dynamics::HydrodynamicDatabase database = compute_database(problem, of_what, say);
-  try {
-    write_hydrodynamic_database(file, database, identity, "computed for a case with " + of_what);
-  } catch (const std::runtime_error&) {
-    // What cannot be kept is computed again.
-  }
-  return database;
+  return take_or_make(
+      file, read, [&] { say("waiting for another run that computes that of " + of_what); },
+      [&] { return compute_database(problem, of_what, say); },
+      [&](const dynamics::HydrodynamicDatabase& made) {
+        write_hydrodynamic_database(file, made, identity, "computed for a case with " + of_what);
+      });
 }
 
 /// The databases of a problem with a body that is lowered.
@@ -154,22 +197,59 @@ dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const 
 
 }  // namespace
 
+std::vector<dynamics::MemoryStateSpace> find_memories(
+    const std::vector<dynamics::HydrodynamicDatabase>& databases, const dynamics::MemoryFit& fit,
+    const std::function<void(const std::string&)>& report) {
+  const Say say = [&](const std::string& text) {
+    if (report) report(text);
+  };
+  const auto compute = [&] {
+    say("fitting the memory of the water");
+    return fit_memories(databases, fit);
+  };
+  const fs::path folder = cache_folder();
+  if (folder.empty()) return compute();
+  const std::string identity = identity_of(databases, fit);
+  const fs::path file = folder / (identity + ".h5");
+  const auto read = [&] {
+    auto known = read_memories(file, identity);
+    if (known && known->size() != databases.size()) known.reset();
+    if (known) say("memory of the water from " + file.string());
+    return known;
+  };
+  return take_or_make(
+      file, read, [&] { say("waiting for another run that fits the memory of the water"); },
+      compute,
+      [&](const std::vector<dynamics::MemoryStateSpace>& made) {
+        write_memories(file, made, identity);
+      });
+}
+
 std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
     const RadiationProblem& problem, const std::function<void(const std::string&)>& report) {
   if (problem.bodies.empty() || problem.direct) return nullptr;
   const Say say = [&](const std::string& text) {
     if (report) report(text);
   };
+  dynamics::HydrodynamicSeries series;
   if (problem.given) {
     say("of the file that the case names");
-    return std::make_shared<const dynamics::HydrodynamicSeries>(
-        dynamics::HydrodynamicSeries{0, {0.0}, {take_given_database(problem)}});
+    series = {0, {0.0}, {take_given_database(problem)}};
+  } else if (problem.lowered_body() >= 0) {
+    series = find_series(problem, say);
+  } else {
+    series = {0, {0.0}, {find_database(problem, "", say)}};
   }
-  if (problem.lowered_body() >= 0) {
-    return std::make_shared<const dynamics::HydrodynamicSeries>(find_series(problem, say));
+  if (problem.drifting) {
+    dynamics::HydrodynamicDatabase& database = series.databases.front();
+    database.hydrostatic_stiffness = problem.drifting->stiffness;
+    database.mean_drift = calc_mean_drift(
+        database,
+        calc_response_amplitudes(database, problem.drifting->mass, problem.drifting->damping),
+        problem.drifting->damping);
   }
-  return std::make_shared<const dynamics::HydrodynamicSeries>(
-      dynamics::HydrodynamicSeries{0, {0.0}, {find_database(problem, "", say)}});
+  series.memories = find_memories(series.databases, memory_fit_of_vessels(), say);
+  return std::make_shared<const dynamics::HydrodynamicSeries>(std::move(series));
 }
 
 MarchedWater find_marched_water(const RadiationProblem& problem) {

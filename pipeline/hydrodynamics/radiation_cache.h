@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "pipeline/build/build_marine.h"
 
@@ -18,15 +19,28 @@ std::filesystem::path cache_folder();
 /// that stay.
 std::string identity_of(const RadiationProblem& problem);
 
+/// What tells fitted memories apart: a hash of the retardation functions and of how closely they
+/// are fitted.
+std::string identity_of(const std::vector<dynamics::HydrodynamicDatabase>& databases,
+                        const dynamics::MemoryFit& fit);
+
+/// The memories of databases (dynamics::fit_memories): from the cache if they lie there, else
+/// fitted and put there, as find_radiation does with databases.
+/// @throws dynamics::ModelError as fit_memories.
+std::vector<dynamics::MemoryStateSpace> find_memories(
+    const std::vector<dynamics::HydrodynamicDatabase>& databases, const dynamics::MemoryFit& fit,
+    const std::function<void(const std::string&)>& report);
+
 /// The database of a problem, or, where a body is lowered, one for each of its draughts after that
 /// of the others alone (dynamics::with_dry_body): from the cache if they lie there, else computed
 /// and put there. What another run is computing is waited for and taken from there (CacheLock). A
-/// cache that cannot be written is no error: databases are computed again next time.
+/// cache that cannot be written is no error: databases are computed again next time. Their memories
+/// are found with them (find_memories, memory_fit_of_vessels).
 /// @param report called with a sentence about what is done; may be empty.
 /// @returns null for a problem without bodies, or one whose surface is marched directly.
 /// @throws InputError if the panel method refuses the problem (a wave too short for the panels,
 ///   hulls in each other's way, a surface that cannot be meshed), dynamics::SimulationError as
-///   compute_radiation.
+///   compute_radiation, dynamics::ModelError as find_memories.
 std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
     const RadiationProblem& problem, const std::function<void(const std::string&)>& report);
 

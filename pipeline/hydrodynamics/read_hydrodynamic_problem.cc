@@ -51,6 +51,7 @@ void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& pr
   problem.water.density = settings.water_density;
   if (settings.water_depth) problem.water.depth = *settings.water_depth;
   problem.symmetry = settings.symmetry;
+  problem.mean_drift = settings.mean_drift;
   for (HydrodynamicBody& body : problem.bodies) body.body.water_density = settings.water_density;
 }
 
@@ -98,6 +99,13 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
   }
   if (diagnostics.error_count() > before) return std::nullopt;
   take_settings(group.hydrodynamics, problem);
+  if (problem.mean_drift && problem.bodies.size() > 1) {
+    diagnostics.error(group.place,
+                      "mean drift is asked for vessels that share their water: the waves far away "
+                      "tell that of all together only",
+                      {"leave out mean_drift, or compute each vessel by itself"});
+    return std::nullopt;
+  }
   return problem;
 }
 

@@ -71,12 +71,34 @@ std::string draughts_sentence(const LiftCase& lift_case) {
              draughts, X_WB.p.x(), X_WB.p.y());
 }
 
+std::string names_of_drifting(const LiftCase& lift_case) {
+  std::string names;
+  for (const VesselInCase& vessel : lift_case.vessels) {
+    if (vessel.drift.value == DriftMethod::none) continue;
+    names += (names.empty() ? "" : ", ") + vessel.name.value;
+  }
+  return names;
+}
+
 void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
                          std::vector<std::string>& list) {
-  list.emplace_back(
+  const std::string drifting = names_of_drifting(lift_case);
+  list.push_back(fmt::format(
       "Buoyancy and the pressure of the undisturbed waves act on each hull as it lies at each "
-      "instant, exactly for its panels in still water. Waves are linear; there are no second-order "
-      "drift forces, slamming or water on deck. Static: the sea without its waves.");
+      "instant, exactly for its panels in still water. Waves are linear; there is no slamming or "
+      "water on deck, and there are no second-order drift forces{}. Static: the sea without its "
+      "waves.",
+      drifting.empty() ? "" : " but those of " + drifting));
+  if (!drifting.empty()) {
+    list.push_back(fmt::format(
+        "Slow drift of {} in surge, sway and yaw by Newman's approximation, from the mean forces "
+        "on "
+        "the vessel as it floats freely in regular waves (Maruo's formula, or those of the "
+        "database "
+        "that the case names). What the waves' pressure on the moving hull has of it already is "
+        "counted twice.",
+        drifting));
+  }
   if (lift_case.load.vessel) {
     list.push_back(draughts_sentence(lift_case));
   }

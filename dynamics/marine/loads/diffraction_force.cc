@@ -1,20 +1,15 @@
 #include "dynamics/marine/loads/diffraction_force.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <sstream>
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/loads/radiated_water.h"
+#include "dynamics/marine/loads/whole_turn.h"
 
 namespace blocklift::dynamics {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double turn = 2.0 * std::numbers::pi;
-constexpr double largest_gap = std::numbers::pi / 4.0;  // between headings, rad
 
 void check(const DiffractionForce::Definition& d) {
   const std::string start = "the diffraction force " + d.name;
@@ -35,11 +30,6 @@ void check(const DiffractionForce::Definition& d) {
   }
 }
 
-// Angle between 0 and a turn beyond `lowest`.
-double wrapped(double angle, double lowest) {
-  return angle - turn * std::floor((angle - lowest) / turn);
-}
-
 }  // namespace
 
 DiffractionForce::DiffractionForce(Definition definition) : definition_(std::move(definition)) {
@@ -52,33 +42,15 @@ DiffractionForce::DiffractionForce(Definition definition) : definition_(std::mov
   const WaveField& field = definition_.sea->waves;
   if (field.is_still()) return;
   if (state_count() > 1) interpolation_ = DraughtInterpolation(definition_.series->draughts);
-  headings_ = definition_.series->databases.front().headings;
-  headings_.push_back(headings_.front() + turn);
-  for (std::size_t i = 1; i < headings_.size(); ++i) {
-    const double gap = headings_[i] - headings_[i - 1];
-    if (gap > 0.0 && gap <= largest_gap + 1e-9) continue;
-    std::ostringstream text;
-    text << "the database's headings must ascend through a whole turn, at most 45 degrees apart, "
-            "for a "
-            "vessel that may turn in the waves; "
-         << headings_[i - 1] / turn * 360.0 << " and " << headings_[i] / turn * 360.0
-         << " degrees follow each other";
-    throw ModelError(text.str());
-  }
+  headings_ = headings_of_whole_turn("the diffraction force " + definition_.name,
+                                     definition_.series->databases.front().headings);
   for (std::size_t c = 0; c < field.component_count(); ++c) {
     add_component(field.component(c), field.wave_number(c));
   }
 }
 
 void DiffractionForce::add_component(const WaveComponent& wave, double wave_number) {
-  const std::vector<double>& known = definition_.series->databases.front().frequencies;
-  if (wave.omega < known.front() * (1.0 - 1e-9) || wave.omega > known.back() * (1.0 + 1e-9)) {
-    std::ostringstream text;
-    text << "the sea has a wave of " << wave.omega << " rad/s, and the database holds "
-         << known.front() << " to " << known.back()
-         << " rad/s; compute it for more frequencies or cut the spectrum";
-    throw ModelError(text.str());
-  }
+  require_frequency(definition_.series->databases.front().frequencies, wave.omega);
   waves_.push_back(wave);
   wave_number_.push_back(wave_number);
   const std::size_t count = headings_.size() - 1;
@@ -114,13 +86,9 @@ DiffractionForce::Amplitude DiffractionForce::amplitude_at(const HydrodynamicDat
     }
     return ordered;
   };
-  const auto above = std::lower_bound(known.begin(), known.end(), frequency);
-  const auto upper =
-      std::min<std::size_t>(static_cast<std::size_t>(above - known.begin()), known.size() - 1);
-  if (upper == 0 || known[upper] == frequency) return at(upper);
-  const double s =
-      std::clamp((frequency - known[upper - 1]) / (known[upper] - known[upper - 1]), 0.0, 1.0);
-  return (1.0 - s) * at(upper - 1) + s * at(upper);
+  const PlaceInRange place_of = find_frequency(known, frequency);
+  if (place_of.share == 1.0) return at(place_of.upper);
+  return (1.0 - place_of.share) * at(place_of.upper - 1) + place_of.share * at(place_of.upper);
 }
 
 ForceVector DiffractionForce::calc_force(const MotionState& state) const {
@@ -136,10 +104,7 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
   Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
   for (std::size_t c = 0; c < waves_.size(); ++c) {
     const WaveComponent& wave = waves_[c];
-    const double heading = wrapped(wave.heading - yaw, headings_.front());
-    const auto next = std::upper_bound(headings_.begin() + 1, headings_.end() - 1, heading);
-    const auto j = static_cast<std::size_t>(next - headings_.begin());
-    const double s = (heading - headings_[j - 1]) / (headings_[j] - headings_[j - 1]);
+    const auto [j, s] = find_place(headings_, wave.heading - yaw);
     const double phase = wave.omega * state.time - wave.phase -
                          wave_number_[c] * (std::cos(wave.heading) * X_WH.p.x() +
                                             std::sin(wave.heading) * X_WH.p.y());

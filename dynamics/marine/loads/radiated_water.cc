@@ -30,6 +30,13 @@ HydrodynamicSeries checked(const RadiatedWater::Definition& definition) {
                      " bodies, and " + std::to_string(definition.frames.size()) +
                      " float in it; each needs its part");
   }
+  const bool fitted =
+      series.memories.empty() ||
+      (series.memories.size() == series.databases.size() &&
+       std::all_of(series.memories.begin(), series.memories.end(), [&](const auto& m) {
+         return m.mode_count() == series.databases.front().mode_count();
+       }));
+  if (!fitted) throw ModelError("the memories of the water are not those of its databases");
   if (series.databases.size() > 1 && definition.mark.body <= world_index) {
     throw ModelError("databases of several draughts, and no body whose draught it is");
   }
@@ -64,17 +71,6 @@ Eigen::VectorXd scale_of(const MatrixXd& matrix) {
   return (diagonal.array() > 0.0).select(diagonal.cwiseSqrt(), 1.0);
 }
 
-MemoryStateSpace fit(const RadiatedWater::Definition& d, const HydrodynamicDatabase& database) {
-  if (d.most_loose_states == 0) {
-    return MemoryStateSpace(database, d.memory_tolerance, d.most_states, d.acceptable_error);
-  }
-  try {
-    return MemoryStateSpace(database, d.memory_tolerance, d.most_states, d.acceptable_error);
-  } catch (const ModelError&) {
-    return MemoryStateSpace(database, d.loose_tolerance, d.most_loose_states);
-  }
-}
-
 }  // namespace
 
 RadiatedWater::RadiatedWater(const Definition& definition)
@@ -101,12 +97,13 @@ RadiatedWater::RadiatedWater(const Definition& definition, const HydrodynamicSer
     }
     before = added;
   }
-  std::vector<std::optional<MemoryStateSpace>> memories(series.databases.size());
-  parallel_for(static_cast<int>(memories.size()), 0, [&](int k) {
-    const auto index = static_cast<std::size_t>(k);
-    memories[index].emplace(fit(definition, series.databases[index]));
-  });
-  for (const auto& memory : memories) append(*memory);
+  if (series.memories.empty()) {
+    for (const MemoryStateSpace& memory : fit_memories(series.databases, definition.fit)) {
+      append(memory);
+    }
+    return;
+  }
+  for (const MemoryStateSpace& memory : series.memories) append(memory);
 }
 
 RadiatedWater::RadiatedWater(std::vector<BodyFrame> frames, const MatrixXd& infinite_added_mass)

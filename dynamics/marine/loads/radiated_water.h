@@ -47,16 +47,11 @@ class RadiatedWater {
     /// One for each body of the database, in its order.
     std::vector<BodyFrame> frames;
     std::shared_ptr<const HydrodynamicDatabase> database;
-    double memory_tolerance = 0.01;  ///< of MemoryStateSpace
-    int most_states = 400;
+    MemoryFit fit = {};  ///< of memories that the series does not bring
     /// In place of a single database: several, the first of a dry body (draught 0).
     std::shared_ptr<const HydrodynamicSeries> series = {};
     /// Where the draught of the series' lowered body is read.
     DraughtMark mark = {};
-    double acceptable_error = 0.0;  ///< likewise
-    /// Where a database does not meet the above: tried in their place; 0: not.
-    double loose_tolerance = 0.0;
-    int most_loose_states = 0;
   };
 
   /// @throws ModelError if the bodies are not as many as the database's, or as AddedInertia,

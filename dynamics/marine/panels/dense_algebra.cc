@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <complex>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -16,6 +17,8 @@ void dgetrf_(const int* rows, const int* columns, double* a, const int* lda, int
              int* info);
 void dgetrs_(const char* transposed, const int* n, const int* right_sides, const double* a,
              const int* lda, const int* pivots, double* b, const int* ldb, int* info);
+void zgesv_(const int* n, const int* right_sides, std::complex<double>* a, const int* lda,
+            int* pivots, std::complex<double>* b, const int* ldb, int* info);
 void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
              double* values, double* work, const int* work_size, int* integers,
              const int* integer_count, int* info);
@@ -64,6 +67,17 @@ void LuFactorisation::solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) co
   int info = 0;
   dgetrs_("N", &n, &columns, factors_.data(), &n, pivots_.data(), right_sides.data(), &stride,
           &info);
+}
+
+void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, const char* what) {
+  const int n = to_int(matrix.rows()), columns = to_int(right_sides.cols());
+  if (n == 0 || columns == 0) return;
+  std::vector<int> pivots(static_cast<std::size_t>(n));
+  int info = 0;
+  zgesv_(&n, &columns, matrix.data(), &n, pivots.data(), right_sides.data(), &n, &info);
+  if (info != 0) {
+    throw SimulationError(std::string(what) + " is singular at row " + std::to_string(info));
+  }
 }
 
 Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix) {

@@ -24,6 +24,11 @@ class LuFactorisation {
   std::vector<int> pivots_;
 };
 
+/// Replaces the right-hand sides by the solutions of a dense complex system, of whose matrix
+/// nothing is left, by LAPACK.
+/// @throws SimulationError if the matrix is singular; `what` says which matrix it is.
+void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, const char* what);
+
 /// Eigenvalues, ascending, of a symmetric matrix, whose place its eigenvectors take as columns; by
 /// LAPACK.
 /// @throws SimulationError if the iteration does not converge.

@@ -17,7 +17,9 @@ MatrixXcd FrequencyDomain::solve(double frequency, const MatrixXcd& supply) cons
     const Complex rate(damping_[i], frequency);
     matrix(i, i) += rate * rate;
   }
-  return matrix.partialPivLu().solve(-g * supply);
+  MatrixXcd potentials = -g * supply;
+  solve_in_place(matrix, potentials, "the matrix of the oscillating surface");
+  return potentials;
 }
 
 void FrequencyDomain::calc_radiation(double frequency, MatrixXd& added_mass,
@@ -32,20 +34,27 @@ void FrequencyDomain::calc_radiation(double frequency, MatrixXd& added_mass,
   damping = frequency * share.imag();
 }
 
-Eigen::VectorXcd FrequencyDomain::calc_force(double frequency,
-                                             const Eigen::VectorXcd& normal_velocity) const {
-  MatrixXd velocities(normal_velocity.size(), 2), bodies, supply;
-  velocities << normal_velocity.real(), normal_velocity.imag();
+MatrixXcd FrequencyDomain::calc_body_potentials(double frequency,
+                                                const MatrixXcd& normal_velocities) const {
+  const Eigen::Index count = normal_velocities.cols();
+  MatrixXd velocities(normal_velocities.rows(), 2 * count), bodies, supply;
+  velocities << normal_velocities.real(), normal_velocities.imag();
   part_.solve(velocities, bodies, supply);
   const Complex i(0.0, 1.0);
-  const MatrixXcd surface =
-      solve(frequency, supply.col(0).cast<Complex>() + i * supply.col(1).cast<Complex>());
-  const Eigen::VectorXcd potential = bodies.col(0).cast<Complex>() +
-                                     i * bodies.col(1).cast<Complex>() +
-                                     part_.body_from_surface().cast<Complex>() * surface;
+  const MatrixXcd surface = solve(frequency, supply.leftCols(count).cast<Complex>() +
+                                                 i * supply.rightCols(count).cast<Complex>());
+  MatrixXcd potentials(bodies.rows(), count);
+  potentials.real() = bodies.leftCols(count) + part_.body_from_surface() * surface.real();
+  potentials.imag() = bodies.rightCols(count) + part_.body_from_surface() * surface.imag();
+  return potentials;
+}
+
+Eigen::VectorXcd FrequencyDomain::calc_force(double frequency,
+                                             const Eigen::VectorXcd& normal_velocity) const {
+  const Complex i(0.0, 1.0);
   const MatrixXd weighted = model_.body_areas().asDiagonal() * part_.normal_velocities();
   return i * (frequency * model_.water().density * part_.image_count()) *
-         (weighted.transpose() * potential);
+         (weighted.transpose() * calc_body_potentials(frequency, normal_velocity));
 }
 
 }  // namespace blocklift::dynamics

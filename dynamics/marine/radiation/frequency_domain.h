@@ -26,6 +26,11 @@ class FrequencyDomain {
   /// the diffraction force for v = -n.u of an incident wave. The part must have kept its factors.
   Eigen::VectorXcd calc_force(double frequency, const Eigen::VectorXcd& normal_velocity) const;
 
+  /// Potential on the bodies (m2/s) while their normal velocities are Re(v e^{iwt}), a column each.
+  /// The part must have kept its factors.
+  Eigen::MatrixXcd calc_body_potentials(double frequency,
+                                        const Eigen::MatrixXcd& normal_velocities) const;
+
  private:
   /// phi_F of a supply W^1/2 q v.
   Eigen::MatrixXcd solve(double frequency, const Eigen::MatrixXcd& supply) const;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/frequency_domain.h"
 #include "dynamics/marine/radiation/impulse_run.h"
 #include "dynamics/marine/radiation/incident_wave.h"
 
@@ -56,6 +57,7 @@ class Progress {
 /// Waves that leave them must not be lost on coarse rings, which would tell nothing of the hulls.
 RankineSettings rankine_settings(const PanelModel& model, const DatabaseSettings& settings) {
   RankineSettings rankine = settings.rankine;
+  rankine.keep_factors = rankine.keep_factors || settings.with_far_field;
   if (!settings.with_coarser) return rankine;
   double diameters = 0.0;
   for (const Panel& panel : model.body_mesh().panels) diameters += panel.diameter();
@@ -79,12 +81,17 @@ class PartComputation {
   void run(double step, long steps, std::vector<MatrixXd>& retardation, const Progress& progress);
   void add_frequencies(HydrodynamicDatabase& database) const;
   void add_excitation(HydrodynamicDatabase& database) const;
+  /// To the far field, made for all parts together.
+  void add_far_field(HydrodynamicDatabase& database) const;
   /// To the radiation forces of the coarser solution, one 6N x 6N for each frequency.
   void add_coarser(std::vector<MatrixXcd>& forces) const;
 
  private:
+  MatrixXcd mode_potentials(std::size_t frequency) const;
+
   const PanelModel& model_;
   const DatabaseSettings& settings_;
+  Eigen::VectorXd damping_rates_;
   RankinePart part_;
   ImpulseRun run_;
   std::optional<ImpulseRun> coarser_run_;
@@ -95,12 +102,12 @@ PartComputation::PartComputation(const PanelModel& model, const Parity& parity,
                                  double damping_strength)
     : model_(model),
       settings_(settings),
+      damping_rates_(DampingZone{damping_strength}.rates(model.surface())),
       part_(model, parity, rankine),
-      run_(part_, DampingZone{damping_strength}.rates(model.surface()), model.water(),
-           settings.frequencies) {
+      run_(part_, damping_rates_, model.water(), settings.frequencies) {
   if (part_.coarser() == nullptr) return;
-  const Eigen::VectorXd rates = rankine.coarser->surface.average(
-      model.surface_areas(), DampingZone{damping_strength}.rates(model.surface()));
+  const Eigen::VectorXd rates =
+      rankine.coarser->surface.average(model.surface_areas(), damping_rates_);
   coarser_run_.emplace(*part_.coarser(), rates, model.water(), settings.frequencies);
 }
 
@@ -151,6 +158,18 @@ void PartComputation::add_coarser(std::vector<MatrixXcd>& forces) const {
   }
 }
 
+/// Potentials on the bodies per unit velocity of the modes.
+MatrixXcd PartComputation::mode_potentials(std::size_t frequency) const {
+  // phi on the surface per unit velocity is -g eta/(i w); then on the bodies.
+  const MatrixXcd surface = -model_.water().gravity /
+                            Complex(0.0, settings_.frequencies[frequency]) *
+                            run_.elevation(frequency);
+  MatrixXcd bodies(part_.body_columns().rows(), part_.body_columns().cols());
+  bodies.real() = part_.body_columns() + part_.body_from_surface() * surface.real();
+  bodies.imag() = part_.body_from_surface() * surface.imag();
+  return bodies;
+}
+
 void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
   const Water& water = model_.water();
   const MatrixXd weighted_normals = model_.body_areas().asDiagonal() * part_.normal_velocities();
@@ -159,12 +178,7 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
       static_cast<int>(database.frequencies.size()), settings_.rankine.threads, [&](int index) {
         const auto k = static_cast<std::size_t>(index);
         const double w = database.frequencies[k];
-        // phi on the surface per unit velocity is -g eta/(i w); then on the bodies.
-        const MatrixXcd surface = -water.gravity / Complex(0.0, w) * run_.elevation(k);
-        MatrixXcd bodies(part_.body_columns().rows(), part_.body_columns().cols());
-        bodies.real() = part_.body_columns() + part_.body_from_surface() * surface.real();
-        bodies.imag() = part_.body_from_surface() * surface.imag();
-        const MatrixXcd weighted_potentials = model_.body_areas().asDiagonal() * bodies;
+        const MatrixXcd weighted_potentials = model_.body_areas().asDiagonal() * mode_potentials(k);
         for (Eigen::Index h = 0; h < headings; ++h) {
           const IncidentWave wave(water, w, database.headings[static_cast<std::size_t>(h)]);
           const Eigen::VectorXcd potential = model_.part_of(
@@ -184,6 +198,71 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
           }
         }
       });
+}
+
+// By Green's theorem with the wave psi = f(z) exp(i k (x cos theta + y sin theta)), f that of the
+// incident waves, and stationary phase far away:
+//   H = sqrt(k/2 pi) exp(i pi/4)/(2 c_g) int (dphi/dn psi - phi dpsi/dn) dS over the bodies.
+void PartComputation::add_far_field(HydrodynamicDatabase& database) const {
+  const Water& water = model_.water();
+  const Parity& parity = part_.parity();
+  const FrequencyDomain scattering(model_, part_, damping_rates_);
+  FarField& far = database.far_field;
+  const auto waves_of = [&](double w, const std::vector<double>& angles, double turn,
+                            MatrixXcd& potentials, MatrixXcd& velocities) {
+    const auto count = static_cast<Eigen::Index>(angles.size());
+    potentials.resize(model_.body_areas().size(), count);
+    velocities.resize(model_.body_areas().size(), count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const IncidentWave wave(water, w, angles[static_cast<std::size_t>(j)] + turn);
+      potentials.col(j) = model_.part_of(
+          parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
+      velocities.col(j) =
+          model_.part_of(parity, [&](const Vector3& p, const Vector3& n) -> Complex {
+            return (wave.velocity(p).transpose() * n)(0);
+          });
+    }
+  };
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const double w = database.frequencies[k], number = calc_wave_number(w, water);
+    MatrixXcd psi, psi_n, incident, incident_n;
+    // The wave that meets the sought one comes from where that goes.
+    waves_of(w, far.directions, std::numbers::pi, psi, psi_n);
+    waves_of(w, database.headings, 0.0, incident, incident_n);
+    // psi is w/(i g) times the potential of an incident wave of unit amplitude.
+    const Complex scale = w / Complex(0.0, water.gravity) / (2.0 * calc_group_velocity(w, water)) *
+                          std::sqrt(number / (2.0 * std::numbers::pi)) *
+                          std::polar(1.0 * part_.image_count(), 0.25 * std::numbers::pi);
+    const auto send = [&](const MatrixXcd& velocities, const MatrixXcd& potentials) {
+      const MatrixXcd weighted_velocities = model_.body_areas().asDiagonal() * velocities;
+      const MatrixXcd weighted_potentials = model_.body_areas().asDiagonal() * potentials;
+      return MatrixXcd(scale * (psi.transpose() * weighted_velocities -
+                                psi_n.transpose() * weighted_potentials));
+    };
+    const Complex rate(0.0, w);
+    far.radiated[k](Eigen::all, part_.modes()) +=
+        rate * send(part_.normal_velocities().cast<Complex>(), mode_potentials(k));
+    if (database.headings.empty()) continue;
+    far.scattered[k] += send(-incident_n, scattering.calc_body_potentials(w, -incident_n));
+  }
+}
+
+/// Nothing sent out yet.
+FarField make_empty_far_field(const PanelModel& model, const DatabaseSettings& settings) {
+  double reach = 0.0;
+  for (const WettedBody& body : model.bodies()) {
+    for (const Panel& panel : body.hull.panels) {
+      reach = std::max(reach, panel.centroid.head<2>().norm());
+    }
+  }
+  const int count =
+      direction_count(reach, calc_wave_number(settings.frequencies.back(), model.water()));
+  FarField far;
+  for (int j = 0; j < count; ++j) far.directions.push_back(2.0 * std::numbers::pi * j / count);
+  far.radiated.assign(settings.frequencies.size(), MatrixXcd::Zero(count, model.mode_count()));
+  far.scattered.assign(settings.frequencies.size(),
+                       MatrixXcd::Zero(count, static_cast<Eigen::Index>(settings.headings.size())));
+  return far;
 }
 
 HydrodynamicDatabase make_empty(const PanelModel& model, const DatabaseSettings& settings) {
@@ -252,8 +331,12 @@ double database_bytes(const PanelModel& model, const DatabaseSettings& settings)
   // The march's operator in single precision, and two Fourier integrals for each frequency.
   const double integrals = 16.0 * static_cast<double>(settings.frequencies.size()) *
                            static_cast<double>(model.mode_count());
+  // The factors that are kept, and a complex system with its factors.
+  const double bodies = model.body_mesh().size();
+  const double far_field =
+      settings.with_far_field ? 8.0 * (bodies + n) * (bodies + n) + 32.0 * n * n : 0.0;
   return rankine_part_bytes(model.body_mesh().size(), surface, !is_deep(model.water())) +
-         n * (4.0 * n + integrals);
+         n * (4.0 * n + integrals) + far_field;
 }
 
 HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSettings& settings,
@@ -264,6 +347,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     throw ModelError("no body reaches the surface: without a surface mesh there are no waves");
   }
   HydrodynamicDatabase database = make_empty(model, settings);
+  if (settings.with_far_field) database.far_field = make_empty_far_field(model, settings);
   const double lowest = settings.frequencies.front(), highest = settings.frequencies.back();
   const double duration =
       settings.duration > 0.0 ? settings.duration : 3.0 * 2.0 * std::numbers::pi / lowest;
@@ -283,7 +367,8 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   Progress progress(settings, parities.size());
   for (std::size_t p = 0; p < parities.size(); ++p) {
     const Parity& parity = parities[p];
-    if (model.normal_velocities(parity).isZero(0.0)) continue;
+    // What no mode moves may scatter waves all the same.
+    if (!settings.with_far_field && model.normal_velocities(parity).isZero(0.0)) continue;
     progress.part(p);
     progress.solve();
     PartComputation computation(model, parity, settings, rankine, strength);
@@ -305,6 +390,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     start = std::chrono::steady_clock::now();
     progress.excite();
     computation.add_excitation(database);
+    if (settings.with_far_field) computation.add_far_field(database);
     account.excitation_s += seconds_since(start);
     const RankineTiming& timing = computation.part().timing();
     account.solution.influence_s += timing.influence_s;

@@ -3,6 +3,7 @@
 #include <complex>
 #include <functional>
 
+#include "dynamics/marine/radiation/far_field.h"
 #include "dynamics/marine/radiation/free_surface.h"
 
 namespace blocklift::dynamics {
@@ -41,6 +42,10 @@ struct HydrodynamicDatabase {
   /// frequencies from panels of twice the size to these, relative; empty: unknown. It bounds the
   /// panels' error: at first order it is the error itself, at second order three times as much.
   Eigen::VectorXd change_from_coarser;
+  /// Mean forces of second order on each body as it floats, in regular waves of unit amplitude
+  /// (calc_mean_drift): 6N x headings for each frequency; N/m2, N m/m2; empty: unknown.
+  std::vector<Eigen::MatrixXd> mean_drift;
+  FarField far_field;  ///< empty: unknown
 
   int body_count() const { return static_cast<int>(body_names.size()); }
   int mode_count() const { return modes_per_body * body_count(); }
@@ -66,6 +71,8 @@ struct DatabaseSettings {
   double damping_strength = 0.0;
   /// Compute HydrodynamicDatabase::change_from_coarser, at about a tenth of the cost.
   bool with_coarser = false;
+  /// Compute HydrodynamicDatabase::far_field: a dense complex system for each frequency and part.
+  bool with_far_field = false;
   RankineSettings rankine;
   /// Called as the computation goes on, with the share done (0 to 1) and what is being done.
   std::function<void(double, const char*)> progress;

@@ -29,6 +29,8 @@ class Examination {
     series(database_.damping, modes, "the damping");
     series(database_.froude_krylov, headings(), "the Froude-Krylov force");
     series(database_.diffraction, headings(), "the diffraction force");
+    if (!database_.mean_drift.empty()) series(database_.mean_drift, headings(), "the mean drift");
+    if (!database_.far_field.empty()) far_field();
     retardation();
     if (!text_.empty()) throw ModelError(text_);
   }
@@ -140,6 +142,21 @@ class Examination {
     for (std::size_t k = 0; k < matrices.size(); ++k) {
       if (!matrix(matrices[k], columns, join(what, " at ", database_.frequencies[k], " rad/s")))
         return;
+    }
+  }
+
+  void far_field() {
+    const FarField& far = database_.far_field;
+    const auto fits = [&](const std::vector<Eigen::MatrixXcd>& waves, Eigen::Index columns) {
+      if (waves.size() != database_.frequencies.size()) return false;
+      return std::all_of(waves.begin(), waves.end(), [&](const Eigen::MatrixXcd& matrix) {
+        return matrix.rows() == static_cast<Eigen::Index>(far.directions.size()) &&
+               matrix.cols() == columns && matrix.allFinite();
+      });
+    };
+    if (far.directions.size() % 2 == 0 || !fits(far.radiated, database_.mode_count()) ||
+        !fits(far.scattered, headings())) {
+      complain("the far field does not fit the frequencies, modes and headings, or is not finite");
     }
   }
 

@@ -37,6 +37,8 @@ HydrodynamicDatabase mix(HydrodynamicDatabase a, const HydrodynamicDatabase& b, 
   mix(a.damping, b.damping, s);
   mix(a.froude_krylov, b.froude_krylov, s);
   mix(a.diffraction, b.diffraction, s);
+  a.mean_drift.clear();
+  a.far_field = {};
   return a;
 }
 
@@ -62,6 +64,8 @@ class Reduction {
 HydrodynamicDatabase lessen(HydrodynamicDatabase database, int body, double share) {
   const Reduction reduction(body, share);
   database.displaced_volumes[static_cast<std::size_t>(body)] *= share;
+  database.mean_drift.clear();
+  database.far_field = {};
   reduction.square(database.hydrostatic_stiffness);
   reduction.square(database.infinite_added_mass);
   for (auto* matrices : {&database.retardation, &database.added_mass, &database.damping}) {
@@ -176,6 +180,8 @@ HydrodynamicDatabase with_dry_body(const HydrodynamicDatabase& wet, int body,
   dry.hydrostatic_stiffness = {};
   dry.centres_of_buoyancy.clear();
   dry.change_from_coarser = {};
+  dry.mean_drift.clear();
+  dry.far_field = {};
   dry.displaced_volumes[static_cast<std::size_t>(body)] = 0.0;
   if (!others) return dry;
   std::vector<std::string> names = wet.body_names;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "dynamics/marine/radiation/memory_state_space.h"
 
 namespace blocklift::dynamics {
 
@@ -10,6 +11,8 @@ struct HydrodynamicSeries {
   int lowered_body = 0;          ///< whose draught the next is
   std::vector<double> draughts;  ///< m, ascending; one for each database; 0 if not known, or dry
   std::vector<HydrodynamicDatabase> databases;
+  /// Their memories, fitted before; empty: RadiatedWater fits them.
+  std::vector<MemoryStateSpace> memories = {};
 
   /// The database at a draught (m), linear in it between those that were computed. A series of one
   /// is the same at every draught. Otherwise it is that of the greatest draught beyond it; and

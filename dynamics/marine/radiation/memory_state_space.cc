@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/dense_algebra.h"
@@ -376,6 +378,37 @@ MemoryStateSpace::MemoryStateSpace(const HydrodynamicDatabase& database, double 
   C_ = samples.scale.asDiagonal() * all.C;
   B_ = all.B * samples.scale.asDiagonal();
 }
+
+MemoryStateSpace::MemoryStateSpace(const VectorXd& decay, const VectorXd& turn, MatrixXd B,
+                                   MatrixXd C, double error)
+    : A_(decay.asDiagonal()), B_(std::move(B)), C_(std::move(C)), error_(error) {
+  const Eigen::Index states = decay.size();
+  const bool fits =
+      turn.size() == states && B_.rows() == states && C_.cols() == states && B_.cols() == C_.rows();
+  if (!fits) throw ModelError("a memory of the water whose matrices do not fit each other");
+  const bool decays = (decay.array() < 0.0).all() && decay.allFinite() && turn.allFinite() &&
+                      B_.allFinite() && C_.allFinite() && std::isfinite(error);
+  if (!decays) throw ModelError("a memory of the water that does not decay, or is not finite");
+  for (Eigen::Index i = 0; i < states; ++i) {
+    if (turn[i] == 0.0) continue;
+    if (i + 1 == states || turn[i + 1] != 0.0) {
+      throw ModelError("a memory of the water whose pairs of states overlap");
+    }
+    A_(i, i + 1) = turn[i];
+    A_(i + 1, i) = -turn[i];
+    ++i;
+  }
+}
+
+VectorXd MemoryStateSpace::turn() const {
+  VectorXd turn = VectorXd::Zero(A_.rows());
+  for (Eigen::Index i = 0; i + 1 < A_.rows(); ++i) {
+    turn[i] = A_(i, i + 1);
+    if (turn[i] != 0.0) ++i;
+  }
+  return turn;
+}
+
 MatrixXd MemoryStateSpace::calc_retardation(double time) const {
   MatrixXd state = B_;
   for (Eigen::Index i = 0; i < A_.rows(); ++i) {
@@ -409,6 +442,31 @@ void MemoryStateSpace::calc_rate(const VectorXd& x, const VectorXd& v, VectorXd&
 
 void MemoryStateSpace::calc_force(const VectorXd& x, VectorXd& force) const {
   force.noalias() = -(C_ * x);
+}
+
+namespace {
+
+MemoryStateSpace fit_memory(const HydrodynamicDatabase& database, const MemoryFit& fit) {
+  try {
+    return MemoryStateSpace(database, fit.tolerance, fit.most_states, fit.acceptable_error);
+  } catch (const ModelError&) {
+    if (fit.most_loose_states == 0) throw;
+    return MemoryStateSpace(database, fit.loose_tolerance, fit.most_loose_states);
+  }
+}
+
+}  // namespace
+
+std::vector<MemoryStateSpace> fit_memories(const std::vector<HydrodynamicDatabase>& databases,
+                                           const MemoryFit& fit) {
+  std::vector<std::optional<MemoryStateSpace>> fitted(databases.size());
+  parallel_for(static_cast<int>(fitted.size()), 0, [&](int k) {
+    const auto index = static_cast<std::size_t>(k);
+    fitted[index].emplace(fit_memory(databases[index], fit));
+  });
+  std::vector<MemoryStateSpace> memories;
+  for (auto& memory : fitted) memories.push_back(std::move(*memory));
+  return memories;
 }
 
 }  // namespace blocklift::dynamics

@@ -30,12 +30,23 @@ class MemoryStateSpace {
   explicit MemoryStateSpace(const HydrodynamicDatabase& database, double tolerance = 0.01,
                             int most_states = 400, double acceptable = 0.0);
 
+  /// One that was fitted before, from what it is kept as.
+  /// @param decay diagonal of A, 1/s.
+  /// @param turn entry of A right of the diagonal, 1/s: zero but in the first row of a pair.
+  /// @param B, C, error as below.
+  /// @throws ModelError if the sizes do not fit each other, a number is not finite, a pole does not
+  ///   decay, or pairs overlap.
+  MemoryStateSpace(const Eigen::VectorXd& decay, const Eigen::VectorXd& turn, Eigen::MatrixXd B,
+                   Eigen::MatrixXd C, double error);
+
   int state_count() const { return static_cast<int>(A_.rows()); }
   int mode_count() const { return static_cast<int>(B_.cols()); }
   /// What the fit came to, in the measure of the tolerance.
   double error() const { return error_; }
 
   const Eigen::MatrixXd& A() const { return A_; }  ///< 1/s
+  Eigen::VectorXd decay() const { return A_.diagonal(); }
+  Eigen::VectorXd turn() const;
   const Eigen::MatrixXd& B() const { return B_; }
   const Eigen::MatrixXd& C() const { return C_; }
 
@@ -50,5 +61,23 @@ class MemoryStateSpace {
   Eigen::MatrixXd A_, B_, C_;
   double error_ = not_a_number;
 };
+
+/// How closely memories are to be fitted.
+struct MemoryFit {
+  double tolerance = 0.01;  ///< of MemoryStateSpace
+  int most_states = 400;
+  double acceptable_error = 0.0;
+  /// Where a database does not meet the above: tried in their place; 0: not.
+  double loose_tolerance = 0.0;
+  int most_loose_states = 0;
+};
+
+/// Changes whenever fit_memories gives another fit of the same retardation functions.
+inline constexpr int memory_fit_version = 1;
+
+/// The memory of each of the databases, which are fitted side by side.
+/// @throws ModelError as MemoryStateSpace.
+std::vector<MemoryStateSpace> fit_memories(const std::vector<HydrodynamicDatabase>& databases,
+                                           const MemoryFit& fit);
 
 }  // namespace blocklift::dynamics

@@ -35,12 +35,16 @@ double added_mass_at(const HydrodynamicDatabase& database, Eigen::Index mode, do
 }  // namespace
 
 std::vector<MatrixXcd> calc_response_amplitudes(const HydrodynamicDatabase& database,
-                                                const MatrixXd& mass) {
+                                                const MatrixXd& mass, const MatrixXd& damping) {
   const Eigen::Index modes = database.mode_count();
   if (mass.rows() != modes || mass.cols() != modes) {
     throw ModelError("the mass matrix is " + std::to_string(mass.rows()) + " x " +
                      std::to_string(mass.cols()) + " where the database has " +
                      std::to_string(modes) + " modes");
+  }
+  if (damping.size() > 0 && (damping.rows() != modes || damping.cols() != modes)) {
+    throw ModelError("the damping is not that of the database's " + std::to_string(modes) +
+                     " modes");
   }
   if (database.hydrostatic_stiffness.rows() != modes) {
     throw ModelError(
@@ -52,6 +56,7 @@ std::vector<MatrixXcd> calc_response_amplitudes(const HydrodynamicDatabase& data
     MatrixXcd matrix(modes, modes);
     matrix.real() = database.hydrostatic_stiffness - w * w * (mass + database.added_mass[k]);
     matrix.imag() = w * database.damping[k];
+    if (damping.size() > 0) matrix.imag() += w * damping;
     response.emplace_back(matrix.partialPivLu().solve(database.excitation(k)));
   }
   return response;

@@ -9,13 +9,15 @@ namespace blocklift::dynamics {
 ///
 ///   (-w^2 (m + A(w)) + i w B(w) + C) xi = X(w, theta),   motion Re xi a exp(i w t).
 ///
-/// Damping is that of the radiated waves alone: viscous damping, which governs roll at resonance,
-/// is not in it. `mass` is m, 6N x 6N about the reference points (kg, kg m, kg m2).
+/// Damping is that of the radiated waves; viscous damping, which governs roll at resonance, joins
+/// it by `damping`, 6N x 6N (kg/s, kg m/s, kg m2/s; empty: none). `mass` is m, 6N x 6N about the
+/// reference points (kg, kg m, kg m2).
 /// @returns for each frequency a matrix 6N x headings, m/m and rad/m.
-/// @throws ModelError if the mass has another size than the database, or that lacks its hydrostatic
-/// stiffness.
+/// @throws ModelError if mass or damping have another size than the database, or that lacks its
+/// hydrostatic stiffness.
 std::vector<Eigen::MatrixXcd> calc_response_amplitudes(const HydrodynamicDatabase& database,
-                                                       const Eigen::MatrixXd& mass);
+                                                       const Eigen::MatrixXd& mass,
+                                                       const Eigen::MatrixXd& damping = {});
 
 /// Natural period (s) of one mode by itself, the others held: w^2 (m_ii + A_ii(w)) = C_ii with A
 /// interpolated between the frequencies of the database; NaN if nothing brings the motion back.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstdlib>
 #include <fstream>
 #include <numbers>
 
@@ -11,6 +10,7 @@
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/simulation/mechanism_run.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"
+#include "pipeline/verification/hydrodynamics/scratch_folder.h"
 #include "pipeline/verification/models/hemisphere.h"
 
 namespace blocklift::pipeline {
@@ -24,26 +24,6 @@ constexpr double sphere_radius = 5.0, water_density = 1000.0, standard_gravity =
 constexpr int heave_mode = 2;
 // Small beside the radius: the water plane shrinks by (z / a)^2 = 0.0004.
 constexpr double release = 0.1;
-
-/// A folder of its own for the files of one case; gone with the object.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "blocklift-verify-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no folder for files");
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 double frequency_of(double ka) { return std::sqrt(ka * standard_gravity / sphere_radius); }
 

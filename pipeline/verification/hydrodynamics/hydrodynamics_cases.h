@@ -30,6 +30,12 @@ VerificationCase two_hemispheres();
 VerificationCase haskind_relation();
 /// Excitation of a cylinder that stands on the bottom.
 VerificationCase standing_cylinder();
+/// Mean drift of a standing column; waves sent out against damping; energy at a free body.
+VerificationCase mean_drift_of_waves();
+/// A sphere that a current takes along.
+VerificationCase drag_of_a_current();
+/// A sphere in a regular wave over 1,000 periods.
+VerificationCase thousand_periods();
 /// Free decay of a floating sphere, directly and by Cummins' equation; steps of the convolution.
 VerificationCase free_decay_of_a_sphere();
 /// The shipped sphere from its file to a database's file, and its decay in a mechanism that names

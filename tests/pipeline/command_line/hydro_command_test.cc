@@ -1,5 +1,6 @@
 // `blocklift hydro` as a user meets it: run as a process.
 #include <filesystem>
+#include <sstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -98,6 +99,34 @@ TEST_F(HydroCommand, ComputesSeveralVesselsTogether) {
   EXPECT_THAT(crash.err, AllOf(HasSubstr("crash.yaml:4:3: error: vessel left and vessel right "
                                          "intersect, at ("),
                                HasSubstr("move one of them")));
+}
+
+// Waves from ahead press the pontoon back; a pair has no drift of each.
+TEST_F(HydroCommand, ComputesMeanDriftOfASingleVessel) {
+  folder_.write("pontoon/vessel.yaml", pontoon + "  mean_drift: true\n");
+  const Outcome outcome = run("pontoon -o db.h5");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("mean drift, kN/m2, kN m/m2"));
+  ASSERT_EQ(run("--import db.h5 --export wamit -o wec.1").exit_code, 0);
+  std::istringstream lines(test::text_of_file("wec.8"));
+  double period = 0, heading = 0, other = 0, modulus = 0, phase = 0, real = 0, imaginary = 0;
+  int mode = 0, from_astern = 0;
+  while (lines >> period >> heading >> other >> mode >> modulus >> phase >> real >> imaginary) {
+    if (mode != 1 || heading != 0.0) continue;
+    EXPECT_GT(real, 0.0) << period;
+    ++from_astern;
+  }
+  EXPECT_EQ(from_astern, 4);
+  EXPECT_THAT(run("pontoon -o db.h5").out, HasSubstr("already computed"));
+  folder_.write("pair.yaml",
+                "kind: vessels\n"
+                "vessels:\n"
+                "  left: {vessel: pontoon, position: [0 m, -6 m]}\n"
+                "  right: {vessel: pontoon, position: [0 m, 6 m]}\n"
+                "hydrodynamics: {mean_drift: true}\n");
+  const Outcome pair = run("pair.yaml -o pair.h5");
+  EXPECT_EQ(pair.exit_code, 2);
+  EXPECT_THAT(pair.err, HasSubstr("that of all together only"));
 }
 
 // Apart at the water line, and in each other's way below it.

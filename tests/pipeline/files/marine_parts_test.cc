@@ -231,6 +231,86 @@ TEST(MarineParts, ComplainsAboutDatabases) {
   EXPECT_THAT(complaint("database_body: pontoon"), HasSubstr("is a body of no database"));
 }
 
+// The free vessel whose mean drift is asked for: mass with what stands on it, about the point in
+// the water line above the origin, in the world's axes (the barge heads along y).
+TEST(MarineParts, DriftAsksForTheFarField) {
+  EXPECT_FALSE(radiation_problem(sound(floating)).drifting);
+  const MechanismFile file = sound(with(floating, "damping:", "drift: newman, damping:"));
+  const RadiationProblem problem = radiation_problem(file);
+  ASSERT_TRUE(problem.drifting);
+  const Eigen::MatrixXd& mass = problem.drifting->mass;
+  EXPECT_NEAR(mass(0, 0), 1722e3, 1.0);
+  // The centre of mass lies 0.9 m above the reference point: surge there with a turn about y.
+  EXPECT_NEAR(mass(0, 4), 1722e3 * 0.9, 1.0);
+  EXPECT_NEAR(mass(1, 3), -1722e3 * 0.9, 1.0);
+  EXPECT_NEAR(mass(4, 4), 1722e3 * (36.0 + 0.81), 1e2);
+  EXPECT_NEAR(problem.drifting->stiffness(2, 2), 1025 * 9.80665 * 800, 1.0);
+  EXPECT_NEAR(problem.drifting->damping(1, 1), 20e3, 1e-6);
+  EXPECT_NEAR(problem.drifting->damping(0, 0), 0.0, 1e-6);
+}
+
+TEST(MarineParts, DriftComesFromADatabase) {
+  const TemporaryFolder folder;
+  folder.write("vessels/barge.yaml", barge);
+  folder.write("mechanism.yaml",
+               with(floating, "damping:", "database: pontoon.h5, drift: newman, damping:"));
+  write_database("pontoon.h5", {"pontoon"});
+  ModelLibrary library({});
+  Diagnostics without;
+  EXPECT_FALSE(read_mechanism("mechanism.yaml", library, without));
+  EXPECT_THAT(without.to_text(), HasSubstr("holds no mean drift forces"));
+  dynamics::HydrodynamicDatabase database = read_hydrodynamic_database("pontoon.h5");
+  database.mean_drift.assign(2, Eigen::MatrixXd::Constant(6, 8, 1e3));
+  write_hydrodynamic_database("pontoon.h5", database);
+  Diagnostics diagnostics;
+  const auto file = read_mechanism("mechanism.yaml", library, diagnostics);
+  ASSERT_TRUE(file) << diagnostics.to_text();
+  EXPECT_FALSE(radiation_problem(*file).drifting);
+  const dynamics::HydrodynamicSeries series{0, {0.0}, {database}};
+  const BuiltMechanism built = build_mechanism(*file, &series);
+  const auto drifts = [](const dynamics::LiftSystem& system) {
+    return std::get<std::vector<dynamics::SlowDrift>>(system.elements()).size();
+  };
+  EXPECT_EQ(drifts(built.system), 1U);
+  EXPECT_EQ(drifts(built.at_rest()), 0U);
+}
+
+TEST(MarineParts, ComplainsAboutDriftAndCurrentLoads) {
+  const auto complaint = [](const std::string& keys) {
+    return complaints_of_change("damping:", keys + ", damping:");
+  };
+  EXPECT_THAT(complaint("drift: newmann"), HasSubstr("newman"));
+  EXPECT_THAT(complaint("radiation: none, drift: newman"), HasSubstr("its radiation is none"));
+  EXPECT_THAT(complaint("radiation: direct, drift: newman"), HasSubstr("its radiation is direct"));
+  EXPECT_THAT(complaint("draughts: [1 m, 2 m], drift: newman"), HasSubstr("is lowered"));
+  EXPECT_THAT(complaint("drift: newman}\n  B2: {model: vessels/barge, position: [90 m, 0 m]"),
+              HasSubstr("of all vessels together only"));
+  const auto current = [&](const std::string& rows, const std::string& more = "") {
+    return complaint("current_load: {area: 80 m^2, length: 40 m, coefficients: " + rows + "}" +
+                     more);
+  };
+  EXPECT_EQ(current("[[0 deg, 0.1, 0, 0], [180 deg, -0.1, 0, 0]]"), "");
+  EXPECT_THAT(current("[[0 deg, 0.1, 0, 0], [90 deg, 0, 1, 0]]"), HasSubstr("from 0 to 90 deg"));
+  EXPECT_THAT(current("[[0 deg, 0.1, 0, 0], [0 deg, 0, 1, 0]]"), HasSubstr("must ascend"));
+  EXPECT_THAT(current("[[0, 0.1, 0, 0], [180 deg, 0, 1, 0]]"), HasSubstr("row 1 of the"));
+  EXPECT_THAT(
+      current("[[0 deg, 0.1, 0, 0], [180 deg, -0.1, 0, 0]]", ", quadratic_damping: {sway: 5 t/m}"),
+      HasSubstr("given twice"));
+}
+
+TEST(MarineParts, CurrentLoadActsHalfWayDownTheDraught) {
+  const MechanismFile file = sound(with(
+      floating, "damping:",
+      "current_load: {area: 84 m^2, length: 40 m, coefficients: [[0 deg, 0.1, 0, 0], [90 deg, 0, "
+      "0.8, 0.02], [180 deg, -0.1, 0, 0]]}, damping:"));
+  const BuiltMechanism built = build_mechanism(file);
+  const auto& loads = std::get<std::vector<dynamics::CurrentLoad>>(built.system.elements());
+  ASSERT_EQ(loads.size(), 1U);
+  EXPECT_LT((loads[0].definition().reference.p_BoQ_B - Vector3(0, 0, 1.05)).norm(), 1e-6);
+  EXPECT_NEAR(loads[0].definition().reference_volume, 1680.0, 1e-6);
+  EXPECT_DOUBLE_EQ(loads[0].definition().coefficients.table[1].n, 0.02);
+}
+
 // In still water without other forces: a barge held by matrices.
 const std::string restrained = R"(mechanism: restrained
 sea: {}

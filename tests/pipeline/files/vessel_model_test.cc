@@ -66,6 +66,35 @@ TEST(VesselModel, AMeshThatEndsAtTheWaterGoesOnUpright) {
   }
 }
 
+// A box whose mesh is not symmetric: its ends are divided along one diagonal. By key it is.
+TEST(VesselModel, AMeshBecomesSymmetricByKey) {
+  const auto read = [](const std::string& key, double left) {
+    const test::TemporaryFolder folder;
+    std::string panels = "box\n1 9.80665\n0 0\n8\n";
+    const std::string l = std::to_string(left), r = "1";
+    const std::string a = "-2 " + l + " 0 ", b = "2 " + l + " 0 ", c = "2 " + r + " 0 ",
+                      d = "-2 " + r + " 0 ", A = "-2 " + l + " 3 ", B = "2 " + l + " 3 ",
+                      C = "2 " + r + " 3 ", D = "-2 " + r + " 3 ";
+    for (const std::string& panel : {a + d + c + b, A + B + C + D, a + b + B + A, c + d + D + C,
+                                     b + c + C + C, b + C + B + B, a + A + D + D, a + D + d + d}) {
+      panels += panel + "\n";
+    }
+    folder.write("box.gdf", panels);
+    folder.write("vessel.yaml", replaced(replaced(cube, "60 t", "8 t"),
+                                         "{barge: {length: 5 m, breadth: 5 m, depth: 5 m}}",
+                                         "{mesh: {file: box.gdf" + key + "}}"));
+    Diagnostics diagnostics;
+    const auto vessel = read_vessel("vessel.yaml", diagnostics);
+    return std::pair(vessel ? vessel->hull.panel_count() : 0, diagnostics.to_text());
+  };
+  EXPECT_EQ(read("", -1).first, 8);
+  const auto halved = read(", symmetric_in: [y]", -1);
+  EXPECT_GT(halved.first, 8) << halved.second;
+  EXPECT_THAT(read(", symmetric_in: [y]", -1.5).second,
+              testing::AllOf(HasSubstr("vessel.yaml:2:"), HasSubstr("not symmetric in y = 0")));
+  EXPECT_THAT(read(", symmetric_in: [z]", -1).second, HasSubstr("vessel.yaml:2:"));
+}
+
 TEST(VesselModel, SaysWhatIsWrong) {
   EXPECT_THAT(complaint(replaced(cube, "60 t", "200 t")),
               HasSubstr("would have to displace 195.122 m3; it encloses 125 m3"));

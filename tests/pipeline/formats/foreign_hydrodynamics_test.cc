@@ -79,6 +79,33 @@ TEST(Bemio, RoundTripIsExactButForTheScaling) {
   expect_near(database.diffraction, found.diffraction, two_roundings);
 }
 
+/// The database with mean drift forces.
+HydrodynamicDatabase with_drift(HydrodynamicDatabase database) {
+  const auto headings = static_cast<Eigen::Index>(database.headings.size());
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    database.mean_drift.emplace_back(Eigen::MatrixXd::Constant(12, headings, 3.0) +
+                                     Eigen::MatrixXd::Random(12, headings));
+  }
+  return database;
+}
+
+TEST(Bemio, BringsMeanDriftOfTheMethodThatTellsBodiesApart) {
+  const test::TemporaryFolder folder;
+  const HydrodynamicDatabase database = with_drift(make_sample_database());
+  write_bemio("wec.h5", database);
+  expect_near(database.mean_drift, read_bemio("wec.h5").mean_drift, two_roundings);
+  // Momentum far away is that of both bodies together.
+  {
+    const hdf5::Handle file(H5Fopen("wec.h5", H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    for (const std::string body : {"/body1", "/body2"}) {
+      const std::string group = body + "/hydro_coeffs/mean_drift/";
+      H5Lmove(file.get(), (group + "control_surface").c_str(), file.get(),
+              (group + "momentum_conservation").c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    }
+  }
+  EXPECT_TRUE(read_bemio("wec.h5").mean_drift.empty());
+}
+
 TEST(Bemio, DeepWaterAndDefects) {
   const test::TemporaryFolder folder;
   HydrodynamicDatabase database = make_sample_database();
@@ -125,6 +152,46 @@ TEST(Wamit, ScalesAsItsManualSays) {
   EXPECT_DOUBLE_EQ(database.hydrostatic_stiffness(2, 2), 10000 * 4 * 1.5);
   EXPECT_DOUBLE_EQ(database.hydrostatic_stiffness(3, 3), 10000 * 16 * 0.25);
   EXPECT_GT(database.retardation.size(), 2U);
+}
+
+// F1 = rho g L f, F6 = rho g L^2 f; of crossing waves nothing is taken; .9 goes before .8.
+TEST(Wamit, TakesMeanDriftOver) {
+  const test::TemporaryFolder folder;
+  std::string radiation, excitation, drift, momentum;
+  for (const std::string period : {"4.0", "8.0", "16.0"}) {
+    radiation += period + " 3 3 0.7 0.2\n";
+    for (const std::string heading : {"0.0", "90.0"}) {
+      excitation += period + " " + heading + " 3 5.0 53.13 3.0 4.0\n";
+      drift += period + " " + heading + " " + heading + " 1 0.5 180.0 -0.5 0.0\n";
+      drift += period + " " + heading + " " + heading + " 6 0.25 0.0 0.25 0.0\n";
+      momentum += period + " " + heading + " " + heading + " 1 9.0 0.0 9.0 0.0\n";
+    }
+    drift += period + " 0.0 90.0 1 7.0 0.0 7.0 0.0\n";
+  }
+  folder.write("barge.1", radiation);
+  folder.write("barge.3", excitation);
+  folder.write("barge.8", momentum);
+  const WamitScales scales{2.0, {1000.0, 10.0}};
+  EXPECT_DOUBLE_EQ(read_wamit("barge", scales).mean_drift.at(2)(0, 1), 10000 * 2 * 9.0);
+  folder.write("barge.9", drift);
+  const HydrodynamicDatabase database = read_wamit("barge", scales);
+  ASSERT_EQ(database.mean_drift.size(), 3U);
+  EXPECT_DOUBLE_EQ(database.mean_drift[0](0, 1), -10000 * 2 * 0.5);
+  EXPECT_DOUBLE_EQ(database.mean_drift[1](5, 0), 10000 * 4 * 0.25);
+  EXPECT_EQ(database.mean_drift[0](1, 0), 0.0);
+  folder.write("barge.9", "4.0 45.0 45.0 1 9.0 0.0 9.0 0.0\n");
+  EXPECT_THAT(message_of_import([&] { read_wamit("barge", scales); }),
+              HasSubstr("heading 45 degrees are not among those"));
+  folder.write("barge.9", "4.0 0.0 0.0 1 9.0 0.0 9.0 0.0\n");
+  EXPECT_THAT(message_of_import([&] { read_wamit("barge", scales); }),
+              HasSubstr("mean drift for 1 of 6 periods and headings"));
+}
+
+TEST(Wamit, MeanDriftComesBack) {
+  const test::TemporaryFolder folder;
+  const HydrodynamicDatabase database = with_drift(make_sample_database());
+  write_wamit("pair", database);
+  expect_near(database.mean_drift, read_wamit("pair", {1.0, database.water}).mean_drift, 2e-15);
 }
 
 TEST(Wamit, RoundTripKeepsTheDigits) {

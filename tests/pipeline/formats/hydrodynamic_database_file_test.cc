@@ -79,6 +79,30 @@ TEST(HydrodynamicDatabaseFile, ReadsExactlyWhatWasWritten) {
   EXPECT_EQ(read_hydrodynamic_file("db.h5").origin, "made up");
 }
 
+TEST(HydrodynamicDatabaseFile, KeepsDriftAndFarField) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = make_sample_database();
+  const std::size_t frequencies = database.frequencies.size();
+  const auto headings = static_cast<Eigen::Index>(database.headings.size());
+  for (std::size_t k = 0; k < frequencies; ++k) {
+    database.mean_drift.emplace_back(Eigen::MatrixXd::Random(12, headings));
+    database.far_field.radiated.emplace_back(Eigen::MatrixXcd::Random(5, 12));
+    database.far_field.scattered.emplace_back(Eigen::MatrixXcd::Random(5, headings));
+  }
+  database.far_field.directions = {0.0, 1.2, 2.4, 3.6, 4.8};
+  write_hydrodynamic_database("db.h5", database);
+  const HydrodynamicDatabase found = read_hydrodynamic_database("db.h5");
+  EXPECT_EQ(found.mean_drift, database.mean_drift);
+  EXPECT_EQ(found.far_field.directions, database.far_field.directions);
+  EXPECT_EQ(found.far_field.radiated, database.far_field.radiated);
+  EXPECT_EQ(found.far_field.scattered, database.far_field.scattered);
+  database.far_field.directions.pop_back();
+  EXPECT_THAT(message_of([&] { write_hydrodynamic_database("db.h5", database); }),
+              HasSubstr("the far field does not fit"));
+  remove("db.h5", "/states/0/far_field/radiated");
+  EXPECT_THAT(message_of([] { read_hydrodynamic_database("db.h5"); }), HasSubstr("radiated"));
+}
+
 TEST(HydrodynamicDatabaseFile, KeepsWhatIsUnknownUnknown) {
   const test::TemporaryFolder folder;
   HydrodynamicDatabase database = make_sample_database();

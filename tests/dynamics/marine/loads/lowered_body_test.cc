@@ -102,7 +102,7 @@ RadiatedWater::Definition definition_of(std::shared_ptr<const HydrodynamicSeries
   definition.frames = {{1, Pose::identity()}};
   definition.series = std::move(series);
   definition.mark = {1, Vector3::Zero()};
-  definition.memory_tolerance = 1e-3;
+  definition.fit.tolerance = 1e-3;
   return definition;
 }
 

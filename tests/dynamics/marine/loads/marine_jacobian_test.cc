@@ -90,6 +90,26 @@ TEST(MarineJacobian, OfDampingWetInPart) {
   expect_jacobian(elements, random);
 }
 
+TEST(MarineJacobian, OfCurrentOnAHullWetInPart) {
+  Random random(8);
+  ForceElements elements;
+  CurrentLoad::Definition d;
+  d.name = "c";
+  d.reference = {1, {1, 2, -1}};
+  d.coefficients = {
+      20,
+      20,
+      0,
+      12,
+      {{0, 1, 0, 0, 0, 0}, {1.5, 0.2, 1, 0, 0, 0.2}, {std::numbers::pi, -1, 0, 0, 0, 0}}};
+  d.sea =
+      std::make_shared<const Sea>(Sea{WaveField(Water{.density = 1}), Current::uniform(1.5, 0.4)});
+  d.hull = small_barge();
+  d.reference_volume = 1000;
+  std::get<std::vector<CurrentLoad>>(elements).push_back(CurrentLoad(d));
+  expect_jacobian(elements, random);
+}
+
 TEST(MarineJacobian, OfMooringAndTuggerLines) {
   Random random(5);
   ForceElements elements;

@@ -114,7 +114,7 @@ TEST(RadiatedWater, MovesBodiesAsCumminsEquationDoes) {
   for (const double ratio : {0.5, 50.0}) {
     const auto database = made_up(ratio);
     const auto water = std::make_shared<const RadiatedWater>(
-        RadiatedWater::Definition{frames(), database, 1e-3, 100});
+        RadiatedWater::Definition{frames(), database, {1e-3, 100}});
     const LiftSystem system = two_boxes(water, heave);
     const IntegrationResult result =
         integrate(system, system.q_start(), system.v_start(),
@@ -146,7 +146,7 @@ TEST(RadiatedWater, MovesBodiesAsCumminsEquationDoes) {
 // structured solution of Newton's equations is that of the whole matrix.
 TEST(RadiatedWater, JacobianAndNewtonMatrix) {
   const auto water = std::make_shared<const RadiatedWater>(
-      RadiatedWater::Definition{frames(), made_up(3), 1e-3, 100});
+      RadiatedWater::Definition{frames(), made_up(3), {1e-3, 100}});
   const LiftSystem system = two_boxes(water, Eigen::Vector2d::Zero());
   ASSERT_GT(system.memory_count(), 2);
   LiftWorkspace w(system);
@@ -180,7 +180,7 @@ TEST(RadiatedWater, EquilibriumAndPeriods) {
   const double mass = water_density * 8 * 4 * 1;
   database->infinite_added_mass = mass * Eigen::MatrixXd::Identity(12, 12);
   const auto water = std::make_shared<const RadiatedWater>(
-      RadiatedWater::Definition{frames(), database, 1e-3, 100});
+      RadiatedWater::Definition{frames(), database, {1e-3, 100}});
   const LiftSystem system = two_boxes(water, Eigen::Vector2d(0.1, 0.2));
   EquilibriumSolver solver(system);
   Eigen::VectorXd q = system.q_start();
@@ -199,7 +199,7 @@ TEST(RadiatedWater, EquilibriumAndPeriods) {
 TEST(RadiatedWater, AllocatesNothing) {
   if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not counted in this build";
   const auto water = std::make_shared<const RadiatedWater>(
-      RadiatedWater::Definition{frames(), made_up(3), 1e-3, 100});
+      RadiatedWater::Definition{frames(), made_up(3), {1e-3, 100}});
   const LiftSystem system = two_boxes(water, Eigen::Vector2d(0.1, 0.2));
   LiftWorkspace w(system);
   Eigen::VectorXd y = Eigen::VectorXd::Constant(system.state_size(), 0.1), ydot(y.size());

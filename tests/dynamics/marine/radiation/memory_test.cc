@@ -189,5 +189,38 @@ TEST(MemoryStateSpace, SaysWhatItCannotReach) {
               ThrowsMessage<ModelError>(HasSubstr("no state space of up to 4 states")));
 }
 
+TEST(MemoryStateSpace, IsTheSameFromWhatItIsKeptAs) {
+  const std::vector<HydrodynamicDatabase> databases = {three_poles(), analytic_memory(0.1, 10.0)};
+  const std::vector<MemoryStateSpace> fitted = fit_memories(databases, {.tolerance = 1e-3});
+  ASSERT_EQ(fitted.size(), 2U);
+  for (const MemoryStateSpace& memory : fitted) {
+    const MemoryStateSpace kept(memory.decay(), memory.turn(), memory.B(), memory.C(),
+                                memory.error());
+    EXPECT_EQ(kept.A(), memory.A());
+    EXPECT_EQ(kept.calc_retardation(1.5), memory.calc_retardation(1.5));
+    EXPECT_EQ(kept.error(), memory.error());
+  }
+}
+
+TEST(MemoryStateSpace, RefusesWhatWasNotKeptWhole) {
+  const Eigen::Vector2d decay(-1.0, -1.0), turn(2.0, 0.0);
+  const Eigen::MatrixXd B = Eigen::MatrixXd::Ones(2, 6), C = Eigen::MatrixXd::Ones(6, 2);
+  EXPECT_NO_THROW(MemoryStateSpace(decay, turn, B, C, 0.01));
+  EXPECT_THROW(MemoryStateSpace(-decay, turn, B, C, 0.01), ModelError);
+  EXPECT_THROW(MemoryStateSpace(decay, Eigen::Vector2d(2.0, 2.0), B, C, 0.01), ModelError);
+  EXPECT_THROW(MemoryStateSpace(decay, turn, B, C.leftCols(1), 0.01), ModelError);
+  EXPECT_THROW(MemoryStateSpace(decay, turn, B, C, not_a_number), ModelError);
+}
+
+// The looser fit is taken where the close one has too few states.
+TEST(MemoryStateSpace, FitsMoreLooselyWhereItMay) {
+  const std::vector<HydrodynamicDatabase> databases = {analytic_memory(0.1, 10.0)};
+  EXPECT_THROW(fit_memories(databases, {.tolerance = 1e-9, .most_states = 4}), ModelError);
+  const auto loose = fit_memories(
+      databases,
+      {.tolerance = 1e-9, .most_states = 4, .loose_tolerance = 0.05, .most_loose_states = 50});
+  EXPECT_LT(loose.at(0).error(), 0.05);
+}
+
 }  // namespace
 }  // namespace blocklift::dynamics

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
+
+namespace blocklift::dynamics {
+
+/// Mean forces of second order in regular waves of unit amplitude, from the momentum of the waves
+/// far away. With H the far field of all that one body scatters and radiates (FarField), theta the
+/// heading of the waves, c and c_g their phase and group velocity and P the power that is taken
+/// out of the motion otherwise than by waves (W/m2),
+///
+///   F_x = rho g c_g/(2 c) int |H|^2 (cos theta - cos t) dt + cos theta P/c,  F_y likewise by sine,
+///   M_z = - rho g c_g/(2 w) (int i H* H' dt + 2 sqrt(2 pi/k) Re(i H'(theta) exp(-i pi/4))),
+///
+/// the latter about the vertical axis through the origin. The first is Maruo's (1960), with P for
+/// the waves' energy that is not sent out again; the second Newman's (1967), J. Ship Research 11.
+/// A wall of which waves come back whole is pressed by rho g a^2/2 per width in deep water.
+///
+/// @param motions of each frequency, 6 x headings, m/m and rad/m (calc_response_amplitudes); empty:
+///   the body is held.
+/// @param damping 6 x 6, of the motion otherwise than by waves; empty: none.
+/// @returns for each frequency 6 x headings: surge and sway (N/m2) and yaw about the reference
+///   point (N m/m2) along the axes of the database; heave, roll and pitch are zero, being unknown.
+/// @throws ModelError if the database has no far field, holds several bodies (their drift is known
+///   together only), or the sizes do not fit.
+std::vector<Eigen::MatrixXd> calc_mean_drift(const HydrodynamicDatabase& database,
+                                             const std::vector<Eigen::MatrixXcd>& motions,
+                                             const Eigen::MatrixXd& damping = {});
+
+/// Power that waves of unit amplitude lose at the body beside what is sent out again (W/m2), by the
+/// far field alone, for each frequency and heading: that of the damping if the far field is exact.
+///   - rho g c_g/2 (int |H|^2 dt + 2 sqrt(2 pi/k) Re(H(theta) exp(-i pi/4)))
+/// @throws ModelError likewise.
+std::vector<Eigen::VectorXd> calc_absorbed_power(const HydrodynamicDatabase& database,
+                                                 const std::vector<Eigen::MatrixXcd>& motions);
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,196 @@
+// Far fields of the waves and the mean forces that follow from them.
+#include "dynamics/marine/radiation/mean_drift.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/radiation/response_amplitude.h"
+#include "pipeline/verification/models/hemisphere.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr double pi = std::numbers::pi;
+
+TEST(DirectionalWaves, IntegralsAreThoseOfTheSeries) {
+  // H = (1 + i) + 2 exp(-i t) + i exp(2 i t).
+  const auto exact = [](double t) {
+    return Complex(1, 1) + 2.0 * std::polar(1.0, -t) + Complex(0, 1) * std::polar(1.0, 2.0 * t);
+  };
+  Eigen::VectorXcd values(9);
+  for (int j = 0; j < 9; ++j) values[j] = exact(2 * pi * j / 9);
+  const DirectionalWaves waves(values);
+  EXPECT_LT(std::abs(waves.at(0.7) - exact(0.7)), 1e-12);
+  const Complex slope = (exact(0.7 + 1e-5) - exact(0.7 - 1e-5)) / 2e-5;
+  EXPECT_LT(std::abs(waves.slope(0.7) - slope), 1e-8);
+  double whole = 0, along_x = 0, along_y = 0, turning = 0;
+  for (int j = 0; j < 100; ++j) {
+    const double t = 2 * pi * j / 100, weight = 2 * pi / 100;
+    whole += weight * std::norm(exact(t));
+    along_x += weight * std::norm(exact(t)) * std::cos(t);
+    along_y += weight * std::norm(exact(t)) * std::sin(t);
+    turning += weight * (Complex(0, 1) * std::conj(exact(t)) * waves.slope(t)).real();
+  }
+  const DirectionalWaves::Moments moments = waves.integrate();
+  EXPECT_NEAR(moments.whole, whole, 1e-10);
+  EXPECT_NEAR(moments.along_x, along_x, 1e-10);
+  EXPECT_NEAR(moments.along_y, along_y, 1e-10);
+  EXPECT_NEAR(waves.integrate_turning(), turning, 1e-10);
+}
+
+/// sum over m of [1 - m (m+1)/x^2]^2 / (|H_m'|^2 |H_m+1'|^2), x = k a.
+double havelock_sum(double x) {
+  const auto slope = [x](int m) {
+    const auto bessel = [x](int n) {
+      return Complex(std::cyl_bessel_j(n, x), -std::cyl_neumann(n, x));
+    };
+    return m == 0 ? -bessel(1) : bessel(m - 1) - m / x * bessel(m);
+  };
+  double sum = 0.0;
+  for (int m = 0; m < x + 20; ++m) {
+    const double factor = 1.0 - m * (m + 1) / (x * x);
+    sum += factor * factor / (std::norm(slope(m)) * std::norm(slope(m + 1)));
+  }
+  return sum;
+}
+
+/// A column through the whole depth in waves of heading `theta`, its axis at p: the far field by
+/// MacCamy and Fuchs (1954). Radius, density and gravity are 1.
+HydrodynamicDatabase standing_column(double ka, double theta, const Vector3& p) {
+  HydrodynamicDatabase database;
+  database.water = {1.0, 1.0};
+  database.body_names = {"column"};
+  database.reference_points = {Vector3::Zero()};
+  database.frequencies = {std::sqrt(ka)};
+  database.headings = {theta};
+  const int count = direction_count(p.norm() + 1.0, ka);
+  Eigen::MatrixXcd waves(count, 1);
+  const auto slope = [ka](int m, bool outgoing) {
+    const auto bessel = [&](int n) {
+      return Complex(std::cyl_bessel_j(n, ka), outgoing ? -std::cyl_neumann(n, ka) : 0.0);
+    };
+    return m == 0 ? -bessel(1) : bessel(m - 1) - m / ka * bessel(m);
+  };
+  for (int j = 0; j < count; ++j) {
+    const double t = 2 * pi * j / count;
+    database.far_field.directions.push_back(t);
+    Complex sum = 0.0;
+    for (int m = 0; m < ka + 20; ++m) {
+      sum += (m == 0 ? 1.0 : 2.0) * slope(m, false) / slope(m, true) * std::cos(m * (t - theta));
+    }
+    // The wave arrives later at p, and what is sent from there has a shorter way.
+    const double way =
+        p.x() * (std::cos(t) - std::cos(theta)) + p.y() * (std::sin(t) - std::sin(theta));
+    waves(j, 0) = -std::sqrt(2.0 / (pi * ka)) * std::polar(1.0, 0.25 * pi + ka * way) * sum;
+  }
+  database.far_field.scattered = {waves};
+  database.far_field.radiated = {Eigen::MatrixXcd::Zero(count, 6)};
+  return database;
+}
+
+// rho g a^2 R 4/(pi^2 (k R)^3) times the sum: Havelock (1940). It tends to 2/3 in short waves,
+// where each strip of the surface throws the waves back as a wall does.
+TEST(MeanDrift, OfAStandingColumnIsHavelocks) {
+  for (const double ka : {0.3, 1.0, 2.5, 6.0}) {
+    const double exact = 4.0 / (pi * pi * ka * ka * ka) * havelock_sum(ka);
+    const double theta = 0.4;
+    const HydrodynamicDatabase database = standing_column(ka, theta, Vector3::Zero());
+    const Eigen::MatrixXd drift = calc_mean_drift(database, {}).at(0);
+    EXPECT_NEAR(drift(surge, 0), exact * std::cos(theta), 1e-9 * exact) << ka;
+    EXPECT_NEAR(drift(sway, 0), exact * std::sin(theta), 1e-9 * exact);
+    EXPECT_NEAR(drift(yaw, 0), 0.0, 1e-9);
+    // Nothing is lost.
+    EXPECT_NEAR(calc_absorbed_power(database, {}).at(0)[0], 0.0, 1e-9);
+  }
+  const double short_waves = 4.0 / (pi * pi * 40.0 * 40.0 * 40.0) * havelock_sum(40.0);
+  EXPECT_NEAR(short_waves, 2.0 / 3.0, 0.02);
+}
+
+// The moment about the reference point is that of the force through the column's axis.
+TEST(MeanDrift, MomentIsThatOfTheForce) {
+  const Vector3 axis(1.5, -2.0, 0.0);
+  HydrodynamicDatabase database = standing_column(1.2, 0.7, axis);
+  const Eigen::MatrixXd drift = calc_mean_drift(database, {}).at(0);
+  const double moment = axis.x() * drift(sway, 0) - axis.y() * drift(surge, 0);
+  EXPECT_GT(std::abs(moment), 0.1);
+  EXPECT_NEAR(drift(yaw, 0), moment, 1e-8);
+  database.reference_points = {axis};
+  EXPECT_NEAR(calc_mean_drift(database, {}).at(0)(yaw, 0), 0.0, 1e-8);
+}
+
+// What a damper takes out of waves that are not changed presses by P/c.
+TEST(MeanDrift, PowerThatIsTakenOutPresses) {
+  HydrodynamicDatabase database = standing_column(1.0, 0.0, Vector3::Zero());
+  database.far_field.scattered[0].setZero();
+  Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(6, 6);
+  damping(heave, heave) = 3.0;
+  Eigen::MatrixXcd motion = Eigen::MatrixXcd::Zero(6, 1);
+  motion(heave, 0) = Complex(0.5, 0.2);
+  const double power = 0.5 * 3.0 * 1.0 * std::norm(motion(heave, 0));
+  EXPECT_NEAR(calc_mean_drift(database, {motion}, damping).at(0)(surge, 0), power, 1e-12);
+}
+
+TEST(MeanDrift, RefusesWhatIsNotKnown) {
+  HydrodynamicDatabase database = standing_column(1.0, 0.0, Vector3::Zero());
+  EXPECT_THROW(calc_mean_drift(database, {Eigen::MatrixXcd::Zero(6, 2)}), ModelError);
+  database.body_names.push_back("other");
+  EXPECT_THAT([&] { calc_mean_drift(database, {}); },
+              ThrowsMessage<ModelError>(HasSubstr("2 bodies together only")));
+  database.body_names.pop_back();
+  database.far_field = {};
+  EXPECT_THAT([&] { calc_mean_drift(database, {}); },
+              ThrowsMessage<ModelError>(HasSubstr("lacks")));
+}
+
+// The panel method's far field of a hemisphere: its waves carry away what its damping takes, and a
+// free body takes nothing out of the waves. Two headings are the same to a round body.
+TEST(MeanDrift, OfAHemisphereConservesEnergy) {
+  const testing::Hemisphere sphere =
+      testing::make_hemisphere(1.0, {16, 6, 0.12, 1.08, 30.0}, {1.0, 1.0});
+  DatabaseSettings settings;
+  settings.frequencies = {0.8, 1.1};
+  settings.headings = {0.0, 0.9};
+  settings.duration = 50.0;
+  settings.damping_strength = 0.7;
+  settings.with_far_field = true;
+  HydrodynamicDatabase database = compute_database(sphere.model, settings);
+  const FarField& far = database.far_field;
+  ASSERT_FALSE(far.empty());
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double w = settings.frequencies[k];
+    const double flux = 0.5 * calc_group_velocity(w, database.water);
+    for (const int mode : {surge, sway, heave}) {
+      const double sent = flux * DirectionalWaves(far.radiated[k].col(mode)).integrate().whole;
+      const double taken = 0.5 * w * w * database.damping[k](mode, mode);
+      EXPECT_NEAR(sent / taken, 1.0, 0.04) << w << " rad/s, mode " << mode;
+    }
+  }
+  const double mass = 2.0 / 3.0 * pi;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(6, 6);
+  stiffness(heave, heave) = pi;
+  database.hydrostatic_stiffness = stiffness;
+  const Eigen::MatrixXd inertia =
+      make_mass_matrix(mass, Vector3::Constant(0.6), Matrix3::Identity());
+  const auto motions = calc_response_amplitudes(database, inertia);
+  const auto drift = calc_mean_drift(database, motions);
+  const auto lost = calc_absorbed_power(database, motions);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double incident = calc_group_velocity(settings.frequencies[k], database.water);
+    EXPECT_LT(std::abs(lost[k][0]), 0.03 * incident);
+    EXPECT_GT(drift[k](surge, 0), 0.0);
+    EXPECT_NEAR(drift[k](sway, 0), 0.0, 1e-6);
+    const double along = std::cos(0.9) * drift[k](surge, 1) + std::sin(0.9) * drift[k](sway, 1);
+    EXPECT_NEAR(along / drift[k](surge, 0), 1.0, 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics
