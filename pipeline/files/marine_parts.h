@@ -142,6 +142,7 @@ struct VesselInCase {
   /// After the look-up, and which of its bodies it is; null: computed by the panel method.
   std::shared_ptr<const dynamics::HydrodynamicDatabase> hydrodynamics;
   int hydrodynamic_body = 0;
+  std::string database_content;  ///< fingerprint of the file
   DampingInCase damping, quadratic_damping;
   std::optional<RestraintInCase> restraint;
   std::vector<MemberInCase> members;
