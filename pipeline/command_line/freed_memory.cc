@@ -7,9 +7,8 @@ namespace blocklift::pipeline {
 void return_freed_memory() {
 #if defined(__GLIBC__)
   constexpr int megabyte = 1 << 20;
-  ::mallopt(M_MMAP_THRESHOLD, 32 * megabyte);  // the largest that glibc takes
-  ::mallopt(M_MMAP_MAX, 65536);                // as glibc begins with
-  ::mallopt(M_TRIM_THRESHOLD, 256 * megabyte);
+  ::mallopt(M_MMAP_MAX, 0);
+  ::mallopt(M_TRIM_THRESHOLD, 512 * megabyte);
 #endif
 }
 

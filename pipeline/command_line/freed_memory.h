@@ -2,12 +2,14 @@
 
 namespace blocklift::pipeline {
 
-/// Lets memory that has been freed go back to the system.
+/// Lets memory that has been freed go back to the system, but not at once.
 ///
 /// SuperLU_DIST, which PETSc and Trilinos bring along, forbids that to the whole process when it is
 /// loaded (mallopt with M_MMAP_MAX 0 and M_TRIM_THRESHOLD -1): a stiffness matrix that is no longer
-/// needed would stay beneath the factor that was made of it. Blocks from 32 MB on are mapped singly
-/// from now on, smaller ones stay in the heap, where they are had again without asking the kernel.
+/// needed would stay beneath the factor that was made of it. From now on what is free at the heap's
+/// end beyond 512 MB is returned. Large blocks stay in the heap too: mapped singly, as glibc does
+/// without being told, each is cleared by the kernel whenever it is asked for anew (measured on
+/// 50,000 shells: 97 s of the kernel's time against 10 s, for a quarter more memory at most).
 /// To be called first of all, while nothing large has been allocated. Without effect where the C
 /// library is not glibc.
 void return_freed_memory();

@@ -10,14 +10,12 @@ namespace blocklift::pipeline {
 namespace {
 
 void write_state(ResultsWriter& file, std::string_view name, const HistoryState& state,
-                 const structure::Surface& surface, const structure::UnitResponses& responses,
-                 const Eigen::VectorXd& weights) {
+                 const std::vector<double>& envelope,
+                 const std::vector<Eigen::Vector3d>& displacement) {
   const std::string path = layout::join(layout::structure_group, layout::history, name);
-  file.write(layout::join(path, "von_mises"),
-             surface.envelope(responses, structure::LoadHistory(state.factors, weights)),
+  file.write(layout::join(path, "von_mises"), envelope,
              {"Pa", "largest von Mises stress over all instants, of a plate's two surfaces"});
-  file.write_points(layout::join(path, "displacement"),
-                    surface.evaluate(responses, state.governing).displacement,
+  file.write_points(layout::join(path, "displacement"), displacement,
                     {"m",
                      "displacement relative to the block's mean rigid motion at the instant of the "
                      "largest checked stress, block frame"});
@@ -46,10 +44,17 @@ void write_block_history(ResultsWriter& file, const structure::Surface& surface,
                          const structure::UnitResponses& responses,
                          const HistoryAssessment& history) {
   const std::string group = layout::join(layout::structure_group, layout::history);
-  write_state(file, layout::static_state, history.static_state, surface, responses,
-              history.weights);
-  write_state(file, layout::dynamic_state, history.dynamic_state, surface, responses,
-              history.weights);
+  const auto loads_of = [&](const HistoryState& state) {
+    return structure::LoadHistory(state.factors, history.weights);
+  };
+  const std::vector<std::vector<double>> envelopes = surface.envelopes(
+      responses, {loads_of(history.static_state), loads_of(history.dynamic_state)});
+  const std::vector<structure::SurfaceField> fields = surface.evaluate(
+      responses, {history.static_state.governing, history.dynamic_state.governing});
+  write_state(file, layout::static_state, history.static_state, envelopes[0],
+              fields[0].displacement);
+  write_state(file, layout::dynamic_state, history.dynamic_state, envelopes[1],
+              fields[1].displacement);
   file.write_texts(layout::join(group, "ropes"), history.ropes, "ropes at the lugs");
   std::vector<Eigen::Vector3d> centres;
   std::vector<std::int32_t> regions;

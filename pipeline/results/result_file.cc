@@ -99,10 +99,8 @@ void write_energy(ResultsWriter& file, std::string_view group,
 }
 
 void write_state(ResultsWriter& file, std::string_view way, std::string_view name,
-                 const BlockState& state, const structure::Surface& surface,
-                 const structure::UnitResponses& responses) {
+                 const BlockState& state, const structure::SurfaceField& field) {
   const std::string path = layout::join(layout::structure_group, way, name);
-  const structure::SurfaceField field = surface.evaluate(responses, state.load);
   file.write_points(layout::join(path, "displacement"), field.displacement,
                     {"m", "displacement relative to the block's mean rigid motion, block frame"});
   file.write(layout::join(path, "von_mises"), field.von_mises,
@@ -116,13 +114,6 @@ void write_state(ResultsWriter& file, std::string_view way, std::string_view nam
   write_point("max_displacement_point", state.result.displacement);
   if (!state.rope.empty()) file.write_attribute(path, "rope", state.rope);
   if (state.time) file.write_attribute(path, "time", *state.time);
-}
-
-void write_comparison(ResultsWriter& file, std::string_view way, const LoadComparison& comparison,
-                      const structure::Surface& surface,
-                      const structure::UnitResponses& responses) {
-  write_state(file, way, layout::static_state, comparison.static_state, surface, responses);
-  write_state(file, way, layout::dynamic_state, comparison.dynamic_state, surface, responses);
 }
 
 }  // namespace
@@ -257,8 +248,15 @@ void write_block(ResultsWriter& file, const structure::Surface& surface,
                      {"1", "corners of each quadrangle; of a triangle two are one"});
   file.write(layout::surface_quad_group, groups, {"1", "index into group_names"});
   file.write_texts(layout::surface_group_names, surface.group_names(), "plates, pads and lugs");
-  write_comparison(file, layout::simultaneous, assessment.simultaneous, surface, responses);
-  write_comparison(file, layout::per_rope_maxima, assessment.per_rope_maxima, surface, responses);
+  const LoadComparison& together = assessment.simultaneous;
+  const LoadComparison& apart = assessment.per_rope_maxima;
+  const std::vector<structure::SurfaceField> fields =
+      surface.evaluate(responses, {together.static_state.load, together.dynamic_state.load,
+                                   apart.static_state.load, apart.dynamic_state.load});
+  write_state(file, layout::simultaneous, layout::static_state, together.static_state, fields[0]);
+  write_state(file, layout::simultaneous, layout::dynamic_state, together.dynamic_state, fields[1]);
+  write_state(file, layout::per_rope_maxima, layout::static_state, apart.static_state, fields[2]);
+  write_state(file, layout::per_rope_maxima, layout::dynamic_state, apart.dynamic_state, fields[3]);
 }
 
 }  // namespace blocklift::pipeline

@@ -114,16 +114,17 @@ Surface::Surface(const ElasticModel& model, int largest_point_count) {
   }
 }
 
-std::vector<double> Surface::envelope(const UnitResponses& responses,
-                                      const LoadHistory& history) const {
-  std::vector<double> largest(points_.size(), 0);
-  take_envelope_of_shells(responses, history, largest);
-  take_envelope_of_beams(responses, history, largest);
+std::vector<std::vector<double>> Surface::envelopes(
+    const UnitResponses& responses, const std::vector<LoadHistory>& histories) const {
+  Envelopes largest(histories.size(), std::vector<double>(points_.size(), 0));
+  take_envelopes_of_shells(responses, histories, largest);
+  take_envelopes_of_beams(responses, histories, largest);
   return largest;
 }
 
-void Surface::take_envelope_of_shells(const UnitResponses& responses, const LoadHistory& history,
-                                      std::vector<double>& largest) const {
+void Surface::take_envelopes_of_shells(const UnitResponses& responses,
+                                       const std::vector<LoadHistory>& histories,
+                                       Envelopes& largest) const {
   constexpr int chunk = 256;  // cells whose unit stresses are held at a time
   const Space& space = responses.model().space();
   const Eigen::Matrix2Xd unit = divided_square(division_);
@@ -142,74 +143,126 @@ void Surface::take_envelope_of_shells(const UnitResponses& responses, const Load
             stresses_at_side(rows, -1);
       }
     });
-    const PointExtremes extremes = find_von_mises_envelope(
-        history, 2 * per_cell * count, [&](int first, int taken) -> Eigen::MatrixXd {
-          return stress.middleRows(6L * first, 6L * taken);
-        });
-    for (int sample = 0; sample < 2 * per_cell * count; ++sample) {
-      const int cell = begin + sample / (2 * per_cell);
-      double& of_point = largest[at(cell_points_[at(cell * per_cell + sample % per_cell)])];
-      of_point = std::max(of_point, extremes.value[sample]);
+    for (std::size_t h = 0; h < histories.size(); ++h) {
+      const PointExtremes extremes = find_von_mises_envelope(
+          histories[h], 2 * per_cell * count, [&](int first, int taken) -> Eigen::MatrixXd {
+            return stress.middleRows(6L * first, 6L * taken);
+          });
+      for (int sample = 0; sample < 2 * per_cell * count; ++sample) {
+        const int cell = begin + sample / (2 * per_cell);
+        double& of_point = largest[h][at(cell_points_[at(cell * per_cell + sample % per_cell)])];
+        of_point = std::max(of_point, extremes.value[sample]);
+      }
     }
   }
 }
 
-void Surface::take_envelope_of_beams(const UnitResponses& responses, const LoadHistory& history,
-                                     std::vector<double>& largest) const {
+void Surface::take_envelopes_of_beams(const UnitResponses& responses,
+                                      const std::vector<LoadHistory>& histories,
+                                      Envelopes& largest) const {
   const Space& space = responses.model().space();
-  for (const BeamStation& station : stations_) {
-    const Eigen::MatrixXd stress =
-        as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
-    const PointExtremes extremes = find_von_mises_envelope(
-        history, static_cast<int>(stress.rows() / 6),
-        [&](int first, int taken) -> Eigen::MatrixXd {
-          return stress.middleRows(6L * first, 6L * taken);
-        },
-        1);
-    for (const int point : station.points)
-      largest[at(point)] = std::max(largest[at(point)], extremes.value.maxCoeff());
-  }
+  const auto stations = static_cast<int>(stations_.size());
+  Eigen::MatrixXd of_stations(static_cast<Eigen::Index>(histories.size()), stations);
+  in_batches(stations, 64, 0, [&](int first, int count) {
+    // The points of these sections, one below the other, and where those of each begin.
+    Eigen::MatrixXd stress(0, responses.count());
+    std::vector<Eigen::Index> begin{0};
+    for (int s = first; s < first + count; ++s) {
+      const BeamStation& station = stations_[at(s)];
+      const Eigen::MatrixXd here =
+          as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
+      stress.conservativeResize(stress.rows() + here.rows(), Eigen::NoChange);
+      stress.bottomRows(here.rows()) = here;
+      begin.push_back(stress.rows() / 6);
+    }
+    for (std::size_t h = 0; h < histories.size(); ++h) {
+      const PointExtremes extremes = find_von_mises_envelope(
+          histories[h], static_cast<int>(begin.back()),
+          [&](int point, int taken) -> Eigen::MatrixXd {
+            return stress.middleRows(6L * point, 6L * taken);
+          },
+          1);
+      for (int i = 0; i < count; ++i)
+        of_stations(static_cast<Eigen::Index>(h), first + i) =
+            extremes.value.segment(begin[at(i)], begin[at(i + 1)] - begin[at(i)]).maxCoeff();
+    }
+  });
+  for (std::size_t h = 0; h < histories.size(); ++h)
+    for (int s = 0; s < stations; ++s)
+      for (const int point : stations_[at(s)].points)
+        largest[h][at(point)] =
+            std::max(largest[h][at(point)], of_stations(static_cast<Eigen::Index>(h), s));
 }
 
-SurfaceField Surface::evaluate(const UnitResponses& responses, const LoadCase& load_case) const {
+std::vector<SurfaceField> Surface::evaluate(const UnitResponses& responses,
+                                            const std::vector<LoadCase>& load_cases) const {
   const Space& space = responses.model().space();
-  const Eigen::VectorXd motion = responses.without_rigid_motion(responses.displacement(load_case));
+  Eigen::MatrixXd motions(space.freedoms(), static_cast<Eigen::Index>(load_cases.size()));
+  std::vector<SurfaceField> fields(load_cases.size());
+  for (std::size_t k = 0; k < load_cases.size(); ++k) {
+    motions.col(static_cast<Eigen::Index>(k)) =
+        responses.without_rigid_motion(responses.displacement(load_cases[k]));
+    fields[k].displacement.assign(points_.size(), Vector3::Zero());
+    fields[k].von_mises.assign(points_.size(), 0);
+  }
+  std::vector<int> shares(points_.size(), 0);
+  add_shells(space, motions, fields, shares);
+  add_beams(space, motions, fields, shares);
+  for (SurfaceField& field : fields)
+    for (std::size_t p = 0; p < points_.size(); ++p) field.von_mises[p] /= shares[p];
+  return fields;
+}
+
+void Surface::add_shells(const Space& space, const Eigen::MatrixXd& motions,
+                         std::vector<SurfaceField>& fields, std::vector<int>& shares) const {
+  constexpr int chunk = 2048;  // cells whose stresses are held at a time
   const Eigen::Matrix2Xd unit = divided_square(division_);
   Eigen::MatrixXd shapes(unit.cols(), space.nodes_per_shell());
   for (Eigen::Index q = 0; q < unit.cols(); ++q)
     shapes.row(q) = space.shell_values(unit.col(q)).transpose();
-  ShellStress recovery(space, unit);
-  SurfaceField field;
-  field.displacement.assign(points_.size(), Vector3::Zero());
-  field.von_mises.assign(points_.size(), 0);
-  std::vector<int> shares(points_.size(), 0);
-  for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
-    const Eigen::MatrixXd local = motions_of_cell(space, cell, motion);
-    const Eigen::MatrixXd moved =
-        shapes * local.reshaped(6, local.size() / 6).topRows<3>().transpose();
-    const Eigen::VectorXd rows = recovery.of_all(cell, motion);
-    for (Eigen::Index q = 0; q < unit.cols(); ++q) {
-      const std::size_t point = at(cell_points_[at(cell * unit.cols() + q)]);
-      field.displacement[point] = moved.row(q).transpose();
-      field.von_mises[point] +=
-          plate_von_mises(rows.segment<shell_stress_rows>(shell_stress_rows * q)).largest();
-      ++shares[point];
+  const int cells = static_cast<int>(space.shells().size());
+  for (int begin = 0; begin < cells; begin += chunk) {
+    const int count = std::min(chunk, cells - begin);
+    const Eigen::MatrixXd stress = stresses_of_cells(space, unit, begin, count, motions);
+    for (int i = 0; i < count; ++i) {
+      const Eigen::MatrixXd local = motions_of_cell(space, begin + i, motions);
+      const int first_point = static_cast<int>(unit.cols()) * (begin + i);
+      for (Eigen::Index q = 0; q < unit.cols(); ++q)
+        ++shares[at(cell_points_[at(first_point + q)])];
+      for (std::size_t k = 0; k < fields.size(); ++k) {
+        const auto column = static_cast<Eigen::Index>(k);
+        const Eigen::MatrixXd moved =
+            shapes * local.col(column).reshaped(6, local.rows() / 6).topRows<3>().transpose();
+        for (Eigen::Index q = 0; q < unit.cols(); ++q) {
+          const std::size_t point = at(cell_points_[at(first_point + q)]);
+          fields[k].displacement[point] = moved.row(q).transpose();
+          fields[k].von_mises[point] +=
+              plate_von_mises(stress.col(column).segment<shell_stress_rows>(shell_stress_rows *
+                                                                            (unit.cols() * i + q)))
+                  .largest();
+        }
+      }
     }
   }
+}
+
+void Surface::add_beams(const Space& space, const Eigen::MatrixXd& motions,
+                        std::vector<SurfaceField>& fields, std::vector<int>& shares) const {
   for (const BeamStation& station : stations_) {
     const Vector3 centroid = beam_point(space, station.cell, station.xi).place;
-    const BeamMotion moved = beam_motion_at(space, station.cell, station.xi, motion);
-    const double stress =
-        beam_stresses(space, station.cell, station.xi, motion).cwiseAbs().maxCoeff();
-    for (const int point : station.points) {
-      field.displacement[at(point)] =
-          moved.displacement + moved.rotation.cross(points_[at(point)] - centroid);
-      field.von_mises[at(point)] += stress;
-      ++shares[at(point)];
+    for (const int point : station.points) ++shares[at(point)];
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      const auto motion = motions.col(static_cast<Eigen::Index>(k));
+      const BeamMotion moved = beam_motion_at(space, station.cell, station.xi, motion);
+      const double stress =
+          beam_stresses(space, station.cell, station.xi, motion).cwiseAbs().maxCoeff();
+      for (const int point : station.points) {
+        fields[k].displacement[at(point)] =
+            moved.displacement + moved.rotation.cross(points_[at(point)] - centroid);
+        fields[k].von_mises[at(point)] += stress;
+      }
     }
   }
-  for (std::size_t p = 0; p < points_.size(); ++p) field.von_mises[p] /= shares[p];
-  return field;
 }
 
 }  // namespace blocklift::structure

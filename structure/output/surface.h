@@ -36,10 +36,12 @@ class Surface {
   const std::vector<std::string>& group_names() const { return group_names_; }
 
   /// Stress of each point, the largest over a history (of factors of the responses), Pa: the
-  /// largest of the cells of one plate at a point, nothing averaged.
-  std::vector<double> envelope(const UnitResponses& responses, const LoadHistory& history) const;
-  /// Values of a load case at the points; the responses must be of the same model.
-  SurfaceField evaluate(const UnitResponses& responses, const LoadCase& load_case) const;
+  /// largest of the cells of one plate at a point, nothing averaged. A list for each history.
+  std::vector<std::vector<double>> envelopes(const UnitResponses& responses,
+                                             const std::vector<LoadHistory>& histories) const;
+  /// Values of load cases at the points; the responses must be of the same model.
+  std::vector<SurfaceField> evaluate(const UnitResponses& responses,
+                                     const std::vector<LoadCase>& load_cases) const;
 
  private:
   /// Points of a strip at one place along a beam.
@@ -49,10 +51,16 @@ class Surface {
     std::array<int, 2> points{};
   };
   class Builder;
-  void take_envelope_of_shells(const UnitResponses& responses, const LoadHistory& history,
-                               std::vector<double>& largest) const;
-  void take_envelope_of_beams(const UnitResponses& responses, const LoadHistory& history,
-                              std::vector<double>& largest) const;
+  using Envelopes = std::vector<std::vector<double>>;
+  void take_envelopes_of_shells(const UnitResponses& responses,
+                                const std::vector<LoadHistory>& histories,
+                                Envelopes& largest) const;
+  void take_envelopes_of_beams(const UnitResponses& responses,
+                               const std::vector<LoadHistory>& histories, Envelopes& largest) const;
+  void add_shells(const Space& space, const Eigen::MatrixXd& motions,
+                  std::vector<SurfaceField>& fields, std::vector<int>& shares) const;
+  void add_beams(const Space& space, const Eigen::MatrixXd& motions,
+                 std::vector<SurfaceField>& fields, std::vector<int>& shares) const;
 
   int division_ = 1;
   std::vector<Vector3> points_;

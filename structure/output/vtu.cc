@@ -49,13 +49,15 @@ class Collector {
     Eigen::MatrixXd shapes(unit.cols(), space_.nodes_per_shell());
     for (Eigen::Index q = 0; q < unit.cols(); ++q)
       shapes.row(q) = space_.shell_values(unit.col(q)).transpose();
-    ShellStress recovery(space_, unit);
-    for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell) {
+    const auto cells = static_cast<int>(space_.shells().size());
+    const Eigen::MatrixXd stress = stresses_of_cells(space_, unit, 0, cells, motion_);
+    for (int cell = 0; cell < cells; ++cell) {
       const auto first = static_cast<std::int32_t>(content_.von_mises.size());
       const Eigen::MatrixXd local = motions_of_cell(space_, cell, motion_);
       const Eigen::MatrixXd moved =
           shapes * local.reshaped(6, local.size() / 6).topRows<3>().transpose();
-      const Eigen::VectorXd rows = recovery.of_all(cell, motion_);
+      const auto rows = stress.col(0).segment(shell_stress_rows * unit.cols() * cell,
+                                              shell_stress_rows * unit.cols());
       for (Eigen::Index q = 0; q < unit.cols(); ++q)
         add_point(space_.place(cell, unit.col(q)), moved.row(q).transpose(),
                   plate_von_mises(rows.segment<shell_stress_rows>(shell_stress_rows * q)));

@@ -80,7 +80,8 @@ Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses) {
   return stresses;
 }
 
-BeamMotion beam_motion_at(const Space& space, int cell, double xi, const Eigen::VectorXd& motion) {
+BeamMotion beam_motion_at(const Space& space, int cell, double xi,
+                          const Eigen::Ref<const Eigen::VectorXd>& motion) {
   const BeamCell& located = space.beams()[at(cell)];
   const Eigen::VectorXd local = beam_motion(space, cell) * motions_of_beam(located, motion);
   const std::vector<double> values = lagrange_values(located.degree, xi);

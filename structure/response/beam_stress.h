@@ -32,6 +32,7 @@ struct BeamMotion {
   Vector3 displacement = Vector3::Zero();  ///< m
   Vector3 rotation = Vector3::Zero();      ///< rad
 };
-BeamMotion beam_motion_at(const Space& space, int cell, double xi, const Eigen::VectorXd& motion);
+BeamMotion beam_motion_at(const Space& space, int cell, double xi,
+                          const Eigen::Ref<const Eigen::VectorXd>& motion);
 
 }  // namespace blocklift::structure

@@ -17,12 +17,10 @@ namespace {
 
 constexpr int largest_steps = 60;
 
-/// The block with its mass: projections onto what is no rigid motion.
+/// The block, free in space: projections onto what is no rigid motion.
 class FreeBlock {
  public:
-  explicit FreeBlock(const UnitResponses& responses)
-      : responses_(responses),
-        mass_(mass_matrix(responses.model().space(), responses.model().mass_properties())) {
+  explicit FreeBlock(const UnitResponses& responses) : responses_(responses) {
     const Eigen::Matrix3Xd& nodes = responses.model().space().nodes();
     const Vector3 centre = responses.model().mass_properties().centre_of_mass_B;
     rigid_.setZero(responses.model().freedoms(), 6);
@@ -32,19 +30,26 @@ class FreeBlock {
       for (int axis = 0; axis < 3; ++axis)
         rigid_.block<3, 1>(6 * n, 3 + axis) = Vector3::Unit(axis).cross(arm);
     }
-    const Eigen::Matrix<double, 6, 6> gram = rigid_.transpose() * (mass_ * rigid_);
-    gram.llt().matrixU().solveInPlace<Eigen::OnTheRight>(rigid_);
+    // The inertia of a rigid acceleration is a load that the model knows: M a = -f(a).
+    const auto& loads = responses.model().inertia_loads();
+    rigid_inertia_ = -loads.leftCols<6>();
+    for (int axis = 0; axis < 3; ++axis)
+      rigid_inertia_.col(3 + axis) += loads.leftCols<3>() * Vector3::Unit(axis).cross(centre);
+    const Eigen::Matrix<double, 6, 6> gram = rigid_.transpose() * rigid_inertia_;
+    const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factor(gram);
+    factor.matrixU().solveInPlace<Eigen::OnTheRight>(rigid_);
+    factor.matrixU().solveInPlace<Eigen::OnTheRight>(rigid_inertia_);
   }
 
-  Eigen::MatrixXd times_mass(const Eigen::MatrixXd& shapes) const { return mass_ * shapes; }
+  const UnitResponses& responses() const { return responses_; }
   /// Loads with the inertia of the rigid acceleration that they give the block.
   Eigen::MatrixXd balanced(Eigen::MatrixXd loads) const {
-    loads.noalias() -= times_mass(rigid_ * (rigid_.transpose() * loads).eval());
+    loads.noalias() -= rigid_inertia_ * (rigid_.transpose() * loads).eval();
     return loads;
   }
   /// Displacements less the mean rigid motion.
   Eigen::MatrixXd relative(Eigen::MatrixXd shapes) const {
-    shapes.noalias() -= rigid_ * (rigid_.transpose() * times_mass(shapes)).eval();
+    shapes.noalias() -= rigid_ * (rigid_inertia_.transpose() * shapes).eval();
     return shapes;
   }
   /// Displacements under balanced loads.
@@ -54,14 +59,17 @@ class FreeBlock {
 
  private:
   const UnitResponses& responses_;
-  Eigen::SparseMatrix<double> mass_;
-  Eigen::MatrixXd rigid_;  // M-orthonormal
+  Eigen::MatrixXd rigid_;          // M-orthonormal
+  Eigen::MatrixXd rigid_inertia_;  // M times that
 };
 
 /// M-orthonormal basis that grows by blocks, and the operator K^+ M on it.
 class KrylovSpace {
  public:
-  KrylovSpace(const FreeBlock& block, const Eigen::MatrixXd& start) : block_(block) {
+  KrylovSpace(const FreeBlock& block, const Eigen::MatrixXd& start)
+      : block_(block),
+        mass_(mass_matrix(block.responses().model().space(),
+                          block.responses().model().mass_properties())) {
     basis_.resize(start.rows(), 0);
     append(block.relative(start));
   }
@@ -69,8 +77,8 @@ class KrylovSpace {
   /// Applies the operator to the newest block. @returns false when the space is complete.
   bool grow() {
     const Eigen::Index size = basis_.cols(), width = size - newest_;
-    Eigen::MatrixXd image = block_.relax(block_.times_mass(basis_.rightCols(width)));
-    const Eigen::MatrixXd share = basis_.transpose() * block_.times_mass(image);
+    Eigen::MatrixXd image = block_.relax(times_mass(basis_.rightCols(width)));
+    const Eigen::MatrixXd share = basis_.transpose() * times_mass(image);
     operator_.conservativeResizeLike(Eigen::MatrixXd::Zero(size, size));
     operator_.middleCols(newest_, width) = share;
     operator_.middleRows(newest_, width) = share.transpose();
@@ -99,20 +107,19 @@ class KrylovSpace {
   }
 
  private:
+  Eigen::MatrixXd times_mass(const Eigen::MatrixXd& shapes) const { return mass_ * shapes; }
   // Appends columns orthonormalised; what depends on the basis is left out. Returns the factor B of
   // columns = new basis B, of the part that is orthogonal to the old one.
   Eigen::MatrixXd append(Eigen::MatrixXd columns) {
-    const Eigen::VectorXd before =
-        (columns.array() * block_.times_mass(columns).array()).colwise().sum();
+    const Eigen::VectorXd before = (columns.array() * times_mass(columns).array()).colwise().sum();
     Eigen::MatrixXd factor = Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
     const double negligible = 1e-24 * std::max(largest_, before.maxCoeff());
     largest_ = std::max(largest_, before.maxCoeff());
     for (int pass = 0; pass < 2; ++pass) {
-      if (basis_.cols() > 0)
-        columns -= basis_ * (basis_.transpose() * block_.times_mass(columns)).eval();
+      if (basis_.cols() > 0) columns -= basis_ * (basis_.transpose() * times_mass(columns)).eval();
       columns = block_.relative(std::move(columns));
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(columns.transpose() *
-                                                                block_.times_mass(columns));
+                                                                times_mass(columns));
       Eigen::Index dependent = 0;
       while (dependent < columns.cols() &&
              gram.eigenvalues()[dependent] <= (pass == 0 ? negligible : 0.1))
@@ -131,6 +138,7 @@ class KrylovSpace {
   }
 
   const FreeBlock& block_;
+  Eigen::SparseMatrix<double> mass_;
   Eigen::MatrixXd basis_, operator_, coupling_;
   Eigen::Index newest_ = 0;
   double largest_ = 0;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "structure/batches.h"
 #include "structure/index.h"
 
 namespace blocklift::structure {
@@ -64,6 +65,18 @@ Eigen::MatrixXd motions_of_cell(const Space& space, int cell,
   for (int i = 0; i < count; ++i)
     local.middleRows<6>(6 * i) = motions.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
   return local;
+}
+
+Eigen::MatrixXd stresses_of_cells(const Space& space, const Eigen::Matrix2Xd& points, int first,
+                                  int count, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+  const Eigen::Index per_cell = shell_stress_rows * points.cols();
+  Eigen::MatrixXd rows(per_cell * count, motions.cols());
+  in_batches(count, 64, 0, [&](int begin, int taken) {
+    ShellStress recovery(space, points);
+    for (int i = begin; i < begin + taken; ++i)
+      rows.middleRows(per_cell * i, per_cell) = recovery.of_all(first + i, motions);
+  });
+  return rows;
 }
 
 Eigen::MatrixXd stresses_at_side(const Eigen::MatrixXd& rows, double side) {

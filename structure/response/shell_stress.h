@@ -52,6 +52,11 @@ class ShellStress {
 Eigen::MatrixXd motions_of_cell(const Space& space, int cell,
                                 const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
+/// ShellStress::of_all of a run of cells, found by all threads: rows of one cell after another.
+/// @param points of the unit square, 2 x m. @param first of the cells of Space::shells().
+Eigen::MatrixXd stresses_of_cells(const Space& space, const Eigen::Matrix2Xd& points, int first,
+                                  int count, const Eigen::Ref<const Eigen::MatrixXd>& motions);
+
 /// Stresses (rows 6 point + component of Stress, along e_1, e_2 and the normal) at one height for
 /// the rows of ShellStress::of_all, without shear across the plate.
 /// @param side 1: the surface on the normal's side, -1: the other one, 0: the membrane stress.

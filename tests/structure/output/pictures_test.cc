@@ -121,7 +121,7 @@ TEST_F(SmallBlock, SurfaceCoversPlatesAndBeams) {
 TEST_F(SmallBlock, SurfaceCarriesTheMotionOfItsNodes) {
   const Surface surface(*model_);
   const LoadCase load_case = lift(1);
-  const SurfaceField field = surface.evaluate(*responses_, load_case);
+  const SurfaceField field = surface.evaluate(*responses_, {load_case})[0];
   ASSERT_EQ(field.von_mises.size(), surface.points().size());
   const Eigen::Matrix3Xd exact = responses_->elastic_displacement(load_case);
   int seen = 0;
@@ -145,12 +145,12 @@ TEST_F(SmallBlock, EnvelopeIsTheLargestOfAllInstants) {
   for (int k = 0; k < 5; ++k) {
     const LoadCase load_case = lift(2 * std::sin(k));
     factors.col(k) = responses_->coefficients(load_case);
-    const SurfaceField field = surface.evaluate(*responses_, load_case);
+    const SurfaceField field = surface.evaluate(*responses_, {load_case})[0];
     for (std::size_t p = 0; p < largest.size(); ++p)
       largest[p] = std::max(largest[p], field.von_mises[p]);
   }
   const LoadHistory history(factors, Eigen::VectorXd::Ones(factors.rows()));
-  const std::vector<double> envelope = surface.envelope(*responses_, history);
+  const std::vector<double> envelope = surface.envelopes(*responses_, {history})[0];
   ASSERT_EQ(envelope.size(), largest.size());
   const double scale = *std::max_element(envelope.begin(), envelope.end());
   int same = 0;
