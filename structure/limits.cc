@@ -1,5 +1,6 @@
 #include "structure/limits.h"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,6 +25,17 @@ double resident_bytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
+// OpenBLAS is one BLAS of several that may be installed: its own functions are looked up.
+int blas_threads() {
+  void* function = ::dlsym(RTLD_DEFAULT, "openblas_get_num_threads");
+  return function == nullptr ? 0 : reinterpret_cast<int (*)()>(function)();
+}
+
+void set_blas_threads(int threads) {
+  if (void* function = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
+    reinterpret_cast<void (*)(int)>(function)(threads);
+}
+
 }  // namespace
 
 int usable_threads() {
@@ -32,6 +44,14 @@ int usable_threads() {
     if (threads > 0) return threads;
   }
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+OneBlasThread::OneBlasThread() : before_(blas_threads()) {
+  if (before_ > 1) set_blas_threads(1);
+}
+
+OneBlasThread::~OneBlasThread() {
+  if (before_ > 1) set_blas_threads(before_);
 }
 
 void limit_memory(double bytes) { memory_limit = bytes; }

@@ -20,6 +20,7 @@
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/run_identity.h"
 #include "pipeline/lift/block_preparation.h"
+#include "pipeline/lift/kept_stages.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/calculation_package.h"
@@ -31,6 +32,7 @@
 #include "pipeline/results/result_file.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/results/word_document.h"
+#include "structure/limits.h"
 #include "structure/output/part_files.h"
 #include "structure/output/vtu.h"
 
@@ -133,14 +135,67 @@ struct BlockLoads {
   BlockHistory at_rest, in_motion;
 };
 
-/// Divides elements until the checked stress stands.
+// Names of what a run that is stopped leaves behind.
+constexpr const char* flexibility_part = "flexibility of the block";
+constexpr const char* motion_part = "motion";
+constexpr const char* refinement_part = "mesh of the block";
+
+void respond(const LiftCase& the_case, const Progress& progress, BlockRun& block) {
+  std::optional<structure::OneBlasThread> whatever_the_threads;
+  if (the_case.dynamics.flexibility != Flexibility::rigid) whatever_the_threads.emplace();
+  progress("block: stiffness, factorisation, unit responses", 0, "");
+  block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+}
+
+/// How the block gives way; none if it is taken as rigid.
+std::optional<LoadFlexibility> find_flexibility(const LiftCase& the_case, const Progress& progress,
+                                                UnfinishedRun* unfinished, BlockRun& block) {
+  // A rigid block moves without its stiffness: what is wrong with the lift is said sooner.
+  if (the_case.dynamics.flexibility == Flexibility::rigid) return std::nullopt;
+  if (unfinished)
+    if (const auto kept = unfinished->find(flexibility_part)) return flexibility_of(*kept);
+  respond(the_case, progress, block);
+  const structure::OneBlasThread whatever_the_threads;
+  std::optional<LoadFlexibility> flexibility =
+      make_flexibility(*block.responses, the_case.dynamics);
+  if (flexibility && unfinished && unfinished->is_due())
+    unfinished->keep(flexibility_part, bytes_of_flexibility(*flexibility));
+  return flexibility;
+}
+
+LiftRun find_motion(const LiftCase& the_case, BuiltLift model, const Progress& progress,
+                    UnfinishedRun* unfinished) {
+  if (unfinished)
+    if (const auto kept = unfinished->find(motion_part)) return motion_of(*kept, std::move(model));
+  LiftRun run = run_lift(the_case, std::move(model), progress);
+  if (unfinished && unfinished->is_due()) unfinished->keep(motion_part, bytes_of_motion(run));
+  return run;
+}
+
+/// Divides elements until the checked stress stands, and finds the first elastic period before.
 void refine(const LiftCase& the_case,
             const std::function<structure::LoadFactors(const structure::ElasticModel&,
                                                        structure::UnitResponses&)>& factors_of,
-            BlockRun& block) {
+            const Progress& progress, UnfinishedRun* unfinished, BlockRun& block) {
+  std::optional<KeptRefinement> earlier;
+  if (unfinished)
+    if (const auto kept = unfinished->find(refinement_part)) earlier = refinement_of(*kept);
+  const bool is_first_mesh = !earlier || earlier->state.steps.size() == 1;
+  if (is_first_mesh && !block.responses) respond(the_case, progress, block);
+  block.first_elastic_period =
+      earlier ? earlier->first_elastic_period : find_first_elastic_period(*block.responses);
+  structure::RefinementRecord record;
+  if (earlier) record.earlier = &earlier->state;
+  if (unfinished) {
+    record.after_step = [&](const structure::RefinementState& state) {
+      if (unfinished->is_due())
+        unfinished->keep(refinement_part, bytes_of_refinement({block.first_elastic_period, state}));
+    };
+  }
+  progress("block: division of elements", 0.4, "");
   structure::RefinedBlock refined = structure::refine_checked_stress(
       std::move(block.model), std::move(block.responses), factors_of,
-      {the_case.structure.accuracy, the_case.structure.most_unknowns});
+      {the_case.structure.accuracy, the_case.structure.most_unknowns}, record);
   block.model = std::move(refined.model);
   block.responses = std::move(refined.responses);
   block.accuracy = std::move(refined.accuracy);
@@ -148,8 +203,7 @@ void refine(const LiftCase& the_case,
 
 /// Stresses of a block that was lifted.
 void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Progress& progress,
-                         BlockRun& block) {
-  progress("block: division of elements", 0.4, "");
+                         UnfinishedRun* unfinished, BlockRun& block) {
   // The shell's regions, and with them the fields of pressure, follow the mesh.
   const auto factors = [&](const structure::ElasticModel& model,
                            structure::UnitResponses& responses) -> structure::LoadFactors {
@@ -158,7 +212,7 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Pr
     return {factors_of(responses, loads.attachment, loads.at_rest),
             factors_of(responses, loads.attachment, loads.in_motion)};
   };
-  refine(the_case, factors, block);
+  refine(the_case, factors, progress, unfinished, block);
   progress("block: stresses", 0.5, "");
   const BlockLoads loads(lift, *block.model, block.pressure);
   const auto& [attachment, at_rest, in_motion] = loads;
@@ -174,7 +228,8 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Pr
 }
 
 /// Stresses under a table of loads.
-void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& block) {
+void assess_table(const LiftCase& the_case, const Progress& progress, UnfinishedRun* unfinished,
+                  BlockRun& block) {
   const LoadTable& table = *the_case.load_table;
   const std::vector<structure::LiftingPoint> lugs = block.model->mesh().lifting_points;
   const auto static_forces = table_forces(table, table.static_loads, lugs);
@@ -185,8 +240,7 @@ void assess_table(const LiftCase& the_case, const Progress& progress, BlockRun& 
     return {responses.coefficients(map_load_table(static_forces, lugs, mass)),
             responses.coefficients(map_load_table(dynamic_forces, lugs, mass))};
   };
-  progress("block: division of elements", 0.4, "");
-  refine(the_case, factors, block);
+  refine(the_case, factors, progress, unfinished, block);
   progress("block: stresses", 0.5, "");
   const structure::StressRecovery recovery(*block.responses);
   block.assessment = assess_load_table(*block.responses, recovery, static_forces, dynamic_forces);
@@ -212,15 +266,15 @@ void check_motion(const Progress& progress, Assessment& assessment) {
 
 }  // namespace
 
-Assessment assess(LiftCase lift_case, const Progress& progress) {
+Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* unfinished) {
   Stopwatch total;
   Assessment assessment{std::move(lift_case), {}, {}, {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 
   if (!the_case.has_structure()) {
-    assessment.lift =
-        run_lift(the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
-                 progress);
+    assessment.lift = find_motion(
+        the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
+        progress, unfinished);
     check_motion(progress, assessment);
     find_lengths(load_mass(the_case.load.vessel->model), nullptr, progress, assessment);
     check_by_standard(assessment);
@@ -235,30 +289,20 @@ Assessment assess(LiftCase lift_case, const Progress& progress) {
   if (!block.model) throw InputError(diagnostics);
   block.mesh_s = watch.lap();
 
-  const auto respond = [&] {
-    progress("block: stiffness, factorisation, unit responses", 0, "");
-    block.responses = std::make_unique<structure::UnitResponses>(*block.model);
-  };
   if (!the_case.load_table) {
-    // A rigid block moves without its stiffness: what is wrong with the lift is said sooner.
-    std::optional<LoadFlexibility> flexibility;
-    if (the_case.dynamics.flexibility != Flexibility::rigid) {
-      respond();
-      flexibility = make_flexibility(*block.responses, the_case.dynamics);
-    }
+    const std::optional<LoadFlexibility> flexibility =
+        find_flexibility(the_case, progress, unfinished, block);
     BuiltLift model = prepare_lift(the_case, load_mass(block.model->mass_properties()), progress,
                                    flexibility ? &*flexibility : nullptr);
-    assessment.lift = run_lift(the_case, std::move(model), progress);
+    assessment.lift = find_motion(the_case, std::move(model), progress, unfinished);
     check_motion(progress, assessment);
     find_lengths(load_mass(block.model->mass_properties()), flexibility ? &*flexibility : nullptr,
                  progress, assessment);
   }
-  if (!block.responses) respond();
-  block.first_elastic_period = find_first_elastic_period(*block.responses);
   if (assessment.lift) {
-    assess_lifted_block(the_case, *assessment.lift, progress, block);
+    assess_lifted_block(the_case, *assessment.lift, progress, unfinished, block);
   } else {
-    assess_table(the_case, progress, block);
+    assess_table(the_case, progress, unfinished, block);
     block.buckling = assess_buckling(the_case, *block.responses, block.assessment);
     block.padeyes = assess_padeyes(the_case, *block.responses, block.assessment);
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "pipeline/assessment/unfinished_run.h"
 #include "pipeline/checks/assessment.h"
 #include "pipeline/results/load_case_decks.h"
 
@@ -10,8 +11,11 @@ namespace blocklift::pipeline {
 
 /// Runs all stages of a case: mesh and mass of the block, static sweep, time integration, load
 /// mapping, unit responses, stresses, checks.
+/// @param unfinished what an earlier run of the same case had done, which is taken over bit for bit,
+/// and where this one keeps what it has done; null: nothing is kept.
 /// @throws dynamics::SimulationError, structure::ModelError, std::runtime_error as the stages do.
-Assessment assess(LiftCase lift_case, const Progress& progress);
+Assessment assess(LiftCase lift_case, const Progress& progress,
+                  UnfinishedRun* unfinished = nullptr);
 
 /// Asks before a run whether its results can be written, by trying it; leaves nothing behind.
 /// @throws InputError if the folder is a file or lies in one, or the user may not write there.

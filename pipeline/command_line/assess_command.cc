@@ -15,10 +15,13 @@
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/progress_line.h"
 #include "pipeline/comparison/expected_figures.h"
 #include "pipeline/declaration/key_change.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/files/input_hash.h"
+#include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/formats/summary_file.h"
@@ -258,6 +261,21 @@ std::vector<KeyChange> read_changes(const std::vector<std::string>& texts) {
   return changes;
 }
 
+std::vector<RunTrait> traits_of_run(const LiftCase& lift_case) {
+  return {{"input", hash_of_input(lift_case)},
+          {"program", hash_of_files({"/proc/self/exe"})},
+          {"arithmetic of the processor", describe_arithmetic()}};
+}
+
+void say_what_is_gone_on_with(const UnfinishedRun& unfinished) {
+  if (is_quiet()) return;
+  if (!unfinished.differences().empty())
+    fmt::print("a run that was stopped here is not gone on with: it had another {}\n",
+               list_of_names(unfinished.differences()));
+  if (const auto parts = unfinished.parts(); !parts.empty())
+    fmt::print("going on with what a run that was stopped had done: {}\n", list_of_names(parts));
+}
+
 }  // namespace
 
 int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks,
@@ -276,16 +294,23 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
     return exit_code::wrong_input;
   }
   require_writable(folder);
+  UnfinishedRun unfinished(folder, traits_of_run(lift_case));
+  say_what_is_gone_on_with(unfinished);
   ProgressLine line;
   const Assessment assessment = assess(
-      std::move(lift_case), [&](const std::string& stage, double fraction,
-                                const std::string& detail) { line.show(stage, fraction, detail); });
+      std::move(lift_case),
+      [&](const std::string& stage, double fraction, const std::string& detail) {
+        line.show(stage, fraction, detail);
+      },
+      &unfinished);
   line.show("writing results", 0, "");
   std::vector<LoadCaseFile> files;
   if (decks) files = load_case_files(assessment);
   const std::filesystem::path report = [&] {
     const HeldSignals until_all_is_in_place;
-    return write_results(assessment, folder, files);
+    std::filesystem::path page = write_results(assessment, folder, files);
+    unfinished.forget();
+    return page;
   }();
   line.finish();
 

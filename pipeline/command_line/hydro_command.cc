@@ -94,6 +94,22 @@ void require_writable_file(const fs::path& file) {
   }
 }
 
+/// A database with its page. Whatever fails before the database is in place leaves both as they were.
+void write_with_page(const fs::path& output, const HydrodynamicFile& file,
+                     const std::string& page) {
+  AtomicFile prepared(page_of(output));
+  prepared.write(page);
+  write_hydrodynamic_file(output, file);
+  prepared.commit();
+}
+
+/// Is the page there, and that of this database? One of another is left where a run was stopped
+/// between the two.
+bool has_page(const fs::path& output, const HydrodynamicFile& file) {
+  const fs::path page = page_of(output);
+  return fs::exists(page) && read_file(page).find(file.identity) != std::string::npos;
+}
+
 int compute_vessel(const HydroOptions& options) {
   Diagnostics diagnostics;
   std::optional<HydrodynamicProblem> problem =
@@ -111,11 +127,12 @@ int compute_vessel(const HydroOptions& options) {
     file = read_hydrodynamic_file(output);
   } else {
     file = compute(*problem, states);
-    write_hydrodynamic_file(output, file);
   }
-  if (!known || !fs::exists(page_of(output))) {
-    write_file(page_of(output), hydrodynamic_page(file, problem->title, masses));
-  }
+  const auto page = [&] { return hydrodynamic_page(file, problem->title, masses); };
+  if (!known)
+    write_with_page(output, file, page());
+  else if (!has_page(output, file))
+    write_file(page_of(output), page());
   if (is_quiet()) return exit_code::done;
   fmt::print("{}\n{}\n", problem->title, hydrodynamic_table(file, masses));
   fmt::print("{}: {}\n{}\n", known ? "already computed" : "database", output.string(),
@@ -141,8 +158,7 @@ int convert(const HydroOptions& options) {
   }
   const fs::path output = *options.output;
   if (!options.export_format) {
-    write_hydrodynamic_file(output, file);
-    write_file(page_of(output), hydrodynamic_page(file, file.origin, {}));
+    write_with_page(output, file, hydrodynamic_page(file, file.origin, {}));
     if (is_quiet()) return exit_code::done;
     fmt::print("{}\ndatabase: {}\n{}\n", hydrodynamic_table(file, {}), output.string(),
                page_of(output).string());

@@ -2,6 +2,7 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -391,6 +392,13 @@ int run_and_report(int argc, char** argv) {
   } catch (const LogError& error) {
     std::fprintf(stderr, "blocklift: error: %s\n", error.what());
     return exit_code::wrong_input;
+  } catch (const std::bad_alloc&) {
+    constexpr const char* what =
+        "the memory of the machine does not suffice, or the limit that it was given; what was done "
+        "so far is lost unless a message says otherwise";
+    std::fprintf(stderr, "blocklift: error: %s\n", what);
+    log_error(what);
+    return exit_code::run_failed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "blocklift: error: %s\n", error.what());
     log_error(error.what());

@@ -7,6 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
+
+#include "structure/limits.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -43,7 +47,7 @@ std::string threads_asked(int count, char** arguments) {
   return {};
 }
 
-/// Sets the variables that our own loops, BLAS and deal.II follow. @returns true if one changed.
+/// Sets the variables that our own loops and BLAS follow. @returns true if one changed.
 bool limit_threads(int count, char** arguments) {
   const std::string asked = threads_asked(count, arguments);
   // What is no count is refused when the options are read, and must not end a library's start.
@@ -51,7 +55,7 @@ bool limit_threads(int count, char** arguments) {
       asked.find_first_not_of("0123456789") != std::string::npos)
     return false;
   bool changed = false;
-  for (const char* variable : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "DEAL_II_NUM_THREADS"}) {
+  for (const char* variable : {"OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"}) {
     const char* present = std::getenv(variable);
     if (present != nullptr && present == asked) continue;
     changed = ::setenv(variable, asked.c_str(), 1) == 0 || changed;
@@ -78,6 +82,14 @@ void use_all_of_the_processor(int count, char** arguments) {
 #endif
   // All are set from now on, so that this happens once. Where it fails the program runs as it is.
   if (changed) ::execv("/proc/self/exe", arguments);
+}
+
+std::string describe_arithmetic() {
+  void* name = ::dlsym(RTLD_DEFAULT, "openblas_get_corename");
+  void* threads = ::dlsym(RTLD_DEFAULT, "openblas_get_num_threads");
+  return fmt::format(
+      "{}, {} and {} threads", name ? reinterpret_cast<char* (*)()>(name)() : "other kernels",
+      threads ? reinterpret_cast<int (*)()>(threads)() : 0, structure::usable_threads());
 }
 
 }  // namespace blocklift::pipeline

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace blocklift::pipeline {
 
 /// Starts the program anew (same process, same arguments) with an environment that suits the
@@ -14,10 +16,14 @@ namespace blocklift::pipeline {
 ///   factorisation. One is faster.
 /// - GLIBC_TUNABLES, glibc.malloc.hugetlb: the matrices' gigabytes come in pages of 2 MB in place
 ///   of 4 kB, of which the kernel would hand over each one singly.
-/// - OMP_NUM_THREADS, OPENBLAS_NUM_THREADS, DEAL_II_NUM_THREADS: what the option --threads says.
+/// - OMP_NUM_THREADS, OPENBLAS_NUM_THREADS: what the option --threads says.
 /// The first four only for commands that solve structures; the others would wait for the second
 /// start in vain.
 /// Returns where there is nothing to gain or the system cannot do it.
 void use_all_of_the_processor(int count, char** arguments);
+
+/// What decides in which order sums are formed: OpenBLAS' kernels, its threads and ours, such as
+/// "Haswell, 2 and 2 threads". Runs with the same are equal to the last bit.
+std::string describe_arithmetic();
 
 }  // namespace blocklift::pipeline

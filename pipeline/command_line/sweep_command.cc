@@ -181,8 +181,12 @@ int sweep(const SweepOptions& options) {
     const HeldSignals until_all_is_in_place;
     write_study(results, folder);
   }
-  print_study(results, folder, write_worst(options, folder, results));
-  return exit_code::done;
+  const std::optional<int> worst = write_worst(options, folder, results);
+  print_study(results, folder, worst);
+  if (worst || results.leading.empty()) return exit_code::done;
+  throw std::runtime_error(fmt::format(
+      "the report of member {}, the worst, could not be written; all else of the study is",
+      results.spreads[results.leading.front()].member_of_largest));
 }
 
 }  // namespace blocklift::pipeline

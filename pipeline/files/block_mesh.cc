@@ -11,6 +11,7 @@
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/block_model.h"
 #include "pipeline/files/named_file.h"
+#include "pipeline/formats/content_hash.h"
 #include "structure/error.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/nastran/reader.h"
@@ -99,6 +100,7 @@ class MeshReader {
     const std::size_t before = diagnostics_.error_count();
     const auto deck = std::make_shared<Deck>();
     if (!read_deck(*deck)) return;
+    mesh_model_.content = hash_of_files(deck->files);
     give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
     let_go(*deck);

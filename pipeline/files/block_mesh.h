@@ -33,6 +33,7 @@ struct MeshModel {
   /// cannot be lifted: the diagnostics say so, and pictures show it.
   std::shared_ptr<const structure::Deck> deck = nullptr;
   std::shared_ptr<const structure::Diagnosis> diagnosis = nullptr;
+  std::string content = {};  ///< fingerprint of the files that were read
 };
 
 Format<MeshModel> mesh_model_format();

@@ -1,23 +1,14 @@
 #include "pipeline/files/input_hash.h"
 
 #include "pipeline/formats/content_hash.h"
+#include "pipeline/formats/hull_hash.h"
 
 namespace blocklift::pipeline {
 namespace {
 
-void add(ContentHash& hash, const structure::Deck& deck) {
-  for (const structure::Vector3& vertex : deck.mesh.vertices)
-    hash.add(std::span<const double>(vertex.data(), 3));
-  for (const structure::Shell& shell : deck.mesh.shells) {
-    for (const int vertex : shell.vertices) hash.add(std::int64_t{vertex});
-    hash.add(std::int64_t{shell.section});
-  }
-  for (const structure::Beam& beam : deck.mesh.beams) {
-    for (const int vertex : beam.vertices) hash.add(std::int64_t{vertex});
-    hash.add(std::int64_t{beam.section});
-  }
-  for (const structure::Solid& solid : deck.mesh.solids)
-    for (const int vertex : solid.vertices) hash.add(std::int64_t{vertex});
+void add(ContentHash& hash, const VesselInCase& vessel) {
+  if (vessel.model) add(hash, vessel.model->hull);
+  hash.add(std::string_view(vessel.database_content));
 }
 
 }  // namespace
@@ -26,10 +17,21 @@ std::string hash_of_input(const LiftCase& lift_case) {
   ContentHash hash;
   hash.add(std::string_view(lift_case.yaml));
   for (const ModelText& model : lift_case.model_texts) hash.add(std::string_view(model.text));
-  if (const auto& block = lift_case.load.model; block && block->mesh && block->mesh->deck) {
-    add(hash, *block->mesh->deck);
-    // Thicknesses and densities that another file includes.
-    if (block->mesh->diagnosis) hash.add(block->mesh->diagnosis->mass.mass);
+  if (const auto& block = lift_case.load.model; block && block->mesh)
+    hash.add(std::string_view(block->mesh->content));
+  if (const auto& vessel = lift_case.load.vessel) add(hash, vessel->hull);
+  for (const VesselInCase& vessel : lift_case.vessels) add(hash, vessel);
+  if (lift_case.sea && lift_case.sea->waves && lift_case.sea->waves->record) {
+    const WaveRecordInCase& record = *lift_case.sea->waves->record;
+    hash.add(record.elevation);
+    hash.add(record.time_step);
+    hash.add(record.start_time);
+  }
+  if (lift_case.compare) {
+    for (const Named<MeasuredSeries>& series : lift_case.compare->series) {
+      hash.add(series.value.time);
+      hash.add(series.value.tension);
+    }
   }
   return hash.digits();
 }

@@ -155,6 +155,7 @@ struct VesselInCase {
   std::shared_ptr<const dynamics::HydrodynamicDatabase> hydrodynamics;
   int hydrodynamic_body = 0;
   Located<DriftMethod> drift{DriftMethod::none, {}};
+  std::string database_content;  ///< fingerprint of the file
   DampingInCase damping, quadratic_damping;
   std::optional<CurrentLoadInCase> current_load;
   std::optional<RestraintInCase> restraint;

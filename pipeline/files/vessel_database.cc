@@ -8,32 +8,38 @@
 
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "pipeline/files/named_file.h"
+#include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 using dynamics::HydrodynamicDatabase;
-using DatabaseOfFile = std::map<std::string, std::shared_ptr<const HydrodynamicDatabase>>;
 
-/// From those that were read before, or the file; null after a complaint.
-std::shared_ptr<const HydrodynamicDatabase> find_database(const Located<std::string>& file,
-                                                          const std::filesystem::path& beside,
-                                                          DatabaseOfFile& known,
-                                                          Diagnostics& diagnostics) {
-  const auto [place, is_new] = known.try_emplace(file.value, nullptr);
+struct DatabaseFile {
+  std::shared_ptr<const HydrodynamicDatabase> database;  ///< null if it could not be read
+  std::string content;                                   ///< its fingerprint
+};
+using DatabaseOfFile = std::map<std::string, DatabaseFile>;
+
+/// From those that were read before, or the file; without a database after a complaint.
+DatabaseFile find_database(const Located<std::string>& file, const std::filesystem::path& beside,
+                           DatabaseOfFile& known, Diagnostics& diagnostics) {
+  const auto [place, is_new] = known.try_emplace(file.value);
   if (!is_new) return place->second;
   const auto found = path_of_named_file(file, beside, diagnostics);
-  if (!found) return nullptr;
+  if (!found) return {};
   const std::filesystem::path& path = *found;
   if (!std::filesystem::is_regular_file(path)) {
     diagnostics.error(file.mark, fmt::format("there is no database {}", path.string()),
                       {"make it with blocklift hydro VESSEL -o FILE, or take another program's "
                        "over with blocklift hydro --import FILE -o FILE"});
-    return nullptr;
+    return {};
   }
   try {
-    place->second = std::make_shared<const HydrodynamicDatabase>(read_hydrodynamic_database(path));
+    place->second.database =
+        std::make_shared<const HydrodynamicDatabase>(read_hydrodynamic_database(path));
+    place->second.content = hash_of_files({path});
   } catch (const HydrodynamicFileError& error) {
     diagnostics.error(file.mark, error.what());
   }
@@ -145,7 +151,9 @@ void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesy
   DatabaseOfFile known;
   for (VesselInCase& vessel : vessels) {
     if (!vessel.database) continue;
-    vessel.hydrodynamics = find_database(*vessel.database, beside, known, diagnostics);
+    const DatabaseFile file = find_database(*vessel.database, beside, known, diagnostics);
+    vessel.hydrodynamics = file.database;
+    vessel.database_content = file.content;
     if (vessel.hydrodynamics) find_body(vessel, diagnostics);
   }
 }

@@ -52,14 +52,18 @@ void AtomicFile::commit() {
   committed_ = true;
 }
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
-  AtomicFile file(path);
+void AtomicFile::write(std::string_view content) const {
   errno = 0;
-  std::ofstream stream(file.temporary_path(), std::ios::binary | std::ios::trunc);
-  if (!stream) fail(path, "cannot write the file", errno);
+  std::ofstream stream(temporary_path_, std::ios::binary | std::ios::trunc);
+  if (!stream) fail(path_, "cannot write the file", errno);
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   stream.close();
-  if (!stream) fail(path, "cannot write the file", errno == 0 ? EIO : errno);
+  if (!stream) fail(path_, "cannot write the file", errno == 0 ? EIO : errno);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  AtomicFile file(path);
+  file.write(content);
   file.commit();
 }
 

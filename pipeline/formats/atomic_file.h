@@ -24,6 +24,9 @@ class AtomicFile {
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& temporary_path() const { return temporary_path_; }
 
+  /// Writes the whole content.
+  /// @throws std::runtime_error with the file's name and the system's reason.
+  void write(std::string_view content) const;
   /// To be called once, after the content is written and the temporary file is closed.
   /// @throws std::runtime_error with the file's name and the system's reason.
   void commit();

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/formats/atomic_file.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -48,6 +50,12 @@ void ContentHash::add(std::string_view text) {
 std::string ContentHash::digits() const {
   const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string hash_of_files(const std::vector<std::filesystem::path>& files) {
+  ContentHash hash;
+  for (const std::filesystem::path& file : files) hash.add(std::string_view(read_file(file)));
+  return hash.digits();
 }
 
 }  // namespace blocklift::pipeline

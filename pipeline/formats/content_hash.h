@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 struct XXH3_state_s;
 
@@ -33,5 +35,9 @@ class ContentHash {
   };
   std::unique_ptr<XXH3_state_s, Free> state_;
 };
+
+/// Fingerprint of the bytes of files in their order, not of their names.
+/// @throws std::runtime_error with the file's name and the system's reason.
+std::string hash_of_files(const std::vector<std::filesystem::path>& files);
 
 }  // namespace blocklift::pipeline

@@ -194,7 +194,7 @@ std::string charts_of_mode(const HydrodynamicDatabase& database,
 }
 
 constexpr const char* page_head = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>{0}</title><style>
+<html lang="en"><head><meta charset="utf-8"><meta name="identity" content="{2}"><title>{0}</title><style>
 body {{ font: 14px system-ui, sans-serif; max-width: 1340px; margin: 24px auto; padding: 0 16px; color: #222; }}
 .charts {{ display: flex; flex-wrap: wrap; }} svg {{ width: 420px; }}
 svg text {{ font: 10px system-ui, sans-serif; }} svg .title {{ font-weight: 600; font-size: 11px; }}
@@ -270,7 +270,7 @@ std::string doubt_about_coupling(const dynamics::PanelModel& model, double highe
 
 std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& title,
                               const std::vector<MatrixXd>& masses) {
-  std::string page = fmt::format(page_head, title, origin_text(file));
+  std::string page = fmt::format(page_head, title, origin_text(file), file.identity);
   for (std::size_t s = 0; s < file.series.databases.size(); ++s) {
     const HydrodynamicDatabase& database = file.series.databases[s];
     const std::vector<MatrixXcd> responses = responses_of(file, masses, s);

@@ -19,6 +19,8 @@ namespace blocklift::pipeline {
 
 namespace {
 
+constexpr double rounding_percent = 1e-7;
+
 using structure::TimedExtreme;
 using structure::UnitResponses;
 using structure::Vector3;
@@ -136,22 +138,29 @@ class StateMaker {
   HistoryState state_;
 };
 
+/// Per cent by which a practice lies above the envelope; where they are the same instant only
+/// rounding is between them, which is no difference and differs with the number of threads.
+double percent_of_practice(double practice, double envelope) {
+  const double percent = percent_above(practice, envelope);
+  return std::abs(percent) < rounding_percent ? 0 : percent;
+}
+
 // A practice's checked stress at each square, set against the envelope.
 PracticeComparison compare_practice(const structure::Mesh& mesh,
                                     const structure::CheckedStress& checked,
                                     const Eigen::VectorXd& practice,
                                     const Eigen::VectorXd& envelope) {
   PracticeComparison comparison;
-  comparison.largest_percent = percent_above(practice.maxCoeff(), envelope.maxCoeff());
+  comparison.largest_percent = percent_of_practice(practice.maxCoeff(), envelope.maxCoeff());
   comparison.worst_percent = std::numeric_limits<double>::infinity();
   int looked_at = 0, short_of = 0;
   const double half_of_largest = 0.5 * envelope.maxCoeff();
   for (Eigen::Index p = 0; p < envelope.size(); ++p) {
     if (envelope[p] < half_of_largest) continue;
     ++looked_at;
-    const double percent = percent_above(practice[p], envelope[p]);
+    const double percent = percent_of_practice(practice[p], envelope[p]);
     if (percent < -1) ++short_of;
-    if (percent >= comparison.worst_percent) continue;
+    if (percent >= comparison.worst_percent - rounding_percent) continue;
     const structure::Square& square = checked.squares()[static_cast<std::size_t>(p)];
     comparison.worst_percent = percent;
     comparison.worst = {envelope[p], square.centre_B,

@@ -11,6 +11,7 @@
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/results/lift_scene.h"
+#include "structure/limits.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -64,6 +65,7 @@ class LiftRunner {
     // A standard's computed skew asks for the block's compliance at its lugs.
     if (!gives_way && !the_case().standard) return;
     progress_("block: stiffness, factorisation, unit responses", 0, "");
+    const structure::OneBlasThread whatever_the_threads;
     block.responses = std::make_unique<structure::UnitResponses>(*block.model);
     if (gives_way) flexibility_ = make_flexibility(*block.responses, the_case().dynamics);
   }

@@ -16,6 +16,7 @@
 #include "pipeline/results/lift_scene.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/mechanism_results.h"
+#include "structure/limits.h"
 #include "structure/response/elastic_model.h"
 
 namespace blocklift::pipeline {
@@ -64,6 +65,7 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   std::optional<LoadFlexibility> flexibility;
   if (lift_case.dynamics.flexibility != Flexibility::rigid) {
     progress("block: stiffness, factorisation, unit responses", 0, "");
+    const structure::OneBlasThread whatever_the_threads;
     flexibility = make_flexibility(structure::UnitResponses(*block), lift_case.dynamics);
   }
   BuiltLift model = prepare_lift(lift_case, load_mass(block->mass_properties()), progress,

@@ -12,6 +12,7 @@
 
 #include "pipeline/comparison/summary_figures.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/terminal/text_table.h"
 
@@ -256,10 +257,13 @@ std::string study_text(const StudyResults& results) {
 }
 
 void write_study(const StudyResults& results, const std::filesystem::path& folder) {
-  write_file(folder / "study.csv", csv_text(results));
-  write_arrays(results, folder / "study.h5");
-  write_file(folder / "study.html", study_page(results));
-  write_file(folder / "study.json", study_json(results).dump(2));
+  Preparation preparation(folder);
+  const std::filesystem::path& aside = preparation.folder();
+  write_file(aside / "study.csv", csv_text(results));
+  write_arrays(results, aside / "study.h5");
+  write_file(aside / "study.html", study_page(results));
+  write_file(aside / "study.json", study_json(results).dump(2));
+  preparation.move_into_place();
 }
 
 }  // namespace blocklift::pipeline

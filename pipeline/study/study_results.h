@@ -45,7 +45,8 @@ nlohmann::ordered_json study_json(const StudyResults& results);
 /// A table of the leading figures for a terminal.
 std::string study_text(const StudyResults& results);
 
-/// Writes study.csv and study.h5 (a member a row), study.json and study.html into a folder.
+/// Writes study.csv and study.h5 (a member a row), study.json and study.html into a folder: all of
+/// them or none.
 void write_study(const StudyResults& results, const std::filesystem::path& folder);
 
 /// The page: leading figures with exceedance, what they depend on, all figures.

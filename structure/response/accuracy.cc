@@ -21,7 +21,7 @@ constexpr double refined_at = 0.8;  // likewise: about which cells are divided
 constexpr double looked_at_in_corners = 0.4;
 constexpr double growth = 0.8;      // of cells with the distance from a square
 constexpr double first_edge = 0.1;  // m
-constexpr int most_steps = 6;
+constexpr std::size_t most_steps = 6;
 constexpr std::size_t most_centres = 60;
 // Shares that differ by less are one: squares of a symmetric block differ by rounding alone, which
 // another number of threads changes, and their order decides which cells are divided.
@@ -41,19 +41,17 @@ Eigen::VectorXd largest_of(const CheckedStress& checked, const Eigen::MatrixXd& 
       .value;
 }
 
-struct Evaluation {
-  std::vector<Square> squares;
-  Eigen::VectorXd at_rest, in_motion;
+/// Looks at squares of a model anew.
+void look_at(const CheckedStress& checked, const LoadFactors& factors, RefinementState& state) {
+  state.squares = checked.squares();
+  state.at_rest = largest_of(checked, factors.at_rest);
+  state.in_motion = largest_of(checked, factors.in_motion);
+}
 
-  /// Of the largest, at rest or in motion, whichever is more.
-  Eigen::VectorXd share() const {
-    return (at_rest / at_rest.maxCoeff()).cwiseMax(in_motion / in_motion.maxCoeff());
-  }
-};
-
-Evaluation evaluate(const CheckedStress& checked, const LoadFactors& factors) {
-  return {checked.squares(), largest_of(checked, factors.at_rest),
-          largest_of(checked, factors.in_motion)};
+/// Of the largest stress, at rest or in motion, whichever is more.
+Eigen::VectorXd share_of(const RefinementState& state) {
+  return (state.at_rest / state.at_rest.maxCoeff())
+      .cwiseMax(state.in_motion / state.in_motion.maxCoeff());
 }
 
 double smallest_edge_of(const ElasticModel& model) {
@@ -64,14 +62,14 @@ double smallest_edge_of(const ElasticModel& model) {
   return smallest;
 }
 
-AccuracyStep step_of(const ElasticModel& model, const Evaluation& found) {
+AccuracyStep step_of(const ElasticModel& model, const RefinementState& found) {
   return {model.space().unknowns(), static_cast<int>(model.space().shells().size()),
           smallest_edge_of(model), found.at_rest.maxCoeff(), found.in_motion.maxCoeff()};
 }
 
 /// Squares that may come to govern.
-std::vector<Square> candidates(const Evaluation& found) {
-  const Eigen::VectorXd share = found.share();
+std::vector<Square> candidates(const RefinementState& found) {
+  const Eigen::VectorXd share = share_of(found);
   std::vector<Square> result;
   for (std::size_t s = 0; s < found.squares.size(); ++s)
     if (share[static_cast<Eigen::Index>(s)] >=
@@ -83,8 +81,8 @@ std::vector<Square> candidates(const Evaluation& found) {
 /// Places about which cells are divided: the squares of the largest stress, the largest first, one
 /// of those that lie together.
 /// @param corners the share of the largest stress from which on those in corners are taken.
-std::vector<Vector3> centres_of(const Evaluation& found, double corners) {
-  const Eigen::VectorXd share = found.share();
+std::vector<Vector3> centres_of(const RefinementState& found, double corners) {
+  const Eigen::VectorXd share = share_of(found);
   std::vector<int> order(found.squares.size());
   std::iota(order.begin(), order.end(), 0);
   const Eigen::VectorXd rank = (share / equal_shares).array().round();
@@ -118,6 +116,36 @@ double share_of_change(double now, double before) {
   return before > 0 ? std::abs(now / before - 1) : 0;
 }
 
+/// Smallest edge of the cells that a step makes, m; the block as it comes is step 0.
+double edge_of_step(std::size_t step) { return std::ldexp(first_edge, 1 - static_cast<int>(step)); }
+
+/// The first step: the block as it comes.
+void begin(const std::function<LoadFactors(const ElasticModel&, UnitResponses&)>& factors_of,
+           const AccuracyGoal& goal, RefinedBlock& block, RefinementState& state) {
+  if (!block.responses) block.responses = std::make_unique<UnitResponses>(*block.model);
+  const LoadFactors factors = factors_of(*block.model, *block.responses);
+  look_at(CheckedStress(*block.model, block.responses->displacements(), goal.square_size), factors,
+          state);
+  state.steps.push_back(step_of(*block.model, state));
+}
+
+/// Makes the last mesh of an earlier refinement again.
+void take_up(const RefinementState& state, const Resolution& base, RefinedBlock& block) {
+  const std::size_t last = state.steps.size() - 1;
+  if (last > 0) {
+    block.responses.reset();
+    block.model = block.model->with(graded(base, state.centres, edge_of_step(last)));
+  }
+  if (!block.responses) block.responses = std::make_unique<UnitResponses>(*block.model);
+}
+
+CheckedAccuracy judged(const RefinementState& state, const AccuracyGoal& goal) {
+  CheckedAccuracy accuracy{state.steps, false};
+  accuracy.is_reached = state.steps.size() > 1 && accuracy.stress_change() <= goal.change &&
+                        accuracy.increase_change() <= goal.change;
+  return accuracy;
+}
+
 }  // namespace
 
 double CheckedAccuracy::stress_change() const {
@@ -135,29 +163,32 @@ double CheckedAccuracy::increase_change() const {
 RefinedBlock refine_checked_stress(
     std::unique_ptr<ElasticModel> model, std::unique_ptr<UnitResponses> responses,
     const std::function<LoadFactors(const ElasticModel&, UnitResponses&)>& factors_of,
-    const AccuracyGoal& goal) {
+    const AccuracyGoal& goal, const RefinementRecord& record) {
+  const Resolution base = model->resolution();
   RefinedBlock block{std::move(model), std::move(responses), {}};
-  const Resolution base = block.model->resolution();
-  const LoadFactors of_first = factors_of(*block.model, *block.responses);
-  Evaluation found = evaluate(
-      CheckedStress(*block.model, block.responses->displacements(), goal.square_size), of_first);
-  block.accuracy.steps.push_back(step_of(*block.model, found));
-  std::vector<Vector3> centres;
-  double edge = first_edge;
-  for (int step = 1; step < most_steps; ++step, edge /= 2) {
-    const double corners = step == 1 ? looked_at_in_corners : refined_at;
-    for (const Vector3& centre : centres_of(found, corners)) centres.push_back(centre);
-    auto finer = block.model->with(graded(base, centres, edge));
+  RefinementState state;
+  if (record.earlier) {
+    state = *record.earlier;
+    take_up(state, base, block);
+    factors_of(*block.model, *block.responses);
+  } else {
+    begin(factors_of, goal, block, state);
+    if (record.after_step) record.after_step(state);
+  }
+  block.accuracy = judged(state, goal);
+  while (!block.accuracy.is_reached && state.steps.size() < most_steps) {
+    const double corners = state.steps.size() == 1 ? looked_at_in_corners : refined_at;
+    for (const Vector3& centre : centres_of(state, corners)) state.centres.push_back(centre);
+    auto finer = block.model->with(graded(base, state.centres, edge_of_step(state.steps.size())));
     if (finer->space().unknowns() > goal.most_unknowns) break;
     auto solved = std::make_unique<UnitResponses>(*finer);
     const LoadFactors factors = factors_of(*finer, *solved);
-    found = evaluate(CheckedStress(*finer, solved->displacements(), candidates(found)), factors);
+    look_at(CheckedStress(*finer, solved->displacements(), candidates(state)), factors, state);
     block.responses = std::move(solved);
     block.model = std::move(finer);
-    block.accuracy.steps.push_back(step_of(*block.model, found));
-    block.accuracy.is_reached = block.accuracy.stress_change() <= goal.change &&
-                                block.accuracy.increase_change() <= goal.change;
-    if (block.accuracy.is_reached) break;
+    state.steps.push_back(step_of(*block.model, state));
+    block.accuracy = judged(state, goal);
+    if (record.after_step) record.after_step(state);
   }
   return block;
 }

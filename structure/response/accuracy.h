@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "structure/response/elastic_model.h"
+#include "structure/response/squares.h"
 #include "structure/response/unit_responses.h"
 
 namespace blocklift::structure {
@@ -54,6 +55,20 @@ struct RefinedBlock {
   CheckedAccuracy accuracy;
 };
 
+/// What a step of the refinement hands to the next: a later run goes on from there.
+struct RefinementState {
+  std::vector<AccuracyStep> steps;
+  std::vector<Vector3> centres;        ///< about which the cells of the last step were divided, m
+  std::vector<Square> squares;         ///< that the last step looked at
+  Eigen::VectorXd at_rest, in_motion;  ///< their largest checked stress, Pa
+};
+
+/// Ties a refinement to an earlier one of the same block.
+struct RefinementRecord {
+  const RefinementState* earlier = nullptr;  ///< steps that need not be made again; null: none
+  std::function<void(const RefinementState&)> after_step = {};  ///< may be empty
+};
+
 /// Divides a block's shells about the squares with the largest checked stress, again and again,
 /// until the largest stress at rest and in motion and the increase from one to the other change by
 /// less than the goal.
@@ -61,11 +76,14 @@ struct RefinedBlock {
 /// Each step solves anew and looks at the squares that had at least six tenths of the largest
 /// stress before. Cells about the largest of them are divided to 0.1 m, then 0.05 m and so on,
 /// growing with the distance. The loads are those of the rigid block, whatever its mesh.
+/// @param responses of the model; null: they are made if they are needed.
 /// @param factors_of the factors of a model's responses; it may add to them loads of its own
 /// before.
+/// @param record with an earlier state only its last mesh is made and solved again, and figures are
+/// those of a run that was never stopped, bit for bit.
 RefinedBlock refine_checked_stress(
     std::unique_ptr<ElasticModel> model, std::unique_ptr<UnitResponses> responses,
     const std::function<LoadFactors(const ElasticModel&, UnitResponses&)>& factors_of,
-    const AccuracyGoal& goal);
+    const AccuracyGoal& goal, const RefinementRecord& record = {});
 
 }  // namespace blocklift::structure

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <Eigen/Dense>
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <fmt/format.h>
@@ -218,8 +219,25 @@ void add_hanging_nodes(const ShellBatch& batch, dealii::AffineConstraints<double
 
 Space::~Space() = default;
 
+namespace {
+
+/// Where deal.II has one thread alone it takes over what is alike of the cell that it looked at
+/// before, and rounds otherwise than with more of them. The last digit of a mass would depend on the
+/// threads, and the motion of the block, whose error is controlled, in its fifth. Two threads are
+/// more than it needs: those that do the work are ours.
+void keep_rounding_from_threads() {
+  static const bool once = [] {
+    dealii::MultithreadInfo::set_thread_limit(2);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+}  // namespace
+
 Space::Space(const Mesh& mesh, const Resolution& resolution)
     : mesh_(&mesh), degree_(resolution.degree) {
+  keep_rounding_from_threads();
   if (degree_ < 1 || degree_ > 4)
     throw ModelError(fmt::format("elements of degree {} are asked for; 1 to 4 exist", degree_));
   check_mesh(mesh);

@@ -22,6 +22,9 @@ struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLowe
     cholmod().postorder = given ? 0 : 1;  // given unknowns come in postorder already
     cholmod().print = 0;
   }
+  /// Eigen does not ask whether CHOLMOD found the memory for its analysis.
+  bool is_analysed() const { return m_cholmodFactor != nullptr; }
+  bool is_short_of_memory() { return cholmod().status == CHOLMOD_OUT_OF_MEMORY; }
   double bytes() const {
     return 8.0 * static_cast<double>(m_cholmodFactor->xsize) +
            8.0 * static_cast<double>(m_cholmodFactor->ssize);
@@ -42,8 +45,11 @@ ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedU
   stiffness_.swap(stiffness);  // Eigen's sparse matrices do not move, they copy
   separate_fixed();
   factor_->analyzePattern(stiffness_);
-  if (factor_->info() != Eigen::Success)
-    throw ModelError("the stiffness matrix could not be analysed for its factorisation");
+  if (!factor_->is_analysed())
+    throw NotEnoughMemory(
+        fmt::format("the memory did not suffice to analyse the stiffness matrix of {} unknowns for "
+                    "its factorisation",
+                    stiffness_.rows()));
   const double needed = 1.3 * factor_bytes(), available = available_memory();
   if (needed > available)
     throw NotEnoughMemory(fmt::format(
@@ -97,10 +103,14 @@ void ConstrainedSystem::separate_fixed() {
 
 void ConstrainedSystem::factorise() {
   factor_->factorize(stiffness_);
+  if (factor_->is_short_of_memory())
+    throw NotEnoughMemory(fmt::format(
+        "the memory did not suffice to factorise the stiffness matrix of {} unknowns; use larger "
+        "elements or a lower element degree",
+        stiffness_.rows()));
   if (factor_->info() != Eigen::Success)
     throw ModelError(
-        "the stiffness matrix is not positive definite: the supports leave a part free to move, "
-        "or the memory did not suffice");
+        "the stiffness matrix is not positive definite: the supports leave a part free to move");
   SparseLower().swap(stiffness_);
 }
 
@@ -117,6 +127,9 @@ Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads,
   if (!given.isZero(0)) loads -= fixed_rows_.transpose() * given;
   for (const FixedUnknown& fixed : fixed_) loads.row(fixed.unknown).setZero();
   Eigen::MatrixXd displacements = factor_->solve(loads);
+  if (factor_->info() != Eigen::Success)
+    throw NotEnoughMemory(
+        fmt::format("the memory did not suffice to solve for {} loads", loads.cols()));
   for (std::size_t i = 0; i < fixed_.size(); ++i)
     displacements.row(fixed_[i].unknown) = given.row(static_cast<Eigen::Index>(i));
   return displacements;

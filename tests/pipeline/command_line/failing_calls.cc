@@ -2,11 +2,12 @@
 //
 // The variables of the environment:
 //   BLOCKLIFT_FAIL_CALL  open (of new files of results in preparation), write, fsync or rename: the
-//                        calls that are counted, of regular files alone
+//                        calls that are counted, of regular files alone; memory: what asks for 64
+//                        kilobytes or more
 //   BLOCKLIFT_FAIL_AT    which of them, from 1
 //   BLOCKLIFT_FAIL_HOW   error: that call fails, for lack of space; full: it writes half of what it
-//                        is given, and it and all later calls of its kind fail; kill: the process
-//                        is killed before it
+//                        is given, and it and all later calls of its kind fail (of memory: all
+//                        later ones fail); kill: the process is killed before it
 
 #ifdef _FORTIFY_SOURCE
 #undef _FORTIFY_SOURCE
@@ -44,6 +45,24 @@ bool fails(const char* call) {
   const long now = ++calls;
   if (now == at && is_variable("BLOCKLIFT_FAIL_HOW", "kill")) std::raise(SIGKILL);
   return now == at || (now > at && is_variable("BLOCKLIFT_FAIL_HOW", "full"));
+}
+
+using Main = int (*)(int, char**, char**);
+Main true_main = nullptr;
+// Libraries ask for memory as they are loaded, when nobody can catch what they throw.
+std::atomic<bool> main_has_begun{false};
+
+int counted_main(int count, char** arguments, char** variables) {
+  main_has_begun = true;
+  return true_main(count, arguments, variables);
+}
+
+/// Counts a demand for memory; small ones are always met.
+bool is_refused(size_t size) {
+  constexpr size_t smallest = 65536;
+  if (size < smallest || !main_has_begun || !fails("memory")) return false;
+  errno = ENOMEM;
+  return true;
 }
 
 bool is_short() {
@@ -141,6 +160,40 @@ ssize_t pwrite64(int file, const void* bytes, size_t count, off_t offset) {
 int fsync(int file) {
   if (is_regular(file) && fails("fsync")) return no_space();
   return next<int (*)(int)>("fsync")(file);
+}
+
+// Memory. glibc gives its own functions these names as well; dlsym would ask for memory itself.
+
+void* __libc_malloc(size_t size);                 // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(size_t count, size_t size);   // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void* memory, size_t size);  // NOLINT(bugprone-reserved-identifier)
+void* __libc_memalign(size_t step, size_t size);  // NOLINT(bugprone-reserved-identifier)
+
+void* malloc(size_t size) { return is_refused(size) ? nullptr : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) {
+  return is_refused(count * size) ? nullptr : __libc_calloc(count, size);
+}
+void* realloc(void* memory, size_t size) {
+  return is_refused(size) ? nullptr : __libc_realloc(memory, size);
+}
+void* aligned_alloc(size_t step, size_t size) {
+  return is_refused(size) ? nullptr : __libc_memalign(step, size);
+}
+int posix_memalign(void** memory, size_t step, size_t size) {
+  void* found = is_refused(size) ? nullptr : __libc_memalign(step, size);
+  if (found == nullptr) return ENOMEM;
+  *memory = found;
+  return 0;
+}
+
+// What the system's own start calls, with the program's main.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+int __libc_start_main(Main main, int count, char** arguments, void (*init)(), void (*finish)(),
+                      void (*finish_libraries)(), void* stack_end) {
+  true_main = main;
+  return next<int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*)>(
+      "__libc_start_main")(counted_main, count, arguments, init, finish, finish_libraries,
+                           stack_end);
 }
 
 int rename(const char* from, const char* to) {

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 using test::Outcome;
 using test::TemporaryFolder;
 using test::text_of_file;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
 constexpr int most_calls = 2000;
@@ -110,6 +111,145 @@ TEST(FailingCalls, OfAnAssessmentLeaveEarlierResultsWhole) {
     EXPECT_THAT(outcome.err, HasSubstr("blocklift: error: ")) << fault.call << " " << at;
     EXPECT_TRUE(contents_of("results") == before) << fault.call << " " << at;
   }
+}
+
+constexpr auto bar = R"(part: bar
+mesh: {file: bar.geo, length_unit: mm}
+materials:
+  steel: {youngs_modulus: 206 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 235 MPa}
+supports:
+  root: {groups: [root]}
+loads:
+  pull: {groups: [end], force: [600 kN, 0 kN, 0 kN]}
+)";
+
+constexpr auto bar_geometry = R"(
+Point(1) = {0, 0, 0}; Point(2) = {2000, 0, 0}; Point(3) = {2000, 300, 0}; Point(4) = {0, 300, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Mesh.MeshSizeMax = 400;
+out[] = Extrude{0, 0, 200}{ Surface{1}; };
+Physical Volume("bar") = {out[1]};
+Physical Surface("root") = {out[5]};
+Physical Surface("end") = {out[3]};
+)";
+
+TEST(FailingCalls, OfAPartsStressLeaveEarlierResultsWhole) {
+  const TemporaryFolder folder;
+  folder.write("bar.yaml", bar);
+  folder.write("bar.geo", bar_geometry);
+  const std::string arguments = "stress bar.yaml -o results";
+  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_GE(fail_in_turn({"open", "error"}, arguments, 4), 2);
+  EXPECT_GE(fail_in_turn({"write", "full"}, arguments, 4), 4);
+  EXPECT_GE(fail_in_turn({"fsync", "error"}, arguments, 4), 2);
+  EXPECT_GE(fail_in_turn({"rename", "error"}, arguments, 6), 4);
+}
+
+TEST(FailingCalls, OfAStudyLeaveEarlierResultsWhole) {
+  const TemporaryFolder folder;
+  fs::copy(BLOCKLIFT_SMALL_LIFT, "lift", fs::copy_options::recursive);
+  folder.write("study.yaml",
+               "study: spread\ncase: lift\nmembers: 3\nvary:\n  weight: {keys: ['block:mass'], "
+               "spread: {law: normal, mean: 8 t, deviation: 0.2 t}}\n");
+  const std::string arguments = "sweep study.yaml -o results";
+  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  // The members are done; the study's own files are written again.
+  for (const auto& [fault, at] : {std::pair<Fault, int>{{"write", "error"}, 1},
+                                  {{"write", "full"}, 5},
+                                  {{"fsync", "error"}, 2},
+                                  {{"rename", "error"}, 2},
+                                  {{"rename", "error"}, 7}}) {
+    const auto before = contents_of("results");
+    const Outcome outcome = run_with(fault, at, arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << fault.call << " " << at << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("blocklift: error: ")) << fault.call << " " << at;
+    EXPECT_TRUE(contents_of("results") == before) << fault.call << " " << at;
+  }
+}
+
+TEST(FailingCalls, OfTheWorstMembersReportAreNoSuccess) {
+  const TemporaryFolder folder;
+  fs::copy(BLOCKLIFT_SMALL_LIFT, "lift", fs::copy_options::recursive);
+  folder.write("study.yaml",
+               "study: spread\ncase: lift\nmembers: 2\nvary:\n  weight: {keys: ['block:mass'], "
+               "spread: {law: normal, mean: 8 t, deviation: 0.2 t}}\n");
+  const std::string arguments = "sweep study.yaml -o results";
+  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  // The members are done. The process that writes the report alone has so many calls.
+  const auto before = contents_of("results/worst");
+  const Outcome outcome = run_with({"write", "error"}, 60, arguments);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the report of member "));
+  EXPECT_TRUE(contents_of("results/worst") == before);
+}
+
+std::string pontoon(int frequencies) {
+  return "kind: vessel\nhull: {barge: {length: 12 m, breadth: 8 m, depth: 4 m}}\n"
+         "panel_size: 1 m\nmass: 150 t\ncentre_of_mass: [0 m, 0 m, 2 m]\n"
+         "radii_of_gyration: [3 m, 4 m, 4 m]\n"
+         "hydrodynamics: {frequencies: {lowest: 1.5 rad/s, highest: 3 rad/s, count: " +
+         std::to_string(frequencies) + "}, headings: [0 deg]}\n";
+}
+
+TEST(FailingCalls, OfADatabaseLeaveTheEarlierOneAndItsPage) {
+  const TemporaryFolder folder;
+  const std::string arguments = "hydro pontoon -o results/pontoon.h5";
+  folder.write("pontoon/vessel.yaml", pontoon(4));
+  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const auto before = contents_of("results");
+  folder.write("pontoon/vessel.yaml", pontoon(5));
+  for (const auto& [fault, at] : {std::pair<Fault, int>{{"write", "error"}, 1},
+                                  {{"write", "full"}, 4},
+                                  {{"write", "error"}, 9},
+                                  {{"fsync", "error"}, 1},
+                                  {{"rename", "error"}, 1}}) {
+    const Outcome outcome = run_with(fault, at, arguments);
+    EXPECT_EQ(outcome.exit_code, 1) << fault.call << " " << at << ": " << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("blocklift: error: ")) << fault.call << " " << at;
+    EXPECT_TRUE(contents_of("results") == before) << fault.call << " " << at;
+  }
+  // Between the database and its page: the next run sees that the page is another's.
+  const std::string page = text_of_file("results/pontoon.html");
+  EXPECT_EQ(run_with({"rename", "kill"}, 2, arguments).exit_code, killed);
+  EXPECT_EQ(text_of_file("results/pontoon.html"), page);
+  const Outcome again = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  EXPECT_THAT(again.out, HasSubstr("already computed"));
+  EXPECT_NE(text_of_file("results/pontoon.html"), page);
+}
+
+/// Lets a demand for much memory fail, here and there, once or from there on.
+/// @returns how many runs failed.
+int run_short_of_memory(const std::string& arguments) {
+  int failures = 0;
+  for (const char* how : {"error", "full"}) {
+    for (int at = 1; at < 5000; at *= 8) {
+      const auto before = contents_of("results");
+      const Outcome outcome = run_with({"memory", how}, at, arguments);
+      // Some demands are not vital: the run ends well, and its results are whole.
+      if (outcome.exit_code == 0) continue;
+      ++failures;
+      // Gmsh reads in a process of its own, whose death is taken for the file's fault. OpenBLAS ends
+      // the program itself, with a word.
+      const bool in_gmsh = outcome.err.find("Gmsh crashed") != std::string::npos;
+      EXPECT_EQ(outcome.exit_code, in_gmsh ? 2 : 1) << how << " " << at << ": " << outcome.err;
+      EXPECT_THAT(outcome.err, AnyOf(HasSubstr("error: "), HasSubstr("OpenBLAS: malloc failed")))
+          << how << " " << at;
+      EXPECT_TRUE(contents_of("results") == before) << how << " " << at;
+    }
+  }
+  return failures;
+}
+
+TEST(FailingCalls, OfMemoryEndAnAssessment) {
+  const TemporaryFolder folder;
+  const std::string arguments = "assess '" BLOCKLIFT_SMALL_LIFT "' -o results";
+  ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, arguments).exit_code, 0);
+  EXPECT_GE(run_short_of_memory(arguments), 3);
 }
 
 /// A folder with a verdict holds the files of one run; without one `report` completes the move.

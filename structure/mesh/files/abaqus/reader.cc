@@ -140,6 +140,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
   const std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log);
   Deck deck;
   deck.path = path;
+  deck.files = files.paths();
   deck.units = units;
   AbaqusModel model(log, deck, options);
   take_stock_of_keywords(model, blocks);

@@ -108,6 +108,7 @@ struct NamedSet {
 /// properties at all, and `groups_without_thickness` names them.
 struct Deck {
   std::filesystem::path path;
+  std::vector<std::filesystem::path> files;  ///< that were read: itself and what it includes
   UnitSystem units;
   std::string title;
   Mesh mesh;

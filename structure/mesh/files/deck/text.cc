@@ -122,6 +122,12 @@ const DeckFiles::File& DeckFiles::open_included(const std::filesystem::path& pat
   return load(wanted, canonical);
 }
 
+std::vector<std::filesystem::path> DeckFiles::paths() const {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& file : files_) paths.push_back(file->path);
+  return paths;
+}
+
 const DeckFiles::File& DeckFiles::load(const std::filesystem::path& path,
                                        const std::filesystem::path& canonical) {
   std::ifstream stream(canonical, std::ios::binary | std::ios::ate);

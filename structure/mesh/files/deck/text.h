@@ -40,6 +40,8 @@ class DeckFiles {
   /// @throws CardError if it does not, does not exist, or is being read already.
   const File& open_included(const std::filesystem::path& path, const File& from);
   void close() { reading_.pop_back(); }
+  /// All that were read, in the order of their opening.
+  std::vector<std::filesystem::path> paths() const;
 
  private:
   const File& load(const std::filesystem::path& path, const std::filesystem::path& canonical);

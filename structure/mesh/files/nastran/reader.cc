@@ -130,6 +130,7 @@ Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
   const NastranBulk bulk = read_nastran_cards(files, path, log);
   Deck deck;
   deck.path = path;
+  deck.files = files.paths();
   deck.units = units;
   NastranModel model(bulk, log, deck, options);
   take_stock_of_nastran_cards(model);

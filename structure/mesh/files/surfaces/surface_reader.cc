@@ -136,6 +136,7 @@ Deck read_surfaces(const std::string& path, const SurfaceReading& reading) {
         {seconds_to_mesh, most_memory});
     Deck deck = take_surfaces(packet);
     deck.path = path;
+    deck.files = {path};
     deck.units = reading.units;
     return deck;
   } catch (const ChildDied& death) {
