@@ -91,7 +91,8 @@ TEST(LiftCaseErrors, UnknownKey) {
   EXPECT_EQ(complaints_about_case("settle: 10 s", "setle: 10 s"),
             "case.yaml:20:1: error: lift case has no key \"setle\"\n"
             "    its keys are case, title, document, gravity, load, cranes, spreaders, ropes, "
-            "sling_tolerance, ground, supports, wind, ... (25 in all); did you mean \"settle\"?\n"
+            "sling_tolerance, ground, ground_contact, supports, ... (26 in all); did you mean "
+            "\"settle\"?\n"
             "1 error\n");
 }
 
@@ -343,7 +344,8 @@ TEST(LiftCaseErrors, FaultsThatCannotBe) {
   };
   EXPECT_EQ(complaints("{at: 5 s}"),
             "case.yaml:22:5: error: the fault says not what goes wrong\n"
-            "    give parts, ropes that break, or stops, drives that come to a stand\n1 error\n");
+            "    give parts, ropes that break, stops, drives that come to a stand, or runs_away, "
+            "winches that pay out\n1 error\n");
   EXPECT_EQ(
       complaints("{at: 5 s, parts: [R11], stops: [C1.trvel]}"),
       "case.yaml:22:23: error: the fault parts \"R11\", which the case does not have\n"
