@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/declaration/format.h"
+#include "pipeline/declaration/geometry_format.h"
 #include "structure/mesh/files/deck/deck.h"
 #include "structure/mesh/sections.h"
 

@@ -162,8 +162,8 @@ std::string bytes_of_motion(const LiftRun& run) {
   const dynamics::IntegrationResult& result = run.dynamic_result;
   KeptValuesWriter values;
   values(run.static_history, run.static_s, run.dynamic_s, run.natural_modes,
-         run.elastic_displacement, result.history, result.statistics, result.events, result.q_end,
-         result.v_end, result.parted);
+         run.elastic_displacement, run.righting_height, result.history, result.statistics,
+         result.events, result.q_end, result.v_end, result.parted);
   return values.take();
 }
 
@@ -184,8 +184,8 @@ LiftRun motion_of(const std::string& bytes, BuiltLift model) {
   dynamics::IntegrationResult& result = run.dynamic_result;
   KeptValuesReader values(bytes);
   values(run.static_history, run.static_s, run.dynamic_s, run.natural_modes,
-         run.elastic_displacement, result.history, result.statistics, result.events, result.q_end,
-         result.v_end, result.parted);
+         run.elastic_displacement, run.righting_height, result.history, result.statistics,
+         result.events, result.q_end, result.v_end, result.parted);
   if (parts(run.dynamic_history()) != due)
     throw std::runtime_error("the motion that was kept is another lift's");
   return run;
