@@ -12,6 +12,7 @@
 
 #include "structure/elasticity/bearing_load.h"
 #include "structure/error.h"
+#include "structure/formulation/solid.h"
 #include "structure/index.h"
 
 namespace blocklift::structure {
@@ -132,42 +133,41 @@ void add_surface_load(const PartMesh& mesh, const SurfaceLoad& load, Eigen::Vect
     forces.segment<3>(3 * node) += shape_integrals[node] / whole * load.vector;
 }
 
+double density_of(const PartModel& model, std::size_t solid) {
+  return model.materials[at(model.material_of_solid[solid])].density;
+}
+
 void add_body_load(const PartModel& model, const BodyLoad& load, Eigen::VectorXd& forces) {
-  for (std::size_t s = 0; s < model.mesh.solids.size(); ++s) {
-    const int element = model.mesh.solids[s];
-    const ElementKind& kind = model.mesh.kind(element);
-    const double density = model.materials[at(model.material_of_solid[s])].density;
-    const Eigen::Matrix3Xd places = model.mesh.places(element);
-    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
-      const double volume =
-          kind.weights[q] *
-          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
-      const Vector3 x = places * kind.values.row(q).transpose();
-      const Vector3& omega = load.angular_velocity;
-      const Vector3 force =
-          density * volume * (load.gravity - omega.cross(omega.cross(x - load.point)));
-      for (int i = 0; i < kind.nodes; ++i)
-        forces.segment<3>(3 * model.mesh.node(element, i)) += kind.values(q, i) * force;
+  const PartMesh& mesh = model.mesh;
+  const Vector3& omega = load.angular_velocity;
+  for (std::size_t s = 0; s < mesh.solids.size(); ++s) {
+    const int element = mesh.solids[s];
+    for (const SolidPoint& point : solid_points(mesh.kind(element), mesh.places(element))) {
+      const Vector3 pull = load.gravity - omega.cross(omega.cross(point.place - load.point));
+      const Vector3 force = density_of(model, s) * point.weight * pull;
+      for (int i = 0; i < point.values.size(); ++i)
+        forces.segment<3>(3 * mesh.node(element, i)) += point.values[i] * force;
     }
   }
 }
 
 }  // namespace
 
+Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid) {
+  const int element = model.mesh.solids[at(solid)];
+  return solid_stiffness(model.mesh.kind(element), model.mesh.places(element),
+                         model.materials[at(model.material_of_solid[at(solid)])]);
+}
+
 PartMass find_part_mass(const PartModel& model) {
   PartMass mass;
   for (std::size_t s = 0; s < model.mesh.solids.size(); ++s) {
     const int element = model.mesh.solids[s];
-    const ElementKind& kind = model.mesh.kind(element);
-    const double density = model.materials[at(model.material_of_solid[s])].density;
-    const Eigen::Matrix3Xd places = model.mesh.places(element);
-    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
-      const double volume =
-          kind.weights[q] *
-          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
-      mass.volume += volume;
-      mass.mass += density * volume;
-      mass.centre += density * volume * (places * kind.values.row(q).transpose());
+    for (const SolidPoint& point :
+         solid_points(model.mesh.kind(element), model.mesh.places(element))) {
+      mass.volume += point.weight;
+      mass.mass += density_of(model, s) * point.weight;
+      mass.centre += density_of(model, s) * point.weight * point.place;
     }
   }
   if (mass.mass > 0) mass.centre /= mass.mass;

@@ -49,9 +49,7 @@ struct PartMass {
 
 /// A part with its materials, supports and loads: linear elasticity on any mesh of solids.
 ///
-/// Unknown 3 n + a is the displacement of node n along axis a. The stiffness is
-///   K_ia,jb = int lambda d_a N_i d_b N_j + mu (d_b N_i d_a N_j + delta_ab grad N_i . grad N_j) dV
-/// by the elements' own integration rules. Source: Zienkiewicz, Taylor, Zhu (2013), chapter 6.
+/// Freedom 3 n + a is the displacement of node n along axis a.
 struct PartModel {
   PartMesh mesh;
   std::vector<Material> materials;
@@ -60,11 +58,6 @@ struct PartModel {
   std::vector<SurfaceLoad> surface_loads;
   std::vector<BodyLoad> body_loads;
 };
-
-/// Stiffness of a part, N/m. Unknowns of nodes that are on no solid have 1 on the diagonal.
-/// @throws ModelError if the stiffness alone would not fit into the memory that is free; the
-///   message has the figures.
-SparseLower assemble_part_stiffness(const PartModel& model, int threads = 0);
 
 /// Stiffness of one solid, N/m: unknown 3 i + a of its node i along axis a.
 Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid);

@@ -1,5 +1,8 @@
 #include "structure/formulation/solid.h"
 
+#include <array>
+#include <cmath>
+
 #include <Eigen/Dense>
 
 #include "structure/index.h"
@@ -32,27 +35,73 @@ Eigen::Matrix<double, 6, 6> stiffness_law(const Material& material) {
 
 }  // namespace
 
-std::vector<SolidPoint> solid_points(const Mesh& mesh, const Solid& solid) {
-  const SolidRule& rule = rule_of(solid.shape);
-  const Eigen::Matrix3Xd places = places_of(mesh, solid);
+std::vector<SolidPoint> solid_points(const ElementKind& kind, const Eigen::Matrix3Xd& places) {
   std::vector<SolidPoint> points;
-  for (std::size_t q = 0; q < rule.values.size(); ++q) {
-    const Eigen::Matrix3d jacobian = places * rule.slopes[q];
-    points.push_back({rule.weights[static_cast<Eigen::Index>(q)] * jacobian.determinant(),
-                      rule.values[q], jacobian.transpose().inverse() * rule.slopes[q].transpose()});
+  points.reserve(static_cast<std::size_t>(kind.weights.size()));
+  for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+    const auto by_unit = kind.gradients.middleRows<3>(3 * q);
+    const Eigen::Matrix3d jacobian = places * by_unit.transpose();
+    points.push_back({kind.weights[q] * jacobian.determinant(),
+                      places * kind.values.row(q).transpose(), kind.values.row(q),
+                      jacobian.inverse().transpose() * by_unit});
   }
   return points;
 }
 
-Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid) {
-  const Eigen::Matrix<double, 6, 6> law = stiffness_law(mesh.materials[at(solid.material)]);
-  const auto size = 3 * static_cast<Eigen::Index>(solid.vertices.size());
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
-  for (const SolidPoint& point : solid_points(mesh, solid)) {
-    const Eigen::MatrixXd strain = strain_operator(point.gradients);
-    stiffness.noalias() += strain.transpose() * (point.weight * law * strain);
+Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd& places,
+                                const Material& material) {
+  const double lambda = material.lame_lambda(), mu = material.shear_modulus();
+  const std::vector<SolidPoint> points = solid_points(kind, places);
+  const Eigen::Index n = kind.nodes;
+  // Of each axis the slopes at all points and weighted ones: products of long rows are fast.
+  std::array<Eigen::MatrixXd, 3> slopes, weighted;
+  for (std::size_t a = 0; a < 3; ++a) {
+    slopes[a].resize(static_cast<Eigen::Index>(points.size()), n);
+    for (std::size_t q = 0; q < points.size(); ++q)
+      slopes[a].row(static_cast<Eigen::Index>(q)) =
+          points[q].gradients.row(static_cast<Eigen::Index>(a));
+    weighted[a] = slopes[a];
+    for (std::size_t q = 0; q < points.size(); ++q)
+      weighted[a].row(static_cast<Eigen::Index>(q)) *= points[q].weight;
   }
+  Eigen::MatrixXd stiffness(3 * n, 3 * n);
+  using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>>;
+  const auto block = [&](int a, int b) {
+    return Strided(&stiffness(a, b), n, n, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>(9 * n, 3));
+  };
+  Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b <= a; ++b) {
+      const Eigen::MatrixXd product = weighted[at(a)].transpose() * slopes[at(b)];
+      block(a, b) = lambda * product + mu * product.transpose();
+      if (a == b)
+        laplacian += product;
+      else
+        block(b, a) = block(a, b).transpose();
+    }
+  for (int a = 0; a < 3; ++a) block(a, a) += mu * laplacian;
   return stiffness;
+}
+
+Eigen::MatrixXd solid_mass(const ElementKind& kind, const Eigen::Matrix3Xd& places,
+                           double density) {
+  Eigen::MatrixXd of_nodes = Eigen::MatrixXd::Zero(kind.nodes, kind.nodes);
+  for (const SolidPoint& point : solid_points(kind, places))
+    of_nodes.noalias() += density * point.weight * point.values * point.values.transpose();
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(3 * kind.nodes, 3 * kind.nodes);
+  for (Eigen::Index j = 0; j < kind.nodes; ++j)
+    for (Eigen::Index i = 0; i < kind.nodes; ++i)
+      mass.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(of_nodes(i, j));
+  return mass;
+}
+
+std::vector<SolidPoint> solid_points(const Mesh& mesh, const Solid& solid) {
+  return solid_points(topology_of(solid.shape).kind, places_of(mesh, solid));
+}
+
+Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid) {
+  return solid_stiffness(topology_of(solid.shape).kind, places_of(mesh, solid),
+                         mesh.materials[at(solid.material)]);
 }
 
 Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
@@ -65,7 +114,7 @@ Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
   for (std::size_t i = 0; i < element.vertices.size(); ++i)
     local.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
         motions.middleRows<3>(6 * static_cast<Eigen::Index>(nodes[i]));
-  const Eigen::MatrixXd& to_corners = rule_of(element.shape).to_corners;
+  const Eigen::MatrixXd& to_corners = topology_of(element.shape).to_corners;
   Eigen::MatrixXd at_corners = Eigen::MatrixXd::Zero(6 * to_corners.rows(), motions.cols());
   const std::vector<SolidPoint> points = solid_points(mesh, element);
   for (std::size_t q = 0; q < points.size(); ++q) {

@@ -127,14 +127,14 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
       of_region(beam.region).add(per_length * line.norm() / 2, from + place * line);
   }
   for (const Solid& solid : mesh.solids) {
-    const SolidRule& rule = rule_of(solid.shape);
+    const ElementKind& kind = topology_of(solid.shape).kind;
     const Eigen::Matrix3Xd places = places_of(mesh, solid);
-    for (std::size_t q = 0; q < rule.values.size(); ++q) {
-      const Eigen::Matrix3d jacobian = places * rule.slopes[q];
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const Eigen::Matrix3d jacobian = places * kind.gradients.middleRows<3>(3 * q).transpose();
       of_region(solid.region)
-          .add(rule.weights[static_cast<Eigen::Index>(q)] * jacobian.determinant() *
-                   mesh.materials[at(solid.material)].density,
-               places * rule.values[q]);
+          .add(
+              kind.weights[q] * jacobian.determinant() * mesh.materials[at(solid.material)].density,
+              places * kind.values.row(q).transpose());
     }
   }
   for (const PointMass& mass : mesh.masses) {

@@ -12,6 +12,47 @@ namespace blocklift::structure {
 
 namespace {
 
+dealii::Quadrature<3> unit_rule(int corners) {
+  if (corners == 4) return dealii::QGaussSimplex<3>(3);
+  if (corners == 6) return dealii::QGaussWedge<3>(3);
+  return dealii::QGauss<3>(3);
+}
+
+void tabulate_rule(ElementKind& kind) {
+  const dealii::Quadrature<3> unit = unit_rule(kind.corners);
+  const auto count = static_cast<Eigen::Index>(unit.size());
+  const ElementShape shape(kind);
+  kind.rule.resize(3, count);
+  kind.weights.resize(count);
+  kind.values.resize(count, kind.nodes);
+  kind.gradients.resize(3 * count, kind.nodes);
+  for (Eigen::Index q = 0; q < count; ++q) {
+    const auto& x = unit.point(static_cast<unsigned>(q));
+    // deal.II's unit cells end at 0 and 1; here hexahedra and the height of wedges at -1 and 1.
+    Vector3 xi(x[0], x[1], x[2]);
+    double stretch = 1;
+    if (kind.corners == 8) {
+      xi = 2 * xi - Vector3::Ones();
+      stretch = 8;
+    } else if (kind.corners == 6) {
+      xi.z() = 2 * xi.z() - 1;
+      stretch = 2;
+    }
+    kind.rule.col(q) = xi;
+    kind.weights[q] = stretch * unit.weight(static_cast<unsigned>(q));
+    kind.values.row(q) = shape.values(xi).transpose();
+    kind.gradients.middleRows<3>(3 * q) = shape.gradients(xi).transpose();
+  }
+}
+
+Eigen::MatrixXd fit_of_corners(const ElementKind& kind, const ElementKind& linear) {
+  const ElementShape shape(linear);
+  Eigen::MatrixXd at_points(kind.rule.cols(), linear.nodes);
+  for (Eigen::Index q = 0; q < kind.rule.cols(); ++q)
+    at_points.row(q) = shape.values(kind.rule.col(q)).transpose();
+  return at_points.completeOrthogonalDecomposition().pseudoInverse();
+}
+
 SolidTopology make_topology(const char* name, const Eigen::Matrix3Xd& corners,
                             std::vector<std::array<int, 2>> edges,
                             std::vector<std::vector<int>> faces, std::vector<int> mirrored) {
@@ -35,6 +76,8 @@ SolidTopology make_topology(const char* name, const Eigen::Matrix3Xd& corners,
   topology.linear_kind.order = 1;
   topology.linear_kind.nodes = kind.corners;
   topology.linear_kind.local = corners;
+  tabulate_rule(kind);
+  topology.to_corners = fit_of_corners(kind, topology.linear_kind);
   return topology;
 }
 
@@ -82,43 +125,6 @@ const std::array<SolidTopology, 3>& topologies() {
   return all;
 }
 
-dealii::Quadrature<3> unit_rule(SolidShape shape) {
-  if (shape == SolidShape::tetrahedron) return dealii::QGaussSimplex<3>(3);
-  if (shape == SolidShape::wedge) return dealii::QGaussWedge<3>(3);
-  return dealii::QGauss<3>(3);
-}
-
-SolidRule make_rule(SolidShape shape) {
-  const dealii::Quadrature<3> unit = unit_rule(shape);
-  const auto count = static_cast<Eigen::Index>(unit.size());
-  SolidRule rule;
-  rule.points.resize(3, count);
-  rule.weights.resize(count);
-  for (Eigen::Index q = 0; q < count; ++q) {
-    const auto& x = unit.point(static_cast<unsigned>(q));
-    // deal.II's unit cells end at 0 and 1; here hexahedra and the height of wedges at -1 and 1.
-    Vector3 xi(x[0], x[1], x[2]);
-    double stretch = 1;
-    if (shape == SolidShape::hexahedron) {
-      xi = 2 * xi - Vector3::Ones();
-      stretch = 8;
-    } else if (shape == SolidShape::wedge) {
-      xi.z() = 2 * xi.z() - 1;
-      stretch = 2;
-    }
-    rule.points.col(q) = xi;
-    rule.weights[q] = stretch * unit.weight(static_cast<unsigned>(q));
-    rule.values.push_back(shape_of(shape).values(xi));
-    rule.slopes.push_back(shape_of(shape).gradients(xi));
-  }
-  const int corners = topology_of(shape).corners;
-  Eigen::MatrixXd at_points(count, corners);
-  for (Eigen::Index q = 0; q < count; ++q)
-    at_points.row(q) = linear_shape_of(shape).values(rule.points.col(q)).transpose();
-  rule.to_corners = at_points.completeOrthogonalDecomposition().pseudoInverse();
-  return rule;
-}
-
 Vector3 centre_of(const SolidTopology& topology) {
   return topology.linear_kind.local.rowwise().mean();
 }
@@ -141,13 +147,6 @@ const ElementShape& linear_shape_of(SolidShape shape) {
                                                ElementShape(topologies()[1].linear_kind),
                                                ElementShape(topologies()[2].linear_kind)};
   return all[static_cast<std::size_t>(shape)];
-}
-
-const SolidRule& rule_of(SolidShape shape) {
-  static const std::array<SolidRule, 3> rules{make_rule(SolidShape::tetrahedron),
-                                              make_rule(SolidShape::wedge),
-                                              make_rule(SolidShape::hexahedron)};
-  return rules[static_cast<std::size_t>(shape)];
 }
 
 Eigen::Matrix3Xd places_of(const Mesh& mesh, const Solid& solid) {

@@ -19,8 +19,13 @@ struct SolidTopology {
   std::vector<std::array<int, 2>> edges;  ///< corners at their ends
   std::vector<std::vector<int>> faces;    ///< corners around each, seen from outside
   std::vector<int> mirrored;              ///< nodes in the order that turns the solid's inside out
-  ElementKind kind;         ///< quadratic: name, corners, nodes and their local coordinates
-  ElementKind linear_kind;  ///< of the corners alone
+  /// Quadratic, with a rule that is exact for the stiffness of solids with straight edges and
+  /// parallel faces: 27 points of a hexahedron, 10 of a tetrahedron, 18 of a wedge at least.
+  ElementKind kind;
+  ElementKind linear_kind;  ///< of the corners alone, without a rule
+  /// Corners x points: the fit by the corners' shape functions of what is known at the rule's
+  /// points.
+  Eigen::MatrixXd to_corners;
 
   int nodes() const { return corners + static_cast<int>(edges.size()); }
 };
@@ -30,18 +35,6 @@ const SolidTopology& topology_of(SolidShape shape);
 /// Shape functions through all nodes, and through the corners alone.
 const ElementShape& shape_of(SolidShape shape);
 const ElementShape& linear_shape_of(SolidShape shape);
-
-/// Integration rule of a shape in its local coordinates, exact for the stiffness of a quadratic
-/// solid with straight edges and parallel faces, and the shape functions at its points.
-struct SolidRule {
-  Eigen::Matrix3Xd points;
-  Eigen::VectorXd weights;
-  std::vector<Eigen::VectorXd> values;
-  std::vector<Eigen::MatrixX3d> slopes;  ///< nodes x 3: d N_i / d xi_a
-  /// Corners x points: the fit by the corners' shape functions of what is known at the points.
-  Eigen::MatrixXd to_corners;
-};
-const SolidRule& rule_of(SolidShape shape);
 
 /// Places of a solid's nodes, 3 x nodes, m.
 Eigen::Matrix3Xd places_of(const Mesh& mesh, const Solid& solid);

@@ -25,10 +25,11 @@ PadeyeModel::PadeyeModel(const PadeyeGeometry& padeye, const Material& material,
       part_.material_of_solid[at(solid)] = columns_[c].plate == PadeyePlate::main ? 0 : 1;
   part_.supports = {{"base", "base", {true, true, true}, Vector3::Zero()}};
   std::vector<int> support_of;
-  std::vector<FixedUnknown> fixed = part_supports(part_, support_of);
+  const std::vector<FixedUnknown> fixed = part_supports(part_, support_of);
   for (std::size_t i = 0; i < fixed.size(); i += 3) base_nodes_.push_back(fixed[i].unknown / 3);
-  system_ = std::make_unique<ConstrainedSystem>(assemble_part_stiffness(part_), std::move(fixed),
-                                                EliminationOrder::found);
+  unknowns_ = std::make_unique<PartUnknowns>(part_.mesh);
+  system_ = std::make_unique<ConstrainedSystem>(assemble_part_stiffness(part_, *unknowns_),
+                                                unknowns_->to_unknowns(fixed));
   system_->factorise();
 }
 
@@ -50,13 +51,14 @@ Eigen::VectorXd PadeyeModel::load_vector(const PadeyeLoad& load) const {
 
 PadeyeResult PadeyeModel::solve(const PadeyeLoad& load) const {
   PadeyeResult result;
-  const Eigen::VectorXd forces = load_vector(load);
+  const Eigen::VectorXd loads = load_vector(load), forces = unknowns_->to_unknowns(loads);
   const Eigen::VectorXd given =
       load.base_displacement.size() > 0
           ? load.base_displacement
           : Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(base_nodes_.size()));
-  result.displacement = system_->solve(forces, given);
-  find_balance(forces, system_->reactions(result.displacement, forces), result);
+  const Eigen::VectorXd found = system_->solve(forces, given);
+  result.displacement = unknowns_->to_freedoms(found);
+  find_balance(loads, system_->reactions(found, forces), result);
   static_cast<PadeyeStress&>(result) =
       find_padeye_stress(geometry_, columns_, solids_of_column_, part_, result.displacement);
   return result;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "structure/elasticity/part_model.h"
+#include "structure/elasticity/part_unknowns.h"
 #include "structure/mesh/padeye/padeye.h"
 #include "structure/response/padeye_stress.h"
 #include "structure/response/part_solution.h"
@@ -57,6 +58,7 @@ class PadeyeModel {
   PartModel part_;
   std::vector<int> base_nodes_;
   std::vector<std::vector<int>> solids_of_column_;
+  std::unique_ptr<PartUnknowns> unknowns_;
   std::unique_ptr<ConstrainedSystem> system_;
 };
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include "structure/elasticity/part_unknowns.h"
 #include "structure/elasticity/rigid_freedom.h"
 #include "structure/error.h"
 #include "structure/index.h"
@@ -211,14 +212,25 @@ PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<Fix
   PartDisplacement result;
   SolverAccount& account = result.account;
   Stopwatch watch;
-  SparseLower stiffness = assemble_part_stiffness(model);
+  const PartUnknowns unknowns(model.mesh);
+  SparseLower stiffness = assemble_part_stiffness(model, unknowns);
   account.assembly_s = watch.lap();
-  ConstrainedSystem system(std::move(stiffness), fixed, EliminationOrder::found);
+  ConstrainedSystem system(std::move(stiffness), unknowns.to_unknowns(fixed));
   account.factor_bytes = system.factor_bytes();
   system.factorise();
   account.factorisation_s = watch.lap();
-  result.displacement = system.solve(load);
-  result.reactions = system.reactions(result.displacement, load);
+  const Eigen::VectorXd forces = unknowns.to_unknowns(load);
+  const Eigen::VectorXd found = system.solve(forces);
+  const Eigen::VectorXd held = system.reactions(found, forces);
+  result.displacement = unknowns.to_freedoms(found);
+  result.reactions.setZero(static_cast<Eigen::Index>(fixed.size()));
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (unknowns.of(fixed[i].unknown) >= 0)
+      result.reactions[static_cast<Eigen::Index>(i)] = held[next++];
+    else
+      result.displacement[fixed[i].unknown] = fixed[i].value;
+  }
   account.solve_s = watch.lap();
   account.name = "Cholesky factorisation by CHOLMOD";
   return result;

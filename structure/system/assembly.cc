@@ -78,60 +78,43 @@ SparseLower make_matrix(const Elimination& elimination, const Pattern& pattern) 
   return matrix;
 }
 
-/// An element's matrix by the unknowns that its freedoms are sums of, ascending.
-struct Gathered {
-  std::vector<int> unknowns;
-  Eigen::MatrixXd matrix;
-};
-
-void gather(const Space& space, int element, const Eigen::MatrixXd& of_freedoms,
-            Gathered& gathered) {
+/// An element's matrix by the unknowns that its freedoms are sums of.
+void take_freedoms(const Space& space, int element, const Eigen::MatrixXd& of_freedoms,
+                   ElementEntries& entries) {
   const std::vector<int> freedoms = space.element_freedoms(element);
-  gathered.unknowns.clear();
+  std::vector<int> unknowns;
   bool is_plain = true;
   for (const int freedom : freedoms) {
     const Space::Term *begin = space.begin_of(freedom), *end = space.end_of(freedom);
     is_plain = is_plain && end - begin == 1 && begin->weight == 1;
-    for (const Space::Term* term = begin; term != end; ++term)
-      gathered.unknowns.push_back(term->unknown);
+    for (const Space::Term* term = begin; term != end; ++term) unknowns.push_back(term->unknown);
   }
-  std::vector<int> plain = is_plain ? gathered.unknowns : std::vector<int>{};
-  std::sort(gathered.unknowns.begin(), gathered.unknowns.end());
-  gathered.unknowns.erase(std::unique(gathered.unknowns.begin(), gathered.unknowns.end()),
-                          gathered.unknowns.end());
-  const auto place = [&](int unknown) {
-    return std::lower_bound(gathered.unknowns.begin(), gathered.unknowns.end(), unknown) -
-           gathered.unknowns.begin();
-  };
-  const auto size = static_cast<Eigen::Index>(gathered.unknowns.size());
-  if (is_plain) {
-    for (int& unknown : plain) unknown = static_cast<int>(place(unknown));
-    gathered.matrix.setZero(size, size);
-    for (std::size_t j = 0; j < plain.size(); ++j)
-      for (std::size_t i = 0; i < plain.size(); ++i)
-        gathered.matrix(plain[i], plain[j]) +=
-            of_freedoms(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    return;
-  }
-  Eigen::MatrixXd terms = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(freedoms.size()), size);
+  if (is_plain) return take_entries(unknowns, of_freedoms, entries);
+  std::sort(unknowns.begin(), unknowns.end());
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  Eigen::MatrixXd terms = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(freedoms.size()),
+                                                static_cast<Eigen::Index>(unknowns.size()));
   for (std::size_t i = 0; i < freedoms.size(); ++i)
     for (const Space::Term* term = space.begin_of(freedoms[i]); term != space.end_of(freedoms[i]);
          ++term)
-      terms(static_cast<Eigen::Index>(i), place(term->unknown)) += term->weight;
-  gathered.matrix = terms.transpose() * (of_freedoms * terms);
+      terms(static_cast<Eigen::Index>(i),
+            std::lower_bound(unknowns.begin(), unknowns.end(), term->unknown) - unknowns.begin()) +=
+          term->weight;
+  entries.unknowns = std::move(unknowns);
+  entries.matrix = terms.transpose() * (of_freedoms * terms);
 }
 
 /// Adds an element's matrix to the columns of those groups that are this part's.
 void scatter(const Elimination& elimination, const Pattern& pattern, int element,
-             const Gathered& gathered, SparseLower& matrix, int part, int parts) {
+             const ElementEntries& entries, SparseLower& matrix, int part, int parts) {
   const std::vector<int>& groups = elimination.groups_of_elements[at(element)];
-  thread_local std::vector<std::size_t> starts;  // of each group in gathered.unknowns, and the end
+  thread_local std::vector<std::size_t> starts;  // of each group in entries.unknowns, and the end
   starts.clear();
   for (const int g : groups)
-    starts.push_back(at(std::lower_bound(gathered.unknowns.begin(), gathered.unknowns.end(),
+    starts.push_back(at(std::lower_bound(entries.unknowns.begin(), entries.unknowns.end(),
                                          elimination.groups[at(g)].first) -
-                        gathered.unknowns.begin()));
-  starts.push_back(gathered.unknowns.size());
+                        entries.unknowns.begin()));
+  starts.push_back(entries.unknowns.size());
   for (std::size_t c = 0; c < groups.size(); ++c) {
     const int g = groups[c];
     if (g % parts != part) continue;
@@ -146,25 +129,24 @@ void scatter(const Elimination& elimination, const Pattern& pattern, int element
                      ->offset;
       }
       for (std::size_t j = starts[c]; j < starts[c + 1]; ++j) {
-        const long k = gathered.unknowns[j] - group.first;
-        double* column = matrix.valuePtr() + pattern.column_start[at(gathered.unknowns[j])];
-        const double* source = gathered.matrix.col(static_cast<Eigen::Index>(j)).data();
+        const long k = entries.unknowns[j] - group.first;
+        double* column = matrix.valuePtr() + pattern.column_start[at(entries.unknowns[j])];
+        const double* source = entries.matrix.col(static_cast<Eigen::Index>(j)).data();
         double* target = r == c ? column - k : column + (group.count - k) + offset;
         for (std::size_t i = r == c ? j : starts[r]; i < starts[r + 1]; ++i)
-          target[gathered.unknowns[i] - other.first] += source[i];
+          target[entries.unknowns[i] - other.first] += source[i];
       }
     }
   }
 }
 
-void require_memory(const Space& space, const Pattern& pattern) {
+void require_memory(const Elimination& elimination, const Pattern& pattern) {
   const double bytes = 16.0 * static_cast<double>(pattern.column_start.back());
   if (const double available = available_memory(); bytes > available)
     throw NotEnoughMemory(
         fmt::format("the stiffness of {} unknowns needs {:.1f} GB and {:.1f} GB are free; use "
-                    "larger elements or "
-                    "a lower element degree",
-                    space.unknowns(), bytes / 1e9, available / 1e9));
+                    "larger elements or a lower element degree",
+                    elimination.count, bytes / 1e9, available / 1e9));
 }
 
 /// All elements of a space, each by its formulation.
@@ -246,30 +228,60 @@ void hold_loose_rotations(const Space& space, SparseLower& stiffness) {
 
 }  // namespace
 
-SparseLower assemble(const Space& space, const std::function<ElementMatrix()>& make_worker,
-                     int threads) {
+void take_entries(const std::vector<int>& unknowns, const Eigen::MatrixXd& matrix,
+                  ElementEntries& entries) {
+  entries.unknowns = unknowns;
+  std::sort(entries.unknowns.begin(), entries.unknowns.end());
+  entries.unknowns.erase(std::unique(entries.unknowns.begin(), entries.unknowns.end()),
+                         entries.unknowns.end());
+  std::vector<Eigen::Index> places;
+  places.reserve(unknowns.size());
+  for (const int unknown : unknowns)
+    places.push_back(std::lower_bound(entries.unknowns.begin(), entries.unknowns.end(), unknown) -
+                     entries.unknowns.begin());
+  const auto size = static_cast<Eigen::Index>(entries.unknowns.size());
+  entries.matrix.setZero(size, size);
+  for (std::size_t j = 0; j < places.size(); ++j)
+    for (std::size_t i = 0; i < places.size(); ++i)
+      entries.matrix(places[i], places[j]) +=
+          matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+}
+
+SparseLower assemble(const Elimination& elimination,
+                     const std::function<FindEntries()>& make_worker, int threads) {
   if (threads <= 0) threads = usable_threads();
-  const Elimination& elimination = space.elimination();
   const Pattern pattern = make_pattern(elimination);
-  require_memory(space, pattern);
+  require_memory(elimination, pattern);
   SparseLower matrix = make_matrix(elimination, pattern);
-  std::vector<ElementMatrix> workers;
+  std::vector<FindEntries> workers;
   for (int t = 0; t < threads; ++t) workers.push_back(make_worker());
   // In batches, so that the elements' matrices never take more than some tens of megabytes.
-  const int batch = 128, count = space.element_count();
-  std::vector<Gathered> gathered(at(batch));
+  const int batch = 128, count = static_cast<int>(elimination.groups_of_elements.size());
+  std::vector<ElementEntries> entries(at(batch));
   for (int first = 0; first < count; first += batch) {
     const int last = std::min(count, first + batch);
     in_batches(threads, 1, threads, [&](int thread, int) {
       for (int e = first + thread; e < last; e += threads)
-        gather(space, e, workers[at(thread)](e), gathered[at(e - first)]);
+        workers[at(thread)](e, entries[at(e - first)]);
     });
     in_batches(threads, 1, threads, [&](int thread, int) {
       for (int e = first; e < last; ++e)
-        scatter(elimination, pattern, e, gathered[at(e - first)], matrix, thread, threads);
+        scatter(elimination, pattern, e, entries[at(e - first)], matrix, thread, threads);
     });
   }
   return matrix;
+}
+
+SparseLower assemble(const Space& space, const std::function<ElementMatrix()>& make_worker,
+                     int threads) {
+  return assemble(
+      space.elimination(),
+      [&]() -> FindEntries {
+        return [&space, matrix_of = make_worker()](int element, ElementEntries& entries) {
+          take_freedoms(space, element, matrix_of(element), entries);
+        };
+      },
+      threads);
 }
 
 SparseLower assemble_stiffness(const Space& space, int threads) {

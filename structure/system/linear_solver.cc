@@ -15,11 +15,10 @@
 namespace blocklift::structure {
 
 struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLower, Eigen::Lower> {
-  explicit Factor(EliminationOrder order) {
+  Factor() {
     cholmod().nmethods = 1;
-    const bool given = order == EliminationOrder::given;
-    cholmod().method[0].ordering = given ? CHOLMOD_NATURAL : CHOLMOD_METIS;
-    cholmod().postorder = given ? 0 : 1;  // given unknowns come in postorder already
+    cholmod().method[0].ordering = CHOLMOD_NATURAL;
+    cholmod().postorder = 0;  // the unknowns come in postorder already
     cholmod().print = 0;
   }
   /// Eigen does not ask whether CHOLMOD found the memory for its analysis.
@@ -39,9 +38,8 @@ double available_memory() {
   return memory_within_limit();
 }
 
-ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed,
-                                     EliminationOrder order)
-    : fixed_(std::move(fixed)), factor_(new Factor(order)) {
+ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed)
+    : fixed_(std::move(fixed)), factor_(new Factor) {
   stiffness_.swap(stiffness);  // Eigen's sparse matrices do not move, they copy
   separate_fixed();
   factor_->analyzePattern(stiffness_);

@@ -15,19 +15,15 @@ struct FixedUnknown {
   double value = 0;  ///< m
 };
 
-/// Order of elimination: that of the unknowns as they come, or one found by nested dissection.
-enum class EliminationOrder { given, found };
-
 /// K u = f with some displacements given, factorised once for any number of load vectors.
 ///
-/// Sparse supernodal Cholesky (CHOLMOD through Eigen), by default in the order of the unknowns,
-/// which the Discretisation has chosen by nested dissection.
+/// Sparse supernodal Cholesky (CHOLMOD through Eigen) in the order of the unknowns, which an
+/// Elimination has chosen by nested dissection.
 class ConstrainedSystem {
  public:
   /// Takes the stiffness over and analyses it; nothing is factorised yet.
   /// @throws ModelError if the factor would not fit into the memory that is free.
-  ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed,
-                    EliminationOrder order = EliminationOrder::given);
+  ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed);
   ~ConstrainedSystem();
 
   /// Memory that the factor will take, bytes.

@@ -66,13 +66,12 @@ void visit_solids(const Space& space, const VisitMatter& visit) {
   const Mesh& mesh = space.mesh();
   for (std::size_t s = 0; s < mesh.solids.size(); ++s) {
     const Solid& solid = mesh.solids[s];
-    const Eigen::Matrix3Xd places = places_of(mesh, solid);
     for (const SolidPoint& integrated : solid_points(mesh, solid)) {
       MatterPoint point;
       point.nodes = space.solid_nodes(static_cast<int>(s));
       point.values = integrated.values.data();
       point.node_count = static_cast<int>(solid.vertices.size());
-      point.place = places * integrated.values;
+      point.place = integrated.place;
       point.volume = integrated.weight;
       point.mass = integrated.weight * mesh.materials[at(solid.material)].density;
       visit(point);

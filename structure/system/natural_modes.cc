@@ -349,7 +349,7 @@ Eigen::MatrixXd trial_shapes(const Eigen::Matrix3Xd& nodes, int freedoms) {
 NaturalModes find_natural_modes(const SparseLower& stiffness, const SparseLower& mass,
                                 const Eigen::MatrixXd& trial,
                                 const std::vector<FixedUnknown>& fixed, int rigid_motions,
-                                int count, EliminationOrder order) {
+                                int count) {
   const auto free = stiffness.rows() - static_cast<long>(fixed.size());
   if (count < 1 || count > free)
     throw ModelError(
@@ -359,7 +359,7 @@ NaturalModes find_natural_modes(const SparseLower& stiffness, const SparseLower&
   SparseLower sum = stiffness + shift * mass;
   std::vector<FixedUnknown> at_rest = fixed;
   for (FixedUnknown& unknown : at_rest) unknown.value = 0;
-  ConstrainedSystem shifted(std::move(sum), at_rest, order);
+  ConstrainedSystem shifted(std::move(sum), at_rest);
   shifted.factorise();
   static const Library library;
   Pencil pencil{stiffness, mass, shifted};
@@ -409,7 +409,7 @@ NaturalModes find_natural_modes(const Space& space, const MassProperties& mass,
   // Of fixed unknowns none or enough to leave no rigid motion is what the search is told; partly
   // held bodies show their rigid motions by frequencies of zero.
   return find_natural_modes(assemble_stiffness(space), mass_of_unknowns(space, mass), trial, fixed,
-                            fixed.empty() ? 6 : 0, count, EliminationOrder::given);
+                            fixed.empty() ? 6 : 0, count);
 }
 
 }  // namespace blocklift::structure

@@ -37,19 +37,19 @@ struct NaturalModes {
 /// the search is repeated beside the modes that it found until nothing lower comes, as one run may
 /// miss copies of a repeated frequency. Source: Hernandez, Roman, Vidal (2005), SLEPc; Ericsson and
 /// Ruhe (1980) for the spectral transform.
-/// @param stiffness, mass lower triangles; unknowns without mass must have stiffness.
+/// @param stiffness, mass lower triangles, in an order of elimination; unknowns without mass must
+///   have stiffness.
 /// @param trial shapes that hold the lowest modes roughly, as trial_shapes() has them, by unknowns
 ///   (rows): the first six columns are the rigid motions of the whole.
 /// @param fixed unknowns that do not move (their values are not looked at).
 /// @param rigid_motions how many of them `fixed` leaves.
 /// @param count of modes, at least 1.
-/// @param order of elimination, as for ConstrainedSystem.
 /// @throws ModelError if there are fewer unknowns than modes, the mass is zero, memory does not
 ///   suffice, or the iteration does not converge.
 NaturalModes find_natural_modes(const SparseLower& stiffness, const SparseLower& mass,
                                 const Eigen::MatrixXd& trial,
                                 const std::vector<FixedUnknown>& fixed, int rigid_motions,
-                                int count, EliminationOrder order);
+                                int count);
 
 /// Rigid motions, uniform strains and pure bending and twisting about three planes, 21 columns:
 /// what a body does at its lowest frequencies, whatever it looks like. Lengths in units of the
