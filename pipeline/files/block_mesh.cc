@@ -256,8 +256,8 @@ class MeshReader {
     if (deck.mesh.solids.empty()) return;
     deck.remarks.push_back(
         {deck.path.string(),
-         fmt::format("{} solids are computed as quadratic elements of the deck's own division: "
-                     "errors of the mesh are those of its plates",
+         fmt::format("{} solids are computed as quadratic elements of the deck's own division, "
+                     "which is not refined",
                      deck.mesh.solids.size()),
          1});
   }
