@@ -174,7 +174,11 @@ class Splitter {
       read(files_.open_included(std::string(trimmed(name)), file));
       log_.use("INCLUDE");
     } catch (const CardError& error) {
-      log_.complain(place, "INCLUDE: " + error.text);
+      // Before the bulk data it brings commands to the solver.
+      if (section_ == Section::executive || section_ == Section::case_control)
+        log_.leave_out("INCLUDE", "commands to the solver in a file that is not there");
+      else
+        log_.complain(place, "INCLUDE: " + error.text);
     }
   }
 
