@@ -774,9 +774,10 @@ TEST(NastranReader, CoresOfSandwichesAreSoftAlongThePlate) {
 TEST(NastranReader, LeavesOutCommandsToTheSolverThatAreNotThere) {
   const Deck deck = nastran(
       "INCLUDE 'write_modes.v2005'\nSOL 103\nCEND\nTITLE = A\n"
-      "INCLUDE 'more.inc'\nBEGIN BULK\n" +
+      "SET 8 = 1 THRU 9,\n  12,13 THRU 20, \n 30\nINCLUDE 'more.inc'\nBEGIN BULK\n" +
       square + "ENDDATA\n");
   EXPECT_THAT(entry(deck, "INCLUDE").left_out, HasSubstr("commands to the solver"));
+  EXPECT_THAT(describe_ledger(deck), testing::Not(HasSubstr("case control 12")));
   EXPECT_THAT(complaints_of_nastran("CEND\nBEGIN BULK\nINCLUDE 'gone.bdf'\n" + square),
               HasSubstr("\"gone.bdf\" to be included cannot be read"));
 }
