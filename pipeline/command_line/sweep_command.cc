@@ -119,15 +119,15 @@ void run_members(const SweepOptions& options, const fs::path& folder, const Memb
 std::vector<Member> read_members(const MemberStore& store, int count) {
   std::vector<Member> members;
   for (int number = 0; number < count; ++number)
-    members.push_back(store.read(number).value_or(Member{number, "is missing", {}}));
+    members.push_back(store.read(number).value_or(Member{number, "is missing", {}, {}}));
   return members;
 }
 
-/// The member with the largest of the first leading figure, with a report of its own.
+/// The member with the worst of the first leading figure, with a report of its own.
 std::optional<int> write_worst(const SweepOptions& options, const fs::path& folder,
                                const StudyResults& results) {
   if (results.leading.empty()) return std::nullopt;
-  const int worst = results.spreads[results.leading.front()].member_of_largest;
+  const int worst = results.spreads[results.leading.front()].member_of_worst();
   std::vector<std::string> arguments = worker_arguments(options, folder);
   arguments.push_back("--whole");
   arguments.push_back(std::to_string(worst));
@@ -145,7 +145,7 @@ void print_study(const StudyResults& results, const fs::path& folder, std::optio
   fmt::print("{}\n\n{}", study.title.empty() ? study.name : study.title, study_text(results));
   fmt::print("\n{} members, {} failed\n", results.members.size(), results.failed());
   if (worst)
-    print_wrapped(fmt::format("member {} has the largest {}: {}", *worst,
+    print_wrapped(fmt::format("member {} has the worst {}: {}", *worst,
                               results.spreads[results.leading.front()].path,
                               (folder / "worst" / "report.html").string()));
   fmt::print("page: {}\n", (folder / "study.html").string());
@@ -186,7 +186,7 @@ int sweep(const SweepOptions& options) {
   if (worst || results.leading.empty()) return exit_code::done;
   throw std::runtime_error(fmt::format(
       "the report of member {}, the worst, could not be written; all else of the study is",
-      results.spreads[results.leading.front()].member_of_largest));
+      results.spreads[results.leading.front()].member_of_worst()));
 }
 
 }  // namespace blocklift::pipeline

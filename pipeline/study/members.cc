@@ -73,6 +73,13 @@ std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
   return figures;
 }
 
+/// Takes the figures of a summary that are looked at into a member.
+void take_figures(const StudyFile& study, const Json& summary, Member& member) {
+  member.figures = figures_of(study, summary);
+  for (const auto& [path, value] : member.figures)
+    if (is_worse_when_smaller(summary, path)) member.worse_when_smaller.push_back(path);
+}
+
 Json summary_of(const StudyFile& study, LiftCase lift_case, const std::optional<fs::path>& full) {
   const Progress nobody_watches = [](const std::string&, double, const std::string&) {};
   if (study.run == StudyRun::simulate) {
@@ -141,9 +148,9 @@ void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
 
 Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int number,
                   const std::optional<fs::path>& full) {
-  Member member{number, {}, {}};
+  Member member{number, {}, {}, {}};
   try {
-    member.figures = figures_of(study, summary_of(study, member_case(study, values), full));
+    take_figures(study, summary_of(study, member_case(study, values), full), member);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -188,6 +195,7 @@ void MemberStore::write(const Member& member) const {
   Json figures = Json::object();
   for (const auto& [path, value] : member.figures) figures[path] = value;
   Json json{{"member", member.number}, {"figures", std::move(figures)}};
+  if (!member.worse_when_smaller.empty()) json["worse_when_smaller"] = member.worse_when_smaller;
   if (!member.failure.empty()) json["failure"] = member.failure;
   write_file(file_of(member.number), json.dump(1));
 }
@@ -196,7 +204,8 @@ std::optional<Member> MemberStore::read(int number) const {
   std::error_code ignored;
   if (!fs::exists(file_of(number), ignored)) return std::nullopt;
   const Json json = Json::parse(read_file(file_of(number)));
-  Member member{number, json.value("failure", std::string()), {}};
+  Member member{number, json.value("failure", std::string()), {}, {}};
+  member.worse_when_smaller = json.value("worse_when_smaller", std::vector<std::string>());
   for (const auto& [path, value] : json.at("figures").items())
     if (value.is_number()) member.figures.emplace_back(path, value.get<double>());
   return member;

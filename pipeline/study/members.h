@@ -28,6 +28,7 @@ struct Member {
   int number = 0;
   std::string failure;                                  ///< empty: it ran
   std::vector<std::pair<std::string, double>> figures;  ///< path in summary.json, value there
+  std::vector<std::string> worse_when_smaller;          ///< those of the paths that are
 };
 
 /// Computes a member: its motion, or stress and checks as well. What fails is told in it.

@@ -48,28 +48,30 @@ std::string name_with_unit(const std::string& path) {
 std::string leading_table(const StudyResults& results) {
   std::string text =
       "<div class=\"scroll\"><table>\n" +
-      cells({"figure", "mean", "deviation", "median", "95 %", "99 %", "largest", "in member"},
-            "th");
+      cells({"figure", "mean", "deviation", "median", "95 %", "99 %", "worst", "in member"}, "th");
   for (const std::size_t i : results.leading) {
     const Spread& spread = results.spreads[i];
     const double scale = shown_figure(spread.path).scale;
-    const auto quantile = [&](std::size_t q) {
-      return with_interval(scale * spread.quantiles[q].value, scale * spread.quantiles[q].low,
-                           scale * spread.quantiles[q].high);
+    const auto quantile = [&](double share) {
+      const Quantile& one = spread.quantile_of_better(share);
+      return with_interval(scale * one.value, scale * one.low, scale * one.high);
     };
-    text +=
-        cells({name_with_unit(spread.path), format_figure(scale * spread.mean),
-               format_figure(scale * spread.deviation, 3), quantile(1), quantile(2), quantile(3),
-               format_figure(scale * spread.largest), std::to_string(spread.member_of_largest)},
-              "td");
+    text += cells(
+        {name_with_unit(spread.path), format_figure(scale * spread.mean),
+         format_figure(scale * spread.deviation, 3), quantile(0.5), quantile(0.95), quantile(0.99),
+         format_figure(scale * spread.worst()) + (spread.worse_when_smaller ? " (smallest)" : ""),
+         std::to_string(spread.member_of_worst())},
+        "td");
   }
   return text +
          "</table></div>\n<p class=\"note\">In brackets the intervals that hold the "
          "quantiles of all such lifts at 95 %, by order statistics; \"?\": the sample is "
-         "too small for that end.</p>\n";
+         "too small for that end. Of a figure whose small values are bad, a clearance, a margin, a "
+         "righting height, the worst is the smallest, and 95 % of the lifts lie above what stands "
+         "under 95 %.</p>\n";
 }
 
-/// Share of the members above a value.
+/// Share of the members above a value, or below it where small values are bad.
 std::string exceedance(const StudyResults& results, const Spread& spread) {
   const ShownFigure figure = shown_figure(spread.path);
   std::vector<double> values = results.values_of(spread.path);
@@ -78,11 +80,12 @@ std::string exceedance(const StudyResults& results, const Spread& spread) {
   const auto count = static_cast<double>(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     curve.x.push_back(figure.scale * values[i]);
-    curve.y.push_back(1 - (static_cast<double>(i) + 0.5) / count);
+    const double below = (static_cast<double>(i) + 0.5) / count;
+    curve.y.push_back(spread.worse_when_smaller ? below : 1 - below);
   }
   return to_svg({figure.name,
                  figure.unit.empty() ? std::string("value") : figure.unit,
-                 "share of members above",
+                 spread.worse_when_smaller ? "share of members below" : "share of members above",
                  {std::move(curve)}});
 }
 
@@ -99,8 +102,8 @@ std::string extremes_table(const StudyResults& results) {
   }
   if (rows.empty()) return "";
   return "<h2>Extremes</h2>\n<div class=\"scroll\"><table>\n" +
-         cells({"figure", "law", "share below", "value", "p of Kolmogorov-Smirnov"}, "th") + rows +
-         "</table></div>\n";
+         cells({"figure", "law", "share of better", "value", "p of Kolmogorov-Smirnov"}, "th") +
+         rows + "</table></div>\n";
 }
 
 std::string bar(double share) {

@@ -81,12 +81,15 @@ Json spread_json(const StudyFile& study, const Spread& spread) {
     correlations[study.variables[v].name.value] =
         spread.rank_correlation[static_cast<Eigen::Index>(v)];
   return {{"name", spread.path},
+          {"worse_when", spread.worse_when_smaller ? "smaller" : "larger"},
           {"mean", spread.mean},
           {"deviation", spread.deviation},
           {"smallest", spread.smallest},
           {"member_of_smallest", spread.member_of_smallest},
           {"largest", spread.largest},
           {"member_of_largest", spread.member_of_largest},
+          {"worst", spread.worst()},
+          {"member_of_worst", spread.member_of_worst()},
           {"quantiles", std::move(quantiles)},
           {"extremes", std::move(extremes)},
           {"rank_correlation", std::move(correlations)}};
@@ -184,6 +187,13 @@ int StudyResults::failed() const {
   }));
 }
 
+bool StudyResults::is_worse_when_smaller(const std::string& path) const {
+  return std::any_of(members.begin(), members.end(), [&](const Member& member) {
+    return std::find(member.worse_when_smaller.begin(), member.worse_when_smaller.end(), path) !=
+           member.worse_when_smaller.end();
+  });
+}
+
 std::vector<double> StudyResults::values_of(const std::string& path) const {
   std::vector<double> values;
   for (const Member& member : members)
@@ -202,7 +212,9 @@ StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector
                              (results.members.empty() ? "" : results.members.front().failure));
   for (std::string& path : common_paths(results.members)) {
     const std::vector<double> values = results.values_of(path);
-    results.spreads.push_back(find_spread(std::move(path), values, numbers, results.design));
+    const bool worse_when_smaller = results.is_worse_when_smaller(path);
+    results.spreads.push_back(
+        find_spread(std::move(path), values, numbers, results.design, worse_when_smaller));
   }
   results.leading = choose_leading(results.study, results.spreads);
   if (results.study.design == StudyDesign::sensitivity && results.failed() == 0) {
@@ -241,7 +253,7 @@ std::string study_text(const StudyResults& results) {
                    {"mean", 1},
                    {"deviation", 1},
                    {"95 %", 1},
-                   {"largest", 1},
+                   {"worst", 1},
                    {"member", 6}});
   for (const std::size_t i : results.leading) {
     const Spread& spread = results.spreads[i];
@@ -250,8 +262,8 @@ std::string study_text(const StudyResults& results) {
       return format_figure(figure.scale * value, digits);
     };
     table.add_row({figure.name, figure.unit, shown(spread.mean, 4), shown(spread.deviation, 3),
-                   shown(spread.quantiles[2].value, 4), shown(spread.largest, 4),
-                   std::to_string(spread.member_of_largest)});
+                   shown(spread.quantile_of_better(0.95).value, 4), shown(spread.worst(), 4),
+                   std::to_string(spread.member_of_worst())});
   }
   return table.text();
 }

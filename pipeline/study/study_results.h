@@ -32,6 +32,8 @@ struct StudyResults {
   std::vector<Sensitivity> sensitivities;  ///< of the leading ones, for a sensitivity
 
   int failed() const;
+  /// Whether any member says so of a figure.
+  bool is_worse_when_smaller(const std::string& path) const;
   /// Values of a figure, of the members that ran.
   std::vector<double> values_of(const std::string& path) const;
 };
