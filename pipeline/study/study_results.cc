@@ -110,6 +110,46 @@ Json sensitivity_json(const StudyFile& study, const Sensitivity& sensitivity) {
   return json;
 }
 
+/// Limiting seas and what they allow of the study's tables.
+void find_limits(StudyResults& results) {
+  if (!results.study.limits) return;
+  const SeaLimits& limits = *results.study.limits;
+  results.limits = find_limiting_seas(results.study, results.design, results.members);
+  const auto operability = [&](const auto& name, bool is_forecast) -> std::optional<Operability> {
+    if (!name) return std::nullopt;
+    return find_operability(*results.limits,
+                            read_sea_states(results.study.beside(name->value), is_forecast),
+                            limits.alpha, is_forecast);
+  };
+  results.in_scatter = operability(limits.scatter, false);
+  results.in_forecast = operability(limits.forecast, true);
+}
+
+Json operability_json(const Operability& operability) {
+  Json windows = Json::array();
+  for (const Operability::Window& window : operability.windows)
+    windows.push_back({{"begin_h", window.begin}, {"end_h", window.end}});
+  return {{"share", operability.share},
+          {"share_beyond_periods", operability.beyond},
+          {"windows", std::move(windows)}};
+}
+
+Json limits_json(const StudyResults& results) {
+  const LimitingSeas& seas = *results.limits;
+  Json states = Json::array();
+  for (std::size_t p = 0; p < seas.periods.size(); ++p)
+    for (std::size_t h = 0; h < seas.headings.size(); ++h)
+      states.push_back({{"peak_period_s", seas.periods[p]},
+                        {"heading_rad", seas.headings[h]},
+                        {"significant_height_m", seas.at(p, h).height},
+                        {"known_as", name_of(seas.at(p, h).kind)},
+                        {"governed_by", seas.governing[p * seas.headings.size() + h]}});
+  Json json{{"alpha", results.study.limits->alpha}, {"sea_states", std::move(states)}};
+  if (results.in_scatter) json["scatter"] = operability_json(*results.in_scatter);
+  if (results.in_forecast) json["forecast"] = operability_json(*results.in_forecast);
+  return json;
+}
+
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string inside;
@@ -203,7 +243,8 @@ std::vector<double> StudyResults::values_of(const std::string& path) const {
 }
 
 StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members) {
-  StudyResults results{std::move(study), std::move(design), std::move(members), {}, {}, {}};
+  StudyResults results{
+      std::move(study), std::move(design), std::move(members), {}, {}, {}, {}, {}, {}};
   std::vector<int> numbers;
   for (const Member& member : results.members)
     if (member.failure.empty()) numbers.push_back(member.number);
@@ -216,6 +257,7 @@ StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector
     results.spreads.push_back(
         find_spread(std::move(path), values, numbers, results.design, worse_when_smaller));
   }
+  find_limits(results);
   results.leading = choose_leading(results.study, results.spreads);
   if (results.study.design == StudyDesign::sensitivity && results.failed() == 0) {
     for (const std::size_t i : results.leading) {
@@ -244,6 +286,7 @@ Json study_json(const StudyResults& results) {
             {"case", results.study.case_name.value}, {"members", results.members.size()},
             {"failures", std::move(failures)},       {"figures", std::move(figures)}};
   if (!results.sensitivities.empty()) json["sobol_indices"] = std::move(sensitivities);
+  if (results.limits) json["limits"] = limits_json(results);
   return json;
 }
 
