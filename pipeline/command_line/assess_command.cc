@@ -197,13 +197,22 @@ void print_padeyes(const std::vector<PadeyeAssessment>& padeyes) {
   fmt::print("\n{}", table.text());
 }
 
-void print_details(const BlockRun& block) {
+void print_mesh_error(const BlockRun& block) {
+  if (block.error.worst_part.empty()) {
+    print_wrapped(
+        "the block is of bars alone, whose elements hold end loads and even loads exactly");
+    return;
+  }
   print_accuracy(block.accuracy);
   print_wrapped(fmt::format("checked stresses stand within {:.1f} % by the error of the mesh",
                             100 * checked_stress_band(block)));
   print_wrapped(fmt::format(
       "estimated error of the stress field {:.1f} % in the energy norm, most of it in {}",
       100 * block.error.relative, block.error.worst_part));
+}
+
+void print_details(const BlockRun& block) {
+  print_mesh_error(block);
   if (!block.buckling.panels.empty()) {
     const BuckledPanel& worst = block.buckling.panels.front();
     print_wrapped(fmt::format("nearest to buckling of {} panels: {:.2f} (elastic {:.2f}) in {}",

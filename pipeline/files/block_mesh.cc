@@ -35,6 +35,12 @@ std::string lower_case(std::string text) {
   return text;
 }
 
+std::string upper_case(std::string text) {
+  for (char& letter : text)
+    letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  return text;
+}
+
 /// Is a card or keyword one of loads or supports? A lift has its own.
 bool is_of_loads(const std::string& name) {
   static const std::vector<std::string> beginnings{"FORCE",
@@ -105,9 +111,6 @@ class MeshReader {
     give_yield_stress(deck->mesh);
     let_go(*deck);
     remark_on_solids(*deck);
-    if (deck->mesh.shells.empty())
-      complain(fmt::format("{} has no plates; a block of bars alone is not assessed",
-                           mesh_model_.file.value));
     if (diagnostics_.error_count() > before) return;
     mesh_model_.diagnosis =
         std::make_shared<const structure::Diagnosis>(structure::diagnose(deck->mesh));
@@ -128,6 +131,10 @@ class MeshReader {
     if (!found) return false;
     const fs::path& path = *found;
     const std::string ending = lower_case(named.extension().string());
+    if (is_bare(mesh_model_) && !mesh_model_.leave_out.empty())
+      diagnostics_.error(mesh_model_.leave_out.front().mark,
+                         mesh_model_.file.value + " has neither cards nor keywords",
+                         {"leave_out is for decks of Nastran and Abaqus"});
     const bool is_nastran = ending == ".bdf" || ending == ".nas" || ending == ".dat";
     const bool is_bare_file = is_bare(mesh_model_);
     if (!is_nastran && !is_bare_file && ending != ".inp") {
@@ -149,7 +156,8 @@ class MeshReader {
         return true;
       }
       const structure::UnitSystem units = structure::unit_system(mesh_model_.units.value);
-      const structure::DeckOptions options{.leave_solids_out = mesh_model_.leave_solids_out};
+      const structure::DeckOptions options{.leave_solids_out = mesh_model_.leave_solids_out,
+                                           .leave_out = cards_left_out()};
       deck = is_nastran ? structure::read_nastran(shown_path(path), units, options)
                         : structure::read_abaqus(shown_path(path), units, options);
       return true;
@@ -160,6 +168,13 @@ class MeshReader {
       complain(wrong.what());
     }
     return false;
+  }
+
+  std::vector<std::string> cards_left_out() const {
+    std::vector<std::string> cards;
+    for (const Located<std::string>& card : mesh_model_.leave_out)
+      cards.push_back(upper_case(card.value));
+    return cards;
   }
 
   /// Sizes are those of elements that are made here.
@@ -241,8 +256,8 @@ class MeshReader {
     if (deck.mesh.solids.empty()) return;
     deck.remarks.push_back(
         {deck.path.string(),
-         fmt::format("{} solids are computed as quadratic elements of the deck's own division: "
-                     "errors of the mesh are those of its plates",
+         fmt::format("{} solids are computed as quadratic elements of the deck's own division, "
+                     "which is not refined",
                      deck.mesh.solids.size()),
          1});
   }
@@ -419,6 +434,9 @@ Format<MeshModel> mesh_model_format() {
       .by_default("leave_solids_out", &MeshModel::leave_solids_out, boolean(), "false",
                   "lift without the file's solids; those of CAD files and of Gmsh's meshes are "
                   "refused otherwise, those of decks computed")
+      .optional("leave_out", &MeshModel::leave_out, list_of(located(text()), 1),
+                "cards of a Nastran deck or keywords of an Abaqus deck that are not known here and "
+                "that the lift may do without, such as [BCTABLE, CGAP]; they are refused otherwise")
       .optional("element_size", &MeshModel::element_size,
                 located(quantity(Dimension::length, Range::positive())),
                 "longest edge of the elements that CAD surfaces are meshed with; circles have 24 "

@@ -25,6 +25,7 @@ struct MeshModel {
   std::vector<MeshGroupModel> groups;               ///< that have no properties there
   std::vector<Named<Located<double>>> thicknesses;  ///< such groups with a thickness alone, m
   bool leave_solids_out = false;
+  std::vector<Located<std::string>> leave_out;          ///< cards and keywords of a deck
   std::optional<Located<double>> element_size;          ///< of CAD surfaces, m
   std::optional<Located<double>> element_size_at_lugs;  ///< m
   Mark place;

@@ -145,6 +145,15 @@ double percent_of_practice(double practice, double envelope) {
   return std::abs(percent) < rounding_percent ? 0 : percent;
 }
 
+// Of a block without squares a practice is compared where each has its largest stress.
+PracticeComparison compare_largest(double practice, const structure::TimedExtreme& envelope) {
+  PracticeComparison comparison;
+  comparison.largest_percent = percent_of_practice(practice, envelope.value);
+  comparison.worst_percent = comparison.largest_percent;
+  comparison.worst = envelope;
+  return comparison;
+}
+
 // A practice's checked stress at each square, set against the envelope.
 PracticeComparison compare_practice(const structure::Mesh& mesh,
                                     const structure::CheckedStress& checked,
@@ -214,9 +223,30 @@ void fill_in(const Eigen::MatrixXd& unit, const Vector3* normal, const HistoryAs
   result.damage_per_lift = structure::damage(raised, curve);
 }
 
+int nearest_point(const structure::StressPoints& points, const Vector3& place) {
+  int nearest = 0;
+  for (int p = 1; p < points.count(); ++p)
+    if ((points.place(p) - place).squaredNorm() < (points.place(nearest) - place).squaredNorm())
+      nearest = p;
+  return nearest;
+}
+
+// The nearest square; of a block without squares the nearest end of a bar or corner of a solid.
 StressHistory follow(const structure::UnitResponses& responses,
-                     const structure::CheckedStress& checked, const FollowedPoint& point,
+                     const structure::StressRecovery& recovery, const FollowedPoint& point,
                      const HistoryAssessment& history) {
+  const structure::CheckedStress& checked = recovery.checked();
+  if (checked.squares().empty()) {
+    const structure::StressPoints& points = recovery.points();
+    const int p = nearest_point(points, point.point_B);
+    StressHistory result;
+    result.name = point.name;
+    result.point_B = points.place(p);
+    result.part = responses.model().mesh().regions[static_cast<std::size_t>(points.region(p))].name;
+    fill_in(points.stresses(p, 1, responses.displacements()), nullptr, history,
+            history.stress_concentration, history.curve, result);
+    return result;
+  }
   const int p = nearest_square(checked, point.point_B);
   const structure::Square& square = checked.squares()[static_cast<std::size_t>(p)];
   StressHistory result;
@@ -261,6 +291,32 @@ std::vector<FollowedPoint> default_points(const HistoryState& state) {
   return points;
 }
 
+void compare_practices(const structure::UnitResponses& responses,
+                       const structure::CheckedStress& checked, const BlockAssessment& block,
+                       HistoryAssessment& result) {
+  const structure::TimedExtreme& largest = result.dynamic_state.checked_von_mises.at;
+  if (checked.squares().empty()) {
+    double of_instants = 0;
+    for (const LoadComparison& by_rope : block.simultaneous_by_rope)
+      of_instants = std::max(of_instants, by_rope.dynamic_state.result.checked_von_mises.value);
+    result.per_rope_maxima = compare_largest(
+        block.per_rope_maxima.dynamic_state.result.checked_von_mises.value, largest);
+    result.rope_instants = compare_largest(of_instants, largest);
+    return;
+  }
+  const structure::Mesh& mesh = responses.model().mesh();
+  const auto checked_in = [&](const BlockState& state) {
+    return checked.von_mises(responses.coefficients(state.load));
+  };
+  const Eigen::VectorXd& envelope = result.dynamic_state.square_von_mises;
+  result.per_rope_maxima =
+      compare_practice(mesh, checked, checked_in(block.per_rope_maxima.dynamic_state), envelope);
+  Eigen::VectorXd of_instants = Eigen::VectorXd::Zero(envelope.size());
+  for (const LoadComparison& by_rope : block.simultaneous_by_rope)
+    of_instants = of_instants.cwiseMax(checked_in(by_rope.dynamic_state));
+  result.rope_instants = compare_practice(mesh, checked, of_instants, envelope);
+}
+
 }  // namespace
 
 double HistoryAssessment::stress_increase_percent() const {
@@ -302,22 +358,13 @@ HistoryAssessment assess_history(const structure::UnitResponses& responses,
   const structure::CheckedStress& checked = recovery.checked();
   result.squares = checked.squares();
   for (const structure::Region& region : mesh.regions) result.regions.push_back(region.name);
-  result.weights = structure::response_weights(checked);
-  const auto checked_in = [&](const BlockState& state) {
-    return checked.von_mises(responses.coefficients(state.load));
-  };
-  const Eigen::VectorXd& envelope = result.dynamic_state.square_von_mises;
-  result.per_rope_maxima =
-      compare_practice(mesh, checked, checked_in(block.per_rope_maxima.dynamic_state), envelope);
-  Eigen::VectorXd of_instants = Eigen::VectorXd::Zero(envelope.size());
-  for (const LoadComparison& by_rope : block.simultaneous_by_rope)
-    of_instants = of_instants.cwiseMax(checked_in(by_rope.dynamic_state));
-  result.rope_instants = compare_practice(mesh, checked, of_instants, envelope);
+  result.weights = structure::response_weights(responses, recovery);
+  compare_practices(responses, checked, block, result);
 
   const std::vector<FollowedPoint> points =
       settings.points.empty() ? default_points(result.dynamic_state) : settings.points;
   for (const FollowedPoint& point : points)
-    result.points.push_back(follow(responses, checked, point, result));
+    result.points.push_back(follow(responses, recovery, point, result));
   result.hot_spot_curve = structure::fatigue_curve(settings.hot_spot_curve);
   for (const FollowedHotSpot& spot : settings.hot_spots)
     result.hot_spots.push_back(follow(responses, spot, result));

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "structure/mesh/solid_shape.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -86,21 +88,58 @@ void add_ruled(const std::vector<EdgeModel>& edges, std::vector<Triangle>& trian
     add_quad({at(0, i), at(0, i + 1), at(1, i + 1), at(1, i)}, triangles);
 }
 
+/// A bar as a prism about its centroid, as wide and high as the points of its section reach; a
+/// square of its area where those are not known.
+void add_bar(const structure::Mesh& mesh, const structure::Beam& beam,
+             std::vector<Triangle>& triangles) {
+  const structure::BeamSection& section = mesh.section_of(beam);
+  std::array<Vector3, 2> ends;
+  for (std::size_t i = 0; i < 2; ++i)
+    ends[i] = mesh.vertices[static_cast<std::size_t>(beam.vertices[i])] + beam.offset[i];
+  const Vector3 axis_1 = (ends[1] - ends[0]).normalized();
+  const Vector3 axis_2 = (beam.axis_2 - beam.axis_2.dot(axis_1) * axis_1).normalized();
+  const Vector3 axis_3 = axis_1.cross(axis_2);
+  Eigen::AlignedBox2d reach;
+  for (const Eigen::Vector2d& point : section.stress_points) reach.extend(point);
+  const double half = 0.5 * std::sqrt(section.area);
+  if (reach.isEmpty() || !(reach.sizes().minCoeff() > 0))
+    reach = Eigen::AlignedBox2d(Eigen::Vector2d(-half, -half), Eigen::Vector2d(half, half));
+  const auto corner = [&](std::size_t end, int i) {
+    const double x_2 = i == 1 || i == 2 ? reach.max().x() : reach.min().x();
+    const double x_3 = i >= 2 ? reach.max().y() : reach.min().y();
+    return Vector3(ends[end] + x_2 * axis_2 + x_3 * axis_3);
+  };
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4;
+    add_quad({corner(0, i), corner(0, next), corner(1, next), corner(1, i)}, triangles);
+  }
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+    add_quad({corner(end, 0), corner(end, 1), corner(end, 2), corner(end, 3)}, triangles);
+}
+
+void add_mesh(const structure::Mesh& mesh, std::vector<Triangle>& triangles) {
+  const auto vertex = [&](int number) { return mesh.vertices[static_cast<std::size_t>(number)]; };
+  for (const structure::Shell& shell : mesh.shells) {
+    const auto& v = shell.vertices;
+    triangles.push_back({vertex(v[0]), vertex(v[1]), vertex(v[2])});
+    if (!shell.is_triangle()) triangles.push_back({vertex(v[1]), vertex(v[3]), vertex(v[2])});
+  }
+  for (const structure::Beam& beam : mesh.beams)
+    if (beam.section >= 0) add_bar(mesh, beam, triangles);
+  for (const structure::SolidFace& face : structure::outer_faces(mesh)) {
+    const auto& of_solid = mesh.solids[static_cast<std::size_t>(face.solid)].vertices;
+    std::vector<Vector3> corners;
+    for (const int corner : face.corners)
+      corners.push_back(vertex(of_solid[static_cast<std::size_t>(corner)]));
+    add_polygon(corners, triangles);
+  }
+}
+
 }  // namespace
 
 std::vector<Triangle> surface_of(const BlockModel& block) {
   std::vector<Triangle> triangles;
-  if (block.mesh && block.mesh->deck) {
-    const structure::Mesh& mesh = block.mesh->deck->mesh;
-    const auto vertex = [&](const structure::Shell& shell, std::size_t i) {
-      return mesh.vertices[static_cast<std::size_t>(shell.vertices[i])];
-    };
-    for (const structure::Shell& shell : mesh.shells) {
-      triangles.push_back({vertex(shell, 0), vertex(shell, 1), vertex(shell, 2)});
-      if (!shell.is_triangle())
-        triangles.push_back({vertex(shell, 1), vertex(shell, 3), vertex(shell, 2)});
-    }
-  }
+  if (block.mesh && block.mesh->deck) add_mesh(block.mesh->deck->mesh, triangles);
   for (const PlateModel& plate : block.plates) {
     if (plate.corners)
       add_polygon(plate.corners->value, triangles);

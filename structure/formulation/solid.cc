@@ -104,8 +104,8 @@ Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid) {
                          mesh.materials[at(solid.material)]);
 }
 
-Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
-                                      const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+Eigen::MatrixXd solid_stresses(const Space& space, int solid,
+                               const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Mesh& mesh = space.mesh();
   const Solid& element = mesh.solids[at(solid)];
   const Eigen::Matrix<double, 6, 6> law = stiffness_law(mesh.materials[at(element.material)]);
@@ -114,14 +114,22 @@ Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
   for (std::size_t i = 0; i < element.vertices.size(); ++i)
     local.middleRows<3>(3 * static_cast<Eigen::Index>(i)) =
         motions.middleRows<3>(6 * static_cast<Eigen::Index>(nodes[i]));
-  const Eigen::MatrixXd& to_corners = topology_of(element.shape).to_corners;
-  Eigen::MatrixXd at_corners = Eigen::MatrixXd::Zero(6 * to_corners.rows(), motions.cols());
   const std::vector<SolidPoint> points = solid_points(mesh, element);
-  for (std::size_t q = 0; q < points.size(); ++q) {
-    const Eigen::MatrixXd stress = law * (strain_operator(points[q].gradients) * local);
+  Eigen::MatrixXd stresses(6 * static_cast<Eigen::Index>(points.size()), motions.cols());
+  for (std::size_t q = 0; q < points.size(); ++q)
+    stresses.middleRows<6>(6 * static_cast<Eigen::Index>(q)) =
+        law * (strain_operator(points[q].gradients) * local);
+  return stresses;
+}
+
+Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+  const Eigen::MatrixXd& to_corners = topology_of(space.mesh().solids[at(solid)].shape).to_corners;
+  const Eigen::MatrixXd at_points = solid_stresses(space, solid, motions);
+  Eigen::MatrixXd at_corners = Eigen::MatrixXd::Zero(6 * to_corners.rows(), motions.cols());
+  for (Eigen::Index q = 0; q < to_corners.cols(); ++q)
     for (Eigen::Index c = 0; c < to_corners.rows(); ++c)
-      at_corners.middleRows<6>(6 * c) += to_corners(c, static_cast<Eigen::Index>(q)) * stress;
-  }
+      at_corners.middleRows<6>(6 * c) += to_corners(c, q) * at_points.middleRows<6>(6 * q);
   return at_corners;
 }
 

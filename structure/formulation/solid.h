@@ -35,6 +35,11 @@ Eigen::MatrixXd solid_mass(const ElementKind& kind, const Eigen::Matrix3Xd& plac
 std::vector<SolidPoint> solid_points(const Mesh& mesh, const Solid& solid);
 Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid);
 
+/// Stresses at a solid's integration points for motions (freedoms x m): row 6 point + component
+/// (xx, yy, zz, xy, yz, zx along the block's axes), Pa.
+Eigen::MatrixXd solid_stresses(const Space& space, int solid,
+                               const Eigen::Ref<const Eigen::MatrixXd>& motions);
+
 /// Stresses at a solid's corners for motions (freedoms x m): row 6 corner + component (xx, yy, zz,
 /// xy, yz, zx along the block's axes), Pa. They are a least-squares fit, linear along the local
 /// coordinates, through the integration points, where the stresses of such elements are best

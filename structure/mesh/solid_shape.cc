@@ -45,12 +45,12 @@ void tabulate_rule(ElementKind& kind) {
   }
 }
 
-Eigen::MatrixXd fit_of_corners(const ElementKind& kind, const ElementKind& linear) {
+Eigen::MatrixXd values_at_rule(const ElementKind& kind, const ElementKind& linear) {
   const ElementShape shape(linear);
   Eigen::MatrixXd at_points(kind.rule.cols(), linear.nodes);
   for (Eigen::Index q = 0; q < kind.rule.cols(); ++q)
     at_points.row(q) = shape.values(kind.rule.col(q)).transpose();
-  return at_points.completeOrthogonalDecomposition().pseudoInverse();
+  return at_points;
 }
 
 SolidTopology make_topology(const char* name, const Eigen::Matrix3Xd& corners,
@@ -77,7 +77,8 @@ SolidTopology make_topology(const char* name, const Eigen::Matrix3Xd& corners,
   topology.linear_kind.nodes = kind.corners;
   topology.linear_kind.local = corners;
   tabulate_rule(kind);
-  topology.to_corners = fit_of_corners(kind, topology.linear_kind);
+  topology.from_corners = values_at_rule(kind, topology.linear_kind);
+  topology.to_corners = topology.from_corners.completeOrthogonalDecomposition().pseudoInverse();
   return topology;
 }
 

@@ -22,10 +22,9 @@ struct SolidTopology {
   /// Quadratic, with a rule that is exact for the stiffness of solids with straight edges and
   /// parallel faces: 27 points of a hexahedron, 10 of a tetrahedron, 18 of a wedge at least.
   ElementKind kind;
-  ElementKind linear_kind;  ///< of the corners alone, without a rule
-  /// Corners x points: the fit by the corners' shape functions of what is known at the rule's
-  /// points.
-  Eigen::MatrixXd to_corners;
+  ElementKind linear_kind;       ///< of the corners alone, without a rule
+  Eigen::MatrixXd from_corners;  ///< points of the rule x corners: the corners' shape functions
+  Eigen::MatrixXd to_corners;    ///< corners x points: their fit to what is known at the points
 
   int nodes() const { return corners + static_cast<int>(edges.size()); }
 };

@@ -250,6 +250,9 @@ class DeckMaker {
       for (const int vertex : shell.vertices) is_corner[at(vertex)] = 1;
     for (const Solid& solid : mesh_.solids)
       for (const int vertex : solid.vertices) is_corner[at(vertex)] = 1;
+    if (mesh_.shells.empty() && mesh_.solids.empty())
+      for (const Beam& beam : mesh_.beams)
+        for (const int vertex : beam.vertices) is_corner[at(vertex)] = 1;
     for (const Spring& spring : mesh_.springs)
       for (const int vertex : spring.vertices)
         if (vertex >= 0) is_corner[at(vertex)] = 0;

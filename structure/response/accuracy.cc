@@ -167,6 +167,11 @@ RefinedBlock refine_checked_stress(
   const Resolution base = model->resolution();
   RefinedBlock block{std::move(model), std::move(responses), {}};
   RefinementState state;
+  if (block.model->mesh().shells.empty()) {
+    if (!block.responses) block.responses = std::make_unique<UnitResponses>(*block.model);
+    factors_of(*block.model, *block.responses);
+    return block;
+  }
   if (record.earlier) {
     state = *record.earlier;
     take_up(state, base, block);

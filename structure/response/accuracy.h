@@ -76,6 +76,7 @@ struct RefinementRecord {
 /// Each step solves anew and looks at the squares that had at least six tenths of the largest
 /// stress before. Cells about the largest of them are divided to 0.1 m, then 0.05 m and so on,
 /// growing with the distance. The loads are those of the rigid block, whatever its mesh.
+/// A block without shells stays as it is, without a step: nothing of it is looked at in squares.
 /// @param responses of the model; null: they are made if they are needed.
 /// @param factors_of the factors of a model's responses; it may add to them loads of its own
 /// before.

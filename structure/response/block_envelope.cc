@@ -108,6 +108,20 @@ Eigen::VectorXd response_weights(const CheckedStress& checked) {
   return checked.components().colwise().norm().transpose() / std::sqrt(rows);
 }
 
+Eigen::VectorXd response_weights(const UnitResponses& responses, const StressRecovery& recovery) {
+  if (!recovery.checked().squares().empty()) return response_weights(recovery.checked());
+  const StressPoints& points = recovery.points();
+  constexpr int batch = 2048;
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(responses.count());
+  for (int first = 0; first < points.count(); first += batch)
+    squares +=
+        points.stresses(first, std::min(batch, points.count() - first), responses.displacements())
+            .colwise()
+            .squaredNorm()
+            .transpose();
+  return (squares / std::max(1, points.count())).cwiseSqrt();
+}
+
 Eigen::MatrixXd unit_stress_of_square(const CheckedStress& checked, int square) {
   Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6, checked.components().cols());
   stress.topRows<2>() = checked.components().middleRows<2>(3 * square);
@@ -134,7 +148,7 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
   const Mesh& mesh = responses.model().mesh();
   const CheckedStress& checked = recovery.checked();
   const StressPoints& points = recovery.points();
-  const LoadHistory history(factors, response_weights(checked));
+  const LoadHistory history(factors, response_weights(responses, recovery));
   const int squares = static_cast<int>(checked.squares().size());
 
   BlockEnvelope envelope;

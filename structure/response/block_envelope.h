@@ -56,6 +56,9 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
 /// Weights for a LoadHistory: root mean square of each unit response's membrane stress, Pa.
 Eigen::VectorXd response_weights(const CheckedStress& checked);
 
+/// The same; of a block without squares the root mean square over its stress points.
+Eigen::VectorXd response_weights(const UnitResponses& responses, const StressRecovery& recovery);
+
 /// Unit responses of the membrane stress of a square as a stress (11, 22 and 12 where xx, yy and xy
 /// stand, the rest zero), 6 x unit loads, Pa.
 Eigen::MatrixXd unit_stress_of_square(const CheckedStress& checked, int square);

@@ -1,5 +1,6 @@
 #include "structure/response/block_error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -8,9 +9,12 @@
 
 #include "structure/batches.h"
 #include "structure/formulation/shell.h"
+#include "structure/formulation/solid.h"
 #include "structure/index.h"
 #include "structure/mesh/fields.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 
@@ -144,17 +148,86 @@ Eigen::MatrixXd to_nodes(int degree) {
   return result;
 }
 
+/// |e|^2 and |s_h|^2 of cells or solids, J.
+struct SquaredNorms {
+  explicit SquaredNorms(Eigen::Index count)
+      : error(Eigen::VectorXd::Zero(count)), norm(Eigen::VectorXd::Zero(count)) {}
+  Eigen::VectorXd error, norm;
+};
+
+/// Corner stresses of solids, averaged over those of one material that meet.
+class AveragedCorners {
+ public:
+  AveragedCorners(const Space& space, const Eigen::VectorXd& motion) : mesh_(space.mesh()) {
+    for (std::size_t s = 0; s < mesh_.solids.size(); ++s) {
+      const Eigen::VectorXd own = solid_corner_stresses(space, static_cast<int>(s), motion);
+      for (Eigen::Index c = 0; c < own.size() / 6; ++c) {
+        Mean& mean = means_[key(s, c)];
+        mean.sum += own.segment<6>(6 * c);
+        ++mean.count;
+      }
+    }
+  }
+  /// 6 x corners.
+  Resultants of(std::size_t solid) const {
+    const Eigen::Index corners = topology_of(mesh_.solids[solid].shape).corners;
+    Resultants stresses(6, corners);
+    for (Eigen::Index c = 0; c < corners; ++c) {
+      const Mean& mean = means_.at(key(solid, c));
+      stresses.col(c) = mean.sum / mean.count;
+    }
+    return stresses;
+  }
+
+ private:
+  struct Mean {
+    Stress sum = Stress::Zero();
+    int count = 0;
+  };
+  std::int64_t key(std::size_t solid, Eigen::Index corner) const {
+    const Solid& of = mesh_.solids[solid];
+    return static_cast<std::int64_t>(mesh_.materials.size()) * of.vertices[at(corner)] +
+           of.material;
+  }
+
+  const Mesh& mesh_;
+  std::unordered_map<std::int64_t, Mean> means_;
+};
+
+SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, int threads) {
+  const Mesh& mesh = space.mesh();
+  const int count = static_cast<int>(mesh.solids.size());
+  SquaredNorms norms(count);
+  const AveragedCorners corners(space, motion);
+  in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
+    for (int s = first; s < first + many; ++s) {
+      const Solid& solid = mesh.solids[at(s)];
+      const Material& material = mesh.materials[at(solid.material)];
+      const Eigen::VectorXd own = solid_stresses(space, s, motion);
+      const Resultants smooth =
+          corners.of(at(s)) * topology_of(solid.shape).from_corners.transpose();
+      const std::vector<SolidPoint> points = solid_points(mesh, solid);
+      for (std::size_t q = 0; q < points.size(); ++q) {
+        const auto column = static_cast<Eigen::Index>(q);
+        const Stress s_h = own.segment<6>(6 * column);
+        norms.error[s] +=
+            points[q].weight * complementary_energy(material, smooth.col(column) - s_h);
+        norms.norm[s] += points[q].weight * complementary_energy(material, s_h);
+      }
+    }
+  });
+  return norms;
+}
+
 double relative_error(double error, double norm) {
   return error + norm > 0 ? std::sqrt(error / (error + norm)) : 0;
 }
 
-}  // namespace
-
-BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& motion,
-                                int threads) {
+SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& motion, int threads) {
   const Space& space = model.space();
-  const Mesh& mesh = model.mesh();
   const int cells = static_cast<int>(space.shells().size()), p = space.degree();
+  SquaredNorms norms(cells);
+  if (cells == 0) return norms;
   const Orientation orientation(model);
   const Points points(space, orientation.fields);
 
@@ -171,9 +244,6 @@ BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd
   Eigen::MatrixXd values(space.nodes_per_shell(), rule.cols());
   for (Eigen::Index q = 0; q < rule.cols(); ++q)
     values.col(q) = space.shell_values(rule.col(q).head<2>());
-  BlockError result;
-  result.of_cells = Eigen::VectorXd::Zero(cells);
-  Eigen::VectorXd norm = result.of_cells;
   in_batches(cells, std::max(32, cells / 64), threads, [&](int first, int count) {
     ShellOperator own(space, rule.topRows<2>());
     Resultants smooth(6, space.nodes_per_shell());
@@ -185,27 +255,59 @@ BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd
       const Law compliance = law_of(model, cell).inverse();
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
         const double area = rule(2, q) * own.points()[at(q)].area;
-        result.of_cells[cell] += area * difference.col(q).dot(compliance * difference.col(q));
-        norm[cell] += area * s_h.col(q).dot(compliance * s_h.col(q));
+        norms.error[cell] += area * difference.col(q).dot(compliance * difference.col(q));
+        norms.norm[cell] += area * s_h.col(q).dot(compliance * s_h.col(q));
       }
     }
   });
+  return norms;
+}
+
+/// The mean of a solid's corners, m.
+Vector3 centre_of(const Mesh& mesh, const Solid& solid) {
+  return places_of(mesh, solid).leftCols(topology_of(solid.shape).corners).rowwise().mean();
+}
+
+}  // namespace
+
+BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& motion,
+                                int threads) {
+  const Space& space = model.space();
+  const Mesh& mesh = model.mesh();
+  SquaredNorms cells = norms_of_cells(model, motion, threads);
+  const SquaredNorms solids = norms_of_solids(space, motion, threads);
 
   std::vector<double> e(mesh.groups.size(), 0), s(mesh.groups.size(), 0);
-  const auto region_of = [&](int cell) {
+  const auto add = [&](const SquaredNorms& norms, const auto& region_of) {
+    for (int i = 0; i < norms.error.size(); ++i) {
+      const std::size_t group = at(mesh.regions[at(region_of(i))].group);
+      e[group] += norms.error[i];
+      s[group] += norms.norm[i];
+    }
+  };
+  const auto region_of_cell = [&](int cell) {
     return mesh.shells[at(space.shells()[at(cell)].shell)].region;
   };
-  for (int cell = 0; cell < cells; ++cell) {
-    e[at(mesh.regions[at(region_of(cell))].group)] += result.of_cells[cell];
-    s[at(mesh.regions[at(region_of(cell))].group)] += norm[cell];
-  }
-  result.relative = relative_error(result.of_cells.sum(), norm.sum());
+  add(cells, region_of_cell);
+  add(solids, [&](int solid) { return mesh.solids[at(solid)].region; });
+
+  BlockError result;
+  result.relative =
+      relative_error(cells.error.sum() + solids.error.sum(), cells.norm.sum() + solids.norm.sum());
   for (std::size_t g = 0; g < e.size(); ++g) result.of_groups.push_back(relative_error(e[g], s[g]));
-  if (cells == 0) return result;
   Eigen::Index worst = 0;
-  result.of_cells.maxCoeff(&worst);
-  result.worst_part = mesh.regions[at(region_of(static_cast<int>(worst)))].name;
-  result.worst_point = space.place(static_cast<int>(worst), {0.5, 0.5});
+  double largest = 0;
+  if (cells.error.size() > 0) {
+    largest = cells.error.maxCoeff(&worst);
+    result.worst_part = mesh.regions[at(region_of_cell(static_cast<int>(worst)))].name;
+    result.worst_point = space.place(static_cast<int>(worst), {0.5, 0.5});
+  }
+  if (solids.error.size() > 0 && solids.error.maxCoeff(&worst) > largest) {
+    const Solid& solid = mesh.solids[at(worst)];
+    result.worst_part = mesh.regions[at(solid.region)].name;
+    result.worst_point = centre_of(mesh, solid);
+  }
+  result.of_cells = std::move(cells.error);
   return result;
 }
 

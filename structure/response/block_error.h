@@ -17,12 +17,16 @@ namespace blocklift::structure {
 /// resultants, as smooth as the motion. With e the difference to the elements' own resultants,
 /// |e|^2 = int e : law^-1 : e dA. Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng.
 /// 24, 337-357, with the local smoothing of Hinton and Campbell (1974).
+/// Stresses of solids likewise: those at their corners are averaged over the solids of one material
+/// and are linear between; |e|^2 = int e : C^-1 : e dV. Bars have none: their elements of degree 3
+/// hold what evenly spread and end loads do.
 struct BlockError {
   double relative = 0;  ///< |e| over the square root of |e|^2 + |s_h|^2, of the whole block
   /// The same of each group of cells, in the order of Mesh::groups.
   std::vector<double> of_groups;
-  std::string worst_part;                 ///< the region that holds the cell with the largest |e|
-  Vector3 worst_point = Vector3::Zero();  ///< that cell's centre, m
+  /// The region that holds the cell or solid with the largest |e|; empty: there is none.
+  std::string worst_part;
+  Vector3 worst_point = Vector3::Zero();  ///< its centre, m
   Eigen::VectorXd of_cells;               ///< |e|^2 of each of Space::shells(), J
 };
 

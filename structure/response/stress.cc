@@ -105,6 +105,10 @@ Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::Vect
                  space.nodes().col(node), region);
     }
   }
+  for (const BeamCell& cell : space.beams())
+    for (const int node : cell.nodes)
+      moved.take(motion.segment<3>(6 * static_cast<Eigen::Index>(node)).norm(),
+                 space.nodes().col(node), space.mesh().beams[at(cell.beam)].region);
   for (std::size_t s = 0; s < space.mesh().solids.size(); ++s) {
     const Solid& solid = space.mesh().solids[s];
     for (std::size_t i = 0; i < solid.vertices.size(); ++i) {
@@ -130,8 +134,9 @@ void fill_in(const StressRecovery& recovery, const Mesh& mesh, const Maxima& che
   }
   for (std::size_t i = 0; i < mesh.lifting_points.size(); ++i) {
     const LiftingPoint& lug = mesh.lifting_points[i];
-    result.lugs.push_back(
-        {lug.name, recovery.lug_radius(lug), checked.lug(i), peak.lug(i), moved.lug(i)});
+    result.lugs.push_back({lug.name, recovery.lug_radius(lug),
+                           checked.is_empty() ? peak.lug(i) : checked.lug(i), peak.lug(i),
+                           moved.lug(i)});
   }
 }
 

@@ -319,10 +319,10 @@ void Space::make_beams(const Resolution& resolution) {
     own.beams.execute_coarsening_and_refinement();
   }
 
-  // A beam along a shell's edge bends with it; one that stands alone is exact at its ends with
-  // degree 2, and a rod, which nothing would hold between its ends, with degree 1.
+  // A beam along a shell's edge bends with it; one that stands alone has the exact moments of even
+  // loads with degree 3, and a rod, which nothing would hold between its ends, degree 1.
   own.beam_elements.push_back(dealii::FE_Q<1, 3>(static_cast<unsigned>(degree_)));
-  own.beam_elements.push_back(dealii::FE_Q<1, 3>(static_cast<unsigned>(std::max(degree_, 2))));
+  own.beam_elements.push_back(dealii::FE_Q<1, 3>(static_cast<unsigned>(std::max(degree_, 3))));
   own.beam_nodes.reinit(own.beams);
   own.beam_elements.push_back(dealii::FE_Q<1, 3>(1));
   for (const auto& cell : own.beam_nodes.active_cell_iterators()) {

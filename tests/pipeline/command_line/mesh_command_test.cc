@@ -1,4 +1,5 @@
 // A block read from a deck, as a user meets it.
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -87,6 +88,49 @@ TEST_F(MeshCommand, GoverningLoadCasesAreDecksThatAreReadAgain) {
   const Outcome again = run("validate mesh-lift/block.yaml");
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("185 shells, 32 beams"));
+}
+
+/// A frame of twelve box bars with a lug at each upper corner.
+std::string deck_of_bars() {
+  std::string deck = "BEGIN BULK\n";
+  int node = 0, bar = 0;
+  for (const char* z : {"700.", "2200."})
+    for (const char* y : {"0.", "3000."})
+      for (const char* x : {"750.", "3250."})
+        deck += "GRID," + std::to_string(++node) + ",," + x + "," + y + "," + z + "\n";
+  const auto add = [&](int from, int to, const char* direction) {
+    deck += "CBAR," + std::to_string(++bar) + ",1," + std::to_string(from) + "," +
+            std::to_string(to) + "," + direction + "\n";
+  };
+  for (const int low : {1, 5}) {
+    add(low, low + 1, "0.,0.,1.");
+    add(low + 2, low + 3, "0.,0.,1.");
+    add(low, low + 2, "0.,0.,1.");
+    add(low + 1, low + 3, "0.,0.,1.");
+  }
+  for (const int low : {1, 2, 3, 4}) add(low, low + 4, "1.,0.,0.");
+  return deck + "PBARL,1,1,,BOX\n+,300.,300.,20.,20.\nMAT1,1,206000.,,.3,7.85-9\nENDDATA\n";
+}
+
+TEST_F(MeshCommand, LiftsAFrameOfBarsAlone) {
+  folder_.write("mesh-lift/frame.bdf", deck_of_bars());
+  folder_.write("mesh-lift/block.yaml",
+                "kind: block\nmesh: {file: frame.bdf, units: mm-t-N, yield_stress: 355 MPa}\n"
+                "lugs: {L1: {node: 5}, L2: {node: 6}, L3: {node: 7}, L4: {node: 8}}\n");
+  const Outcome outcome = run("assess mesh-lift -o out --decks");
+  EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("the block is of bars alone"));
+  const auto summary = nlohmann::json::parse(text_of_file("out/summary.json"));
+  const auto& structure = summary["structure"];
+  EXPECT_EQ(structure["estimated_error"]["worst_part"], "");
+  // 28 m of bars less what their corners have in common is not taken off: 0.0224 m^2 of steel.
+  EXPECT_NEAR(structure["mass"]["total_kg"].get<double>(), 28 * 0.0224 * 7850, 1e-3);
+  const auto checks = summary["checks"];
+  EXPECT_TRUE(std::any_of(checks.begin(), checks.end(), [](const auto& check) {
+    return check["name"].template get<std::string>().starts_with("stress in ");
+  }));
+  for (const char* name : {"load-cases.inp", "load-cases.bdf"})
+    EXPECT_TRUE(fs::exists(fs::path("out") / name)) << name;
 }
 
 TEST_F(MeshCommand, DecksAreWrittenOnRequestAlone) {

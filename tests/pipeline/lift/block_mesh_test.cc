@@ -138,6 +138,13 @@ TEST(BlockMesh, WhatIsWrongIsSaidWithFileAndLine) {
       ": error: CQUAD4: CQUAD4 1 names grid 7777");
   say(mesh, "PLOTEL,", "WRONG,", ": error: the card WRONG is not known here");
   EXPECT_THAT(complaints_after(mesh, "PLOTEL,", "WRONG,"), testing::StartsWith("box.bdf:"));
+  const auto without = [](const std::string& cards) {
+    return "mesh: {file: box.bdf, units: mm-t-N, yield_stress: 355 MPa, leave_out: [" + cards +
+           "]}\nlugs: {L1: {node: 9001}}\n";
+  };
+  EXPECT_EQ(complaints_after(without("wrong"), "PLOTEL,", "WRONG,"), "");
+  say(without("WRONG, CGAP"), "PLOTEL,", "WRONG,",
+      "leave_out names CGAP, which the deck does not have");
   say(mesh + "lugs: {L1: {node: 12345}}\n", "", "",
       "block.yaml:3:19: error: lug L1 is at node 12345, of which the deck has none");
   say(mesh + "lugs: {L1: {set: lug plat}}\n", "", "", "did you mean \"lug plate\"?");

@@ -157,13 +157,14 @@ function massTable(structure: Structure): Child {
 
 function modelText(structure: Structure): string {
   const parts: string[] = [];
-  if (known(structure.elements)) parts.push(`${fixed(structure.elements, 0)} shells and beams${known(structure.element_degree)
+  if (known(structure.elements)) parts.push(`${fixed(structure.elements, 0)} elements${known(structure.element_degree)
     ? ` of degree ${structure.element_degree}` : ""}`);
   if (known(structure.unknowns)) parts.push(`${fixed(structure.unknowns, 0)} unknowns`);
   if (known(structure.mesh_size_m)) parts.push(`largest element ${fixed(structure.mesh_size_m, 2)} m`);
   if (structure.material) parts.push(structure.material + (known(structure.yield_Pa) ? ` (yield ${megapascals(structure.yield_Pa)} MPa)` : ""));
   const error = structure.estimated_error;
-  if (known(error?.relative)) parts.push(`estimated error of the stress field ${fixed(100 * error!.relative!, 1)}\u202f% in the energy norm, `
+  if (known(error?.relative) && !error!.worst_part) parts.push("bars alone, whose elements hold end loads and even loads exactly");
+  else if (known(error?.relative)) parts.push(`estimated error of the stress field ${fixed(100 * error!.relative!, 1)}\u202f% in the energy norm, `
     + `most of it in ${error!.worst_part}`);
   return parts.length ? `Model: ${parts.join(", ")}.` : "";
 }

@@ -125,9 +125,7 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
     if (keywords_left_out().count(block.name) > 0)
       model.log.leave_out("*" + block.name, "what is solved, printed or met by no plate or beam");
     else
-      model.log.complain(block.line, fmt::format("the keyword *{} is not known here: what it says "
-                                                 "would be missing from the model",
-                                                 block.name));
+      model.log.miss(block.line, "*" + block.name, model.options);
   }
 }
 
@@ -151,6 +149,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
   read_abaqus_links(model);
   read_abaqus_ties(model);
   read_abaqus_steps(model);
+  log.check_left_out(options);
   log.check();
   fasten_used_middles(deck, model.middles);
   log.hand_over(deck);

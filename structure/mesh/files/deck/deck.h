@@ -124,6 +124,9 @@ struct Deck {
 
 struct DeckOptions {
   bool leave_solids_out = false;  ///< list solid elements as left out rather than refuse them
+  /// Cards or keywords that are not known, in capitals, "*" before a keyword or not: they are listed
+  /// as left out rather than refused.
+  std::vector<std::string> leave_out = {};
 };
 
 /// All that is wrong with a deck; the message has a line for each.

@@ -55,6 +55,29 @@ void DeckLog::leave_out(std::string_view name, const std::string& reason) {
   if (card.left_out.empty()) card.left_out = reason;
 }
 
+void DeckLog::miss(SourceLine line, const std::string& name, const DeckOptions& options) {
+  const auto is_asked = [&](const std::string& asked) {
+    return asked == name || "*" + asked == name;
+  };
+  if (std::any_of(options.leave_out.begin(), options.leave_out.end(), is_asked)) {
+    missed_.insert(name);
+    leave_out(name, "as was asked for");
+    return;
+  }
+  complain(line, fmt::format("{} {} is not known here: what it says would be missing from the "
+                             "model; leave_out names what may be missing",
+                             name.starts_with('*') ? "the keyword" : "the card", name));
+}
+
+void DeckLog::check_left_out(const DeckOptions& options) {
+  for (const std::string& asked : options.leave_out)
+    if (!missed_.contains(asked) && !missed_.contains("*" + asked))
+      complain({}, fmt::format("leave_out names {}, which {}", asked,
+                               ledger_.contains(asked) || ledger_.contains("*" + asked)
+                                   ? "is known here: only what is not can be left out"
+                                   : "the deck does not have"));
+}
+
 void DeckLog::check() const {
   if (complaints_.empty()) return;
   std::vector<Complaint> sorted = complaints_;

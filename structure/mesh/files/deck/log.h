@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -34,6 +35,12 @@ class DeckLog {
   /// Why a card, or a part of it, is not in the model; the first reason stays.
   void leave_out(std::string_view name, const std::string& reason);
 
+  /// Leaves out cards that are not known, where the deck's user asks for it, and complains of each
+  /// other one.
+  void miss(SourceLine line, const std::string& name, const DeckOptions& options);
+  /// Complains of names in the options that no card was missed by.
+  void check_left_out(const DeckOptions& options);
+
   bool has_complaints() const { return !complaints_.empty(); }
   /// @throws DeckError if there were complaints.
   void check() const;
@@ -52,6 +59,7 @@ class DeckLog {
   std::vector<Complaint> complaints_, remarks_;
   std::unordered_map<std::string, std::size_t> complaint_of_, remark_of_;
   std::map<std::string, LedgerEntry, std::less<>> ledger_;
+  std::set<std::string, std::less<>> missed_;
 };
 
 /// One card or keyword is wrong; the reader adds file and line.

@@ -160,8 +160,10 @@ class Loads {
     const std::array<double, 4> around{first, card.real(3, "pressure", first),
                                        card.real(4, "pressure", first),
                                        card.real(5, "pressure", first)};
-    if ((card.has(12) && !card.is(12, "SURF")) || (card.has(13) && !card.is(13, "NORM")))
-      throw CardError{"SORL and LDIR other than SURF and NORM are not known"};
+    if ((card.has(12) && !card.is(12, "SURF")) || (card.has(13) && !card.is(13, "NORM"))) {
+      model_.log.leave_out(card.name(), "loads with SORL and LDIR other than SURF and NORM");
+      return;
+    }
     Vector3 direction = Vector3::Zero();
     if (card.has(9) || card.has(10) || card.has(11)) {
       const Vector3 given(card.real(9, "component", 0.0), card.real(10, "component", 0.0),
@@ -201,9 +203,10 @@ class Loads {
     const bool is_whole = (relative || card.is(3, "LE")) && std::abs(from) < 1e-6 * end &&
                           card.has(6) && std::abs(card.real(6, "place") - end) < 1e-4 * end &&
                           std::abs(card.real(7, "load", p) - p) <= 1e-6 * std::abs(p);
-    if (direction == directions.end() || !is_whole)
-      throw CardError{
-          "only even forces (FX ... FZE) over the whole length (SCALE LE or FR) are read"};
+    if (direction == directions.end() || !is_whole) {
+      model_.log.leave_out(card.name(), "loads other than even forces over the whole length");
+      return;
+    }
     set(card).beam_loads.push_back(
         {found->second, p * model_.units.force / model_.units.length * direction->second});
   }

@@ -77,6 +77,20 @@ const std::vector<Reason>& reasons() {
   return all;
 }
 
+/// How to say what a card that is not known says; empty: nobody asked yet.
+std::string_view what_instead_of(std::string_view card) {
+  if (card == "CPYRAM") return "pyramids are not known; make two CTETRA of each";
+  if (card == "CSHEAR" || card == "PSHEAR")
+    return "a panel that bears shear alone is no plate; make it a CQUAD4, or CRODs across its "
+           "corners";
+  return {};
+}
+
+bool is_asked_for(const DeckOptions& options, const std::string& card) {
+  return std::find(options.leave_out.begin(), options.leave_out.end(), card) !=
+         options.leave_out.end();
+}
+
 }  // namespace
 
 bool is_load_left_out(std::string_view name) {
@@ -106,20 +120,13 @@ void take_stock_of_nastran_cards(NastranModel& model) {
       continue;
     }
     if (cards_read().count(card.name) > 0) continue;
-    if (card.name == "CPYRAM") {
-      model.log.complain(card.line, "CPYRAM: pyramids are not known; make two CTETRA of each");
-      continue;
-    }
-    if (card.name == "CSHEAR" || card.name == "PSHEAR")
-      model.log.complain(card.line, card.name +
-                                        ": a panel that bears shear alone is no plate; make it a "
-                                        "CQUAD4, or CRODs across its corners");
-    else if (const auto found = left_out.find(card.name); found != left_out.end())
+    if (const auto found = left_out.find(card.name); found != left_out.end())
       model.log.leave_out(card.name, found->second);
+    else if (const std::string_view instead = what_instead_of(card.name);
+             !instead.empty() && !is_asked_for(model.options, card.name))
+      model.log.complain(card.line, fmt::format("{}: {}", card.name, instead));
     else
-      model.log.complain(card.line, fmt::format("the card {} is not known here: what it says would "
-                                                "be missing from the model",
-                                                card.name));
+      model.log.miss(card.line, card.name, model.options);
   }
 }
 
@@ -139,6 +146,7 @@ Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
   read_nastran_cells(model);
   read_nastran_links(model);
   read_nastran_cases(model);
+  log.check_left_out(options);
   log.check();
   fasten_used_middles(deck, model.middles);
   log.hand_over(deck);

@@ -389,5 +389,12 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
   EXPECT_THAT(complaints_of_abaqus("hello\n"), HasSubstr("data before the first keyword"));
 }
 
+TEST(AbaqusReader, LeavesOutUnknownKeywordsThatItsUserNames) {
+  const std::string strange = square_plate + "*CONTACT PAIR, INTERACTION=A\nS1, S2\n";
+  const Deck deck = abaqus(strange, "m-kg-N", {.leave_out = {"CONTACT PAIR"}});
+  EXPECT_THAT(entry(deck, "*CONTACT PAIR").left_out, HasSubstr("as was asked for"));
+  EXPECT_THAT(complaints_of_abaqus(strange, "m-kg-N"), HasSubstr("leave_out names what may"));
+}
+
 }  // namespace
 }  // namespace blocklift::structure::test

@@ -682,6 +682,42 @@ SPC1,1,789,1
   EXPECT_THROW(read_nastran("/nowhere/deck.bdf", UnitSystem()), DeckError);
 }
 
+TEST(NastranReader, LeavesOutUnknownCardsThatItsUserNames) {
+  const std::string strange = square + "BCTABLE,1\nBCTABLE,2\nCSHEAR,9,9,1,2,3,4\n";
+  const DeckOptions options{.leave_out = {"BCTABLE", "CSHEAR"}};
+  const Deck deck = nastran(strange, "m-kg-N", options);
+  EXPECT_EQ(entry(deck, "BCTABLE").read, 2);
+  EXPECT_THAT(entry(deck, "BCTABLE").left_out, HasSubstr("as was asked for"));
+  EXPECT_THAT(entry(deck, "CSHEAR").left_out, HasSubstr("as was asked for"));
+  const auto complaints = [&](const std::vector<std::string>& names) -> std::string {
+    try {
+      nastran(strange, "m-kg-N", {.leave_out = names});
+    } catch (const DeckError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(complaints({"CSHEAR"}), HasSubstr("leave_out names what may be missing (2 times)"));
+  EXPECT_THAT(complaints({"BCTABLE"}), HasSubstr("make it a CQUAD4"));
+  EXPECT_THAT(complaints({"BCTABLE", "CSHEAR", "CGAP"}),
+              HasSubstr("leave_out names CGAP, which the deck does not have"));
+  EXPECT_THAT(complaints({"BCTABLE", "CSHEAR", "CQUAD4"}),
+              HasSubstr("leave_out names CQUAD4, which is known here"));
+}
+
+// No lift has the loads of a deck: those that cannot be said here do not keep it from being read.
+TEST(NastranReader, LeavesOutLoadsThatItCannotSay) {
+  const Deck deck = nastran(square +
+                            "CBAR,20,7,1,2,0.,0.,1.\nPBAR,7,7,.01,1.-5,1.-5,1.-5\n"
+                            "PLOAD1,3,20,MX,FR,0.,5.,1.,5.\nPLOAD1,3,20,FZ,FR,.2,5.,.7,9.\n"
+                            "PLOAD1,3,20,FZ,FR,0.,5.,1.,5.\n"
+                            "PLOAD4,3,10,2.,,,,,,+\n+,,,,,LINE,TANG\n");
+  EXPECT_THAT(entry(deck, "PLOAD1").left_out, HasSubstr("other than even forces"));
+  EXPECT_THAT(entry(deck, "PLOAD4").left_out, HasSubstr("SORL"));
+  ASSERT_EQ(deck.load_sets.size(), 1U);
+  EXPECT_EQ(deck.load_sets[0].beam_loads.size(), 1U);
+}
+
 TEST(NastranReader, LeavesOutWhatHasNoMeaningHereAndSaysSo) {
   const Deck deck = nastran(square +
                                 "DESVAR,1,T1,1.,.1,5.\nCAERO1,1,1\nCAERO1,2,1\nPLOTEL,1,1,2\n"
