@@ -204,7 +204,7 @@ LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& d
           find_limiting_height(grid.heights, worst[cell], quantity.at.value.value, smaller);
       if (is_first) {
         seas.heights.push_back(height);
-        seas.governing.push_back(path);
+        seas.governing.push_back(height.kind == LimitKind::above_grid ? "" : path);
       } else if (height.height < seas.heights[cell].height) {
         seas.heights[cell] = height;
         seas.governing[cell] = path;

@@ -40,7 +40,8 @@ struct LimitingSeas {
   std::vector<double> periods;          ///< s, ascending
   std::vector<double> headings;         ///< rad, ascending; one, zero, if the study varies none
   std::vector<LimitingHeight> heights;  ///< the least of all quantities; headings of a period
-  std::vector<std::string> governing;   ///< path of the quantity that it is of
+  /// Path of the quantity that it is of; empty where none reaches its limit.
+  std::vector<std::string> governing;
   std::vector<std::string> quantities;
 
   const LimitingHeight& at(std::size_t period, std::size_t heading) const {

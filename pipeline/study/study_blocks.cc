@@ -200,6 +200,10 @@ structure::StressBasis StudyBlocks::basis_of(const Eigen::VectorXd& values) cons
   const structure::RefinedBlock refined = structure::refine_checked_stress(
       std::move(model), std::move(responses), factors,
       {lift_case.structure.accuracy, lift_case.structure.most_unknowns});
+  if (refined.model->space().shells().empty())
+    throw std::runtime_error(
+        "the block has no plates, over which the stress would be checked: run: assess finds the "
+        "stress of its bars and solids");
   // Another member's stress may be largest elsewhere: all squares are looked at.
   return structure::make_stress_basis(
       *refined.responses,
