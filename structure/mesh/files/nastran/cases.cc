@@ -66,18 +66,20 @@ class Supports {
     return support;
   }
 
-  // SPC1 SID C G1 G2 ... or G1 THRU G2
+  // SPC1 SID C G1 G2 ... or G1 THRU G2; points without a place have components of their own
   void add_list(const CardView& card) {
     SupportSet& list = set(card);
-    const std::array<bool, 6> held = card.components(1, "components");
+    const auto hold = [&](int vertex) {
+      list.supports.push_back(support(vertex, card.components(1, "components")));
+    };
     for (std::size_t i = 2; i < card.size(); ++i) {
       if (!card.has(i)) continue;
       if (card.is(i, "THRU")) {
         const long from = card.label(i - 1, "grid"), to = card.label(++i, "last grid");
         for (const long label : known_labels(model_.vertex_of, from + 1, to))
-          list.supports.push_back(support(model_.vertex_of.at(label), held));
-      } else {
-        list.supports.push_back(support(model_.vertex(card, i, "grid"), held));
+          hold(model_.vertex_of.at(label));
+      } else if (!model_.is_scalar_point(card.label(i, "grid"))) {
+        hold(model_.vertex(card, i, "grid"));
       }
     }
   }
@@ -86,7 +88,7 @@ class Supports {
   void add_pairs(const CardView& card) {
     SupportSet& list = set(card);
     for (const std::size_t first : {1U, 4U}) {
-      if (!card.has(first)) continue;
+      if (!card.has(first) || model_.is_scalar_point(card.label(first, "grid"))) continue;
       Support one =
           support(model_.vertex(card, first, "grid"), card.components(first + 1, "components"));
       const double value = card.real(first + 2, "displacement", 0.0);

@@ -343,9 +343,10 @@ void read_nastran_cells(NastranModel& model) {
     const CardView view(model.bulk, card);
     try {
       if (card.name == "MAT1" || card.name == "MAT2" || card.name == "MAT8") materials(view);
-      if (card.name == "PSHELL" || card.name == "PCOMP" || card.name == "PBAR" ||
-          card.name == "PBARL" || card.name == "PBEAM" || card.name == "PBEAML" ||
-          card.name == "PROD" || card.name == "PTUBE" || card.name == "PSOLID")
+      if (card.name == "PSHELL" || card.name == "PCOMP" || card.name == "PCOMPG" ||
+          card.name == "PBAR" || card.name == "PBARL" || card.name == "PBEAM" ||
+          card.name == "PBEAML" || card.name == "PROD" || card.name == "PTUBE" ||
+          card.name == "PSOLID")
         properties(view);
     } catch (const CardError& error) {
       model.log.complain(card.line, card.name + ": " + error.text);

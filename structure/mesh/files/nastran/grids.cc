@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -190,6 +191,12 @@ int NastranModel::vertex(const CardView& card, std::size_t i, const char* what) 
     throw CardError{
         fmt::format("{} {} names grid {}, which does not exist", card.name(), card.text(0), label)};
   return found->second;
+}
+
+bool NastranModel::is_scalar_point(long label) const {
+  return std::any_of(scalar_points.begin(), scalar_points.end(), [&](const auto& range) {
+    return range.first <= label && label <= range.second;
+  });
 }
 
 Eigen::Matrix3d NastranModel::output_axes(int vertex) {

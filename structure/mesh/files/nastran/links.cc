@@ -291,6 +291,10 @@ class Springs {
     for (std::size_t end = 0; end < 2; ++end) {
       const std::size_t field = first + 2 * end;
       if (!card.has(field) || card.is(field, "0")) continue;
+      if (model_.is_scalar_point(card.label(field, "end"))) {
+        model_.log.leave_out(card.name(), "springs to points without a place");
+        return;
+      }
       spring.vertices[end] = model_.vertex(card, field, "end");
       spring.components[end] = component(card, field + 1);
       spring.axes[end] = model_.output_axes(spring.vertices[end]);

@@ -111,15 +111,15 @@ class Loads {
     }
   }
 
-  /// -1: a solid, on which no pressure acts.
+  /// -1: an element that is no plate; a load of it is left out.
   int shell(const CardView& card, long label) const {
     const auto found = model_.shell_of.find(label);
     if (found != model_.shell_of.end()) return found->second;
-    if (model_.solids.count(label) > 0) {
-      model_.log.leave_out(card.name(), "pressure on solids");
+    if (model_.any_elements.count(label) > 0) {
+      model_.log.leave_out(card.name(), "pressure on what is no plate");
       return -1;
     }
-    throw CardError{fmt::format("a pressure of set {} is on element {}, which is no shell",
+    throw CardError{fmt::format("a pressure of set {} is on element {}, which does not exist",
                                 card.text(0), label)};
   }
 
@@ -186,9 +186,14 @@ class Loads {
   // PLOAD1 SID EID TYPE SCALE X1 P1 X2 P2
   void add_line_load(const CardView& card) {
     const auto found = model_.beam_of.find(card.label(1, "element"));
-    if (found == model_.beam_of.end())
-      throw CardError{fmt::format("a load of set {} is on element {}, which is no bar",
-                                  card.text(0), card.text(1))};
+    if (found == model_.beam_of.end()) {
+      const long label = card.label(1, "element");
+      if (model_.any_elements.count(label) == 0)
+        throw CardError{fmt::format("a load of set {} is on element {}, which does not exist",
+                                    card.text(0), label)};
+      model_.log.leave_out(card.name(), "loads on what is no bar");
+      return;
+    }
     const Beam& beam = mesh_.beams[at(found->second)];
     const Vector3 line = model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);
     const Vector3 axis_1 = line.normalized();

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "structure/mesh/files/deck/coordinate_systems.h"
@@ -58,8 +59,10 @@ struct NastranModel {
   std::vector<long> output_system;  ///< of each vertex
   /// Numbers that are taken: by plates, bars and springs; by rigid elements; by masses.
   std::array<std::unordered_set<long>, 3> elements;
-  std::unordered_set<long> solids;                  ///< read or left out
-  std::unordered_map<long, int> solid_material_of;  ///< property, place in Mesh::materials
+  std::unordered_set<long> solids;                   ///< read or left out
+  std::unordered_set<long> any_elements;             ///< that the deck has, known here or not
+  std::vector<std::pair<long, long>> scalar_points;  ///< ranges of numbers, ends included
+  std::unordered_map<long, int> solid_material_of;   ///< property, place in Mesh::materials
   std::unordered_map<long, CardView> materials, properties;
   std::unordered_map<long, NastranMaterial> material_read;
   std::unordered_map<long, int> material_place;
@@ -82,6 +85,8 @@ struct NastranModel {
   const Vector3& place(int vertex) const {
     return deck.mesh.vertices[static_cast<std::size_t>(vertex)];
   }
+  /// Is a point one without a place (SPOINT, EPOINT)?
+  bool is_scalar_point(long label) const;
   /// Directions of a grid's displacements, columns.
   Eigen::Matrix3d output_axes(int vertex);
   /// A vector given in a coordinate system, as seen from a vertex.

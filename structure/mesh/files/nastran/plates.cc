@@ -149,9 +149,11 @@ Plate read_shell(NastranModel& model, const CardView& card, double own_thickness
 }
 
 /// PCOMP PID Z0 NSM SB FT TREF GE LAM / MID1 T1 THETA1 SOUT1 MID2 ...
+/// PCOMPG PID Z0 NSM SB FT TREF GE LAM / GPLYID1 MID1 T1 THETA1 SOUT1 / GPLYID2 ...
 Plate read_layers(NastranModel& model, const CardView& card) {
   Plate plate;
-  plate.name = fmt::format("PCOMP {}", card.text(0));
+  plate.name = fmt::format("{} {}", card.name(), card.text(0));
+  const bool is_numbered = card.name() == "PCOMPG";
   const double length = model.units.length;
   const bool mirrored = card.is(7, "SYM"), smeared = card.is(7, "SMEAR");
   if (card.has(7) && !mirrored && !smeared)
@@ -159,7 +161,7 @@ Plate read_layers(NastranModel& model, const CardView& card) {
         fmt::format("{}: LAM = {} is not known; SYM and SMEAR are", plate.name, card.text(7))};
   std::vector<Ply> plies;
   std::vector<long> numbers;
-  for (std::size_t i = 8; i < card.size(); i += 4) {
+  for (std::size_t i = is_numbered ? 9 : 8; i < card.size(); i += is_numbered ? 8 : 4) {
     if (!card.has(i) && !card.has(i + 1) && !card.has(i + 2)) continue;
     const bool first = plies.empty();
     numbers.push_back(first ? card.label(i, "material of a layer")
@@ -235,18 +237,20 @@ int add_section(NastranModel& model, const CardView& card, Plate plate, double o
   return static_cast<int>(mesh.shell_sections.size()) - 1;
 }
 
+bool is_of_plates(const CardView& property) {
+  return property.name() == "PSHELL" || property.name() == "PCOMP" || property.name() == "PCOMPG";
+}
+
 const CardView* shell_property(NastranModel& model, long property) {
   const auto found = model.properties.find(property);
   if (found != model.properties.end()) {
     const CardView& card = found->second;
-    if (card.name() != "PSHELL" && card.name() != "PCOMP")
+    if (!is_of_plates(card))
       throw CardError{fmt::format("a shell has property {}, which is a {}", property, card.name())};
     return &card;
   }
-  const bool has_any =
-      std::any_of(model.properties.begin(), model.properties.end(), [](const auto& entry) {
-        return entry.second.name() == "PSHELL" || entry.second.name() == "PCOMP";
-      });
+  const bool has_any = std::any_of(model.properties.begin(), model.properties.end(),
+                                   [](const auto& entry) { return is_of_plates(entry.second); });
   if (has_any) throw CardError{fmt::format("property {} does not exist", property)};
   return nullptr;
 }

@@ -17,14 +17,14 @@ namespace {
 /// Cards that some stage reads.
 const std::set<std::string, std::less<>>& cards_read() {
   static const std::set<std::string, std::less<>> names{
-      "GRID",    "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S",  "PARAM",
-      "CQUAD4",  "CQUAD8", "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",   "CROD",
-      "CTUBE",   "CONROD", "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",  "RBE1",    "RBE2",
-      "RBE3",    "RBAR",   "PSHELL", "PCOMP",  "PBAR",   "PBARL",  "PBEAM",  "PBEAML",  "PROD",
-      "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "BAROR",  "BEAMOR",  "SPC",
-      "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT",  "MOMENT1",
-      "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE", "CHEXA",
-      "CPENTA",  "CTETRA", "PSOLID"};
+      "GRID",    "GRDSET",  "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PARAM",
+      "CQUAD4",  "CQUAD8",  "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",
+      "CTUBE",   "CONROD",  "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",  "RBE1",   "RBE2",
+      "RBE3",    "RBAR",    "PSHELL", "PCOMP",  "PCOMPG", "PBAR",   "PBARL",  "PBEAM",  "PBEAML",
+      "PROD",    "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "BAROR",  "BEAMOR",
+      "SPC",     "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT",
+      "MOMENT1", "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE",
+      "CHEXA",   "CPENTA",  "CTETRA", "PSOLID"};
   return names;
 }
 
@@ -53,12 +53,13 @@ const std::vector<Reason>& reasons() {
        {"PLOTEL", "PLOTEL3", "PLOTEL4", "PLOTEL6", "PLOTEL8", "PLOTHEX", "PLOTPEN", "PLOTTET",
         "PLOTPYR"}},
       {"dynamics of the deck's own: the lift gives the motion",
-       {"EIGRL",  "EIGR",   "EIGB",    "EIGC",    "EIGP",    "TSTEP",   "TSTEPNL", "FREQ",
-        "FREQ1",  "FREQ2",  "FREQ3",   "FREQ4",   "FREQ5",   "TLOAD1",  "TLOAD2",  "RLOAD1",
-        "RLOAD2", "DAREA",  "DLOAD",   "TABLED1", "TABLED2", "TABLED3", "TABLED4", "TABDMP1",
-        "DPHASE", "DELAY",  "RANDPS",  "RANDT1",  "TABRND1", "TIC",     "TABLEM1", "TABLEM2",
-        "DYNRED", "RSPECI", "PVISC",   "CVISC",   "CDAMP1",  "CDAMP2",  "PDAMP",   "NLPARM",
-        "NLPCI",  "NLSTEP", "TABLES1", "MATS1",   "SUPORT",  "SUPORT1"}},
+       {"CDAMP3", "CDAMP4",  "CDAMP5", "PDAMP5",  "PDAMPT",  "PELAST",  "PBUSHT",  "TABDMP1",
+        "EIGRL",  "EIGR",    "EIGB",   "EIGC",    "EIGP",    "TSTEP",   "TSTEPNL", "FREQ",
+        "FREQ1",  "FREQ2",   "FREQ3",  "FREQ4",   "FREQ5",   "TLOAD1",  "TLOAD2",  "RLOAD1",
+        "RLOAD2", "DAREA",   "DLOAD",  "TABLED1", "TABLED2", "TABLED3", "TABLED4", "DPHASE",
+        "DELAY",  "RANDPS",  "RANDT1", "TABRND1", "TIC",     "TABLEM1", "TABLEM2", "DYNRED",
+        "RSPECI", "PVISC",   "CVISC",  "CDAMP1",  "CDAMP2",  "PDAMP",   "NLPARM",  "NLPCI",
+        "NLSTEP", "TABLES1", "MATS1",  "SUPORT",  "SUPORT1"}},
       {"temperatures are not loads of a lift",
        {"TEMP",  "TEMPD", "TEMPP1", "TEMPP2",  "TEMPP3", "TEMPRB", "TEMPF",
         "MATT1", "MAT4",  "MAT5",   "TABLEST", "CHBDYE", "CHBDYG", "CHBDYP",
@@ -71,8 +72,16 @@ const std::vector<Reason>& reasons() {
        {"ASET", "ASET1", "BSET", "BSET1", "CSET", "CSET1", "OMIT", "OMIT1", "QSET", "QSET1", "USET",
         "USET1", "SEQGP"}},
       {"of solids that are not read", {"PLSOLID", "PCOMPS", "MAT3", "MAT9", "MAT11"}},
-      {"warping of beams", {"SPOINT"}},
-      {"what is printed", {"STRESS", "BOLTSEQ", "ECHOON", "ECHOOFF", "HYPERMESH"}},
+      {"points without a place, on which nothing of the block hangs",
+       {"SPOINT", "EPOINT", "CELAS3", "CELAS4"}},
+      {"properties and materials of elements that are not known, which are told of themselves",
+       {"PBEND",   "PBUSH1D", "PGAP",   "PFAST",  "PWELD",  "PSEAM",  "PBCOMP", "PBMSECT",
+        "PBRSECT", "PLPLANE", "PPLANE", "PMASS",  "PBEAM3", "PRAC2D", "PRAC3D", "PACBAR",
+        "PACABS",  "PAABSF",  "PSHLN1", "PSHLN2", "PSLDN1", "PBARN1", "PBEMN1", "PRODN1",
+        "PSHEAR",  "MAT10",   "MATHP",  "MATHE",  "MATPOR", "MATF",   "MATG",   "MATT2",
+        "MATT3",   "MATT8",   "MATT9",  "MATS3",  "MATS8",  "CREEP"}},
+      {"matrices and tables of the solver", {"DMI", "DTI", "DMIJ", "DMIJI", "DMIK", "DMIAX"}},
+      {"what is printed", {"STRESS", "BOLTSEQ", "CBARAO", "ECHOON", "ECHOOFF", "HYPERMESH"}},
   };
   return all;
 }
@@ -80,7 +89,7 @@ const std::vector<Reason>& reasons() {
 /// How to say what a card that is not known says; empty: nobody asked yet.
 std::string_view what_instead_of(std::string_view card) {
   if (card == "CPYRAM") return "pyramids are not known; make two CTETRA of each";
-  if (card == "CSHEAR" || card == "PSHEAR")
+  if (card == "CSHEAR")
     return "a panel that bears shear alone is no plate; make it a CQUAD4, or CRODs across its "
            "corners";
   return {};
@@ -89,6 +98,23 @@ std::string_view what_instead_of(std::string_view card) {
 bool is_asked_for(const DeckOptions& options, const std::string& card) {
   return std::find(options.leave_out.begin(), options.leave_out.end(), card) !=
          options.leave_out.end();
+}
+
+/// Notes numbers of elements, read or not, and of scalar points.
+void note_element(NastranModel& model, const NastranCard& card) {
+  const CardView view(model.bulk, card);
+  if (card.name == "SPOINT" || card.name == "EPOINT") {
+    const auto from = to_integer(view.text(0)), to = to_integer(view.text(2));
+    if (view.is(1, "THRU") && from && to && *to >= *from) {
+      model.scalar_points.emplace_back(*from, *to);
+      return;
+    }
+    for (std::size_t i = 0; i < view.size(); ++i)
+      if (const auto label = to_integer(view.text(i)))
+        model.scalar_points.emplace_back(*label, *label);
+  } else if (card.name.starts_with('C') && !card.name.starts_with("CORD")) {
+    if (const auto label = to_integer(view.text(0))) model.any_elements.insert(*label);
+  }
 }
 
 }  // namespace
@@ -107,6 +133,7 @@ void take_stock_of_nastran_cards(NastranModel& model) {
   for (const NastranCard& card : model.bulk.cards) {
     if (card.name.empty()) continue;  // complained of already
     model.log.read(card.name, card.line);
+    note_element(model, card);
     const bool is_solid = card.name == "CHEXA" || card.name == "CPENTA" || card.name == "CTETRA" ||
                           card.name == "CPYRAM";
     if (is_solid && model.options.leave_solids_out) {
@@ -122,6 +149,8 @@ void take_stock_of_nastran_cards(NastranModel& model) {
     if (cards_read().count(card.name) > 0) continue;
     if (const auto found = left_out.find(card.name); found != left_out.end())
       model.log.leave_out(card.name, found->second);
+    else if (card.name.starts_with("TABLE"))
+      model.log.leave_out(card.name, "a table, which says nothing by itself");
     else if (const std::string_view instead = what_instead_of(card.name);
              !instead.empty() && !is_asked_for(model.options, card.name))
       model.log.complain(card.line, fmt::format("{}: {}", card.name, instead));

@@ -705,6 +705,44 @@ TEST(NastranReader, LeavesOutUnknownCardsThatItsUserNames) {
               HasSubstr("leave_out names CQUAD4, which is known here"));
 }
 
+// Points without a place, and springs that end on them; tables, and properties that no element has.
+TEST(NastranReader, LeavesOutWhatHangsOnNothing) {
+  const Deck deck = nastran(square +
+                            "SPOINT,100,THRU,102\nEPOINT,200,205\nCELAS3,46,14,101,102\n"
+                            "CELAS2,47,9.,1,1,205,0\nCELAS2,48,9.,1,1,2,1\nPBEND,70,1\n"
+                            "TABLEM4,45,0.,.1\nSPC1,3,0,100,200\nSPC1,3,3,1\n");
+  EXPECT_THAT(entry(deck, "SPOINT").left_out, HasSubstr("without a place"));
+  EXPECT_THAT(entry(deck, "CELAS2").left_out, HasSubstr("points without a place"));
+  EXPECT_THAT(entry(deck, "PBEND").left_out, HasSubstr("elements that are not known"));
+  EXPECT_THAT(entry(deck, "TABLEM4").left_out, HasSubstr("a table"));
+  EXPECT_EQ(deck.mesh.springs.size(), 1U);
+  ASSERT_EQ(deck.support_sets.size(), 1U);
+  EXPECT_EQ(deck.support_sets[0].supports.size(), 1U);
+}
+
+TEST(NastranReader, NumberedLayersAreLayers) {
+  const std::string corners = square.substr(0, square.find("PSHELL"));
+  const std::string material = "MAT1,7,206.+9,,.3,7850.\n";
+  const Deck plain = nastran(corners + material + "PCOMP,5\n+,7,.01,,,7,.02\n+,7,.03\n");
+  const Deck numbered = nastran(corners + material + "PCOMPG,5\n+,1,7,.01\n+,2,7,.02\n+,4,7,.03\n");
+  EXPECT_DOUBLE_EQ(numbered.mesh.shell_sections.at(0).thickness, 0.06);
+  EXPECT_EQ(numbered.mesh.shell_sections.at(0).thickness,
+            plain.mesh.shell_sections.at(0).thickness);
+  EXPECT_EQ(numbered.mesh.shell_sections.at(0).laminate, -1);
+}
+
+// What is wrong with an element is said of the element, not of each load on it, too.
+TEST(NastranReader, LoadsOnElementsThatFailAreNotComplainedOf) {
+  const std::string text = complaints_of_nastran(square +
+                                                 "CQUAD4,11,6,1,2,3,4\nPLOAD2,3,2.,11\n"
+                                                 "PLOAD4,3,77,1.\nPLOAD1,3,78,FX,FR,0.,1.,1.,1.\n");
+  EXPECT_THAT(text, HasSubstr("property 6 does not exist"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("PLOAD2")));
+  EXPECT_THAT(text,
+              HasSubstr("PLOAD4: a pressure of set 3 is on element 77, which does not exist"));
+  EXPECT_THAT(text, HasSubstr("PLOAD1: a load of set 3 is on element 78, which does not exist"));
+}
+
 // No lift has the loads of a deck: those that cannot be said here do not keep it from being read.
 TEST(NastranReader, LeavesOutLoadsThatItCannotSay) {
   const Deck deck = nastran(square +
