@@ -74,10 +74,11 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
       progress);
 }
 
-LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress) {
+LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
+                             NaturalModesOfRun modes) {
   BuiltLift model = prepare_lift(lift_case, block.mass, progress,
                                  block.flexibility ? &*block.flexibility : nullptr);
-  LiftRun run = run_lift(lift_case, std::move(model), progress);
+  LiftRun run = run_lift(lift_case, std::move(model), progress, modes);
   return {std::move(lift_case), std::move(block.lugs), std::move(run)};
 }
 

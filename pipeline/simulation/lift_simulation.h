@@ -30,7 +30,8 @@ struct KnownBlock {
 };
 
 /// The same of a case whose block is known already.
-LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress);
+LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
+                             NaturalModesOfRun modes = NaturalModesOfRun::found);
 
 /// Writes results.h5, summary.json and report.html into a folder (made if missing), with the parts
 /// that `assess` writes of the motion, and, if asked, results.csv: time, tension of each rope,

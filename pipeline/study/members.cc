@@ -81,10 +81,11 @@ void take_figures(const StudyFile& study, const Json& summary, Member& member) {
     if (is_worse_when_smaller(summary, path)) member.worse_when_smaller.push_back(path);
 }
 
-/// Measures cost as much as a third of a motion: they are found where a figure is one of them.
-bool asks_for_measures(const StudyFile& study) {
+/// Measures cost as much as a third of a motion, natural modes a tenth: they are found where a
+/// figure is one of them.
+bool asks_for(const StudyFile& study, const char* beginning) {
   return std::any_of(study.figures.begin(), study.figures.end(),
-                     [](const auto& path) { return path.value.starts_with("measures."); });
+                     [&](const auto& path) { return path.value.starts_with(beginning); });
 }
 
 /// The part of a summary's structure that a study of stress has, at an assessment's places.
@@ -109,16 +110,20 @@ Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBloc
     if (full) write_results(assessment, *full);
     return make_summary(assessment);
   }
+  // Without a list of figures natural periods are among the usual ones.
+  const bool needs_modes = full || study.figures.empty() || asks_for(study, "natural_periods");
+  const NaturalModesOfRun modes =
+      needs_modes ? NaturalModesOfRun::found : NaturalModesOfRun::left_out;
   const bool has_block = lift_case.has_structure();
   std::optional<KnownBlock> block;
   if (has_block) block = blocks.of(lift_case, values);
   const LiftSimulation simulation =
-      block ? simulate_lift(std::move(lift_case), std::move(*block), nobody_watches)
+      block ? simulate_lift(std::move(lift_case), std::move(*block), nobody_watches, modes)
             : simulate_lift(std::move(lift_case), nobody_watches);
   if (full) write_lift_simulation(simulation, *full, false);
   const std::vector<LiftMeasure> measures =
-      asks_for_measures(study) ? find_measures(simulation.lift_case, simulation.run)
-                               : std::vector<LiftMeasure>{};
+      asks_for(study, "measures.") ? find_measures(simulation.lift_case, simulation.run)
+                                   : std::vector<LiftMeasure>{};
   Json summary = make_simulation_summary(simulation.lift_case, simulation.run, measures);
   if (study.run == StudyRun::stress)
     summary["structure"] =

@@ -66,12 +66,13 @@ std::unique_ptr<structure::ElasticModel> model_of(const LiftCase& lift_case) {
   return model;
 }
 
-std::unique_ptr<structure::ElasticModel> with_mass_of(const structure::ElasticModel& model,
-                                                      const BlockModel& block) {
-  const auto stated = [](const auto& located) {
-    return located ? std::optional(located->value) : std::nullopt;
-  };
-  return model.with_mass(stated(block.mass), stated(block.centre_of_mass));
+template <class Value>
+std::optional<Value> stated(const std::optional<Located<Value>>& located) {
+  return located ? std::optional<Value>(located->value) : std::nullopt;
+}
+
+MassProperties mass_of(const structure::ElasticModel& model, const BlockModel& block) {
+  return model.mass_with(stated(block.mass), stated(block.centre_of_mass));
 }
 
 /// Holds a load case against the balance that a free body keeps.
@@ -168,11 +169,14 @@ StudyBlocks::Kept& StudyBlocks::kept(const LiftCase& lift_case, const Eigen::Vec
 
 KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& values) {
   Kept& block = kept(lift_case, values);
-  const auto model = with_mass_of(*block.model, *lift_case.load.model);
-  KnownBlock known{load_mass(model->mass_properties()), model->mesh().lifting_points, {}};
+  const BlockModel& as_lifted = *lift_case.load.model;
+  KnownBlock known{
+      load_mass(mass_of(*block.model, as_lifted)), block.model->mesh().lifting_points, {}};
   if (lift_case.dynamics.flexibility == Flexibility::rigid) return known;
   const structure::OneBlasThread whatever_the_threads;
   if (!block.responses) block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  const auto model =
+      block.model->with_mass(stated(as_lifted.mass), stated(as_lifted.centre_of_mass));
   known.flexibility =
       make_flexibility(structure::UnitResponses(*model, *block.responses), lift_case.dynamics);
   return known;
@@ -222,14 +226,14 @@ LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun
     if (!fs::exists(file, ignored)) write_file(file, bytes_of_stress_basis(basis_of(values)));
     block.basis = stress_basis_of(read_file(file));
   }
-  const auto model = with_mass_of(*block.model, *lift_case.load.model);
+  const MassProperties mass = mass_of(*block.model, *lift_case.load.model);
   const BlockAttachment attachment =
-      attach_block(run.model.system, run.model.load, model->mesh().lifting_points);
+      attach_block(run.model.system, run.model.load, block.model->mesh().lifting_points);
   LargestChecked largest;
-  find_largest(*block.basis, attachment, run.static_history, model->mass_properties(),
-               largest.at_rest, largest.time_at_rest, largest.place_at_rest);
-  find_largest(*block.basis, attachment, run.dynamic_history(), model->mass_properties(),
-               largest.in_motion, largest.time_in_motion, largest.place_in_motion);
+  find_largest(*block.basis, attachment, run.static_history, mass, largest.at_rest,
+               largest.time_at_rest, largest.place_at_rest);
+  find_largest(*block.basis, attachment, run.dynamic_history(), mass, largest.in_motion,
+               largest.time_in_motion, largest.place_in_motion);
   return largest;
 }
 

@@ -95,9 +95,14 @@ ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& r
 }
 
 void ElasticModel::find_inertia() {
-  mass_ = find_mass_properties(*space_, stated_mass_ ? &*stated_mass_ : nullptr,
-                               stated_centre_B_ ? &*stated_centre_B_ : nullptr);
+  mass_ = mass_with(stated_mass_, stated_centre_B_);
   inertia_loads_ = structure::inertia_loads(*space_, mass_);
+}
+
+MassProperties ElasticModel::mass_with(const std::optional<double>& total_mass,
+                                       const std::optional<Vector3>& centre_of_mass_B) const {
+  return find_mass_properties(*space_, total_mass ? &*total_mass : nullptr,
+                              centre_of_mass_B ? &*centre_of_mass_B : nullptr);
 }
 
 std::unique_ptr<ElasticModel> ElasticModel::with_mass(
