@@ -67,6 +67,22 @@ void for_each_joint(const Mesh& mesh, const Visit& visit) {
   }
 }
 
+/// Bars take E and G apart: Poisson's ratio, which is but what they stand for, may be any. True of
+/// a material with a ratio that no plate or solid can have, where none has it.
+bool is_of_bars_alone(const Mesh& mesh, int material) {
+  const Material& own = mesh.materials[at(material)];
+  if (own.poisson_ratio > -1 && own.poisson_ratio < 0.5) return false;
+  const bool is_of_bars =
+      std::any_of(mesh.beam_sections.begin(), mesh.beam_sections.end(),
+                  [&](const BeamSection& section) { return section.material == material; });
+  return is_of_bars && own.youngs_modulus > 0 && own.shear_modulus() > 0 && own.density >= 0 &&
+         own.yield_stress > 0 &&
+         std::none_of(mesh.shell_sections.begin(), mesh.shell_sections.end(),
+                      [&](const ShellSection& section) { return section.material == material; }) &&
+         std::none_of(mesh.solids.begin(), mesh.solids.end(),
+                      [&](const Solid& solid) { return solid.material == material; });
+}
+
 }  // namespace
 
 Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi) {
@@ -118,7 +134,8 @@ void check_mesh(const Mesh& mesh) {
     if (!holds) throw ModelError(fmt::format("{} {} {}", what, label, wrong));
   };
   const auto exists = [&](int vertex) { return vertex >= 0 && vertex < count(mesh.vertices); };
-  for (const Material& material : mesh.materials) check_material(material);
+  for (std::size_t m = 0; m < mesh.materials.size(); ++m)
+    if (!is_of_bars_alone(mesh, static_cast<int>(m))) check_material(mesh.materials[m]);
   for (const ShellSection& section : mesh.shell_sections) {
     if (!(section.thickness > 0))
       throw ModelError(

@@ -47,6 +47,7 @@ class MaterialBlocks {
     Material& solid = material_.isotropic;
     if (material_.is_isotropic) {
       check_plausible(solid, "material " + solid.name, model_.units, model_.log, material_.line);
+      check_poisson_ratio(solid, "material " + solid.name);
       material_.ply = isotropic_ply(solid);
     }
     material_.ply.density = solid.density;

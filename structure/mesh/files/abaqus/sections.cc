@@ -168,6 +168,7 @@ class Sections {
                                .poisson_ratio = nearest.poisson_ratio,
                                .density = mass / section.thickness});
     check_plausible(mesh_.materials.back(), name, model_.units, model_.log, block.line);
+    check_poisson_ratio(mesh_.materials.back(), name);
     if (nearest.is_exact()) return;
     section.laminate = static_cast<int>(mesh_.laminates.size());
     mesh_.laminates.push_back(laminate);

@@ -5,17 +5,14 @@
 namespace blocklift::structure {
 
 void check_plausible(const Material& material, const std::string& name, const UnitSystem& units,
-                     DeckLog& log, SourceLine line) {
+                     DeckLog& log, SourceLine line, double least_modulus) {
   const double modulus = material.youngs_modulus, density = material.density;
   if (!(modulus > 0)) throw CardError{fmt::format("{} has no positive Young's modulus", name)};
-  if (modulus < 1e6 || modulus > 2e12)
+  if (modulus < least_modulus || modulus > 2e12)
     throw CardError{fmt::format(
-        "{} has a Young's modulus of {:.3g} MPa if units are {}; solids have 1 to 2,000,000 MPa "
+        "{} has a Young's modulus of {:.3g} MPa if units are {}; solids have {:g} to 2,000,000 MPa "
         "(steel 206,000). Is the deck in other units?",
-        name, modulus / 1e6, units.name)};
-  if (!(material.poisson_ratio > -1 && material.poisson_ratio < 0.5))
-    throw CardError{fmt::format("{} has Poisson's ratio {:g}; it must be above -1 and below 0.5",
-                                name, material.poisson_ratio)};
+        name, modulus / 1e6, units.name, least_modulus / 1e6)};
   if (!(density >= 0)) throw CardError{fmt::format("{} has a negative density", name)};
   if (density > 1e5)
     throw CardError{fmt::format(
@@ -28,6 +25,12 @@ void check_plausible(const Material& material, const std::string& name, const Un
   if (density > 0 && density < 1)
     log.remark(line,
                fmt::format("{} has a density of {:.4g} kg/m^3, less than air", name, density));
+}
+
+void check_poisson_ratio(const Material& material, const std::string& name) {
+  if (!(material.poisson_ratio > -1 && material.poisson_ratio < 0.5))
+    throw CardError{fmt::format("{} has Poisson's ratio {:g}; it must be above -1 and below 0.5",
+                                name, material.poisson_ratio)};
 }
 
 }  // namespace blocklift::structure

@@ -8,8 +8,13 @@ namespace blocklift::structure {
 /// found: a modulus between 1 MPa and 2 TPa, a density of no more than 100 t/m^3 (a remark beyond
 /// 23 t/m^3: decks make materials heavier to meet a weight).
 /// @param name such as "MAT1 3"
+/// @param least_modulus Pa; less is another unit's.
 /// @throws CardError naming the value in SI and the system of units.
 void check_plausible(const Material& material, const std::string& name, const UnitSystem& units,
-                     DeckLog& log, SourceLine line);
+                     DeckLog& log, SourceLine line, double least_modulus = 1e6);
+
+/// @throws CardError if Poisson's ratio is none that plates and solids can have. (Bars take E and G
+/// apart, whatever ratio these stand for.)
+void check_poisson_ratio(const Material& material, const std::string& name);
 
 }  // namespace blocklift::structure

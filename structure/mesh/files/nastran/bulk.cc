@@ -118,8 +118,9 @@ class Splitter {
     } else if (section_ == Section::case_control) {
       if (is_begin(text))
         begin_bulk(text);
-      else
+      else if (!is_continued_)
         bulk_.case_control.push_back({place, text});
+      is_continued_ = text.ends_with(',');
     } else if (begins_with(text, "ENDDATA")) {
       section_ = Section::end;
     } else if (is_begin(text)) {
@@ -174,7 +175,11 @@ class Splitter {
       read(files_.open_included(std::string(trimmed(name)), file));
       log_.use("INCLUDE");
     } catch (const CardError& error) {
-      log_.complain(place, "INCLUDE: " + error.text);
+      // Before the bulk data it brings commands to the solver.
+      if (section_ == Section::executive || section_ == Section::case_control)
+        log_.leave_out("INCLUDE", "commands to the solver in a file that is not there");
+      else
+        log_.complain(place, "INCLUDE: " + error.text);
     }
   }
 
@@ -333,6 +338,7 @@ class Splitter {
   DeckFiles& files_;
   DeckLog& log_;
   NastranBulk bulk_;
+  bool is_continued_ = false;  ///< the line of case control before
   Section section_ = Section::bulk;
   std::string_view label_;  ///< last field of the line before
   bool half_ = false;       ///< the card before has half of eight fields

@@ -22,6 +22,8 @@ struct NastranMaterial {
   Material isotropic;  ///< where is_isotropic
   bool is_isotropic = true;
   bool is_matrix = false;  ///< MAT2: its shear across the plate is known as MID3 alone
+  /// MAT1 whose E and G stand for no Poisson's ratio of a plate or solid: it has no ply.
+  bool is_for_bars_alone = false;
 };
 
 /// Property of a bar, beam or rod.
@@ -118,6 +120,8 @@ struct UnusableProperty : CardError {};
 
 /// @throws CardError if there is no such material; UnusableProperty if what it says cannot be.
 const NastranMaterial& nastran_material(NastranModel& model, long number);
+/// The same; @throws CardError also if no plate or solid can be of it.
+const NastranMaterial& nastran_plate_material(NastranModel& model, long number);
 /// Place of an isotropic material in the mesh. @throws CardError also if it is not isotropic.
 int nastran_material_place(NastranModel& model, long number);
 /// Section of a shell with a property, a thickness of its own (0: the property's) and an offset, m.

@@ -33,7 +33,7 @@ NastranMaterial read_isotropic(NastranModel& model, const CardView& card) {
   solid.poisson_ratio = card.real(3, "Poisson's ratio", 0.0);
   solid.youngs_modulus = has_modulus ? card.real(1, "Young's modulus") * stress
                                      : 2 * (1 + solid.poisson_ratio) * shear;
-  if (has_modulus && has_shear && !has_ratio)
+  if (has_modulus && has_shear && !has_ratio && shear > 0)
     solid.poisson_ratio = solid.youngs_modulus / (2 * shear) - 1;
   check_plausible(solid, solid.name, model.units, model.log, card.line());
   if (has_modulus && has_shear && has_ratio && std::abs(shear / solid.shear_modulus() - 1) > 1e-3)
@@ -41,9 +41,13 @@ NastranMaterial read_isotropic(NastranModel& model, const CardView& card) {
                      fmt::format("{}: G is {:.2g} % {} than what E and nu give; E and nu are used",
                                  solid.name, 100 * std::abs(shear / solid.shear_modulus() - 1),
                                  shear > solid.shear_modulus() ? "more" : "less"));
-  material.ply = isotropic_ply(solid);
+  material.is_for_bars_alone = !(solid.poisson_ratio > -1 && solid.poisson_ratio < 0.5);
+  if (!material.is_for_bars_alone) material.ply = isotropic_ply(solid);
   return material;
 }
+
+/// Cores of sandwich plates are soft along the plate, Pa.
+constexpr double least_modulus_of_cores = 1e3;
 
 /// MAT8 MID E1 E2 NU12 G12 G1Z G2Z RHO
 NastranMaterial read_orthotropic(NastranModel& model, const CardView& card) {
@@ -68,7 +72,7 @@ NastranMaterial read_orthotropic(NastranModel& model, const CardView& card) {
                    .youngs_modulus = std::max(modulus_1, modulus_2),
                    .poisson_ratio = 0,
                    .density = density},
-                  name, model.units, model.log, card.line());
+                  name, model.units, model.log, card.line(), least_modulus_of_cores);
   const double own_shear = modulus_1 / (2 * (1 + ratio));
   material.is_isotropic =
       std::abs(modulus_2 / modulus_1 - 1) < 1e-3 && std::abs(shear / own_shear - 1) < 1e-3;
@@ -112,7 +116,7 @@ Plate read_shell(NastranModel& model, const CardView& card, double own_thickness
   if (!card.has(1))
     throw CardError{fmt::format("{} has no material for membrane forces", plate.name)};
   const long membrane_number = card.label(1, "MID1");
-  const NastranMaterial membrane = nastran_material(model, membrane_number);
+  const NastranMaterial membrane = nastran_plate_material(model, membrane_number);
   const double t = plate.thickness;
   plate.mass_per_area = card.real(7, "mass beyond the plate's", 0.0) * model.units.mass() /
                         (length * length) * model.mass_factor;
@@ -135,8 +139,8 @@ Plate read_shell(NastranModel& model, const CardView& card, double own_thickness
     plate.material = nastran_material_place(model, membrane_number);
     return plate;
   }
-  const NastranMaterial bending = nastran_material(model, bending_number);
-  const NastranMaterial shear = nastran_material(model, shear_number);
+  const NastranMaterial bending = nastran_plate_material(model, bending_number);
+  const NastranMaterial shear = nastran_plate_material(model, shear_number);
   plate.laminate.membrane = membrane.ply.in_plane * t;
   plate.laminate.bending = bending.ply.in_plane * bending_ratio * t * t * t / 12;
   // What bends by a matrix of its own says nothing of shear across the plate.
@@ -144,7 +148,8 @@ Plate read_shell(NastranModel& model, const CardView& card, double own_thickness
   const Eigen::Vector2d across = is_rigid ? Eigen::Vector2d::Constant(infinity) : shear.ply.shear;
   plate.laminate.shear = (across * shear_ratio * t).asDiagonal();
   if (card.has(10))
-    plate.laminate.coupling = nastran_material(model, card.label(10, "MID4")).ply.in_plane * t * t;
+    plate.laminate.coupling =
+        nastran_plate_material(model, card.label(10, "MID4")).ply.in_plane * t * t;
   return plate;
 }
 
@@ -167,7 +172,7 @@ Plate read_layers(NastranModel& model, const CardView& card) {
     numbers.push_back(first ? card.label(i, "material of a layer")
                             : card.label(i, "material of a layer", numbers.back()));
     Ply ply;
-    ply.material = nastran_material(model, numbers.back()).ply;
+    ply.material = nastran_plate_material(model, numbers.back()).ply;
     ply.thickness = first || card.has(i + 1) ? card.real(i + 1, "thickness of a layer") * length
                                              : plies.back().thickness;
     ply.angle = card.real(i + 2, "angle of a layer", 0.0) * std::numbers::pi / 180;
@@ -192,7 +197,7 @@ Plate read_layers(NastranModel& model, const CardView& card) {
                         (length * length) * model.mass_factor;
   const bool one_material = std::all_of(numbers.begin(), numbers.end(),
                                         [&](long number) { return number == numbers.front(); });
-  if (one_material && nastran_material(model, numbers.front()).is_isotropic)
+  if (one_material && nastran_plate_material(model, numbers.front()).is_isotropic)
     plate.material = nastran_material_place(model, numbers.front());
   return plate;
 }
@@ -221,6 +226,7 @@ int add_section(NastranModel& model, const CardView& card, Plate plate, double o
                       .poisson_ratio = nearest.poisson_ratio,
                       .density = plate.mass_of_layers / plate.thickness};
     check_plausible(material, plate.name, model.units, model.log, card.line());
+    check_poisson_ratio(material, plate.name);
     section.material = static_cast<int>(mesh.materials.size());
     mesh.materials.push_back(material);
     if (!nearest.is_exact()) {
@@ -286,6 +292,12 @@ const NastranMaterial& nastran_material(NastranModel& model, long number) {
   });
   model.log.use(card.name());
   return model.material_read[number] = material;
+}
+
+const NastranMaterial& nastran_plate_material(NastranModel& model, long number) {
+  const NastranMaterial& material = nastran_material(model, number);
+  if (material.is_for_bars_alone) check_poisson_ratio(material.isotropic, material.isotropic.name);
+  return material;
 }
 
 int nastran_material_place(NastranModel& model, long number) {

@@ -94,6 +94,7 @@ class Solids {
     if (card.name() != "PSOLID")
       throw CardError{fmt::format("a solid has property {}, which is a {}", property, card.name())};
     if (card.is(6, "PFLUID")) throw CardError{fmt::format("property {} is of a fluid", property)};
+    nastran_plate_material(model_, card.label(1, "material"));
     const int material = nastran_material_place(model_, card.label(1, "material"));
     model_.log.use(card.name());
     return model_.solid_material_of[property] = material;

@@ -743,6 +743,45 @@ TEST(NastranReader, LoadsOnElementsThatFailAreNotComplainedOf) {
   EXPECT_THAT(text, HasSubstr("PLOAD1: a load of set 3 is on element 78, which does not exist"));
 }
 
+// Bars of composites have a G of their own: E / (2 G) - 1 is no Poisson's ratio of a plate.
+TEST(NastranReader, MaterialsOfBarsMayHaveAnyG) {
+  const std::string bar = "CBAR,20,7,1,2,0.,0.,1.\nPBARL,7,8,MSCBML0,TUBE\n+,.1,.08\n";
+  const std::string stiff = "MAT1,8,58.+9,7.3+9,,1600.\n";
+  const Deck deck = nastran(square + bar + stiff);
+  const Material& material = deck.mesh.materials[static_cast<std::size_t>(
+      deck.mesh.section_of(deck.mesh.beams.at(0)).material)];
+  EXPECT_NEAR(material.shear_modulus(), 7.3e9, 1);
+  EXPECT_NEAR(material.youngs_modulus, 58e9, 1);
+  Mesh mesh = deck.mesh;
+  for (Material& one : mesh.materials) one.yield_stress = 235e6;
+  EXPECT_NO_THROW(check_mesh(mesh));
+  EXPECT_THAT(complaints_of_nastran(square + "CTRIA3,11,6,1,2,3\nPSHELL,6,8,.01,8\n" + stiff),
+              HasSubstr("MAT1 8 has Poisson's ratio 2.97"));
+}
+
+TEST(NastranReader, CoresOfSandwichesAreSoftAlongThePlate) {
+  const std::string sandwich =
+      "CTRIA3,11,6,1,2,3\nPSHELL,6,7,.001,7,1415.,8,22.2\nMAT8,8,.69+6,.69+6,.1,.69+6,3.1+8,1.5+8,"
+      "50.\n";
+  EXPECT_EQ(complaints_of_nastran(square + sandwich), "");
+  // Faces of woven cloth at 45 degrees, whose nearest isotropic plate would have a ratio of 0.98.
+  const std::string cloth =
+      "CTRIA3,11,6,1,2,3\nPSHELL,6,9,.001,9,1415.,8,22.2\nMAT8,8,.69+6,.69+6,.1,.69+6,3.1+8,1.5+8,"
+      "50.\nMAT8,9,117.+9,117.+9,.98,2.3+9,1.2+9,1.2+9,1600.\n";
+  EXPECT_EQ(complaints_of_nastran(square + cloth), "");
+}
+
+TEST(NastranReader, LeavesOutCommandsToTheSolverThatAreNotThere) {
+  const Deck deck = nastran(
+      "INCLUDE 'write_modes.v2005'\nSOL 103\nCEND\nTITLE = A\n"
+      "SET 8 = 1 THRU 9,\n  12,13 THRU 20, \n 30\nINCLUDE 'more.inc'\nBEGIN BULK\n" +
+      square + "ENDDATA\n");
+  EXPECT_THAT(entry(deck, "INCLUDE").left_out, HasSubstr("commands to the solver"));
+  EXPECT_THAT(describe_ledger(deck), testing::Not(HasSubstr("case control 12")));
+  EXPECT_THAT(complaints_of_nastran("CEND\nBEGIN BULK\nINCLUDE 'gone.bdf'\n" + square),
+              HasSubstr("\"gone.bdf\" to be included cannot be read"));
+}
+
 // No lift has the loads of a deck: those that cannot be said here do not keep it from being read.
 TEST(NastranReader, LeavesOutLoadsThatItCannotSay) {
   const Deck deck = nastran(square +
