@@ -26,7 +26,7 @@ struct Corner {
   double period, heading, height;  ///< s, degrees, m
 };
 
-/// Adds to a curve the pieces of a level within a triangle: linear there, so that they are straight.
+/// Adds to a curve the pieces of a level within a triangle: linear there, hence straight.
 void add_pieces(const std::array<Corner, 3>& corners, double level, Curve& curve) {
   std::vector<std::array<double, 2>> ends;
   for (std::size_t i = 0; i < 3; ++i) {
