@@ -1,11 +1,12 @@
-"""Kills assessments at random moments, and looks at what they leave behind.
+"""Kills runs at random moments, and looks at what they leave behind.
 
-    kill_runs.py BLOCKLIFT CASE [--kills N] [--seed S]
+    kill_runs.py BLOCKLIFT CASE [--command assess|simulate|sweep] [--kills N] [--seed S]
 
-Each run goes into the same folder as the one before. After each kill the folder has no verdict, or
-summary and report are of one run, and `blocklift report` accepts it or says that there is none. Every
-tenth time the run is repeated until it ends: it goes on with what was kept, and its figures are those
-of a run that was never stopped, bit for bit. Exit code 1 and a sentence if anything else is found.
+CASE is a study for `sweep`. Each run goes into the same folder as the one before. After each kill the
+folder has no summary, or summary and report are of one run, and `blocklift report` accepts it or says
+that there is none. A study has no result, or one whose table and figures are those of a whole study.
+Every tenth time the run is repeated until it ends: its figures are those of a run that was never
+stopped, bit for bit. Exit code 1 and a sentence if anything else is found.
 """
 
 import argparse
@@ -29,16 +30,28 @@ def figures(folder):
     return summary
 
 
+def study_figures(folder):
+    return json.loads((folder / "study.json").read_text()), (folder / "study.csv").read_text()
+
+
 def fail(text):
     sys.exit(f"kill_runs: {text}")
 
 
 class Killing:
-    def __init__(self, program, case, folder):
-        self.command = [program, "assess", case, "-o", str(folder), "--threads", "2"]
-        self.report = [program, "report", str(folder)]
+    def __init__(self, program, command, case, folder):
+        bound = ["--workers", "2"] if command == "sweep" else ["--threads", "2"]
+        self.command = [program, command, case, "-o", str(folder), *bound]
+        self.is_study = command == "sweep"
+        self.expected = None
+        self.program = program
         self.folder = folder
         self.found = collections.Counter()
+
+    def begin_folder(self, folder):
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.command[self.command.index(str(self.folder))] = str(folder)
+        self.folder = folder
 
     def run(self, seconds=None):
         """Runs to the end, or is killed after some seconds. Returns the output, None if killed."""
@@ -55,8 +68,28 @@ class Killing:
             fail(f"exit code {process.returncode}: {err}")
         return out
 
+    def figures(self):
+        return study_figures(self.folder) if self.is_study else figures(self.folder)
+
     def look(self):
         """The folder as a kill has left it."""
+        if self.is_study:
+            self.look_at_study()
+        else:
+            self.look_at_lift()
+
+    def look_at_study(self):
+        if not (self.folder / "study.json").exists():
+            self.found["without a result"] += 1
+            return
+        if self.figures() != self.expected:
+            fail("a study that was killed has other figures")
+        missing = [name for name in ("study.h5", "study.html") if not (self.folder / name).exists()]
+        if missing:
+            fail(f"a study has figures, but no {missing[0]}")
+        self.found["earlier or new results, whole"] += 1
+
+    def look_at_lift(self):
         has_verdict = (self.folder / "summary.json").exists()
         page = self.folder / "report.html"
         if has_verdict and page.exists():
@@ -68,7 +101,8 @@ class Killing:
             self.found["without a verdict"] += 1
             return
         self.found["a move to complete" if moved else "earlier or new results, whole"] += 1
-        report = subprocess.run(self.report, capture_output=True, text=True)
+        report = subprocess.run([self.program, "report", str(self.folder)], capture_output=True,
+                                text=True)
         if report.returncode != 0:
             fail(f"report: exit code {report.returncode}: {report.stderr}")
 
@@ -77,22 +111,26 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("program")
     parser.add_argument("case")
+    parser.add_argument("--command", choices=("assess", "simulate", "sweep"), default="assess")
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     choice = parser.parse_args()
     moment = random.Random(choice.seed)
-    with tempfile.TemporaryDirectory() as place:
-        killing = Killing(choice.program, choice.case, pathlib.Path(place) / "results")
+    # Workers of a killed study finish their members, so that its folder may still be written to.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
+        killing = Killing(choice.program, choice.command, choice.case,
+                          pathlib.Path(place) / "results")
         start = time.monotonic()
         killing.run()
-        usual = time.monotonic() - start
-        expected = figures(killing.folder)
+        whole = usual = time.monotonic() - start
+        killing.expected = killing.figures()
         resumed = 0
         kill = 0
         while kill < choice.kills:
             if kill % 10 == 5:
                 # First runs of a folder; those before take the place of one that ended.
-                shutil.rmtree(killing.folder, ignore_errors=True)
+                killing.begin_folder(pathlib.Path(place) / f"results-{kill}")
+                usual = whole
             start = time.monotonic()
             if killing.run(usual * moment.uniform(0.02, 1)) is not None:
                 # What is kept, and a machine that has less to do, make runs quicker.
@@ -102,11 +140,11 @@ def main():
             killing.look()
             if kill % 10 == 0:
                 resumed += "going on with" in killing.run()
-                if figures(killing.folder) != expected:
+                if killing.figures() != killing.expected:
                     fail(f"other figures after kill {kill}")
     found = ", ".join(f"{count} {what}" for what, count in sorted(killing.found.items()))
-    print(f"{choice.kills} kills: {found}; {choice.kills // 10} runs repeated, {resumed} of them "
-          "went on with what was kept, all with the same figures")
+    print(f"{choice.kills} kills of {choice.command}: {found}; {choice.kills // 10} runs repeated, "
+          f"{resumed} of them said that they went on with what was kept, all with the same figures")
 
 
 main()
