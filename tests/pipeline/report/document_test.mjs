@@ -68,6 +68,21 @@ async function testPaperPlot(browser, address) {
   await page.close();
 }
 
+/** Hoists are folded away on the screen, and drawn on paper. */
+async function testHoists(browser, address) {
+  const page = await browser.open(address);
+  const widths = `[...document.querySelectorAll("#histories .hoists svg")].map((one) => one.getBoundingClientRect().width)`;
+  const folded = await page.value(widths);
+  expect(folded.length === 1 && folded[0] === 0, `hoists for paper on the screen: ${folded} px wide`);
+  await page.send("Emulation.setEmulatedMedia", { media: "print" });
+  const printed = await page.value(widths);
+  expect(printed.length === 1 && printed[0] > 100, `hoists on paper: ${printed} px wide`);
+  await page.value(`document.querySelectorAll("#histories details").forEach((one) => { one.open = true; })`);
+  const twice = await page.value(`[...document.querySelectorAll("#histories details svg")].filter((one) => one.getClientRects().length > 0).length`);
+  expect(twice === 0, "hoists that were unfolded are printed twice");
+  await page.close();
+}
+
 async function testWithoutScripts(browser, address) {
   const page = await browser.open(address, { scripts: false });
   const { root } = await page.send("DOM.getDocument", { depth: 0 });
@@ -151,6 +166,7 @@ try {
   const address = `file://${join(folder, "whole", "report.html")}`;
   await testPrint(browser, address);
   await testPaperPlot(browser, address);
+  await testHoists(browser, address);
   await testWithoutScripts(browser, address);
   await testNarrow(browser, address);
   await testReading(browser, address, readFileSync(join(process.argv[3], "axe.min.js"), "utf8"));

@@ -34,6 +34,8 @@ void write_history(ResultsWriter& writer, std::string_view history, double step)
       tension[static_cast<std::size_t>(std::lround(43.21 / step))] = 987654.0;
     writer.write(join(history, "ropes", rope, "tension"), tension, {"N", "tension of " + rope});
   }
+  writer.write(join(history, "hoists", "H1", "tension"), std::vector<double>(count, 1e6),
+               {"N", "tension of H1"});
   writer.write_matrix(join(history, "bodies", "block", "pose"), pose, {"m, 1", "pose X_WB"});
   pose.leftCols(3).setZero();
   writer.write_matrix(join(history, "bodies", "crane", "pose"), pose, {"m, 1", "pose X_WB"});

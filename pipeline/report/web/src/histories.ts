@@ -383,6 +383,15 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
       const drawing = onPaper(data, curve, clock, false, sameSpan(curve) as [number, number]);
       return h("div", { class: "tile" }, tile, svgButton(`tension of ${curve.name}`, () => drawing), plotHost, h("div", { class: "on-paper" }, drawing));
     }));
+  /** Folded away on the screen; on paper, where nothing unfolds, as drawings of their own. */
+  const hoists = (): (HTMLElement | false)[] => {
+    const all = curves.filter((curve) => curve.kind === "hoist");
+    if (all.length === 0) return [];
+    const drawings = all.map((curve) => h("figure", {}, h("figcaption", {}, curve.name),
+      onPaper(data, curve, clock, false, sameSpan(curve) as [number, number])));
+    return [h("details", { class: "of-screen" }, h("summary", {}, "Hoists"), grid("hoist")),
+      h("div", { class: "on-paper hoists" }, h("h3", {}, "Hoists"), h("div", { class: "tiles" }, drawings))];
+  };
   return {
     id: "histories", title: "Rope tensions", content: [
       h("div", { class: "plot-head" }, heading, legend(), svgButton("tension", () => onPaper(data, shown, clock, true))),
@@ -391,7 +400,7 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
         + "The small plots all span the same number of kN; choose one by its name."),
       measuredText(data) && h("p", {}, measuredText(data)),
       grid("rope"),
-      tiles.some((one) => one.curve.kind === "hoist") && h("details", {}, h("summary", {}, "Hoists"), grid("hoist"))],
+      ...hoists()],
   };
 }
 
