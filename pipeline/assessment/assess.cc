@@ -311,14 +311,14 @@ Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* u
                         block.history ? block.history->dynamic_state.governing
                                       : block.assessment.simultaneous.dynamic_state.load));
   for (Check& check :
-       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr)) {
-    note_band(checked_stress_band(block), check);
+       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr))
     assessment.checks.push_back(std::move(check));
-  }
   for (Check& check : check_buckling(the_case, block.buckling))
     assessment.checks.push_back(std::move(check));
   for (Check& check : check_padeyes(the_case, block.padeyes))
     assessment.checks.push_back(std::move(check));
+  for (Check& check : assessment.checks)
+    if (check.is_by_mesh) note_band(checked_stress_band(block), check);
   check_by_standard(assessment);
   assessment.total_s = total.lap();
   return assessment;
