@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/build/history_memory.h"
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/measure_checks.h"
 #include "pipeline/checks/standard_checks.h"
@@ -167,6 +168,7 @@ LiftRun find_motion(const LiftCase& the_case, BuiltLift model, const Progress& p
                     UnfinishedRun* unfinished) {
   if (unfinished)
     if (const auto kept = unfinished->find(motion_part)) return motion_of(*kept, std::move(model));
+  require_memory(the_case, model);
   LiftRun run = run_lift(the_case, std::move(model), progress);
   if (unfinished && unfinished->is_due()) unfinished->keep(motion_part, bytes_of_motion(run));
   return run;
