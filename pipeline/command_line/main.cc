@@ -174,6 +174,7 @@ void add_sweep(CLI::App& app, int& code) {
                    "lifts side by side (as many as the machine has processors if not given)")
       ->check(CLI::Range(1, 4096));
   command->add_flag("--worker", options->is_worker)->group("");
+  command->add_option("--blocks", options->blocks)->group("");
   command->add_option("--whole", options->whole)->group("");
   add_limits(*command);
   add_allow_outside(*command);

@@ -46,10 +46,11 @@ fs::path folder_of(const SweepOptions& options, const StudyFile& study) {
 /// Computes members until none is left.
 void work(const StudyFile& study, const fs::path& folder) {
   const MemberStore store(folder, identity_of_study(study));
+  StudyBlocks blocks(study, folder / "members");
   const Eigen::MatrixXd design = make_design(study);
   const auto count = static_cast<int>(design.rows());
   for (int number = store.take_next(count); number >= 0; number = store.take_next(count)) {
-    const Member member = run_member(study, design.row(number), number);
+    const Member member = run_member(study, design.row(number), number, blocks);
     const HeldSignals until_it_is_written;
     store.write(member);
   }
@@ -92,13 +93,32 @@ std::vector<std::string> worker_arguments(const SweepOptions& options, const fs:
           "--worker",  "--threads", "1",           "--quiet"};
 }
 
+int workers_of(const SweepOptions& options) {
+  return options.workers > 0 ? options.workers
+                             : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Finds the unit stresses of the members' blocks, which take much memory: processes of their own
+/// give it back.
+void prepare_blocks(const SweepOptions& options, const fs::path& folder) {
+  ProgressBar bar("unit stresses of the block");
+  std::vector<pid_t> processes;
+  for (int process = 0; process < workers_of(options); ++process) {
+    std::vector<std::string> arguments = worker_arguments(options, folder);
+    for (std::string argument : {std::string("--workers"), std::to_string(workers_of(options)),
+                                 std::string("--blocks"), std::to_string(process)})
+      arguments.push_back(std::move(argument));
+    processes.push_back(start(std::move(arguments)));
+  }
+  if (!wait_for(std::move(processes), [&] { bar.show(0); }))
+    throw std::runtime_error("the stress of the case as it is written could not be found");
+}
+
 /// Runs what is missing. A worker that is lost leaves its member to the next round.
 void run_members(const SweepOptions& options, const fs::path& folder, const MemberStore& store,
                  int count) {
   constexpr int most_rounds = 3;
-  const int asked = options.workers > 0
-                        ? options.workers
-                        : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int asked = workers_of(options);
   ProgressBar bar("members");
   for (int round = 0; round < most_rounds; ++round) {
     const int missing = count - store.count_done(count);
@@ -119,15 +139,15 @@ void run_members(const SweepOptions& options, const fs::path& folder, const Memb
 std::vector<Member> read_members(const MemberStore& store, int count) {
   std::vector<Member> members;
   for (int number = 0; number < count; ++number)
-    members.push_back(store.read(number).value_or(Member{number, "is missing", {}}));
+    members.push_back(store.read(number).value_or(Member{number, "is missing", {}, {}}));
   return members;
 }
 
-/// The member with the largest of the first leading figure, with a report of its own.
+/// The member with the worst of the first leading figure, with a report of its own.
 std::optional<int> write_worst(const SweepOptions& options, const fs::path& folder,
                                const StudyResults& results) {
   if (results.leading.empty()) return std::nullopt;
-  const int worst = results.spreads[results.leading.front()].member_of_largest;
+  const int worst = results.spreads[results.leading.front()].member_of_worst();
   std::vector<std::string> arguments = worker_arguments(options, folder);
   arguments.push_back("--whole");
   arguments.push_back(std::to_string(worst));
@@ -145,7 +165,7 @@ void print_study(const StudyResults& results, const fs::path& folder, std::optio
   fmt::print("{}\n\n{}", study.title.empty() ? study.name : study.title, study_text(results));
   fmt::print("\n{} members, {} failed\n", results.members.size(), results.failed());
   if (worst)
-    print_wrapped(fmt::format("member {} has the largest {}: {}", *worst,
+    print_wrapped(fmt::format("member {} has the worst {}: {}", *worst,
                               results.spreads[results.leading.front()].path,
                               (folder / "worst" / "report.html").string()));
   fmt::print("page: {}\n", (folder / "study.html").string());
@@ -158,15 +178,25 @@ int sweep(const SweepOptions& options) {
   const fs::path folder = folder_of(options, study);
   if (options.whole) {
     const Eigen::MatrixXd design = make_design(study);
+    StudyBlocks blocks(study, folder / "members");
     const Member member =
-        run_member(study, design.row(*options.whole), *options.whole, folder / "worst");
+        run_member(study, design.row(*options.whole), *options.whole, blocks, folder / "worst");
     return member.failure.empty() ? exit_code::done : exit_code::run_failed;
+  }
+  if (options.blocks) {
+    StudyBlocks(study, folder / "members")
+        .prepare(make_design(study), *options.blocks, std::max(1, options.workers));
+    return exit_code::done;
   }
   if (options.is_worker) {
     work(study, folder);
     return exit_code::done;
   }
   require_writable(folder);
+  if (study.limits && study.limits->scatter)
+    read_sea_states(study.beside(study.limits->scatter->value), false);
+  if (study.limits && study.limits->forecast)
+    read_sea_states(study.beside(study.limits->forecast->value), true);
   Eigen::MatrixXd design = make_design(study);
   {
     ProgressBar bar("reading members");
@@ -174,6 +204,8 @@ int sweep(const SweepOptions& options) {
   }
   const MemberStore store(folder, identity_of_study(study));
   const auto count = static_cast<int>(design.rows());
+  if (study.run == StudyRun::stress && store.count_done(count) < count)
+    prepare_blocks(options, folder);
   run_members(options, folder, store, count);
   const StudyResults results =
       evaluate_study(std::move(study), std::move(design), read_members(store, count));
@@ -186,7 +218,7 @@ int sweep(const SweepOptions& options) {
   if (worst || results.leading.empty()) return exit_code::done;
   throw std::runtime_error(fmt::format(
       "the report of member {}, the worst, could not be written; all else of the study is",
-      results.spreads[results.leading.front()].member_of_largest));
+      results.spreads[results.leading.front()].member_of_worst()));
 }
 
 }  // namespace blocklift::pipeline

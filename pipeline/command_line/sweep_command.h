@@ -11,6 +11,7 @@ struct SweepOptions {
   std::optional<std::string> output;  ///< folder of the results
   int workers = 0;                    ///< processes side by side; 0: as many as the machine has
   bool is_worker = false;             ///< computes members until none is left
+  std::optional<int> blocks;          ///< prepares every so-many-th block of the members, from here
   std::optional<int> whole;           ///< a member whose whole results are written
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -183,6 +184,26 @@ std::vector<SummaryFigure> list_figures(const Json& summary) {
                    fmt::format("{}, {}", name, by), "", 1, utilisation});
   add_periods(summary, figures);
   return figures.take();
+}
+
+bool is_worse_when_smaller(const Json& summary, std::string_view path) {
+  const std::size_t last_dot = path.rfind('.');
+  if (last_dot == std::string_view::npos) return false;
+  const Json* row = find_figure(summary, path.substr(0, last_dot));
+  if (!row || !row->is_object()) return false;
+  if (const auto extreme = row->find("extreme"); extreme != row->end())
+    return *extreme == "smallest";
+  if (path.substr(last_dot + 1) != "demand") return false;
+  const auto number = [&](const char* key) {
+    const auto found = row->find(key);
+    return found != row->end() && found->is_number() ? found->get<double>()
+                                                     : std::numeric_limits<double>::quiet_NaN();
+  };
+  // A check passes on one side of its limit: that side tells what it asks for.
+  const auto pass = row->find("pass");
+  if (pass == row->end() || !pass->is_boolean()) return false;
+  return pass->get<bool>() ? number("demand") > number("limit")
+                           : number("demand") < number("limit");
 }
 
 std::string_view unit_of_path(std::string_view path) {

@@ -36,6 +36,10 @@ const nlohmann::ordered_json* find_figure(const nlohmann::ordered_json& summary,
 /// periods. Figures that are null are left out.
 std::vector<SummaryFigure> list_figures(const nlohmann::ordered_json& summary);
 
+/// Whether a figure is the worse the smaller it is: a clearance, a margin, a righting height, or any
+/// other measure whose smallest value counts, and what a check asks to be at least its limit.
+bool is_worse_when_smaller(const nlohmann::ordered_json& summary, std::string_view path);
+
 /// Unit that a figure has in the summary, from the end of its last key: "N", "Pa", "m", "percent",
 /// "s", ...; empty for a pure number.
 std::string_view unit_of_path(std::string_view path);

@@ -34,8 +34,8 @@ Format<ChartLine> chart_line_format() {
   return table.format();
 }
 
-Format<DeratingLine> derating_line_format(Dimension dimension, const char* what) {
-  Table<DeratingLine> table("line of a derating table", "What is left of the load charts.");
+Format<DeratingLine> derating_line_format(const char* name, Dimension dimension, const char* what) {
+  Table<DeratingLine> table(name, "What is left of the load charts.");
   table.required("up_to", &DeratingLine::up_to, quantity(dimension, Range::positive()), what)
       .required("factor", &DeratingLine::factor, number(Range::between(0, 1)),
                 "of the chart's capacity, zero where no load may be lifted");
@@ -51,13 +51,13 @@ Format<ChartDerating> derating_format() {
       .required("source", &ChartDerating::source, text(),
                 "where the factors come from; shown beside the check")
       .optional("wind", &ChartDerating::wind,
-                located(list_of(derating_line_format(Dimension::speed,
+                located(list_of(derating_line_format("line of a derating by wind", Dimension::speed,
                                                      "mean speed at a height of 10 m, as a case "
                                                      "gives it"),
                                 1)),
                 "by the speed of the wind, without gusts")
       .optional("sea", &ChartDerating::sea,
-                located(list_of(derating_line_format(Dimension::length,
+                located(list_of(derating_line_format("line of a derating by sea", Dimension::length,
                                                      "significant height of the waves, 2.83 times "
                                                      "the amplitude of a regular one"),
                                 1)),

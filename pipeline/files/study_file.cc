@@ -1,5 +1,6 @@
 #include "pipeline/files/study_file.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -111,12 +112,79 @@ Format<StudyVariable> variable_format() {
   return table.format();
 }
 
+Format<QuantityLimit> quantity_limit_format() {
+  Table<QuantityLimit> table("limited figure", "A figure that a sea may bring to a value.");
+  table
+      .required("figure", &QuantityLimit::figure, located(text()),
+                "of summary.json, ropes.H1.max_dynamic_tension_N or, with run: assess, the "
+                "utilisation of a check")
+      .required("at", &QuantityLimit::at, located(measure()),
+                "its limit: the largest that is allowed, or the smallest of a clearance or margin");
+  return table.format();
+}
+
+Format<SeaLimits> sea_limits_format() {
+  Table<SeaLimits> table("sea limits",
+                         "The significant height at which figures reach their limits, over peak "
+                         "period and heading. Other variables of the study, seeds say, are "
+                         "repetitions, of which the worst counts.");
+  table
+      .required("height", &SeaLimits::height, located(text()),
+                "name of the variable that is the significant height")
+      .required("period", &SeaLimits::period, located(text()),
+                "name of the variable that is the peak period")
+      .optional("heading", &SeaLimits::heading, located(text()),
+                "name of the variable that is the heading")
+      .required("of", &SeaLimits::quantities, list_of(quantity_limit_format(), 1),
+                "figures that are limited; the least height counts")
+      .by_default("alpha", &SeaLimits::alpha, number(Range::between(0.01, 1)), "1",
+                  "share of the limiting height that may be forecast (the alpha factor of "
+                  "DNV-ST-N001)")
+      .optional("scatter", &SeaLimits::scatter, located(text()),
+                "beside this file: CSV with the columns significant_height_m, peak_period_s, share "
+                "and, if headings vary, heading_deg")
+      .optional("forecast", &SeaLimits::forecast, located(text()),
+                "likewise with time_h in place of share")
+      .place(&SeaLimits::place);
+  return table.format();
+}
+
+/// The variable that a limit names, if it can be that.
+void check_named_variable(const StudyFile& study, const std::optional<Located<std::string>>& name,
+                          const Exponents& exponents, Reading& reading) {
+  if (!name) return;
+  for (const StudyVariable& variable : study.variables) {
+    if (variable.name.value != name->value) continue;
+    for (const Located<Measure>& value : variable.values)
+      if (!(value.value.exponents == exponents))
+        reading.error(value.mark, fmt::format("{} is due, for {} of the limits", text_of(exponents),
+                                              name->value));
+    return;
+  }
+  reading.error(name->mark, fmt::format("no variable is called {}", name->value));
+}
+
+void check_limits(const StudyFile& study, Reading& reading) {
+  if (!study.limits) return;
+  const SeaLimits& limits = *study.limits;
+  if (study.design != StudyDesign::grid) reading.error(limits.place, "limits need design: grid");
+  check_named_variable(study, limits.height, {1, 0, 0, 0}, reading);
+  check_named_variable(study, limits.period, {0, 0, 1, 0}, reading);
+  check_named_variable(study, limits.heading, {0, 0, 0, 1}, reading);
+  for (const QuantityLimit& quantity : limits.quantities) {
+    const auto is_it = [&](const auto& path) { return path.value == quantity.figure.value; };
+    if (!study.figures.empty() && std::none_of(study.figures.begin(), study.figures.end(), is_it))
+      reading.error(quantity.figure.mark, "the figure is limited, but not among figures");
+  }
+}
+
 void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   const bool is_grid = study.design == StudyDesign::grid;
   if (is_grid && study.members > 0)
     reading.error(mark, "a grid has as many members as its values give; members goes with samples");
   if (!is_grid && study.members <= 0) reading.error(mark, "the number of members is missing");
   if (study.variables.empty()) reading.error(mark, "nothing varies");
+  check_limits(study, reading);
   double size = 1;
   for (const StudyVariable& variable : study.variables) {
     if (is_grid && variable.law) reading.error(variable.place, "a grid takes values and no spread");
@@ -139,8 +207,12 @@ Format<StudyFile> study_file_format() {
                 "file or folder of the lift case, from this file's folder or the working folder")
       .by_default(
           "run", &StudyFile::run,
-          choice<StudyRun>({{"simulate", StudyRun::simulate}, {"assess", StudyRun::assess}}),
-          "simulate", "motion alone, or stress and checks as well")
+          choice<StudyRun>({{"simulate", StudyRun::simulate},
+                            {"stress", StudyRun::stress},
+                            {"assess", StudyRun::assess}}),
+          "simulate",
+          "motion alone; with the block's largest checked stress, on one mesh for all members; or "
+          "all of an assessment, each on a mesh of its own")
       .by_default("design", &StudyFile::design,
                   choice<StudyDesign>({{"random", StudyDesign::random},
                                        {"latin hypercube", StudyDesign::latin_hypercube},
@@ -159,6 +231,8 @@ Format<StudyFile> study_file_format() {
       .optional("figures", &StudyFile::figures, list_of(located(text()), 1),
                 "figures of summary.json that are looked at, ropes.R1.max_dynamic_tension_N; the "
                 "usual ones of a comparison if left out")
+      .optional("limits", &StudyFile::limits, sea_limits_format(),
+                "which sea states the lift bears; of a grid")
       .rule(check_study)
       .place(&StudyFile::place);
   return table.format();

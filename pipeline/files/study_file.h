@@ -31,7 +31,22 @@ struct StudyVariable {
 enum class StudyDesign { random, latin_hypercube, low_discrepancy, grid, sensitivity };
 
 /// What is computed of each member.
-enum class StudyRun { simulate, assess };
+enum class StudyRun { simulate, stress, assess };
+
+/// A figure that a limiting sea may bring to a value, and no farther.
+struct QuantityLimit {
+  Located<std::string> figure;  ///< path of summary.json
+  Located<Measure> at;          ///< in the summary's unit
+};
+
+/// Which sea states a lift bears: names of variables of the study, and what is limited.
+struct SeaLimits {
+  std::optional<Located<std::string>> height, period, heading;  ///< heading: none varies
+  std::vector<QuantityLimit> quantities;
+  double alpha = 1;  ///< of the limit, that a forecast height may reach
+  std::optional<Located<std::string>> scatter, forecast;  ///< files beside the study
+  Mark place;
+};
 
 /// A study: many lifts of one case whose keys vary.
 struct StudyFile {
@@ -44,12 +59,15 @@ struct StudyFile {
   int seed = 1;
   std::vector<StudyVariable> variables;
   std::vector<Located<std::string>> figures;  ///< paths of summary.json; empty: the usual ones
+  std::optional<SeaLimits> limits;
   std::string yaml;
   std::filesystem::path file;
   Mark place;
 
   /// The case's file or folder: beside the study, or in the working folder.
   std::filesystem::path case_path() const;
+  /// A file that the study names, beside it.
+  std::filesystem::path beside(const std::string& name) const { return file.parent_path() / name; }
 };
 
 Format<StudyFile> study_file_format();

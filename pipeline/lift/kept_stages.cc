@@ -191,6 +191,19 @@ LiftRun motion_of(const std::string& bytes, BuiltLift model) {
   return run;
 }
 
+std::string bytes_of_stress_basis(const structure::StressBasis& basis) {
+  KeptValuesWriter values;
+  values(basis.squares, basis.components);
+  return values.take();
+}
+
+structure::StressBasis stress_basis_of(const std::string& bytes) {
+  KeptValuesReader values(bytes);
+  structure::StressBasis basis;
+  values(basis.squares, basis.components);
+  return basis;
+}
+
 std::string bytes_of_refinement(const KeptRefinement& refinement) { return bytes_of(refinement); }
 
 KeptRefinement refinement_of(const std::string& bytes) { return value_of<KeptRefinement>(bytes); }

@@ -4,6 +4,7 @@
 
 #include "pipeline/lift/lift_run.h"
 #include "structure/response/accuracy.h"
+#include "structure/response/stress_basis.h"
 
 namespace blocklift::pipeline {
 
@@ -22,6 +23,9 @@ LoadFlexibility flexibility_of(const std::string& bytes);
 std::string bytes_of_motion(const LiftRun& run);
 /// @param model of the case that the motion was of.
 LiftRun motion_of(const std::string& bytes, BuiltLift model);
+
+std::string bytes_of_stress_basis(const structure::StressBasis& basis);
+structure::StressBasis stress_basis_of(const std::string& bytes);
 
 std::string bytes_of_refinement(const KeptRefinement& refinement);
 KeptRefinement refinement_of(const std::string& bytes);

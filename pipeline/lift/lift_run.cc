@@ -35,7 +35,8 @@ void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorksp
 
 }  // namespace
 
-LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress) {
+LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
+                 NaturalModesOfRun modes) {
   const auto report = [&](const char* stage) {
     return [&progress, stage](double fraction, double time) {
       progress(stage, fraction, fmt::format("t = {:.0f} s", time));
@@ -57,8 +58,10 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
                                righting_height[sample] = dynamics::calc_righting_height(
                                    at_rest, time, w, model.load, tangent);
                              });
-  std::vector<NaturalModes> natural_modes =
-      find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
+  std::vector<NaturalModes> natural_modes;
+  if (modes == NaturalModesOfRun::found)
+    natural_modes =
+        find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
   const double static_s = watch.lap();
 
   dynamics::IntegrationSettings settings;

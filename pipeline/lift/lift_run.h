@@ -38,10 +38,14 @@ struct LiftRun {
   double simulated_s() const { return model.system.operation().duration(); }
 };
 
+/// Whether a run finds natural modes, which cost as much as the sweep at rest.
+enum class NaturalModesOfRun { found, left_out };
+
 /// Sweeps the operation at rest, finds the natural modes on the way, then integrates it in time
 /// from the first equilibrium.
 /// @throws dynamics::SimulationError when an equilibrium or the integration fails.
-LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress);
+LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
+                 NaturalModesOfRun modes = NaturalModesOfRun::found);
 
 /// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the
 /// rest. Where stages end by a condition, the lift is run up to each of them first, so that all of

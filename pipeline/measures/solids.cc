@@ -88,11 +88,11 @@ void add_ruled(const std::vector<EdgeModel>& edges, std::vector<Triangle>& trian
     add_quad({at(0, i), at(0, i + 1), at(1, i + 1), at(1, i)}, triangles);
 }
 
-/// A bar as a prism about its centroid, as wide and high as the points of its section reach; a
-/// square of its area where those are not known.
+/// A bar as a prism about its centroid, as wide and high as the points of its middle's section
+/// reach; a square of its area where those are not known.
 void add_bar(const structure::Mesh& mesh, const structure::Beam& beam,
              std::vector<Triangle>& triangles) {
-  const structure::BeamSection& section = mesh.section_of(beam);
+  const structure::BeamSection section = structure::section_at(mesh, beam, 0.5);
   std::array<Vector3, 2> ends;
   for (std::size_t i = 0; i < 2; ++i)
     ends[i] = mesh.vertices[static_cast<std::size_t>(beam.vertices[i])] + beam.offset[i];

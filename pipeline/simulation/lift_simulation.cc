@@ -68,10 +68,18 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
     const structure::OneBlasThread whatever_the_threads;
     flexibility = make_flexibility(structure::UnitResponses(*block), lift_case.dynamics);
   }
-  BuiltLift model = prepare_lift(lift_case, load_mass(block->mass_properties()), progress,
-                                 flexibility ? &*flexibility : nullptr);
-  LiftRun run = run_lift(lift_case, std::move(model), progress);
-  return {std::move(lift_case), block->mesh().lifting_points, std::move(run)};
+  return simulate_lift(
+      std::move(lift_case),
+      {load_mass(block->mass_properties()), block->mesh().lifting_points, std::move(flexibility)},
+      progress);
+}
+
+LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
+                             NaturalModesOfRun modes) {
+  BuiltLift model = prepare_lift(lift_case, block.mass, progress,
+                                 block.flexibility ? &*block.flexibility : nullptr);
+  LiftRun run = run_lift(lift_case, std::move(model), progress, modes);
+  return {std::move(lift_case), std::move(block.lugs), std::move(run)};
 }
 
 void write_lift_simulation(const LiftSimulation& simulation, const std::filesystem::path& folder,

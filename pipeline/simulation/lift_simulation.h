@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "pipeline/build/build_lift.h"
 #include "pipeline/lift/lift_run.h"
 #include "structure/mesh/mesh.h"
 
@@ -19,6 +21,17 @@ struct LiftSimulation {
 /// `assess`.
 /// @throws InputError if the block cannot be meshed, dynamics::SimulationError as the stages do.
 LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress);
+
+/// What the motion of a lift takes from its block.
+struct KnownBlock {
+  LoadMass mass;
+  std::vector<structure::LiftingPoint> lugs;
+  std::optional<LoadFlexibility> flexibility = {};  ///< none: it is rigid
+};
+
+/// The same of a case whose block is known already.
+LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
+                             NaturalModesOfRun modes = NaturalModesOfRun::found);
 
 /// Writes results.h5, summary.json and report.html into a folder (made if missing), with the parts
 /// that `assess` writes of the motion, and, if asked, results.csv: time, tension of each rope,

@@ -36,9 +36,10 @@ constexpr const char* identity_file = "identity";
 constexpr const char* queue_file = "next";
 
 std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd& values,
-                                  Diagnostics& diagnostics) {
+                                  const std::vector<int>* only, Diagnostics& diagnostics) {
   std::vector<KeyChange> changes;
   for (std::size_t v = 0; v < study.variables.size(); ++v) {
+    if (only && std::find(only->begin(), only->end(), static_cast<int>(v)) == only->end()) continue;
     const StudyVariable& variable = study.variables[v];
     const std::string value = value_text(variable, values[static_cast<Eigen::Index>(v)]);
     for (const Located<std::string>& key : variable.keys)
@@ -73,17 +74,61 @@ std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
   return figures;
 }
 
-Json summary_of(const StudyFile& study, LiftCase lift_case, const std::optional<fs::path>& full) {
+/// Takes the figures of a summary that are looked at into a member.
+void take_figures(const StudyFile& study, const Json& summary, Member& member) {
+  member.figures = figures_of(study, summary);
+  for (const auto& [path, value] : member.figures)
+    if (is_worse_when_smaller(summary, path)) member.worse_when_smaller.push_back(path);
+}
+
+/// Measures cost as much as a third of a motion, natural modes a tenth: they are found where a
+/// figure is one of them.
+bool asks_for(const StudyFile& study, const char* beginning) {
+  return std::any_of(study.figures.begin(), study.figures.end(),
+                     [&](const auto& path) { return path.value.starts_with(beginning); });
+}
+
+/// The part of a summary's structure that a study of stress has, at an assessment's places.
+Json stress_json(const LargestChecked& largest) {
+  const auto state = [](double stress, double time, const structure::Vector3& place) {
+    return Json{{"checked_von_mises_Pa", stress},
+                {"time_s", time},
+                {"checked_point_m", {place.x(), place.y(), place.z()}}};
+  };
+  return {{"history",
+           {{"static", state(largest.at_rest, largest.time_at_rest, largest.place_at_rest)},
+            {"dynamic", state(largest.in_motion, largest.time_in_motion, largest.place_in_motion)},
+            {"stress_increase_percent", largest.increase_percent()}}}};
+}
+
+Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBlocks& blocks,
+                const std::optional<fs::path>& full) {
   const Progress nobody_watches = [](const std::string&, double, const std::string&) {};
-  if (study.run == StudyRun::simulate) {
-    const LiftSimulation simulation = simulate_lift(std::move(lift_case), nobody_watches);
-    if (full) write_lift_simulation(simulation, *full, false);
-    return make_simulation_summary(simulation.lift_case, simulation.run,
-                                   find_measures(simulation.lift_case, simulation.run));
+  LiftCase lift_case = member_case(study, values);
+  if (study.run == StudyRun::assess || (full && study.run == StudyRun::stress)) {
+    const Assessment assessment = assess(std::move(lift_case), nobody_watches);
+    if (full) write_results(assessment, *full);
+    return make_summary(assessment);
   }
-  const Assessment assessment = assess(std::move(lift_case), nobody_watches);
-  if (full) write_results(assessment, *full);
-  return make_summary(assessment);
+  // Without a list of figures natural periods are among the usual ones.
+  const bool needs_modes = full || study.figures.empty() || asks_for(study, "natural_periods");
+  const NaturalModesOfRun modes =
+      needs_modes ? NaturalModesOfRun::found : NaturalModesOfRun::left_out;
+  const bool has_block = lift_case.has_structure();
+  std::optional<KnownBlock> block;
+  if (has_block) block = blocks.of(lift_case, values);
+  const LiftSimulation simulation =
+      block ? simulate_lift(std::move(lift_case), std::move(*block), nobody_watches, modes)
+            : simulate_lift(std::move(lift_case), nobody_watches);
+  if (full) write_lift_simulation(simulation, *full, false);
+  const std::vector<LiftMeasure> measures =
+      asks_for(study, "measures.") ? find_measures(simulation.lift_case, simulation.run)
+                                   : std::vector<LiftMeasure>{};
+  Json summary = make_simulation_summary(simulation.lift_case, simulation.run, measures);
+  if (study.run == StudyRun::stress)
+    summary["structure"] =
+        stress_json(blocks.find_stress(simulation.lift_case, simulation.run, values));
+  return summary;
 }
 
 /// A file that one process at a time may hold.
@@ -113,9 +158,10 @@ class LockedFile {
 
 }  // namespace
 
-LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values) {
+LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
+                     const std::vector<int>* only) {
   Diagnostics diagnostics;
-  std::vector<KeyChange> changes = changes_of(study, values, diagnostics);
+  std::vector<KeyChange> changes = changes_of(study, values, only, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   ModelLibrary library = ModelLibrary::of_installation();
   library.set_changes(std::move(changes));
@@ -132,18 +178,24 @@ void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
   for (Eigen::Index member = 0; member < design.rows(); ++member) {
     progress(static_cast<double>(member) / static_cast<double>(design.rows()));
     const LiftCase lift_case = member_case(study, design.row(member));
-    if (!lift_case.load_table) continue;
     Diagnostics diagnostics;
-    diagnostics.error(study.case_name.mark, "the case is a load table: it has nothing that moves");
-    throw InputError(diagnostics);
+    if (lift_case.load_table)
+      diagnostics.error(study.case_name.mark,
+                        "the case is a load table: it has nothing that moves");
+    else if (study.run == StudyRun::stress && !lift_case.has_structure())
+      diagnostics.error(study.case_name.mark, "the case lifts a vessel: its stress is not known");
+    else if (study.run == StudyRun::stress && lift_case.load.vessel)
+      diagnostics.error(study.case_name.mark,
+                        "water presses on the case's block: its stress needs run: assess");
+    if (diagnostics.has_errors()) throw InputError(diagnostics);
   }
 }
 
 Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int number,
-                  const std::optional<fs::path>& full) {
-  Member member{number, {}, {}};
+                  StudyBlocks& blocks, const std::optional<fs::path>& full) {
+  Member member{number, {}, {}, {}};
   try {
-    member.figures = figures_of(study, summary_of(study, member_case(study, values), full));
+    take_figures(study, summary_of(study, values, blocks, full), member);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -188,6 +240,7 @@ void MemberStore::write(const Member& member) const {
   Json figures = Json::object();
   for (const auto& [path, value] : member.figures) figures[path] = value;
   Json json{{"member", member.number}, {"figures", std::move(figures)}};
+  if (!member.worse_when_smaller.empty()) json["worse_when_smaller"] = member.worse_when_smaller;
   if (!member.failure.empty()) json["failure"] = member.failure;
   write_file(file_of(member.number), json.dump(1));
 }
@@ -196,7 +249,8 @@ std::optional<Member> MemberStore::read(int number) const {
   std::error_code ignored;
   if (!fs::exists(file_of(number), ignored)) return std::nullopt;
   const Json json = Json::parse(read_file(file_of(number)));
-  Member member{number, json.value("failure", std::string()), {}};
+  Member member{number, json.value("failure", std::string()), {}, {}};
+  member.worse_when_smaller = json.value("worse_when_smaller", std::vector<std::string>());
   for (const auto& [path, value] : json.at("figures").items())
     if (value.is_number()) member.figures.emplace_back(path, value.get<double>());
   return member;

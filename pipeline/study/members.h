@@ -11,12 +11,15 @@
 
 #include "pipeline/files/lift_case.h"
 #include "pipeline/files/study_file.h"
+#include "pipeline/study/study_blocks.h"
 
 namespace blocklift::pipeline {
 
 /// The case of a member: that of the study with the variables' values.
 /// @throws InputError with what is wrong, and the values by which it is.
-LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values);
+/// @param only the places of the variables whose values are taken; null: all are.
+LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
+                     const std::vector<int>* only = nullptr);
 
 /// Reads the cases of all members, so that nothing runs if one of them is impossible.
 /// @throws InputError as member_case, of the first that is.
@@ -28,11 +31,15 @@ struct Member {
   int number = 0;
   std::string failure;                                  ///< empty: it ran
   std::vector<std::pair<std::string, double>> figures;  ///< path in summary.json, value there
+  std::vector<std::string> worse_when_smaller;          ///< those of the paths that are
 };
 
 /// Computes a member: its motion, or stress and checks as well. What fails is told in it.
-/// @param full if given, all results are written into this folder, too.
+/// @param blocks of the study, which members of one process hand to one another.
+/// @param full if given, all results are written into this folder, too; of stress those of an
+/// assessment.
 Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int number,
+                  StudyBlocks& blocks,
                   const std::optional<std::filesystem::path>& full = std::nullopt);
 
 /// The folder of a study's results while it runs: what is done is on the disk, a file a member.

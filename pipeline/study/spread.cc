@@ -81,6 +81,19 @@ std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
   return fits;
 }
 
+/// The laws of the largest, of the values' negatives.
+std::vector<ExtremeFit> fit_minima(std::vector<double> values) {
+  for (double& value : values) value = -value;
+  std::vector<ExtremeFit> fits = fit_extremes(std::move(values));
+  for (ExtremeFit& fit : fits) {
+    fit.law = fit.law == "Gumbel" ? "Gumbel of the smallest"
+                                  : "generalised Pareto below the 10 % quantile";
+    fit.value = -fit.value;
+    fit.low = -std::exchange(fit.high, -fit.low);
+  }
+  return fits;
+}
+
 Eigen::VectorXd ranks_of(const Eigen::VectorXd& values) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
@@ -106,6 +119,14 @@ double correlation(Eigen::VectorXd a, Eigen::VectorXd b) {
 
 }  // namespace
 
+const Quantile& Spread::quantile_of_better(double share) const {
+  const double wanted = worse_when_smaller ? 1 - share : share;
+  return *std::min_element(quantiles.begin(), quantiles.end(),
+                           [&](const Quantile& a, const Quantile& b) {
+                             return std::abs(a.share - wanted) < std::abs(b.share - wanted);
+                           });
+}
+
 Quantile find_quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());
@@ -127,8 +148,10 @@ Quantile find_quantile(std::vector<double> values, double share) {
 }
 
 Spread find_spread(std::string path, const std::vector<double>& values,
-                   const std::vector<int>& members, const Eigen::MatrixXd& design) {
+                   const std::vector<int>& members, const Eigen::MatrixXd& design,
+                   bool worse_when_smaller) {
   Spread spread;
+  spread.worse_when_smaller = worse_when_smaller;
   spread.path = std::move(path);
   const Eigen::Map<const Eigen::VectorXd> all(values.data(),
                                               static_cast<Eigen::Index>(values.size()));
@@ -141,9 +164,9 @@ Spread find_spread(std::string path, const std::vector<double>& values,
   spread.largest = all.maxCoeff(&largest);
   spread.member_of_smallest = members[static_cast<std::size_t>(smallest)];
   spread.member_of_largest = members[static_cast<std::size_t>(largest)];
-  for (const double share : {0.05, 0.5, 0.95, 0.99})
+  for (const double share : {0.01, 0.05, 0.5, 0.95, 0.99})
     spread.quantiles.push_back(find_quantile(values, share));
-  spread.extremes = fit_extremes(values);
+  spread.extremes = worse_when_smaller ? fit_minima(values) : fit_extremes(values);
   const Eigen::VectorXd ranks = ranks_of(all);
   spread.rank_correlation.resize(design.cols());
   for (Eigen::Index v = 0; v < design.cols(); ++v) {

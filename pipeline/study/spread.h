@@ -16,8 +16,8 @@ struct Quantile {
 
 /// A law of extremes that was fitted to a sample.
 struct ExtremeFit {
-  std::string law;                      ///< "Gumbel", "generalised Pareto above the 90 % quantile"
-  double share = 0.999;                 ///< of the figures below the value
+  std::string law;       ///< "Gumbel", "generalised Pareto above the 90 % quantile"
+  double share = 0.999;  ///< of the figures on the better side of the value: below, mostly
   double value = 0, low = 0, high = 0;  ///< with the interval of 95 % by the parametric bootstrap
   double p_value = 0;  ///< Kolmogorov and Smirnov's: below 0.05 the law does not fit
 };
@@ -25,12 +25,20 @@ struct ExtremeFit {
 /// What a figure's values over all members say.
 struct Spread {
   std::string path;
+  bool worse_when_smaller = false;  ///< a clearance, a margin: its extremes are at the low end
   double mean = 0, deviation = 0;
   double smallest = 0, largest = 0;
   int member_of_smallest = 0, member_of_largest = 0;
-  std::vector<Quantile> quantiles;
+  std::vector<Quantile> quantiles;   ///< 1 %, 5 %, 50 %, 95 % and 99 %
   std::vector<ExtremeFit> extremes;  ///< none of fewer than 30 values, or of values all alike
   Eigen::VectorXd rank_correlation;  ///< with each variable (Spearman)
+
+  double worst() const { return worse_when_smaller ? smallest : largest; }
+  int member_of_worst() const {
+    return worse_when_smaller ? member_of_smallest : member_of_largest;
+  }
+  /// That so many of the figures are better than: 0.95 is the 5 % quantile where small is bad.
+  const Quantile& quantile_of_better(double share) const;
 };
 
 /// Quantile of a sample with its interval by order statistics, which holds for any law (David and
@@ -39,6 +47,7 @@ Quantile find_quantile(std::vector<double> values, double share);
 
 /// @param values of the members. @param members their numbers. @param design a member a row.
 Spread find_spread(std::string path, const std::vector<double>& values,
-                   const std::vector<int>& members, const Eigen::MatrixXd& design);
+                   const std::vector<int>& members, const Eigen::MatrixXd& design,
+                   bool worse_when_smaller = false);
 
 }  // namespace blocklift::pipeline

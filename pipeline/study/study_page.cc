@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,28 +49,30 @@ std::string name_with_unit(const std::string& path) {
 std::string leading_table(const StudyResults& results) {
   std::string text =
       "<div class=\"scroll\"><table>\n" +
-      cells({"figure", "mean", "deviation", "median", "95 %", "99 %", "largest", "in member"},
-            "th");
+      cells({"figure", "mean", "deviation", "median", "95 %", "99 %", "worst", "in member"}, "th");
   for (const std::size_t i : results.leading) {
     const Spread& spread = results.spreads[i];
     const double scale = shown_figure(spread.path).scale;
-    const auto quantile = [&](std::size_t q) {
-      return with_interval(scale * spread.quantiles[q].value, scale * spread.quantiles[q].low,
-                           scale * spread.quantiles[q].high);
+    const auto quantile = [&](double share) {
+      const Quantile& one = spread.quantile_of_better(share);
+      return with_interval(scale * one.value, scale * one.low, scale * one.high);
     };
-    text +=
-        cells({name_with_unit(spread.path), format_figure(scale * spread.mean),
-               format_figure(scale * spread.deviation, 3), quantile(1), quantile(2), quantile(3),
-               format_figure(scale * spread.largest), std::to_string(spread.member_of_largest)},
-              "td");
+    text += cells(
+        {name_with_unit(spread.path), format_figure(scale * spread.mean),
+         format_figure(scale * spread.deviation, 3), quantile(0.5), quantile(0.95), quantile(0.99),
+         format_figure(scale * spread.worst()) + (spread.worse_when_smaller ? " (smallest)" : ""),
+         std::to_string(spread.member_of_worst())},
+        "td");
   }
   return text +
          "</table></div>\n<p class=\"note\">In brackets the intervals that hold the "
          "quantiles of all such lifts at 95 %, by order statistics; \"?\": the sample is "
-         "too small for that end.</p>\n";
+         "too small for that end. Of a figure whose small values are bad, a clearance, a margin, a "
+         "righting height, the worst is the smallest, and 95 % of the lifts lie above what stands "
+         "under 95 %.</p>\n";
 }
 
-/// Share of the members above a value.
+/// Share of the members above a value, or below it where small values are bad.
 std::string exceedance(const StudyResults& results, const Spread& spread) {
   const ShownFigure figure = shown_figure(spread.path);
   std::vector<double> values = results.values_of(spread.path);
@@ -78,11 +81,12 @@ std::string exceedance(const StudyResults& results, const Spread& spread) {
   const auto count = static_cast<double>(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     curve.x.push_back(figure.scale * values[i]);
-    curve.y.push_back(1 - (static_cast<double>(i) + 0.5) / count);
+    const double below = (static_cast<double>(i) + 0.5) / count;
+    curve.y.push_back(spread.worse_when_smaller ? below : 1 - below);
   }
   return to_svg({figure.name,
                  figure.unit.empty() ? std::string("value") : figure.unit,
-                 "share of members above",
+                 spread.worse_when_smaller ? "share of members below" : "share of members above",
                  {std::move(curve)}});
 }
 
@@ -99,8 +103,8 @@ std::string extremes_table(const StudyResults& results) {
   }
   if (rows.empty()) return "";
   return "<h2>Extremes</h2>\n<div class=\"scroll\"><table>\n" +
-         cells({"figure", "law", "share below", "value", "p of Kolmogorov-Smirnov"}, "th") + rows +
-         "</table></div>\n";
+         cells({"figure", "law", "share of better", "value", "p of Kolmogorov-Smirnov"}, "th") +
+         rows + "</table></div>\n";
 }
 
 std::string bar(double share) {
@@ -147,6 +151,63 @@ std::string sensitivities(const StudyResults& results) {
   return text;
 }
 
+std::string limiting_table(const LimitingSeas& seas) {
+  std::vector<std::string> head{"peak period, s"};
+  constexpr double degree = std::numbers::pi / 180;
+  for (const double heading : seas.headings)
+    head.push_back(seas.headings.size() > 1 ? fmt::format("{:.4g}°", heading / degree)
+                                            : "limiting height, m");
+  std::string text = "<div class=\"scroll\"><table>\n" + cells(head, "th");
+  for (std::size_t p = 0; p < seas.periods.size(); ++p) {
+    std::vector<std::string> row{format_figure(seas.periods[p])};
+    for (std::size_t h = 0; h < seas.headings.size(); ++h) {
+      const LimitingHeight& limit = seas.at(p, h);
+      row.push_back(limit.kind == LimitKind::found        ? format_figure(limit.height, 3)
+                    : limit.kind == LimitKind::below_grid ? "below the lowest"
+                                                          : "≥ " + format_figure(limit.height, 3));
+    }
+    text += cells(row, "td");
+  }
+  return text + "</table></div>\n";
+}
+
+std::string operability_text(const StudyResults& results) {
+  const double alpha = results.study.limits->alpha;
+  const auto share = [](double value) { return fmt::format("{:.1f} %", 100 * value); };
+  std::string text;
+  if (results.in_scatter)
+    text += fmt::format(
+        "<p>Of the scatter table {} is workable with alpha {:g}; {} has periods that were not run "
+        "and counts as not workable.</p>\n",
+        share(results.in_scatter->share), alpha, share(results.in_scatter->beyond));
+  if (!results.in_forecast) return text;
+  text += fmt::format("<p>Of the forecast {} is workable with alpha {:g}:</p>\n<ul>\n",
+                      share(results.in_forecast->share), alpha);
+  for (const Operability::Window& window : results.in_forecast->windows)
+    text += fmt::format("<li>{} h to {} h</li>\n", format_figure(window.begin),
+                        format_figure(window.end));
+  return text + "</ul>\n";
+}
+
+std::string limiting_seas(const StudyResults& results) {
+  if (!results.limits) return "";
+  const LimitingSeas& seas = *results.limits;
+  std::string quantities;
+  for (const QuantityLimit& quantity : results.study.limits->quantities) {
+    const ShownFigure figure = shown_figure(quantity.figure.value);
+    quantities +=
+        fmt::format("{}{} at {} {}", quantities.empty() ? "" : "; ", escape_html(figure.name),
+                    format_figure(figure.scale * quantity.at.value.value), figure.unit);
+  }
+  return fmt::format(
+             "<h2>Limiting sea states</h2>\n<p>Significant height, m, at which the first of these "
+             "reaches its limit: {}. Linear between heights that were run; of several seeds the "
+             "worst counts; ≥: the next height failed or was not run.</p>\n",
+             quantities) +
+         limiting_table(seas) + "<div class=\"charts\">\n" + limiting_contours(seas) +
+         limiting_polar(seas) + "</div>\n" + operability_text(results);
+}
+
 std::string all_figures(const StudyResults& results) {
   std::string text = "<h2>All figures</h2>\n<div class=\"scroll\"><table>\n" +
                      cells({"figure", "smallest", "mean", "deviation", "largest"}, "th");
@@ -169,6 +230,7 @@ std::string study_page(const StudyResults& results) {
       "<h1>{0}</h1>\n<p>{2} lifts of {3}{4}. Each is a row of study.csv.</p>\n",
       title, style, results.members.size(), escape_html(study.case_name.value),
       results.failed() > 0 ? fmt::format("; {} failed and are left out", results.failed()) : "");
+  page += limiting_seas(results);
   page += "<h2>Leading figures</h2>\n" + leading_table(results);
   page += "<div class=\"charts\">\n";
   for (const std::size_t i : results.leading) page += exceedance(results, results.spreads[i]);

@@ -81,12 +81,15 @@ Json spread_json(const StudyFile& study, const Spread& spread) {
     correlations[study.variables[v].name.value] =
         spread.rank_correlation[static_cast<Eigen::Index>(v)];
   return {{"name", spread.path},
+          {"worse_when", spread.worse_when_smaller ? "smaller" : "larger"},
           {"mean", spread.mean},
           {"deviation", spread.deviation},
           {"smallest", spread.smallest},
           {"member_of_smallest", spread.member_of_smallest},
           {"largest", spread.largest},
           {"member_of_largest", spread.member_of_largest},
+          {"worst", spread.worst()},
+          {"member_of_worst", spread.member_of_worst()},
           {"quantiles", std::move(quantiles)},
           {"extremes", std::move(extremes)},
           {"rank_correlation", std::move(correlations)}};
@@ -104,6 +107,46 @@ Json sensitivity_json(const StudyFile& study, const Sensitivity& sensitivity) {
         {"total_low", number_or_null(sensitivity.total_low[i])},
         {"total_high", number_or_null(sensitivity.total_high[i])}};
   }
+  return json;
+}
+
+/// Limiting seas and what they allow of the study's tables.
+void find_limits(StudyResults& results) {
+  if (!results.study.limits) return;
+  const SeaLimits& limits = *results.study.limits;
+  results.limits = find_limiting_seas(results.study, results.design, results.members);
+  const auto operability = [&](const auto& name, bool is_forecast) -> std::optional<Operability> {
+    if (!name) return std::nullopt;
+    return find_operability(*results.limits,
+                            read_sea_states(results.study.beside(name->value), is_forecast),
+                            limits.alpha, is_forecast);
+  };
+  results.in_scatter = operability(limits.scatter, false);
+  results.in_forecast = operability(limits.forecast, true);
+}
+
+Json operability_json(const Operability& operability) {
+  Json windows = Json::array();
+  for (const Operability::Window& window : operability.windows)
+    windows.push_back({{"begin_h", window.begin}, {"end_h", window.end}});
+  return {{"share", operability.share},
+          {"share_beyond_periods", operability.beyond},
+          {"windows", std::move(windows)}};
+}
+
+Json limits_json(const StudyResults& results) {
+  const LimitingSeas& seas = *results.limits;
+  Json states = Json::array();
+  for (std::size_t p = 0; p < seas.periods.size(); ++p)
+    for (std::size_t h = 0; h < seas.headings.size(); ++h)
+      states.push_back({{"peak_period_s", seas.periods[p]},
+                        {"heading_rad", seas.headings[h]},
+                        {"significant_height_m", seas.at(p, h).height},
+                        {"known_as", name_of(seas.at(p, h).kind)},
+                        {"governed_by", seas.governing[p * seas.headings.size() + h]}});
+  Json json{{"alpha", results.study.limits->alpha}, {"sea_states", std::move(states)}};
+  if (results.in_scatter) json["scatter"] = operability_json(*results.in_scatter);
+  if (results.in_forecast) json["forecast"] = operability_json(*results.in_forecast);
   return json;
 }
 
@@ -184,6 +227,13 @@ int StudyResults::failed() const {
   }));
 }
 
+bool StudyResults::is_worse_when_smaller(const std::string& path) const {
+  return std::any_of(members.begin(), members.end(), [&](const Member& member) {
+    return std::find(member.worse_when_smaller.begin(), member.worse_when_smaller.end(), path) !=
+           member.worse_when_smaller.end();
+  });
+}
+
 std::vector<double> StudyResults::values_of(const std::string& path) const {
   std::vector<double> values;
   for (const Member& member : members)
@@ -193,7 +243,8 @@ std::vector<double> StudyResults::values_of(const std::string& path) const {
 }
 
 StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members) {
-  StudyResults results{std::move(study), std::move(design), std::move(members), {}, {}, {}};
+  StudyResults results{
+      std::move(study), std::move(design), std::move(members), {}, {}, {}, {}, {}, {}};
   std::vector<int> numbers;
   for (const Member& member : results.members)
     if (member.failure.empty()) numbers.push_back(member.number);
@@ -202,8 +253,11 @@ StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector
                              (results.members.empty() ? "" : results.members.front().failure));
   for (std::string& path : common_paths(results.members)) {
     const std::vector<double> values = results.values_of(path);
-    results.spreads.push_back(find_spread(std::move(path), values, numbers, results.design));
+    const bool worse_when_smaller = results.is_worse_when_smaller(path);
+    results.spreads.push_back(
+        find_spread(std::move(path), values, numbers, results.design, worse_when_smaller));
   }
+  find_limits(results);
   results.leading = choose_leading(results.study, results.spreads);
   if (results.study.design == StudyDesign::sensitivity && results.failed() == 0) {
     for (const std::size_t i : results.leading) {
@@ -232,6 +286,7 @@ Json study_json(const StudyResults& results) {
             {"case", results.study.case_name.value}, {"members", results.members.size()},
             {"failures", std::move(failures)},       {"figures", std::move(figures)}};
   if (!results.sensitivities.empty()) json["sobol_indices"] = std::move(sensitivities);
+  if (results.limits) json["limits"] = limits_json(results);
   return json;
 }
 
@@ -241,7 +296,7 @@ std::string study_text(const StudyResults& results) {
                    {"mean", 1},
                    {"deviation", 1},
                    {"95 %", 1},
-                   {"largest", 1},
+                   {"worst", 1},
                    {"member", 6}});
   for (const std::size_t i : results.leading) {
     const Spread& spread = results.spreads[i];
@@ -250,8 +305,8 @@ std::string study_text(const StudyResults& results) {
       return format_figure(figure.scale * value, digits);
     };
     table.add_row({figure.name, figure.unit, shown(spread.mean, 4), shown(spread.deviation, 3),
-                   shown(spread.quantiles[2].value, 4), shown(spread.largest, 4),
-                   std::to_string(spread.member_of_largest)});
+                   shown(spread.quantile_of_better(0.95).value, 4), shown(spread.worst(), 4),
+                   std::to_string(spread.member_of_worst())});
   }
   return table.text();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "pipeline/files/study_file.h"
+#include "pipeline/study/limiting_sea.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/spread.h"
 #include "pipeline/study/study_design.h"
@@ -31,7 +33,12 @@ struct StudyResults {
   std::vector<std::size_t> leading;        ///< of the spreads: those that the page shows first
   std::vector<Sensitivity> sensitivities;  ///< of the leading ones, for a sensitivity
 
+  std::optional<LimitingSeas> limits;  ///< if the study asks for them
+  std::optional<Operability> in_scatter, in_forecast;
+
   int failed() const;
+  /// Whether any member says so of a figure.
+  bool is_worse_when_smaller(const std::string& path) const;
   /// Values of a figure, of the members that ran.
   std::vector<double> values_of(const std::string& path) const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <deal.II/base/quadrature_lib.h>
@@ -41,19 +42,23 @@ Eigen::MatrixXd whole_stiffness(const Space& space, int cell) {
   const BeamCell& located = space.beams()[at(cell)];
   const Mesh& mesh = space.mesh();
   const Beam& beam = mesh.beams[at(located.beam)];
-  const BeamSection& section = mesh.section_of(beam);
-  Eigen::Matrix<double, 6, 6> law =
-      beam_stiffness_law(mesh.materials[at(section.material)], section);
-  if (beam.is_rod) {
-    law.diagonal().segment<2>(1).setZero();
-    law.bottomRightCorner<2, 2>().setZero();
-  }
+  const auto law_at = [&](double xi) {
+    const BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
+    Eigen::Matrix<double, 6, 6> law =
+        beam_stiffness_law(mesh.materials[at(section.material)], section);
+    if (beam.is_rod) {
+      law.diagonal().segment<2>(1).setZero();
+      law.bottomRightCorner<2, 2>().setZero();
+    }
+    return law;
+  };
   const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree));
   const Eigen::Index size = 6 * (located.degree + 1);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
   for (unsigned q = 0; q < rule.size(); ++q) {
     const BeamPoint point = beam_point(space, cell, rule.point(q)[0]);
-    stiffness += rule.weight(q) * point.weight * point.strain.transpose() * law * point.strain;
+    stiffness += rule.weight(q) * point.weight * point.strain.transpose() *
+                 law_at(rule.point(q)[0]) * point.strain;
   }
   return stiffness;
 }

@@ -10,6 +10,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include "structure/formulation/gauss_line.h"
 #include "structure/index.h"
 #include "structure/space/space_implementation.h"
 
@@ -203,21 +204,6 @@ Turn turn_to(const Surface& s, const Vector3& e_1, const Vector3& e_2) {
       p(1, 0) * p(1, 0), p(1, 1) * p(1, 1), p(1, 0) * p(1, 1),              //
       2 * p(0, 0) * p(1, 0), 2 * p(0, 1) * p(1, 1), p(0, 0) * p(1, 1) + p(0, 1) * p(1, 0);
   return turn;
-}
-
-std::vector<double> gauss_places(int count) {
-  const dealii::QGauss<1> rule(static_cast<unsigned>(count));
-  std::vector<double> places;
-  for (const auto& point : rule.get_points()) places.push_back(point[0]);
-  return places;
-}
-
-std::vector<double> lagrange_at(const std::vector<double>& places, double x) {
-  std::vector<double> values(places.size(), 1);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (std::size_t j = 0; j < places.size(); ++j)
-      if (j != i) values[i] *= (x - places[j]) / (places[i] - places[j]);
-  return values;
 }
 
 const auto tangents_flags = dealii::update_jacobians;

@@ -111,9 +111,10 @@ NearestPlate nearest_plate(const Laminate& laminate, double thickness) {
   const double direct = (3 * a(0, 0) + 3 * a(1, 1) + 2 * a(0, 1) + 4 * a(2, 2)) / (8 * thickness);
   const double crossed = (a(0, 0) + a(1, 1) + 6 * a(0, 1) - 4 * a(2, 2)) / (8 * thickness);
   NearestPlate plate;
-  // Woven cloth at 45 degrees may be softer in shear than any isotropic plate.
-  plate.poisson_ratio = std::clamp(crossed / direct, -0.9, 0.49);
-  plate.youngs_modulus = direct * (1 - plate.poisson_ratio * plate.poisson_ratio);
+  const double ratio = std::clamp(crossed / direct, -0.99, 0.99);
+  plate.youngs_modulus = direct * (1 - ratio * ratio);
+  // Woven cloth at 45 degrees is softer in shear than any isotropic plate.
+  plate.poisson_ratio = std::clamp(ratio, -0.99, 0.49);
   const Laminate same = homogeneous(
       {.name = "", .youngs_modulus = plate.youngs_modulus, .poisson_ratio = plate.poisson_ratio},
       thickness);

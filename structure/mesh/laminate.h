@@ -43,7 +43,7 @@ Laminate stack(const std::vector<Ply>& plies);
 
 /// Isotropic plate that comes nearest to a laminate of a thickness: its membrane stiffness has the
 /// laminate's invariants (Tsai and Pagano 1968), so that it is exact for layers of one material and
-/// for balanced lay-ups. Poisson's ratio is kept within -0.9 and 0.49.
+/// for balanced lay-ups. Poisson's ratio is no more than 0.49.
 struct NearestPlate {
   double youngs_modulus = 0;  ///< Pa
   double poisson_ratio = 0;

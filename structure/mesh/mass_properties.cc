@@ -117,14 +117,15 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
     });
   }
   for (const Beam& beam : mesh.beams) {
-    const BeamSection& section = mesh.section_of(beam);
-    const double per_length =
-        mesh.materials[at(section.material)].density * section.area + section.mass_per_length;
     const Vector3 from = mesh.vertices[at(beam.vertices[0])] + beam.offset[0];
     const Vector3 line = mesh.vertices[at(beam.vertices[1])] + beam.offset[1] - from;
     const double half = 0.5 / std::sqrt(3.0);
-    for (const double place : {0.5 - half, 0.5 + half})
+    for (const double place : {0.5 - half, 0.5 + half}) {
+      const BeamSection section = section_at(mesh, beam, place);
+      const double per_length =
+          mesh.materials[at(section.material)].density * section.area + section.mass_per_length;
       of_region(beam.region).add(per_length * line.norm() / 2, from + place * line);
+    }
   }
   for (const Solid& solid : mesh.solids) {
     const ElementKind& kind = topology_of(solid.shape).kind;

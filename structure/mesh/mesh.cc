@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <Eigen/Geometry>
@@ -85,6 +86,28 @@ bool is_of_bars_alone(const Mesh& mesh, int material) {
 
 }  // namespace
 
+BeamSection section_at(const Mesh& mesh, const Beam& beam, double share) {
+  BeamSection section = mesh.section_of(beam);
+  if (beam.end_section < 0) return section;
+  const BeamSection& end = mesh.beam_sections[at(beam.end_section)];
+  const auto between = [share](double& value, double of_end) {
+    // Infinite shear areas, of sections that shear does not deform, stay so.
+    if (std::isfinite(value) && std::isfinite(of_end))
+      value += share * (of_end - value);
+    else
+      value = std::numeric_limits<double>::infinity();
+  };
+  for (double BeamSection::*figure :
+       {&BeamSection::area, &BeamSection::second_moment_2, &BeamSection::second_moment_3,
+        &BeamSection::product_23, &BeamSection::torsion, &BeamSection::mass_per_length,
+        &BeamSection::shear_area_2, &BeamSection::shear_area_3})
+    between(section.*figure, end.*figure);
+  for (std::size_t p = 0; p < section.stress_points.size(); ++p)
+    section.stress_points[p] += share * (end.stress_points[p] - section.stress_points[p]);
+  section.shear_centre += share * (end.shear_centre - section.shear_centre);
+  return section;
+}
+
 Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi) {
   if (shell.curvature >= 0) {
     const Eigen::Matrix3Xd& points = mesh.curved_shells[at(shell.curvature)];
@@ -160,6 +183,15 @@ void check_mesh(const Mesh& mesh) {
             "names a vertex that is not there");
     require(beam.section >= 0 && beam.section < count(mesh.beam_sections), "beam", beam.label,
             "has no section");
+    if (beam.end_section >= 0) {
+      require(beam.end_section < count(mesh.beam_sections), "beam", beam.label,
+              "has no section at its end");
+      const BeamSection &first = mesh.section_of(beam),
+                        &last = mesh.beam_sections[at(beam.end_section)];
+      require(first.material == last.material &&
+                  first.stress_points.size() == last.stress_points.size(),
+              "beam", beam.label, "has sections at its ends of two kinds");
+    }
     const Vector3 along = mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])];
     require(along.norm() > 0, "beam", beam.label, "has no length");
     require(along.cross(beam.axis_2).norm() > 1e-6 * along.norm() * beam.axis_2.norm(), "beam",

@@ -76,6 +76,9 @@ struct Beam {
   std::array<int, 2> vertices{};
   int section = 0;  ///< place in Mesh::beam_sections
   int region = 0;   ///< place in Mesh::regions
+  /// Of a tapered beam the section at its second vertex, of the same material and with as many
+  /// stress points; -1: that at the first one. Between them its figures are linear in place.
+  int end_section = -1;
   /// Direction in the plane of axes 1 and 2: axis 2 is its part across the beam.
   Vector3 axis_2 = Vector3::UnitZ();
   /// Of the centroid from the line between the vertices, at either end, m.
@@ -214,6 +217,9 @@ struct Mesh {
     return groups[static_cast<std::size_t>(regions[static_cast<std::size_t>(region)].group)];
   }
 };
+
+/// The section of a beam at a share of its length.
+BeamSection section_at(const Mesh& mesh, const Beam& beam, double share);
 
 /// Place of a point (xi, eta) of the unit square on a shell, m.
 Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi);

@@ -30,7 +30,7 @@ namespace {
 /// farthest.
 std::array<Vector3, 2> strip_of(const Mesh& mesh, const Beam& beam) {
   Eigen::Vector2d lower = Eigen::Vector2d::Zero(), upper = lower;
-  for (const Eigen::Vector2d& point : stress_points(mesh.section_of(beam))) {
+  for (const Eigen::Vector2d& point : stress_points(section_at(mesh, beam, 0.5))) {
     lower = lower.cwiseMin(point);
     upper = upper.cwiseMax(point);
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "structure/formulation/beam.h"
+#include "structure/formulation/gauss_line.h"
 #include "structure/index.h"
 #include "structure/space/joints.h"
 
@@ -29,10 +30,33 @@ double modulus_of(const Mesh& mesh, const BeamSection& section) {
   return mesh.materials[at(section.material)].youngs_modulus;
 }
 
-Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
-                           const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+BeamSection section_of(const Space& space, int cell, double xi) {
+  const BeamCell& located = space.beams()[at(cell)];
+  return section_at(space.mesh(), beam_of(space, cell), located.origin + located.size * xi);
+}
+
+/// Strains by the cell's own polynomials.
+Eigen::MatrixXd own_strains_of(const Space& space, int cell, double xi,
+                               const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   return beam_point(space, cell, xi).strain * beam_motion(space, cell) *
          motions_of_beam(space.beams()[at(cell)], motions);
+}
+
+/// Of a tapered beam the strains that the section forces at the Gauss points, carried to the place,
+/// give there: forces are smooth where the strains of a taper are no polynomial.
+Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
+                           const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+  if (beam_of(space, cell).end_section < 0) return own_strains_of(space, cell, xi, motions);
+  const auto law_at = [&](double place) {
+    const BeamSection section = section_of(space, cell, place);
+    return beam_stiffness_law(space.mesh().materials[at(section.material)], section);
+  };
+  const std::vector<double> points = gauss_places(space.beams()[at(cell)].degree);
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(6, motions.cols());
+  const std::vector<double> shares = lagrange_at(points, xi);
+  for (std::size_t q = 0; q < points.size(); ++q)
+    forces += shares[q] * law_at(points[q]) * own_strains_of(space, cell, points[q], motions);
+  return law_at(xi).completeOrthogonalDecomposition().solve(forces);
 }
 
 Vector3 arm_of(const Beam& beam, const BeamCell& cell, double xi) {
@@ -53,7 +77,7 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
                               const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Eigen::MatrixXd strain = strains_of(space, cell, xi, motions);
   const Beam& beam = beam_of(space, cell);
-  const BeamSection& section = space.mesh().section_of(beam);
+  const BeamSection section = section_of(space, cell, xi);
   const double modulus = modulus_of(space.mesh(), section);
   const std::vector<Eigen::Vector2d> points = stress_points(section);
   Eigen::MatrixXd stresses(static_cast<Eigen::Index>(points.size()), motions.cols());

@@ -81,10 +81,8 @@ ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& r
       stated_mass_(total_mass),
       stated_centre_B_(std::move(centre_of_mass_B)) {
   require_memory(*mesh_, resolution_);
-  space_ = std::make_unique<Space>(*mesh_, resolution_);
-  mass_ = find_mass_properties(*space_, stated_mass_ ? &*stated_mass_ : nullptr,
-                               stated_centre_B_ ? &*stated_centre_B_ : nullptr);
-  inertia_loads_ = structure::inertia_loads(*space_, mass_);
+  space_ = std::make_shared<const Space>(*mesh_, resolution_);
+  find_inertia();
   lug_loads_.resize(freedoms(), 3 * lug_count());
   const Eigen::Matrix<double, 6, 3> forces = Eigen::Matrix<double, 6, 3>::Identity();
   for (int lug = 0; lug < lug_count(); ++lug) {
@@ -94,6 +92,26 @@ ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& r
             ? forces_at_vertex(*space_, point)
             : spread_wrenches(*space_, cells_of_lug(*space_, point), point.p_BPin, forces);
   }
+}
+
+void ElasticModel::find_inertia() {
+  mass_ = mass_with(stated_mass_, stated_centre_B_);
+  inertia_loads_ = structure::inertia_loads(*space_, mass_);
+}
+
+MassProperties ElasticModel::mass_with(const std::optional<double>& total_mass,
+                                       const std::optional<Vector3>& centre_of_mass_B) const {
+  return find_mass_properties(*space_, total_mass ? &*total_mass : nullptr,
+                              centre_of_mass_B ? &*centre_of_mass_B : nullptr);
+}
+
+std::unique_ptr<ElasticModel> ElasticModel::with_mass(
+    std::optional<double> total_mass, std::optional<Vector3> centre_of_mass_B) const {
+  std::unique_ptr<ElasticModel> other(new ElasticModel(*this));
+  other->stated_mass_ = total_mass;
+  other->stated_centre_B_ = std::move(centre_of_mass_B);
+  other->find_inertia();
+  return other;
 }
 
 std::unique_ptr<ElasticModel> ElasticModel::with(const Resolution& resolution) const {

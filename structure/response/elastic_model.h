@@ -39,16 +39,27 @@ class ElasticModel {
 
   /// The same block in finer or coarser elements.
   std::unique_ptr<ElasticModel> with(const Resolution& resolution) const;
+  /// Mass properties of the same elements with another mass and centre, as the constructor takes
+  /// them. @throws ModelError as find_mass_properties does.
+  MassProperties mass_with(const std::optional<double>& total_mass,
+                           const std::optional<Vector3>& centre_of_mass_B) const;
+  /// The same elements with another mass and centre, likewise: the space, and with it the
+  /// stiffness, is shared.
+  std::unique_ptr<ElasticModel> with_mass(std::optional<double> total_mass,
+                                          std::optional<Vector3> centre_of_mass_B) const;
 
  private:
   ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& resolution,
                std::optional<double> total_mass, std::optional<Vector3> centre_of_mass_B);
 
+  ElasticModel(const ElasticModel&) = default;
+  void find_inertia();
+
   std::shared_ptr<const Mesh> mesh_;
   Resolution resolution_;
   std::optional<double> stated_mass_;
   std::optional<Vector3> stated_centre_B_;
-  std::unique_ptr<Space> space_;
+  std::shared_ptr<const Space> space_;
   MassProperties mass_;
   Eigen::MatrixXd lug_loads_;
   Eigen::MatrixXd inertia_loads_;

@@ -39,12 +39,24 @@ UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(mo
   Stopwatch watch;
   SparseLower stiffness = assemble_stiffness(model.space(), threads);
   timing_.assembly_s = watch.lap();
-  system_ =
-      std::make_unique<System>(std::move(stiffness), statically_determinate_support(model.space()));
-  timing_.factor_bytes = system_->equations.factor_bytes();
+  const auto system =
+      std::make_shared<System>(std::move(stiffness), statically_determinate_support(model.space()));
+  timing_.factor_bytes = system->equations.factor_bytes();
   timing_.analysis_s = watch.lap();
-  system_->equations.factorise();
+  system->equations.factorise();
+  system_ = system;
   timing_.factorisation_s = watch.lap();
+  added_loads_.resize(model_.freedoms(), 0);
+  solve_basis();
+  timing_.solve_s = watch.lap();
+}
+
+UnitResponses::UnitResponses(const ElasticModel& model, const UnitResponses& same_stiffness)
+    : model_(model), system_(same_stiffness.system_) {
+  if (&model.space() != &same_stiffness.model_.space())
+    throw ModelError("a factor serves models of the same elements only");
+  Stopwatch watch;
+  timing_.factor_bytes = system_->equations.factor_bytes();
   added_loads_.resize(model_.freedoms(), 0);
   solve_basis();
   timing_.solve_s = watch.lap();

@@ -50,6 +50,11 @@ class UnitResponses {
   /// @param threads of the assembly; 0: as many as the machine has. OpenBLAS has its own setting.
   /// @throws ModelError if memory does not suffice or a part is free to move.
   explicit UnitResponses(const ElasticModel& model, int threads = 0);
+  /// The same for a model that has its elements, and so its stiffness, from another's
+  /// (ElasticModel::with_mass): the factor is shared and responses are solved anew, bit for bit as
+  /// the first constructor solves them. The other may go.
+  /// @throws ModelError if the models do not share their elements.
+  UnitResponses(const ElasticModel& model, const UnitResponses& same_stiffness);
   ~UnitResponses();
 
   const ElasticModel& model() const { return model_; }
@@ -95,7 +100,7 @@ class UnitResponses {
 
   const ElasticModel& model_;
   SolutionTiming timing_;
-  std::unique_ptr<System> system_;
+  std::shared_ptr<const System> system_;
   Eigen::MatrixXd added_loads_;    ///< as they came, freedoms x added
   Eigen::MatrixXd balancing_;      ///< 6 x (lug forces + products + added): rigid accelerations
   Eigen::MatrixXd displacements_;  ///< of the basis

@@ -34,16 +34,16 @@ void visit_beams(const Space& space, const VisitMatter& visit) {
   for (int cell = 0; cell < static_cast<int>(space.beams().size()); ++cell) {
     const BeamCell& located = space.beams()[at(cell)];
     const Beam& beam = mesh.beams[at(located.beam)];
-    const BeamSection& section = mesh.section_of(beam);
     const Eigen::Matrix3d axes = beam_axes(mesh, beam);
-    // I_23 is left out: the sections' own moments matter little beside those of where they stand.
-    const double reach_2 = std::sqrt(2 * section.second_moment_3 / section.area);
-    const double reach_3 = std::sqrt(2 * section.second_moment_2 / section.area);
-    const std::array<Vector3, 4> reaches{reach_2 * axes.row(1), -reach_2 * axes.row(1),
-                                         reach_3 * axes.row(2), -reach_3 * axes.row(2)};
     const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree) + 1);
     for (unsigned q = 0; q < rule.size(); ++q) {
       const double xi = rule.point(q)[0], share = located.origin + located.size * xi;
+      const BeamSection section = section_at(mesh, beam, share);
+      // I_23 is left out: the sections' own moments matter little beside those of where they stand.
+      const double reach_2 = std::sqrt(2 * section.second_moment_3 / section.area);
+      const double reach_3 = std::sqrt(2 * section.second_moment_2 / section.area);
+      const std::array<Vector3, 4> reaches{reach_2 * axes.row(1), -reach_2 * axes.row(1),
+                                           reach_3 * axes.row(2), -reach_3 * axes.row(2)};
       const BeamPoint strained = beam_point(space, cell, xi);
       const std::vector<double> values = lagrange_values(located.degree, xi);
       const Vector3 arm = (1 - share) * beam.offset[0] + share * beam.offset[1];

@@ -45,6 +45,7 @@ class SweepCommand : public ::testing::Test {
       "members: 24\n"
       "vary:\n"
       "  weight: {keys: ['block:mass'], spread: {law: normal, mean: 8 t, deviation: 0.2 t}}\n";
+  static constexpr const char* checked = "structure.history.dynamic.checked_von_mises_Pa";
   const test::TemporaryFolder folder_;
 };
 
@@ -104,6 +105,31 @@ TEST_F(SweepCommand, AssessesAndFindsSobolIndices) {
   // The estimate's own error at this size is some 0.2.
   EXPECT_NEAR(indices["weight"]["total"], 1, 0.4);
   EXPECT_NEAR(indices["deaf"]["total"], 0, 1e-3);
+}
+
+// The factor is made once, for the case as it is written: there its stress is that of an assessment;
+// the other masses' stress follows from the same unit stresses, whoever computes it.
+TEST_F(SweepCommand, FindsTheStressOfAllMembersWithOneFactor) {
+  const std::string masses = "design: grid\nfigures: [" + std::string(checked) +
+                             "]\nvary: {weight: {keys: ['block:mass'], values: ";
+  write_study("run: stress\n" + masses + "[8 t, 8.2 t, 8.4 t]}}\n");
+  ASSERT_EQ(run("sweep study.yaml -o one --workers 1 -q").exit_code, 0);
+  ASSERT_EQ(run("sweep study.yaml -o two --workers 2 -q").exit_code, 0);
+  EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("two/study.csv"));
+  const auto stress = figure("one", checked);
+
+  // A member alone, the last, and the whole assessment of the first and the last.
+  write_study("run: stress\n" + masses + "[8.4 t]}}\n");
+  ASSERT_EQ(run("sweep study.yaml -o alone -q").exit_code, 0);
+  EXPECT_EQ(figure("alone", checked)["largest"], stress["largest"]);
+  write_study("run: assess\n" + masses + "[8 t, 8.4 t]}}\n");
+  ASSERT_EQ(run("sweep study.yaml -o assessed -q").exit_code, 0);
+  const auto assessed = figure("assessed", checked);
+  const double written = assessed["smallest"].get<double>();
+  EXPECT_NEAR(stress["smallest"].get<double>(), written, 1e-8 * written);
+  const double heavier = assessed["largest"].get<double>();
+  EXPECT_NEAR(stress["largest"].get<double>(), heavier, 0.01 * heavier);  // on a mesh of its own
+  EXPECT_TRUE(fs::is_regular_file("one/worst/report.html"));
 }
 
 TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {

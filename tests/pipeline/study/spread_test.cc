@@ -51,6 +51,27 @@ TEST(Spread, MomentsAndTheirMembers) {
   EXPECT_TRUE(spread.extremes.empty());
 }
 
+// What is bad when it is small has its extremes at the other end: the mirror of the same sample.
+TEST(Spread, SmallIsBadMirrorsLargeIsBad) {
+  const auto inverse = [](double share) { return 100 - 5 * std::log(-std::log(share)); };
+  std::vector<double> values = even_sample(500, inverse), mirrored;
+  for (const double value : values) mirrored.push_back(-value);
+  const Eigen::MatrixXd design(500, 0);
+  const Spread large = find_spread("x", values, numbers(500), design);
+  const Spread small = find_spread("x", mirrored, numbers(500), design, true);
+  EXPECT_EQ(small.worst(), -large.worst());
+  EXPECT_EQ(small.member_of_worst(), large.member_of_worst());
+  EXPECT_EQ(large.quantile_of_better(0.99).share, 0.99);
+  EXPECT_EQ(small.quantile_of_better(0.99).share, 0.01);
+  EXPECT_NEAR(small.quantile_of_better(0.95).value, -large.quantile_of_better(0.95).value, 1e-9);
+  ASSERT_EQ(small.extremes.size(), large.extremes.size());
+  for (std::size_t i = 0; i < small.extremes.size(); ++i) {
+    EXPECT_EQ(small.extremes[i].value, -large.extremes[i].value);
+    EXPECT_EQ(small.extremes[i].low, -large.extremes[i].high);
+    EXPECT_EQ(small.extremes[i].high, -large.extremes[i].low);
+  }
+}
+
 TEST(Spread, RanksOfAMonotoneFigureAgree) {
   Eigen::MatrixXd design(20, 2);
   std::vector<double> values;

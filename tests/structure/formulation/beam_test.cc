@@ -9,6 +9,7 @@
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/response/beam_stress.h"
 
 namespace blocklift::structure {
 namespace {
@@ -63,6 +64,43 @@ Eigen::Matrix<double, 6, 1> tip_motion(const Mesh& mesh, int degree,
 
 Eigen::Matrix<double, 6, 1> unit(int c, double value) {
   return value * Eigen::Matrix<double, 6, 1>::Unit(c);
+}
+
+// Pulled at its end, a bar whose area falls on a line from A_0 to A_1 grows by F l / (E (A_0 -
+// A_1)) ln(A_0 / A_1), and its stress is F / A everywhere. Elements of degree p with p Gauss points
+// have the growth with an error of order 2 p of the taper of one of them.
+TEST(Beam, TaperedBar) {
+  for (const int cells : {1, 2}) {
+    std::vector<Vector3> vertices;
+    for (int v = 0; v <= cells; ++v) vertices.emplace_back(length * v / cells, 0, 0);
+    Mesh mesh = line_of_beams(sample_section(), vertices);
+    const double narrow = 0.5, area = sample_section().area;
+    mesh.beam_sections.clear();
+    for (int v = 0; v <= cells; ++v) {
+      BeamSection section = sample_section();
+      section.area *= 1 - narrow * v / cells;
+      mesh.beam_sections.push_back(section);
+    }
+    for (int b = 0; b < cells; ++b) {
+      mesh.beams[at(b)].section = b;
+      mesh.beams[at(b)].end_section = b + 1;
+    }
+    const Space space(mesh, {3, {}});
+    std::vector<FixedUnknown> fixed;
+    clamp(space, mesh.vertices.front(), fixed);
+    Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
+    const int tip = space.node_of_vertex(cells);
+    loads[6 * tip] = force;
+    const Eigen::VectorXd motion = testing::solve(space, loads, fixed);
+    const double modulus = testing::plain_steel().youngs_modulus;
+    const double exact = force * length / (modulus * narrow * area) * std::log(1 / (1 - narrow));
+    EXPECT_NEAR(motion[6 * tip], exact, (cells == 1 ? 5e-5 : 2e-6) * exact);
+    for (const double xi : {0.0, 0.3, 1.0}) {
+      const double there = area * (1 - narrow * (cells - 1 + xi) / cells);
+      const Eigen::MatrixXd stress = beam_stresses(space, cells - 1, xi, motion);
+      EXPECT_NEAR(stress(0, 0), force / there, 1e-8 * force / there) << xi;
+    }
+  }
 }
 
 // Timoshenko: w = P l^3 / 3 E I + P l / G A_s, slope P l^2 / 2 E I; exact at the end for any

@@ -170,6 +170,9 @@ class AbaqusText {
     BeamKind kind;
     kind.section = beam.section;
     kind.is_rod = beam.is_rod;
+    if (beam.end_section >= 0)
+      throw ModelError(
+          fmt::format("beam {} is tapered; Abaqus' general sections are of one size", beam.label));
     if (beam.is_rod) return kind;
     const Vector3 line =
         mesh_.vertices[at(beam.vertices[1])] - mesh_.vertices[at(beam.vertices[0])];

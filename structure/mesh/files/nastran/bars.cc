@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -107,7 +110,18 @@ struct BarCard {
   BeamSection section;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
   long material = 0;
+  std::optional<BeamSection> end = {};  ///< at the second end, if it is another
+  Eigen::Vector2d end_centroid = Eigen::Vector2d::Zero();
 };
+
+/// Stations between the ends must lie on the line between these, to a hundredth.
+void require_straight(const CardView& card, const char* what, double given, double from, double to,
+                      double share) {
+  const double due = from + share * (to - from);
+  if (std::abs(given - due) > 0.01 * std::max(std::abs(from), std::abs(to)))
+    throw CardError{fmt::format("{} {}: {} is not linear from end to end: divide its beams",
+                                card.name(), card.text(0), what)};
+}
 
 double line_mass(const NastranModel& model, double given) {
   return given * model.units.mass() / model.units.length * model.mass_factor;
@@ -170,29 +184,69 @@ BarCard read_shaped(NastranModel& model, const CardView& card) {
   bar.material = card.label(1, "material");
   const std::size_t after = 8 + shape->dimensions;
   const bool is_beam = card.name() == "PBEAML";
+  const double length = model.units.length;
   const double mass = card.real(after, "mass beyond the bar's", 0.0);
-  for (std::size_t i = after + 1; is_beam && i + 1 < card.size(); i += shape->dimensions + 3) {
-    if (!card.has(i) && !card.has(i + 1)) continue;
-    for (std::size_t j = 0; j < shape->dimensions; ++j) {
-      const double other = card.real(i + 2 + j, "dimension", dimensions[j] / model.units.length);
-      if (std::abs(other * model.units.length - dimensions[j]) > 0.01 * dimensions[j])
-        throw CardError{
-            fmt::format("PBEAML {} tapers by more than 1 %; beams are of one section "
-                        "from end to end: divide it",
-                        card.text(0))};
+  const auto build = [&](const Dimensions& of_end, double mass_of_end) {
+    try {
+      Profile profile = shape->build(of_end);
+      profile.section.mass_per_length = line_mass(model, mass_of_end);
+      return profile.section;
+    } catch (const ModelError& error) {
+      throw CardError{fmt::format("{} {}: {}", card.name(), card.text(0), error.what())};
     }
-  }
-  Profile profile;
-  try {
-    profile = shape->build(dimensions);
-  } catch (const ModelError& error) {
-    throw CardError{fmt::format("{} {}: {}", card.name(), card.text(0), error.what())};
-  }
-  bar.section = profile.section;
-  bar.section.mass_per_length = line_mass(model, mass);
+  };
+  bar.section = build(dimensions, mass);
   // A beam's axis is its shear centre's, a bar's its centroid's.
-  if (is_beam) bar.centroid = -bar.section.shear_centre;
+  if (is_beam) bar.centroid = bar.end_centroid = -bar.section.shear_centre;
+  if (!is_beam) return bar;
+  const auto each_station = [&](const auto& take) {
+    for (std::size_t i = after + 1; i + 1 < card.size(); i += shape->dimensions + 3)
+      if (card.has(i) || card.has(i + 1)) take(i, card.real(i + 1, "X/XB", 1.0));
+  };
+  Dimensions at_end = dimensions;
+  each_station([&](std::size_t i, double share) {
+    if (share < 1) return;
+    for (std::size_t j = 0; j < shape->dimensions; ++j)
+      at_end[j] = card.real(i + 2 + j, "dimension", dimensions[j] / length) * length;
+    const double end_mass =
+        card.real(i + 2 + shape->dimensions, "mass beyond the bar's at the end", mass);
+    if (at_end == dimensions && end_mass == mass) return;
+    bar.end = build(at_end, end_mass);
+    bar.end_centroid = -bar.end->shear_centre;
+  });
+  each_station([&](std::size_t i, double share) {
+    for (std::size_t j = 0; j < shape->dimensions; ++j)
+      if (share < 1 && card.has(i + 2 + j))
+        require_straight(card, "a dimension", card.real(i + 2 + j, "dimension") * length,
+                         dimensions[j], at_end[j], share);
+  });
   return bar;
+}
+
+/// A section of a PBEAM in the deck's units, by A, I1, I2, I12, J, NSM.
+using BeamFigures = std::array<double, 6>;
+constexpr std::array beam_figure_names{"A", "I1", "I2", "I12", "J", "NSM"};
+
+BeamSection section_of(const NastranModel& model, const BeamFigures& figures,
+                       std::vector<Eigen::Vector2d> points, double k1, double k2) {
+  BeamSection section;
+  section.area = figures[0];
+  section.second_moment_3 = figures[1];
+  section.second_moment_2 = figures[2];
+  section.product_23 = figures[3];
+  section.torsion = figures[4];
+  section.stress_points = std::move(points);
+  scale(section, model.units.length);
+  section.shear_area_2 = shear_area(k1, section.area);
+  section.shear_area_3 = shear_area(k2, section.area);
+  section.mass_per_length = line_mass(model, figures[5]);
+  return section;
+}
+
+std::vector<Eigen::Vector2d> points_of(const CardView& card, std::size_t first) {
+  BeamSection section;
+  read_points(card, first, section);
+  return section.stress_points;
 }
 
 /// PBEAM PID MID A I1 I2 I12 J NSM / C1 C2 ... F2 / stations: SO X/XB A I1 I2 I12 J NSM / C1 ... /
@@ -200,40 +254,47 @@ BarCard read_shaped(NastranModel& model, const CardView& card) {
 BarCard read_beam(NastranModel& model, const CardView& card) {
   BarCard bar;
   bar.material = card.label(1, "material");
-  constexpr std::array names{"A", "I1", "I2", "I12", "J", "NSM"};
-  std::array<double, 6> values{};
-  for (std::size_t i = 0; i < 6; ++i) values[i] = card.real(2 + i, names[i], 0.0);
-  BeamSection& section = bar.section;
-  section.area = values[0];
-  section.second_moment_3 = values[1];
-  section.second_moment_2 = values[2];
-  section.product_23 = values[3];
-  section.torsion = values[4];
-  read_points(card, 8, section);
+  BeamFigures figures{};
+  for (std::size_t i = 0; i < figures.size(); ++i)
+    figures[i] = card.real(2 + i, beam_figure_names[i], 0.0);
+  const std::vector<Eigen::Vector2d> points = points_of(card, 8);
+  BeamFigures at_end = figures;
+  std::vector<Eigen::Vector2d> end_points = points;
+  std::vector<std::size_t> stations;
   std::size_t i = 16;
   while (card.is(i, "YES") || card.is(i, "YESA") || card.is(i, "NO")) {
-    for (std::size_t j = 0; j < 6; ++j) {
-      const double other = card.real(i + 2 + j, names[j], values[j]);
-      if (std::abs(other - values[j]) > 0.01 * std::abs(values[j]) + 1e-300)
-        throw CardError{
-            fmt::format("PBEAM {} tapers by more than 1 % in {}; beams are of one "
-                        "section from end to end: divide it",
-                        card.text(0), names[j])};
+    stations.push_back(i);
+    const bool has_points = card.is(i, "YES");
+    if (card.real(i + 1, "X/XB", 1.0) >= 1) {
+      for (std::size_t j = 0; j < figures.size(); ++j)
+        at_end[j] = card.real(i + 2 + j, beam_figure_names[j], figures[j]);
+      if (has_points && points_of(card, i + 8).size() == points.size())
+        end_points = points_of(card, i + 8);
     }
-    i += card.is(i, "YES") ? 16 : 8;
+    i += has_points ? 16 : 8;
   }
+  for (const std::size_t station : stations)
+    for (std::size_t j = 0; j < figures.size(); ++j)
+      if (card.has(station + 2 + j))
+        require_straight(card, beam_figure_names[j], card.real(station + 2 + j, "figure"),
+                         figures[j], at_end[j], card.real(station + 1, "X/XB", 1.0));
   const double length = model.units.length;
-  scale(section, length);
-  section.shear_area_2 = shear_area(card.real(i, "K1", 1.0), section.area);
-  section.shear_area_3 = shear_area(card.real(i + 1, "K2", 1.0), section.area);
-  section.mass_per_length = line_mass(model, values[5]);
+  const double k1 = card.real(i, "K1", 1.0), k2 = card.real(i + 1, "K2", 1.0);
+  bar.section = section_of(model, figures, points, k1, k2);
   for (const std::size_t field : {i + 6, i + 7})
     if (card.real(field, "warping coefficient", 0.0) != 0)
       model.log.leave_out("PBEAM", "warping stiffness (CW)");
   if (card.real(i + 8, "M1", 0.0) != 0 || card.real(i + 9, "M2", 0.0) != 0)
     model.log.leave_out("PBEAM", "the offset of the extra mass (M1, M2): it is on the axis");
-  bar.centroid = {card.real(i + 12, "N1", 0.0) * length, card.real(i + 13, "N2", 0.0) * length};
-  section.shear_centre = -bar.centroid;
+  const double n1 = card.real(i + 12, "N1", 0.0), n2 = card.real(i + 13, "N2", 0.0);
+  bar.centroid = length * Eigen::Vector2d(n1, n2);
+  bar.end_centroid =
+      length * Eigen::Vector2d(card.real(i + 14, "N1", n1), card.real(i + 15, "N2", n2));
+  bar.section.shear_centre = -bar.centroid;
+  if (at_end != figures || end_points != points || bar.end_centroid != bar.centroid) {
+    bar.end = section_of(model, at_end, end_points, k1, k2);
+    bar.end->shear_centre = -bar.end_centroid;
+  }
   return bar;
 }
 
@@ -265,8 +326,8 @@ BarCard read_rod(NastranModel& model, const CardView& card) {
   return bar;
 }
 
-int add_section(NastranModel& model, const std::string& name, BarCard& bar, long label) {
-  BeamSection& section = bar.section;
+int add_section(NastranModel& model, const std::string& name, long material, BeamSection section,
+                long label) {
   const double i2 = section.second_moment_2, i3 = section.second_moment_3;
   if (!(section.area > 0 || section.torsion > 0 || i2 > 0 || i3 > 0))
     throw CardError{fmt::format("{} {} has neither area nor stiffness", name, label)};
@@ -276,10 +337,10 @@ int add_section(NastranModel& model, const std::string& name, BarCard& bar, long
         fmt::format("{} {}: area and second moments must not be negative, nor I12^2 "
                     "more than I1 I2",
                     name, label)};
-  section.material = nastran_material_place(model, bar.material);
+  section.material = nastran_material_place(model, material);
   section.name = fmt::format("{} {}", name, label);
   section.label = label;
-  model.deck.mesh.beam_sections.push_back(section);
+  model.deck.mesh.beam_sections.push_back(std::move(section));
   return static_cast<int>(model.deck.mesh.beam_sections.size()) - 1;
 }
 
@@ -307,8 +368,10 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
       throw CardError{
           fmt::format("a bar, beam or rod has property {}, which is a {}", property, name)};
     NastranBar read;
-    read.section = add_section(model, name, bar, property);
+    read.section = add_section(model, name, bar.material, bar.section, property);
+    if (bar.end) read.end_section = add_section(model, name, bar.material, *bar.end, property);
     read.centroid = bar.centroid;
+    read.end_centroid = bar.end_centroid;
     read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
     model.log.use(name);
     return model.bar_read[property] = read;
@@ -328,7 +391,7 @@ int nastran_rod_section(NastranModel& model, const std::string& name, long label
   bar.section.torsion = torsion;
   scale(bar.section, model.units.length);
   bar.section.mass_per_length = line_mass(model, mass_per_length);
-  return add_section(model, name, bar, label);
+  return add_section(model, name, material, bar.section, label);
 }
 
 }  // namespace blocklift::structure

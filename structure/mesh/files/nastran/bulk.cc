@@ -118,8 +118,9 @@ class Splitter {
     } else if (section_ == Section::case_control) {
       if (is_begin(text))
         begin_bulk(text);
-      else
+      else if (!is_continued_)
         bulk_.case_control.push_back({place, text});
+      is_continued_ = text.ends_with(',');
     } else if (begins_with(text, "ENDDATA")) {
       section_ = Section::end;
     } else if (is_begin(text)) {
@@ -337,6 +338,7 @@ class Splitter {
   DeckFiles& files_;
   DeckLog& log_;
   NastranBulk bulk_;
+  bool is_continued_ = false;  ///< the line of case control before
   Section section_ = Section::bulk;
   std::string_view label_;  ///< last field of the line before
   bool half_ = false;       ///< the card before has half of eight fields

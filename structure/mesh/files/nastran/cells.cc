@@ -237,8 +237,9 @@ class Bars {
     if (card.name() == "CBEAM" && (card.has(16) || card.has(17)))
       model_.log.leave_out("CBEAM", "warping (SA, SB)");
     const Eigen::Matrix3d shifted = triad(line + beam.offset[1] - beam.offset[0], beam.axis_2);
-    for (Vector3& offset : beam.offset)
-      offset += shifted.col(1) * bar.centroid[0] + shifted.col(2) * bar.centroid[1];
+    beam.offset[0] += shifted.rightCols<2>() * bar.centroid;
+    beam.offset[1] += shifted.rightCols<2>() * bar.end_centroid;
+    beam.end_section = bar.end_section;
     add(beam, property);
   }
 

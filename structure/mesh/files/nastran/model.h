@@ -28,10 +28,12 @@ struct NastranMaterial {
 
 /// Property of a bar, beam or rod.
 struct NastranBar {
-  int section = 0;      ///< place in Mesh::beam_sections
-  bool is_rod = false;  ///< no stiffness against bending
+  int section = 0;       ///< place in Mesh::beam_sections
+  int end_section = -1;  ///< of a tapered beam, likewise
+  bool is_rod = false;   ///< no stiffness against bending
   /// Centroid from the line that the element's offsets lead to, along axes 2 and 3, m.
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+  Eigen::Vector2d end_centroid = Eigen::Vector2d::Zero();  ///< the same at the second end
 };
 
 /// Properties of plates of which the same is said: how many, the first, and the worst of them.

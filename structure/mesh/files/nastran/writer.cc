@@ -1,6 +1,7 @@
 #include "structure/mesh/files/nastran/writer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -247,8 +248,8 @@ class NastranText {
     return std::atan2(normal.dot(side.cross(axis)), side.dot(axis)) * 180 / std::numbers::pi;
   }
 
-  long beam_property(int place, bool is_rod) {
-    const auto [found, is_new] = beam_property_.try_emplace({place, is_rod}, 0);
+  long beam_property(int place, int end, bool is_rod) {
+    const auto [found, is_new] = beam_property_.try_emplace({place, end, is_rod}, 0);
     if (!is_new) return found->second;
     const BeamSection& section = mesh_.beam_sections[at(place)];
     const long property = properties_.take(section.label);
@@ -264,14 +265,17 @@ class NastranText {
     const auto factor = [&](double shear_area) {
       return std::isfinite(shear_area) ? shear_area / section.area : 0.0;
     };
-    Fields points;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (int k = 0; k < 2; ++k)
-        points.push_back(i < section.stress_points.size()
-                             ? CardField(length(section.stress_points[i][k]))
-                             : CardField());
+    const auto points_of = [&](const BeamSection& of) {
+      Fields points;
+      for (std::size_t i = 0; i < 4; ++i)
+        for (int k = 0; k < 2; ++k)
+          points.push_back(i < of.stress_points.size() ? CardField(length(of.stress_points[i][k]))
+                                                       : CardField());
+      return points;
+    };
+    const Fields points = points_of(section);
     const double k1 = factor(section.shear_area_2), k2 = factor(section.shear_area_3);
-    if (section.shear_centre.isZero()) {
+    if (section.shear_centre.isZero() && end < 0) {
       Fields fields{property, material, a, i1, i2, j, mass, CardField()};
       fields.insert(fields.end(), points.begin(), points.end());
       for (const double value : {k1, k2, i12}) fields.emplace_back(value);
@@ -280,17 +284,52 @@ class NastranText {
     }
     Fields fields{property, material, a, i1, i2, i12, j, mass};
     fields.insert(fields.end(), points.begin(), points.end());
+    const BeamSection& last = end < 0 ? section : mesh_.beam_sections[at(end)];
+    if (end >= 0) {
+      const Fields of_end{"YES",
+                          1.0,
+                          area(last.area),
+                          fourth(last.second_moment_3),
+                          fourth(last.second_moment_2),
+                          fourth(last.product_23),
+                          fourth(last.torsion),
+                          per_length(last.mass_per_length)};
+      fields.insert(fields.end(), of_end.begin(), of_end.end());
+      const Fields end_points = points_of(last);
+      fields.insert(fields.end(), end_points.begin(), end_points.end());
+    }
+    const std::size_t before = fields.size();
     for (const double value : {k1, k2}) fields.emplace_back(value);
-    fields.resize(28);
-    for (int end = 0; end < 2; ++end)
-      for (int i = 0; i < 2; ++i) fields.emplace_back(length(-section.shear_centre[i]));
+    fields.resize(before + 12);
+    for (const BeamSection* of : {&section, &last})
+      for (int i = 0; i < 2; ++i) fields.emplace_back(length(-of->shear_centre[i]));
     out_.card("PBEAM", fields);
     return property;
   }
 
+  /// A beam's offsets lead to its shear centres, whose line tells its axes; where the sections
+  /// differ, it is turned a little against the line of the centroids.
+  std::array<Vector3, 2> offsets_of_centres(const Beam& beam) const {
+    const Vector3 between =
+        mesh_.vertices[at(beam.vertices[1])] - mesh_.vertices[at(beam.vertices[0])];
+    std::array<Vector3, 2> offsets = beam.offset;
+    constexpr int rounds = 20;  // each is as much smaller as the sections' difference to the length
+    for (int round = 0; round < rounds; ++round) {
+      const Vector3 line = between + offsets[1] - offsets[0];
+      const Vector3 axis_3 = line.cross(beam.axis_2).normalized();
+      const Vector3 axis_2 = axis_3.cross(line).normalized();
+      for (std::size_t end = 0; end < 2; ++end) {
+        const Eigen::Vector2d centre =
+            section_at(mesh_, beam, static_cast<double>(end)).shear_centre;
+        offsets[end] = beam.offset[end] + centre[0] * axis_2 + centre[1] * axis_3;
+      }
+    }
+    return offsets;
+  }
+
   void write_beams() {
     for (const Beam& beam : mesh_.beams) {
-      const long property = beam_property(beam.section, beam.is_rod);
+      const long property = beam_property(beam.section, beam.end_section, beam.is_rod);
       note_group(property, beam.region);
       const long number = elements_.take(beam.label);
       beam_number_.push_back(number);
@@ -299,21 +338,14 @@ class NastranText {
         out_.card("CROD", {number, property, label(a), label(b)});
         continue;
       }
-      const BeamSection& section = mesh_.section_of(beam);
-      const bool is_bar = section.shear_centre.isZero();
+      const bool is_bar = mesh_.section_of(beam).shear_centre.isZero() && beam.end_section < 0;
       Fields fields{number, property, label(a), label(b)};
       append(fields, axes_[at(a)].transpose() * beam.axis_2.normalized());
       fields.emplace_back();
       for (const BeamRelease& release : beam.release) fields.emplace_back(digits(release));
-      // The offsets of a beam lead to its shear centre.
-      const Vector3 line =
-          mesh_.vertices[at(b)] + beam.offset[1] - mesh_.vertices[at(a)] - beam.offset[0];
-      const Vector3 axis_3 = line.cross(beam.axis_2).normalized();
-      const Vector3 axis_2 = axis_3.cross(line).normalized();
-      const Vector3 to_centre = section.shear_centre[0] * axis_2 + section.shear_centre[1] * axis_3;
+      const std::array<Vector3, 2> to_centres = offsets_of_centres(beam);
       for (std::size_t end = 0; end < 2; ++end)
-        append(fields, axes_[at(beam.vertices[end])].transpose() * (beam.offset[end] + to_centre) /
-                           units_.length);
+        append(fields, axes_[at(beam.vertices[end])].transpose() * to_centres[end] / units_.length);
       const bool is_plain = digits(beam.release[0]).empty() && digits(beam.release[1]).empty() &&
                             beam.offset[0].isZero() && beam.offset[1].isZero() && is_bar;
       if (is_plain) fields.resize(7);
@@ -501,7 +533,7 @@ class NastranText {
   std::vector<long> support_label_, load_label_, combined_supports_, combined_loads_;
   std::vector<Eigen::Matrix3d> systems_;
   std::map<std::tuple<double, int, double, int, long>, long> shell_property_;
-  std::map<std::pair<int, bool>, long> beam_property_;
+  std::map<std::tuple<int, int, bool>, long> beam_property_;  ///< section, that at the end, rod
   long next_material_ = 0;
   CardWriter out_;
 };

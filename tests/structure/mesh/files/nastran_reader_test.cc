@@ -358,9 +358,35 @@ MAT1,7,206.+9,,.3,7850.
   EXPECT_DOUBLE_EQ(section.shear_area_2, 0.01);
   EXPECT_EQ(section.shear_area_3, std::numeric_limits<double>::infinity());
   expect_near(section.shear_centre, Eigen::Vector2d(-0.03, -0.02), 1e-15);
-  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nCBEAM,1,5,1,2,0.,0.,1.\n"
-                                    "PBEAML,5,7,,BAR\n,.2,.4,,YES,1.,.2,.3\nMAT1,7,206.+9,,.3\n"),
-              HasSubstr("PBEAML 5 tapers by more than 1 %"));
+}
+
+TEST(NastranReader, TaperedBeams) {
+  const std::string line = "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nCBEAM,1,5,1,2,0.,0.,1.\n";
+  const std::string material = "MAT1,7,206.+9,,.3,7850.\n";
+  const Deck shaped =
+      nastran(line + "PBEAML,5,7,,BAR\n,.2,.4,,YES,.5,,.35\n,YES,1.,.2,.3\n" + material);
+  const Beam& beam = shaped.mesh.beams.at(0);
+  ASSERT_GE(beam.end_section, 0);
+  EXPECT_NEAR(section_at(shaped.mesh, beam, 0).area, 0.08, 1e-12);
+  EXPECT_NEAR(section_at(shaped.mesh, beam, 0.5).area, 0.07, 1e-12);
+  EXPECT_NEAR(section_at(shaped.mesh, beam, 1).second_moment_3, 0.2 * 0.027 / 12, 1e-9);
+  // Blank figures between the ends are on the line; those at the end are as at the beginning.
+  const Deck given =
+      nastran(line +
+              "PBEAM,5,7,.02,4.-6,1.-6,0.,2.-6,3.\n,.1,.05,-.1,.05\n,YES,1.,.01,,,,,1.\n"
+              ",.05,.05,-.05,.05\n,NO,.5\n,1.,1.,,,,,,\n,,,,,.03,.0,.01,.0\n" +
+              material);
+  const BeamSection end = section_at(given.mesh, given.mesh.beams.at(0), 1);
+  EXPECT_DOUBLE_EQ(end.area, 0.01);
+  EXPECT_DOUBLE_EQ(end.second_moment_3, 4e-6);
+  EXPECT_DOUBLE_EQ(end.mass_per_length, 1);
+  expect_near(end.stress_points.at(0), Eigen::Vector2d(0.05, 0.05), 1e-15);
+  EXPECT_NEAR(given.mesh.beams[0].offset[0].norm(), 0.03, 1e-12);
+  EXPECT_NEAR(given.mesh.beams[0].offset[1].norm(), 0.01, 1e-12);
+  EXPECT_THAT(
+      complaints_of_nastran(
+          line + "PBEAM,5,7,.02,4.-6,1.-6,0.,2.-6\n,,,,,,,,\n,NO,.5,.01\n,NO,1.,.01\n" + material),
+      HasSubstr("PBEAM 5: A is not linear from end to end"));
 }
 
 TEST(NastranReader, Rods) {
@@ -774,9 +800,10 @@ TEST(NastranReader, CoresOfSandwichesAreSoftAlongThePlate) {
 TEST(NastranReader, LeavesOutCommandsToTheSolverThatAreNotThere) {
   const Deck deck = nastran(
       "INCLUDE 'write_modes.v2005'\nSOL 103\nCEND\nTITLE = A\n"
-      "INCLUDE 'more.inc'\nBEGIN BULK\n" +
+      "SET 8 = 1 THRU 9,\n  12,13 THRU 20, \n 30\nINCLUDE 'more.inc'\nBEGIN BULK\n" +
       square + "ENDDATA\n");
   EXPECT_THAT(entry(deck, "INCLUDE").left_out, HasSubstr("commands to the solver"));
+  EXPECT_THAT(describe_ledger(deck), testing::Not(HasSubstr("case control 12")));
   EXPECT_THAT(complaints_of_nastran("CEND\nBEGIN BULK\nINCLUDE 'gone.bdf'\n" + square),
               HasSubstr("\"gone.bdf\" to be included cannot be read"));
 }

@@ -124,6 +124,37 @@ PBUSH,6,K,1000.,,,50.
   EXPECT_LT((across(deck) - across(again)).norm(), 1e-9);
 }
 
+TEST(RoundTrip, TaperedBeams) {
+  const Deck deck = nastran(R"(GRID,1,,0.,0.,0.
+GRID,2,,2.,0.,0.
+GRID,3,,2.,2.,0.
+CBEAM,1,9,1,2,0.,0.,1.
+CBEAM,2,8,2,3,0.,0.,1.
+PBEAML,9,7,,L
+,.2,.4,.02,.01,,YES,1.,.1
+,.3,.02,.01
+PBEAM,8,7,.02,4.-6,1.-6,0.,2.-6,3.
+,.1,.05,-.1,.05
+,YES,1.,.01,2.-6,1.-6,0.,1.-6,1.
+,.05,.05,-.05,.05
+,1.,1.
+MAT1,7,206.+9,,.3,7850.
+)");
+  const Deck again = nastran(to_nastran(deck));
+  expect_same(deck, again, 1e-9);
+  ASSERT_EQ(again.mesh.beams.size(), 2U);
+  for (std::size_t b = 0; b < 2; ++b) {
+    const BeamSection was = section_at(deck.mesh, deck.mesh.beams[b], 1),
+                      is = section_at(again.mesh, again.mesh.beams[b], 1);
+    EXPECT_NEAR(is.area, was.area, 1e-9 * was.area);
+    EXPECT_NEAR(is.second_moment_3, was.second_moment_3, 1e-9 * was.second_moment_3);
+    EXPECT_NEAR(is.mass_per_length, was.mass_per_length, 1e-9);
+    EXPECT_LT((is.shear_centre - was.shear_centre).norm(), 1e-9);
+    EXPECT_LT((again.mesh.beams[b].offset[1] - deck.mesh.beams[b].offset[1]).norm(), 1e-9);
+  }
+  EXPECT_THROW(to_abaqus(deck), ModelError);
+}
+
 TEST(RoundTrip, Abaqus) {
   Deck deck = common_deck();
   // Not among Abaqus' words: a part of the displacements along axes of a node's own.

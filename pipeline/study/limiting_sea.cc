@@ -1,0 +1,278 @@
+#include "pipeline/study/limiting_sea.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/formats/series_file.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double whole_turn = 2 * std::numbers::pi;
+
+/// Column of a variable in a design; -1: the study has none of that name.
+Eigen::Index column_of(const StudyFile& study, const std::optional<Located<std::string>>& name) {
+  if (!name) return -1;
+  for (std::size_t v = 0; v < study.variables.size(); ++v)
+    if (study.variables[v].name.value == name->value) return static_cast<Eigen::Index>(v);
+  return -1;
+}
+
+/// Different values of a column, ascending.
+std::vector<double> values_in(const Eigen::MatrixXd& design, Eigen::Index column) {
+  if (column < 0) return {0};
+  const Eigen::VectorXd values = design.col(column);
+  const std::set<double> different(values.begin(), values.end());
+  return {different.begin(), different.end()};
+}
+
+std::size_t place_of(const std::vector<double>& values, double value) {
+  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) -
+                                  values.begin());
+}
+
+double figure_of(const Member& member, const std::string& path) {
+  for (const auto& [name, value] : member.figures)
+    if (name == path) return value;
+  return not_known;
+}
+
+/// The worse of two; what is not known is worst.
+double worse(double a, double b, bool worse_when_smaller) {
+  if (std::isnan(a) || std::isnan(b)) return not_known;
+  return worse_when_smaller ? std::min(a, b) : std::max(a, b);
+}
+
+/// The grid of sea states that a study runs.
+struct SeaGrid {
+  Eigen::Index height, period, heading;
+  std::vector<double> heights, periods, headings;
+
+  std::size_t cell_of(const Eigen::MatrixXd& design, Eigen::Index member) const {
+    const std::size_t at_period = place_of(periods, design(member, period));
+    return at_period * headings.size() +
+           (heading < 0 ? 0 : place_of(headings, design(member, heading)));
+  }
+};
+
+SeaGrid grid_of(const StudyFile& study, const Eigen::MatrixXd& design) {
+  SeaGrid grid{column_of(study, study.limits->height),
+               column_of(study, study.limits->period),
+               column_of(study, study.limits->heading),
+               {},
+               {},
+               {}};
+  grid.heights = values_in(design, grid.height);
+  grid.periods = values_in(design, grid.period);
+  grid.headings = values_in(design, grid.heading);
+  return grid;
+}
+
+/// The worst value over seeds of a quantity in each sea state: heights of a cell.
+std::vector<std::vector<double>> worst_over_seeds(const SeaGrid& grid,
+                                                  const Eigen::MatrixXd& design,
+                                                  const std::vector<Member>& members,
+                                                  const std::string& path,
+                                                  bool worse_when_smaller) {
+  const double best = (worse_when_smaller ? 1 : -1) * std::numeric_limits<double>::infinity();
+  std::vector<std::vector<double>> worst(grid.periods.size() * grid.headings.size(),
+                                         std::vector<double>(grid.heights.size(), best));
+  for (const Member& member : members) {
+    const Eigen::Index row = member.number;
+    double& value =
+        worst[grid.cell_of(design, row)][place_of(grid.heights, design(row, grid.height))];
+    value = worse(value, figure_of(member, path), worse_when_smaller);
+  }
+  return worst;
+}
+
+constexpr const char* height_column = "significant_height_m";
+constexpr const char* period_column = "peak_period_s";
+constexpr const char* heading_column = "heading_deg";
+
+/// A column of a table of sea states; complains if it is due and not there.
+const std::vector<double>* find_column(const SeriesFile& file, const std::string& name, bool is_due,
+                                       const Mark& mark, Diagnostics& diagnostics) {
+  const auto found = std::find(file.names.begin(), file.names.end(), name);
+  if (found != file.names.end())
+    return &file.columns[static_cast<std::size_t>(found - file.names.begin())];
+  if (is_due) diagnostics.error(mark, fmt::format("there is no column {}", name));
+  return nullptr;
+}
+
+/// Place of a value in ascending figures: the one below and the part of the way to the next.
+struct Between {
+  std::size_t below = 0, above = 0;
+  double part = 0;
+};
+
+std::optional<Between> find_between(const std::vector<double>& figures, double value) {
+  constexpr double slack = 1e-9;
+  if (value < figures.front() - slack || value > figures.back() + slack) return std::nullopt;
+  const auto next = static_cast<std::size_t>(
+      std::upper_bound(figures.begin(), figures.end(), value) - figures.begin());
+  const std::size_t above = std::min(next, figures.size() - 1);
+  const std::size_t below = next == 0 ? 0 : next - 1;
+  const double width = figures[above] - figures[below];
+  return Between{below, above, width > 0 ? (value - figures[below]) / width : 0};
+}
+
+/// The same of a heading: round the turn where the grid's largest gap closes it.
+std::optional<Between> find_heading(const std::vector<double>& headings, double heading) {
+  if (headings.size() == 1) return Between{};
+  const double turns = std::floor((heading - headings.front()) / whole_turn + 1e-12);
+  const double within = heading - turns * whole_turn;
+  if (auto inside = find_between(headings, within)) return inside;
+  double largest_gap = 0;
+  for (std::size_t i = 1; i < headings.size(); ++i)
+    largest_gap = std::max(largest_gap, headings[i] - headings[i - 1]);
+  const double closing = headings.front() + whole_turn - headings.back();
+  if (closing > 1.01 * largest_gap) return std::nullopt;
+  return Between{headings.size() - 1, 0, (within - headings.back()) / closing};
+}
+
+}  // namespace
+
+const char* name_of(LimitKind kind) {
+  switch (kind) {
+    case LimitKind::found:
+      return "found";
+    case LimitKind::below_grid:
+      return "below the grid";
+    case LimitKind::above_grid:
+      return "above the grid";
+    case LimitKind::before_failure:
+      return "before a failure";
+  }
+  return "";
+}
+
+LimitingHeight find_limiting_height(const std::vector<double>& heights,
+                                    const std::vector<double>& values, double limit,
+                                    bool worse_when_smaller) {
+  const double sign = worse_when_smaller ? -1 : 1;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    if (std::isnan(values[k]))
+      return k == 0 ? LimitingHeight{0, LimitKind::below_grid}
+                    : LimitingHeight{heights[k - 1], LimitKind::before_failure};
+    if (sign * (values[k] - limit) <= 0) continue;
+    if (k == 0) return {0, LimitKind::below_grid};
+    const double part = (limit - values[k - 1]) / (values[k] - values[k - 1]);
+    return {heights[k - 1] + part * (heights[k] - heights[k - 1]), LimitKind::found};
+  }
+  return {heights.back(), LimitKind::above_grid};
+}
+
+double LimitingSeas::height_at(double period, double heading) const {
+  const auto p = find_between(periods, period);
+  const auto h = find_heading(headings, heading);
+  if (!p || !h) return 0;
+  const auto across = [&](std::size_t row) {
+    return (1 - h->part) * at(row, h->below).height + h->part * at(row, h->above).height;
+  };
+  return (1 - p->part) * across(p->below) + p->part * across(p->above);
+}
+
+LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& design,
+                                const std::vector<Member>& members) {
+  const SeaGrid grid = grid_of(study, design);
+  LimitingSeas seas{grid.periods, grid.headings, {}, {}, {}};
+  for (const QuantityLimit& quantity : study.limits->quantities) {
+    const std::string& path = quantity.figure.value;
+    const auto has_it = [&](const Member& member) { return !std::isnan(figure_of(member, path)); };
+    if (std::none_of(members.begin(), members.end(), has_it))
+      throw std::runtime_error(fmt::format("no member has the figure {}, which is limited", path));
+    const bool smaller = std::any_of(members.begin(), members.end(), [&](const Member& member) {
+      return std::find(member.worse_when_smaller.begin(), member.worse_when_smaller.end(), path) !=
+             member.worse_when_smaller.end();
+    });
+    const auto worst = worst_over_seeds(grid, design, members, path, smaller);
+    const bool is_first = seas.quantities.empty();
+    for (std::size_t cell = 0; cell < worst.size(); ++cell) {
+      const LimitingHeight height =
+          find_limiting_height(grid.heights, worst[cell], quantity.at.value.value, smaller);
+      if (is_first) {
+        seas.heights.push_back(height);
+        seas.governing.push_back(height.kind == LimitKind::above_grid ? "" : path);
+      } else if (height.height < seas.heights[cell].height) {
+        seas.heights[cell] = height;
+        seas.governing[cell] = path;
+      }
+    }
+    seas.quantities.push_back(path);
+  }
+  return seas;
+}
+
+std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is_forecast) {
+  const std::string measure = is_forecast ? "time_h" : "share";
+  const auto name = std::make_shared<const std::string>(path.string());
+  Diagnostics diagnostics;
+  SeriesFile file;
+  try {
+    file = read_series_file(path);
+  } catch (const SeriesFileError& error) {
+    diagnostics.error({name, 0, 0}, error.what());
+    throw InputError(diagnostics);
+  }
+  const Mark head{name, std::max(1, file.lines_before), 1};
+  for (const std::string& column : file.names)
+    if (column != height_column && column != period_column && column != heading_column &&
+        column != measure)
+      diagnostics.error(head, fmt::format("a column is called \"{}\"", column),
+                        {fmt::format("known are {}, {}, {} and {}", height_column, period_column,
+                                     heading_column, measure)});
+  const auto* heights = find_column(file, height_column, true, head, diagnostics);
+  const auto* periods = find_column(file, period_column, true, head, diagnostics);
+  const auto* headings = find_column(file, heading_column, false, head, diagnostics);
+  const auto* measures = find_column(file, measure, true, head, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  std::vector<SeaState> states;
+  for (std::size_t row = 0; row < file.row_count(); ++row) {
+    SeaState state{(*heights)[row], (*periods)[row],
+                   headings ? (*headings)[row] * std::numbers::pi / 180 : 0, (*measures)[row],
+                   (*measures)[row]};
+    if (state.height < 0 || !(state.period > 0) || (!is_forecast && state.share < 0))
+      diagnostics.error({name, file.lines_before + static_cast<int>(row) + 1, 1},
+                        "heights and shares are not negative, periods above zero");
+    if (is_forecast && row > 0 && !(state.time > states.back().time))
+      diagnostics.error({name, file.lines_before + static_cast<int>(row) + 1, 1},
+                        "the times of a forecast ascend");
+    states.push_back(state);
+  }
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  return states;
+}
+
+Operability find_operability(const LimitingSeas& seas, const std::vector<SeaState>& states,
+                             double alpha, bool is_forecast) {
+  Operability result;
+  double all = 0;
+  bool open = false;
+  for (const SeaState& state : states) {
+    const double share = is_forecast ? 1 : state.share;
+    const bool is_allowed = state.height <= alpha * seas.height_at(state.period, state.heading);
+    all += share;
+    if (is_allowed) result.share += share;
+    if (!find_between(seas.periods, state.period)) result.beyond += share;
+    if (is_forecast && is_allowed && !open) result.windows.push_back({state.time, state.time});
+    if (is_forecast && is_allowed) result.windows.back().end = state.time;
+    open = is_allowed;
+  }
+  if (all > 0) result.share /= all;
+  if (all > 0) result.beyond /= all;
+  return result;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "pipeline/files/study_file.h"
+#include "pipeline/study/members.h"
+
+namespace blocklift::pipeline {
+
+/// How a limiting wave height is known.
+enum class LimitKind {
+  found,          ///< between two heights that were run
+  below_grid,     ///< the lowest height is too much already: it is taken as zero
+  above_grid,     ///< the highest height is allowed: the limit is at least that
+  before_failure  ///< the height above could not be computed: the limit is at least this one
+};
+
+/// "found", "below the grid", "above the grid", "before a failure".
+const char* name_of(LimitKind kind);
+
+/// The significant height at which a quantity reaches its limit.
+struct LimitingHeight {
+  double height = 0;  ///< m
+  LimitKind kind = LimitKind::found;
+};
+
+/// Goes up through heights to where a quantity passes its limit, linear between.
+/// @param heights ascending, m. @param values of the quantity there; not a number: it is not known.
+/// @param worse_when_smaller the limit is the least that is allowed.
+LimitingHeight find_limiting_height(const std::vector<double>& heights,
+                                    const std::vector<double>& values, double limit,
+                                    bool worse_when_smaller);
+
+/// Limiting heights over peak period and heading.
+struct LimitingSeas {
+  std::vector<double> periods;          ///< s, ascending
+  std::vector<double> headings;         ///< rad, ascending; one, zero, if the study varies none
+  std::vector<LimitingHeight> heights;  ///< the least of all quantities; headings of a period
+  /// Path of the quantity that it is of; empty where none reaches its limit.
+  std::vector<std::string> governing;
+  std::vector<std::string> quantities;
+
+  const LimitingHeight& at(std::size_t period, std::size_t heading) const {
+    return heights[period * headings.size() + heading];
+  }
+  /// Between the grid's periods and headings, linear; zero beyond the periods, where nothing is
+  /// known. Headings go round where the grid does, and are else held likewise.
+  double height_at(double period, double heading) const;
+};
+
+/// Of each sea state the worst of its seeds counts.
+/// @throws std::runtime_error if a quantity is not in any member.
+LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& design,
+                                const std::vector<Member>& members);
+
+/// A sea state of a scatter table or a forecast.
+struct SeaState {
+  double height = 0, period = 0, heading = 0;  ///< m, s, rad
+  double share = 0;                            ///< of a scatter table: how often it is, any scale
+  double time = 0;                             ///< of a forecast, h
+};
+
+/// Reads a CSV table whose first line names its columns: significant_height_m, peak_period_s,
+/// heading_deg if there are several, and share or time_h.
+/// @throws InputError with file and line.
+std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is_forecast);
+
+/// A lift's share of the time, or of the forecast its windows, with heights up to alpha times the
+/// limit.
+struct Operability {
+  double share = 0;   ///< of the table's shares, or of the forecast's instants
+  double beyond = 0;  ///< of them with a period that the study did not run: not allowed
+  struct Window {
+    double begin = 0, end = 0;  ///< h
+  };
+  std::vector<Window> windows;  ///< of a forecast, from allowed instant to allowed instant
+};
+Operability find_operability(const LimitingSeas& seas, const std::vector<SeaState>& states,
+                             double alpha, bool is_forecast);
+
+/// Contours of the limit over period and heading; of one heading the limit over the period. SVG.
+std::string limiting_contours(const LimitingSeas& seas);
+/// The limit round the compass, a curve a period: SVG; empty of one heading.
+std::string limiting_polar(const LimitingSeas& seas);
+
+}  // namespace blocklift::pipeline

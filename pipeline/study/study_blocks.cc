@@ -1,0 +1,253 @@
+#include "pipeline/study/study_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "pipeline/coupling/block_flexibility.h"
+#include "pipeline/coupling/load_mapping.h"
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/content_hash.h"
+#include "pipeline/lift/block_assessment.h"
+#include "pipeline/lift/block_preparation.h"
+#include "pipeline/lift/history_assessment.h"
+#include "pipeline/lift/kept_stages.h"
+#include "pipeline/results/lift_scene.h"
+#include "pipeline/study/members.h"
+#include "pipeline/study/study_design.h"
+#include "structure/limits.h"
+#include "structure/response/accuracy.h"
+
+namespace blocklift::pipeline {
+
+double LargestChecked::increase_percent() const { return percent_above(in_motion, at_rest); }
+
+/// A block that serves several members: its elements and, where they were asked for, the factor of
+/// its stiffness and its unit stresses.
+struct StudyBlocks::Kept {
+  std::string key;
+  std::unique_ptr<structure::ElasticModel> model;
+  std::unique_ptr<structure::UnitResponses> responses;
+  std::optional<structure::StressBasis> basis;
+};
+
+namespace {
+
+namespace fs = std::filesystem;
+using structure::MassProperties;
+using structure::Vector3;
+
+constexpr std::size_t most_kept = 3;  // of blocks that members take in turn
+
+/// Does a key of a study change a block's stiffness, or only its mass or nothing of it?
+bool changes_block(const std::string& key, const std::string& block) {
+  const std::size_t colon = key.find(':');
+  const std::string_view inside =
+      colon == std::string::npos ? std::string_view(key) : std::string_view(key).substr(colon + 1);
+  if (colon == std::string::npos)
+    return inside.starts_with("structure") || inside.starts_with("load.model");
+  if (std::string_view(key).substr(0, colon) != block) return false;
+  return inside != "mass" && !inside.starts_with("centre_of_mass");
+}
+
+std::unique_ptr<structure::ElasticModel> model_of(const LiftCase& lift_case) {
+  Diagnostics diagnostics;
+  auto model = make_block_model(*lift_case.load.model, lift_case.load.model_name.value,
+                                lift_case.structure, diagnostics);
+  if (!model) throw InputError(diagnostics);
+  return model;
+}
+
+template <class Value>
+std::optional<Value> stated(const std::optional<Located<Value>>& located) {
+  return located ? std::optional<Value>(located->value) : std::nullopt;
+}
+
+MassProperties mass_of(const structure::ElasticModel& model, const BlockModel& block) {
+  return model.mass_with(stated(block.mass), stated(block.centre_of_mass));
+}
+
+/// Holds a load case against the balance that a free body keeps.
+void require_balance(const structure::LoadCase& load_case, const MassProperties& mass,
+                     const std::vector<structure::LiftingPoint>& lugs) {
+  const structure::InertiaField& field = load_case.field;
+  const auto& w = field.angular_velocity_products;
+  Eigen::Matrix3d products;
+  products << w[0], w[3], w[5], w[3], w[1], w[4], w[5], w[4], w[2];
+  const Vector3& centre = mass.centre_of_mass_B;
+  Vector3 force =
+      -mass.mass * (field.acceleration_less_gravity + field.angular_acceleration.cross(centre) +
+                    products * centre - products.trace() * centre);
+  // omega x (I omega) as the products of omega have it.
+  const Eigen::Matrix3d spin = mass.inertia_BBcm_B * products;
+  Vector3 moment =
+      -mass.inertia_BBcm_B * field.angular_acceleration -
+      Vector3(spin(2, 1) - spin(1, 2), spin(0, 2) - spin(2, 0), spin(1, 0) - spin(0, 1));
+  double load = mass.mass * std::max(field.acceleration_less_gravity.norm(), 9.80665), pull = 0;
+  for (std::size_t lug = 0; lug < lugs.size(); ++lug) {
+    const Vector3& at_lug = load_case.lug_forces_B[lug];
+    force += at_lug;
+    moment += (lugs[lug].p_BPin - centre).cross(at_lug);
+    pull += at_lug.norm();
+  }
+  load = std::max(load, pull);
+  const double gyration = std::sqrt(mass.inertia_BBcm_B.trace() / (2 * mass.mass));
+  if (force.norm() < largest_balance_residual * load &&
+      moment.norm() < largest_balance_residual * load * gyration)
+    return;
+  throw std::runtime_error(fmt::format(
+      "the loads on the block are not in balance: force residual {:.1e}, moment "
+      "residual {:.1e} (allowed {:.0e})",
+      force.norm() / load, moment.norm() / (load * gyration), largest_balance_residual));
+}
+
+/// Largest checked stress of one history: value, time and place.
+void find_largest(const structure::StressBasis& basis, const BlockAttachment& attachment,
+                  const dynamics::History& history, const MassProperties& mass, double& stress,
+                  double& time, Vector3& place) {
+  Eigen::MatrixXd factors(basis.components.cols(), history.sample_count());
+  for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample) {
+    const structure::LoadCase load_case = map_instant(history, sample, attachment, mass);
+    require_balance(load_case, mass, attachment.lugs);
+    factors.col(sample) = basis.factors(load_case, mass);
+  }
+  const structure::LargestStress largest = find_largest_checked(basis, factors, 1);
+  if (largest.point < 0) throw std::runtime_error("the block has no plating");
+  stress = largest.value;
+  time = history.time[largest.instant];
+  place = basis.squares[static_cast<std::size_t>(largest.point)].centre_B;
+}
+
+}  // namespace
+
+StudyBlocks::StudyBlocks(const StudyFile& study, fs::path folder)
+    : study_(study), folder_(std::move(folder)) {
+  const LiftCase as_written = read_lift_case(study.case_path());
+  for (std::size_t v = 0; v < study.variables.size(); ++v)
+    for (const Located<std::string>& key : study.variables[v].keys)
+      if (changes_block(key.value, as_written.load.model_name.value)) {
+        changing_.push_back(static_cast<int>(v));
+        break;
+      }
+}
+
+StudyBlocks::~StudyBlocks() = default;
+
+std::string StudyBlocks::key_of(const Eigen::VectorXd& values) const {
+  std::string key;
+  for (const int v : changing_)
+    key += value_text(study_.variables[static_cast<std::size_t>(v)], values[v]) + "\n";
+  return key;
+}
+
+fs::path StudyBlocks::file_of(const std::string& key) const {
+  ContentHash hash;
+  hash.add(std::string_view(key));
+  return folder_ / ("block-" + hash.digits());
+}
+
+StudyBlocks::Kept& StudyBlocks::kept(const LiftCase& lift_case, const Eigen::VectorXd& values) {
+  std::string key = key_of(values);
+  const auto found =
+      std::find_if(kept_.begin(), kept_.end(), [&](const auto& one) { return one->key == key; });
+  if (found != kept_.end()) {
+    std::rotate(found, found + 1, kept_.end());
+    return *kept_.back();
+  }
+  if (kept_.size() == most_kept) kept_.erase(kept_.begin());
+  kept_.push_back(std::make_unique<Kept>(Kept{std::move(key), model_of(lift_case), {}, {}}));
+  return *kept_.back();
+}
+
+KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& values) {
+  Kept& block = kept(lift_case, values);
+  const BlockModel& as_lifted = *lift_case.load.model;
+  KnownBlock known{
+      load_mass(mass_of(*block.model, as_lifted)), block.model->mesh().lifting_points, {}};
+  if (lift_case.dynamics.flexibility == Flexibility::rigid) return known;
+  const structure::OneBlasThread whatever_the_threads;
+  if (!block.responses) block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  const auto model =
+      block.model->with_mass(stated(as_lifted.mass), stated(as_lifted.centre_of_mass));
+  known.flexibility =
+      make_flexibility(structure::UnitResponses(*model, *block.responses), lift_case.dynamics);
+  return known;
+}
+
+structure::StressBasis StudyBlocks::basis_of(const Eigen::VectorXd& values) const {
+  const Progress nobody_watches = [](const std::string&, double, const std::string&) {};
+  const LiftCase lift_case = member_case(study_, values, &changing_);
+  auto model = model_of(lift_case);
+  const structure::OneBlasThread whatever_the_threads;
+  auto responses = std::make_unique<structure::UnitResponses>(*model);
+  std::optional<LoadFlexibility> flexibility;
+  if (lift_case.dynamics.flexibility != Flexibility::rigid)
+    flexibility = make_flexibility(*responses, lift_case.dynamics);
+  const LiftRun run = run_lift(lift_case,
+                               prepare_lift(lift_case, load_mass(model->mass_properties()),
+                                            nobody_watches, flexibility ? &*flexibility : nullptr),
+                               nobody_watches);
+  const BlockAttachment attachment =
+      attach_block(run.model.system, run.model.load, model->mesh().lifting_points);
+  const auto factors = [&](const structure::ElasticModel&, structure::UnitResponses& of_mesh) {
+    return structure::LoadFactors{factors_of(of_mesh, attachment, run.static_history),
+                                  factors_of(of_mesh, attachment, run.dynamic_history())};
+  };
+  const structure::RefinedBlock refined = structure::refine_checked_stress(
+      std::move(model), std::move(responses), factors,
+      {lift_case.structure.accuracy, lift_case.structure.most_unknowns});
+  if (refined.model->space().shells().empty())
+    throw std::runtime_error(
+        "the block has no plates, over which the stress would be checked: run: assess finds the "
+        "stress of its bars and solids");
+  // Another member's stress may be largest elsewhere: all squares are looked at.
+  return structure::make_stress_basis(
+      *refined.responses,
+      structure::CheckedStress(*refined.model, refined.responses->displacements().leftCols<1>(),
+                               structure::AccuracyGoal().square_size, 1)
+          .squares(),
+      1);
+}
+
+LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun& run,
+                                        const Eigen::VectorXd& values) {
+  Kept& block = kept(lift_case, values);
+  if (!block.basis) {
+    const fs::path file = file_of(block.key);
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) write_file(file, bytes_of_stress_basis(basis_of(values)));
+    block.basis = stress_basis_of(read_file(file));
+  }
+  const MassProperties mass = mass_of(*block.model, *lift_case.load.model);
+  const BlockAttachment attachment =
+      attach_block(run.model.system, run.model.load, block.model->mesh().lifting_points);
+  LargestChecked largest;
+  find_largest(*block.basis, attachment, run.static_history, mass, largest.at_rest,
+               largest.time_at_rest, largest.place_at_rest);
+  find_largest(*block.basis, attachment, run.dynamic_history(), mass, largest.in_motion,
+               largest.time_in_motion, largest.place_in_motion);
+  return largest;
+}
+
+void StudyBlocks::prepare(const Eigen::MatrixXd& design, int process, int processes) {
+  std::set<std::string> seen;
+  for (Eigen::Index member = 0; member < design.rows(); ++member) {
+    const Eigen::VectorXd values = design.row(member);
+    const std::string key = key_of(values);
+    if (!seen.insert(key).second || static_cast<int>(seen.size() - 1) % processes != process)
+      continue;
+    std::error_code ignored;
+    if (!fs::exists(file_of(key), ignored))
+      write_file(file_of(key), bytes_of_stress_basis(basis_of(values)));
+  }
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,100 @@
+#include "structure/response/stress_basis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "structure/error.h"
+#include "structure/response/load_history.h"
+#include "structure/system/matter.h"
+
+namespace blocklift::structure {
+namespace {
+
+constexpr Eigen::Index fields = 12;    // of inertia
+constexpr Eigen::Index densities = 4;  // 1, x, y, z times the steel's
+
+/// The steel with its density times 1 (density 0) or a coordinate (1 to 3).
+MassProperties unit_density(const MassProperties& mass, Eigen::Index density) {
+  MassProperties unit = mass;
+  unit.factor_alpha = density == 0 ? 1 : 0;
+  unit.factor_beta = density == 0 ? Vector3::Zero().eval() : Vector3::Unit(density - 1).eval();
+  return unit;
+}
+
+/// Takes out of loads, a column each, what would accelerate the block.
+void balance(const ElasticModel& model, Eigen::MatrixXd& loads) {
+  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+    for (int pass = 0; pass < 2; ++pass) {  // the second removes the rounding of the first
+      const Eigen::Matrix<double, 6, 1> field =
+          balancing_field(model.mass_properties(), resultant(model.space(), loads.col(k)))
+              .coefficients()
+              .head<6>();
+      loads.col(k) += model.inertia_loads().leftCols<6>() * field;
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd StressBasis::factors(const LoadCase& load_case, const MassProperties& mass) const {
+  const auto lug_forces = static_cast<Eigen::Index>(3 * load_case.lug_forces_B.size());
+  if (components.cols() != lug_forces + densities * fields)
+    throw ModelError(fmt::format("load case \"{}\" has {} lug forces; the block has {} lugs",
+                                 load_case.name, load_case.lug_forces_B.size(),
+                                 (components.cols() - densities * fields) / 3));
+  Eigen::VectorXd all(components.cols());
+  for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
+    all.segment<3>(static_cast<Eigen::Index>(3 * lug)) = load_case.lug_forces_B[lug];
+  const Eigen::Matrix<double, fields, 1> field = load_case.field.coefficients();
+  all.segment<fields>(lug_forces) = mass.factor_alpha * field;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    all.segment<fields>(lug_forces + (1 + axis) * fields) = mass.factor_beta[axis] * field;
+  return all;
+}
+
+StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square> squares,
+                              int threads) {
+  const ElasticModel& model = responses.model();
+  StressBasis basis{std::move(squares), {}};
+  const Eigen::Index lug_forces = model.lug_loads().cols();
+  basis.components.resize(static_cast<Eigen::Index>(3 * basis.squares.size()),
+                          lug_forces + densities * fields);
+  // The balanced responses to the lugs' unit forces are known; densities go one after another, for
+  // their loads fill the memory.
+  basis.components.leftCols(lug_forces) =
+      CheckedStress(model, responses.displacements().leftCols(lug_forces), basis.squares, threads)
+          .components();
+  for (Eigen::Index density = 0; density < densities; ++density) {
+    Eigen::MatrixXd loads =
+        inertia_loads(model.space(), unit_density(model.mass_properties(), density));
+    balance(model, loads);
+    basis.components.middleCols<fields>(lug_forces + density * fields) =
+        CheckedStress(model, responses.solve(loads), basis.squares, threads).components();
+  }
+  return basis;
+}
+
+LargestStress find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
+                                   int threads) {
+  const Eigen::VectorXd weights =
+      basis.components.colwise().norm().transpose() /
+      std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, basis.components.rows())));
+  const auto unit_stress = [&](int first, int count) {
+    Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6 * count, basis.components.cols());
+    for (int i = 0; i < count; ++i) {
+      const auto square = basis.components.middleRows<3>(3 * (first + i));
+      stress.middleRows<2>(6 * i) = square.topRows<2>();
+      stress.row(6 * i + 3) = square.row(2);
+    }
+    return stress;
+  };
+  return find_largest_stresses(
+             LoadHistory(factors, weights), static_cast<int>(basis.squares.size()), unit_stress, 1,
+             [](int) { return 0; }, threads)
+      .von_mises.front();
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,156 @@
+// Limiting sea states of a lift that is linear in the wave height, which are known by hand.
+#include "pipeline/study/limiting_sea.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/study/study_design.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+StudyVariable variable_of(const std::string& name, const Exponents& exponents,
+                          const std::vector<double>& values) {
+  StudyVariable variable;
+  variable.name = {name, {}};
+  for (const double value : values) variable.values.push_back({{value, exponents}, {}});
+  return variable;
+}
+
+/// A load of 100 N at rest; per metre of height a resonance at 8 s, and more from the beam; seed 2
+/// gives a tenth more than seed 1. Clearance falls by as many centimetres.
+double load_per_metre(double period, double heading) {
+  return (10 + 30 / (1 + std::pow(period - 8, 2))) * (1 + std::pow(std::sin(heading), 2));
+}
+
+class LinearLift : public ::testing::Test {
+ protected:
+  LinearLift() {
+    study_.design = StudyDesign::grid;
+    study_.variables = {
+        variable_of("Hs", {1, 0, 0, 0}, {0.5, 1, 2, 4}),
+        variable_of("Tp", {0, 0, 1, 0}, {6, 8, 10}),
+        variable_of("to", {0, 0, 0, 1}, {0, 90 * degree, 180 * degree, 270 * degree}),
+        variable_of("seed", {}, {1, 2})};
+    SeaLimits limits;
+    limits.height = {"Hs", {}};
+    limits.period = {"Tp", {}};
+    limits.heading = {"to", {}};
+    limits.quantities = {limit("load_N", 160)};
+    study_.limits = limits;
+    design_ = make_design(study_);
+    for (Eigen::Index i = 0; i < design_.rows(); ++i) {
+      const double wave = design_(i, 0) * load_per_metre(design_(i, 1), design_(i, 2)) *
+                          (design_(i, 3) == 2 ? 1 : 1 / 1.1);
+      Member member;
+      member.number = static_cast<int>(i);
+      member.figures = {{"load_N", 100 + wave}, {"clearance_m", 2 - wave / 100}};
+      member.worse_when_smaller = {"clearance_m"};
+      members_.push_back(member);
+    }
+  }
+  static QuantityLimit limit(const std::string& path, double value) {
+    return {{path, {}}, {{value, {}}, {}}};
+  }
+
+  StudyFile study_;
+  Eigen::MatrixXd design_;
+  std::vector<Member> members_;
+};
+
+TEST_F(LinearLift, HasTheHeightsThatAreKnownByHand) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  ASSERT_EQ(seas.periods.size(), 3U);
+  ASSERT_EQ(seas.headings.size(), 4U);
+  for (std::size_t p = 0; p < 3; ++p)
+    for (std::size_t h = 0; h < 4; ++h) {
+      const double exact = 60 / load_per_metre(seas.periods[p], seas.headings[h]);
+      EXPECT_EQ(seas.at(p, h).kind, LimitKind::found);
+      EXPECT_NEAR(seas.at(p, h).height, exact, 1e-12 * exact);
+    }
+  EXPECT_NEAR(seas.at(1, 0).height, 1.5, 1e-12);   // 60 / (10 + 30)
+  EXPECT_NEAR(seas.at(1, 1).height, 0.75, 1e-12);  // twice the load from the beam
+}
+
+TEST_F(LinearLift, TheFirstLimitCounts) {
+  study_.limits->quantities.push_back(limit("clearance_m", 1.7));  // a wave load of 30 N
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  EXPECT_NEAR(seas.at(1, 0).height, 0.75, 1e-12);
+  EXPECT_EQ(seas.governing.front(), "clearance_m");
+  study_.limits->quantities = {limit("nothing", 1)};
+  EXPECT_THROW(find_limiting_seas(study_, design_, members_), std::runtime_error);
+}
+
+TEST_F(LinearLift, SaysWhereTheGridDoesNotHoldTheLimit) {
+  study_.limits->quantities = {limit("load_N", 1000)};
+  EXPECT_EQ(find_limiting_seas(study_, design_, members_).at(0, 0).kind, LimitKind::above_grid);
+  study_.limits->quantities = {limit("load_N", 101)};
+  const LimitingSeas low = find_limiting_seas(study_, design_, members_);
+  EXPECT_EQ(low.at(0, 0).kind, LimitKind::below_grid);
+  EXPECT_EQ(low.at(0, 0).height, 0);
+  // A member that failed ends the heights that are known.
+  study_.limits->quantities = {limit("load_N", 1000)};
+  for (Member& member : members_)
+    if (design_(member.number, 0) == 4) member.figures.clear();
+  const LimitingSeas failed = find_limiting_seas(study_, design_, members_);
+  EXPECT_EQ(failed.at(0, 0).kind, LimitKind::before_failure);
+  EXPECT_EQ(failed.at(0, 0).height, 2);
+}
+
+TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  // Half way between headings and periods the limit is the mean; headings go round.
+  EXPECT_NEAR(seas.height_at(8, 45 * degree), (1.5 + 0.75) / 2, 1e-12);
+  EXPECT_NEAR(seas.height_at(8, 315 * degree), (1.5 + 0.75) / 2, 1e-12);
+  EXPECT_NEAR(seas.height_at(8, -45 * degree), (1.5 + 0.75) / 2, 1e-12);
+  EXPECT_EQ(seas.height_at(12, 0), 0);
+  const std::vector<SeaState> scatter = {
+      {1.0, 8, 0, 30, 0}, {1.0, 8, 90 * degree, 20, 0}, {1.2, 8, 0, 40, 0}, {0.2, 12, 0, 10, 0}};
+  const Operability all = find_operability(seas, scatter, 1, false);
+  EXPECT_NEAR(all.share, 0.7, 1e-12);
+  EXPECT_NEAR(all.beyond, 0.1, 1e-12);
+  EXPECT_NEAR(find_operability(seas, scatter, 0.71, false).share, 0.3, 1e-12);  // up to 1.065 m
+  const std::vector<SeaState> forecast = {{1.0, 8, 0, 0, 0},
+                                          {1.2, 8, 0, 3, 3},
+                                          {1.6, 8, 0, 6, 6},
+                                          {1.4, 8, 0, 9, 9},
+                                          {1, 8, 0, 12, 12}};
+  const Operability ahead = find_operability(seas, forecast, 1, true);
+  EXPECT_NEAR(ahead.share, 0.8, 1e-12);
+  ASSERT_EQ(ahead.windows.size(), 2U);
+  EXPECT_EQ(ahead.windows[0].end, 3);
+  EXPECT_EQ(ahead.windows[1].begin, 9);
+  EXPECT_EQ(ahead.windows[1].end, 12);
+}
+
+TEST_F(LinearLift, IsDrawn) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  EXPECT_THAT(limiting_contours(seas), ::testing::HasSubstr("<path d=\"M"));
+  EXPECT_THAT(limiting_polar(seas), ::testing::HasSubstr("Tp 8 s"));
+}
+
+TEST(SeaStates, AreReadWithTheirHeads) {
+  const test::TemporaryFolder folder;
+  folder.write("scatter.csv",
+               "significant_height_m,peak_period_s,heading_deg,share\n0.5,6,90,12\n1,8,180,3\n");
+  const std::vector<SeaState> states = read_sea_states("scatter.csv", false);
+  ASSERT_EQ(states.size(), 2U);
+  EXPECT_NEAR(states[1].heading, std::numbers::pi, 1e-12);
+  EXPECT_EQ(states[0].share, 12);
+  EXPECT_THROW(read_sea_states("scatter.csv", true), InputError);  // no time_h, and a share
+  folder.write("scatter.csv", "significant_height_m,peak_period_s,share\n-1,6,1\n");
+  EXPECT_THROW(read_sea_states("scatter.csv", false), InputError);
+  EXPECT_THROW(read_sea_states("none.csv", false), InputError);
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
