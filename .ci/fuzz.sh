@@ -7,7 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
 seconds=${1:-120}
 shift || true
 programs=("$@")
-[ ${#programs[@]} -gt 0 ] || programs=(nastran abaqus part_mesh gdf wamit)
+[ ${#programs[@]} -gt 0 ] || programs=(nastran abaqus part_mesh gdf wamit input_file database)
 
 build fuzz "${programs[@]/#/fuzz_}"
 mkdir -p build/fuzz/finds

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/build/history_memory.h"
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/measure_checks.h"
 #include "pipeline/checks/standard_checks.h"
@@ -167,6 +168,7 @@ LiftRun find_motion(const LiftCase& the_case, BuiltLift model, const Progress& p
                     UnfinishedRun* unfinished) {
   if (unfinished)
     if (const auto kept = unfinished->find(motion_part)) return motion_of(*kept, std::move(model));
+  require_memory(the_case, model);
   LiftRun run = run_lift(the_case, std::move(model), progress);
   if (unfinished && unfinished->is_due()) unfinished->keep(motion_part, bytes_of_motion(run));
   return run;
@@ -311,14 +313,14 @@ Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* u
                         block.history ? block.history->dynamic_state.governing
                                       : block.assessment.simultaneous.dynamic_state.load));
   for (Check& check :
-       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr)) {
-    note_band(checked_stress_band(block), check);
+       check_block(the_case, block.assessment, block.history ? &*block.history : nullptr))
     assessment.checks.push_back(std::move(check));
-  }
   for (Check& check : check_buckling(the_case, block.buckling))
     assessment.checks.push_back(std::move(check));
   for (Check& check : check_padeyes(the_case, block.padeyes))
     assessment.checks.push_back(std::move(check));
+  for (Check& check : assessment.checks)
+    if (check.is_by_mesh) note_band(checked_stress_band(block), check);
   check_by_standard(assessment);
   assessment.total_s = total.lap();
   return assessment;

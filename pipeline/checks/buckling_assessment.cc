@@ -96,6 +96,7 @@ std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAsses
                       panel.worst.utilisation.critical, 1 / factor, "1");
     check.time = panel.time;
     check.note = field_text(panel.panel);
+    check.is_by_mesh = true;
     checks.push_back(std::move(check));
   }
   return checks;

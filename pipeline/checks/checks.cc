@@ -36,6 +36,11 @@ std::string text_of_utilisation(const Check& check) {
 
 }  // namespace
 
+std::pair<double, double> Check::utilisation_band() const {
+  return {utilisation * std::max(0.0, 1 - *band),
+          std::min(utilisation * (1 + *band), beyond_any_limit)};
+}
+
 Check check_at_most(std::string name, double demand, double limit, std::string unit) {
   Check check = make_check(std::move(name), demand, limit, std::move(unit));
   check.utilisation = ratio(demand, limit);

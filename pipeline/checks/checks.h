@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace blocklift::pipeline {
@@ -16,6 +17,13 @@ struct Check {
   bool pass = false;           ///< false too where the demand is not a number
   std::optional<double> time;  ///< when the demand occurs, s
   std::string note;            ///< where it occurs, or the source of the limit
+  bool is_by_mesh = false;     ///< the demand is a stress that the block's mesh gave
+  /// Half the width of the band in which the error of that mesh leaves the demand, as a share of
+  /// it; none where it does not follow from the mesh.
+  std::optional<double> band = {};
+
+  /// The utilisation at the band's lower and upper end. @pre there is a band.
+  std::pair<double, double> utilisation_band() const;
 };
 
 /// Demand may not exceed the limit: utilisation = demand / limit.

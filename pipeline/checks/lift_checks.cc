@@ -202,6 +202,7 @@ std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment&
                                 stress, yield_stress / lift_case.checks.yield_factor, "Pa");
     check.time = time;
     check.note = place;
+    check.is_by_mesh = true;
     const auto found = worst.find(material);
     if (found == worst.end() || !(check.utilisation <= found->second.utilisation))
       worst[material] = check;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/measures/chart_derating.h"
 #include "pipeline/measures/spreader_measures.h"
 
 namespace blocklift::pipeline {
@@ -113,9 +114,20 @@ class MeasureChecks {
           check_at_most("hoist " + measure.subject + ": load over the load chart at its radius",
                         peak.value, 1, "1");
       check.time = peak.time;
-      check.note = "hook block included";
+      check.note = "hook block included" + derating_of(measure.subject);
       checks_.push_back(std::move(check));
     }
+  }
+
+  /// How the charts of the crane that has a hook are derated; empty where they are not.
+  std::string derating_of(const std::string& hook) const {
+    for (const CraneInCase& crane : case_.cranes) {
+      const std::string& name = crane.name.value;
+      if (hook.compare(0, name.size() + 1, name + ".") != 0) continue;
+      const ChartFactor derated = find_chart_factor(*crane.model, case_);
+      return derated.text.empty() ? "" : ", chart " + derated.text;
+    }
+    return "";
   }
 
   /// Supports against what they bear; the least loaded of each crane must press.

@@ -309,6 +309,7 @@ std::vector<Check> check_padeyes(const LiftCase& lift_case, const PadeyesAssessm
     stress.time = state.time;
     stress.note = fmt::format("{}, {}; consequence factor {:g}", larger.part, state.name,
                               padeye.consequence_factor);
+    stress.is_by_mesh = true;  // the block's displacement along the base drives the padeye
     checks.push_back(std::move(stress));
   }
   return checks;

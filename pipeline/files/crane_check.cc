@@ -47,6 +47,36 @@ void check_chart(const CraneModel& crane, const HoistModel& hoist, Reading& read
   }
 }
 
+void check_derating_table(const std::optional<Located<std::vector<DeratingLine>>>& table,
+                          const char* name, Reading& reading) {
+  if (!table) return;
+  const std::vector<DeratingLine>& lines = table->value;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (!(lines[i].up_to > lines[i - 1].up_to))
+      reading.error(table->mark, fmt::format("the {} table of the derating does not ascend: {:g} "
+                                             "comes after {:g}",
+                                             name, lines[i].up_to, lines[i - 1].up_to));
+    if (lines[i].factor > lines[i - 1].factor)
+      reading.error(table->mark,
+                    fmt::format("the {} table of the derating leaves more, {:g}, at "
+                                "{:g} than before, {:g}",
+                                name, lines[i].factor, lines[i].up_to, lines[i - 1].factor));
+  }
+}
+
+void check_derating(const CraneModel& crane, Reading& reading) {
+  if (!crane.derating) return;
+  const ChartDerating& derating = *crane.derating;
+  if (std::none_of(crane.hoists.begin(), crane.hoists.end(),
+                   [](const HoistModel& hoist) { return hoist.load_chart.has_value(); }))
+    reading.error(derating.place, "derating multiplies load charts, but no hoist has one",
+                  {"for example load_chart: [{radius: 20 m, capacity: 60 t}]"});
+  if (!derating.wind && !derating.sea)
+    reading.error(derating.place, "derating says by nothing: give wind, sea, or both");
+  check_derating_table(derating.wind, "wind", reading);
+  check_derating_table(derating.sea, "sea", reading);
+}
+
 /// Do they span an area, seen from above?
 bool are_in_line(const std::vector<CraneSupport>& supports) {
   const Vector3& origin = supports.front().position;
@@ -123,6 +153,7 @@ void check_crane(const CraneModel& crane, Reading& reading, const Mark& mark) {
   check_parts(crane, reading);
   check_hoists(crane, reading);
   for (const HoistModel& hoist : crane.hoists) check_chart(crane, hoist, reading);
+  check_derating(crane, reading);
   check_radius(crane, reading);
   check_stand(crane, reading);
   check_joint_positions(crane, crane.pose, "the pose", reading);

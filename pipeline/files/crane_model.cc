@@ -34,6 +34,38 @@ Format<ChartLine> chart_line_format() {
   return table.format();
 }
 
+Format<DeratingLine> derating_line_format(const char* name, Dimension dimension, const char* what) {
+  Table<DeratingLine> table(name, "What is left of the load charts.");
+  table.required("up_to", &DeratingLine::up_to, quantity(dimension, Range::positive()), what)
+      .required("factor", &DeratingLine::factor, number(Range::between(0, 1)),
+                "of the chart's capacity, zero where no load may be lifted");
+  return table.format();
+}
+
+Format<ChartDerating> derating_format() {
+  Table<ChartDerating> table("derating",
+                             "By what load charts are multiplied in wind and in a seaway. The "
+                             "line with the next larger value holds; beyond the last nothing may "
+                             "be lifted. Where both tables count, their factors are multiplied.");
+  table
+      .required("source", &ChartDerating::source, text(),
+                "where the factors come from; shown beside the check")
+      .optional("wind", &ChartDerating::wind,
+                located(list_of(derating_line_format("line of a derating by wind", Dimension::speed,
+                                                     "mean speed at a height of 10 m, as a case "
+                                                     "gives it"),
+                                1)),
+                "by the speed of the wind, without gusts")
+      .optional("sea", &ChartDerating::sea,
+                located(list_of(derating_line_format("line of a derating by sea", Dimension::length,
+                                                     "significant height of the waves, 2.83 times "
+                                                     "the amplitude of a regular one"),
+                                1)),
+                "by the height of the waves; does not count in a case without a sea")
+      .place(&ChartDerating::place);
+  return table.format();
+}
+
 Format<CraneSupport> crane_support_format() {
   Table<CraneSupport> table("crane support", "A wheel, bogie, outrigger or leg.");
   table
@@ -84,6 +116,12 @@ Format<HoistModel> hoist_format() {
 double LoadChart::capacity(double radius) const {
   for (const ChartLine& line : lines)
     if (radius <= line.radius) return line.capacity;
+  return 0;
+}
+
+double factor_in(const std::vector<DeratingLine>& lines, double value) {
+  for (const DeratingLine& line : lines)
+    if (value <= line.up_to) return line.factor;
   return 0;
 }
 
@@ -145,6 +183,8 @@ Format<CraneModel> crane_model_format() {
                 "point of a body, or of the base (\"world\"), from which the level radius of the "
                 "hooks counts: the slewing axis, or the boom's foot; hooks' radius, offlead and "
                 "sidelead follow")
+      .optional("derating", &CraneModel::derating, derating_format(),
+                "of the load charts of all hooks, in wind and in a seaway; asks for a load_chart")
       .optional("stands_on", &CraneModel::stands_on, crane_stand_format(),
                 "wheels, bogies, outriggers or legs, whose loads follow from the crane's motion")
       .place(&CraneModel::place)

@@ -34,6 +34,23 @@ struct LoadChart {
   double capacity(double radius) const;
 };
 
+/// A line of a table by which charts are derated.
+struct DeratingLine {
+  double up_to = std::numeric_limits<double>::quiet_NaN();   ///< m/s of wind, or m of waves
+  double factor = std::numeric_limits<double>::quiet_NaN();  ///< of the chart's capacity
+};
+
+/// The factor of the first line that reaches a value: zero beyond the last. Lines ascend.
+double factor_in(const std::vector<DeratingLine>& lines, double value);
+
+/// By what the load charts of all hooks are multiplied in wind and in a seaway.
+struct ChartDerating {
+  std::string source;                                      ///< the maker's table
+  std::optional<Located<std::vector<DeratingLine>>> wind;  ///< over its mean speed
+  std::optional<Located<std::vector<DeratingLine>>> sea;   ///< over the significant height
+  Mark place;
+};
+
 /// Hoist: a winch on a body lets out a tackle whose hook block hangs free.
 struct HoistModel {
   Located<std::string> name;
@@ -71,6 +88,7 @@ struct CraneModel : MechanismParts {
   std::vector<HoistModel> hoists;
   std::optional<double> capacity;         ///< of the whole crane, N
   std::optional<PointModel> radius_from;  ///< from which level the radius of hooks counts
+  std::optional<ChartDerating> derating;  ///< of the load charts
   std::optional<CraneStand> stands_on;
   Mark place;
 

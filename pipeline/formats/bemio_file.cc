@@ -7,6 +7,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
+#include "pipeline/formats/read_apart.h"
 #include "pipeline/formats/results_store.h"
 
 namespace blocklift::pipeline {
@@ -363,6 +364,8 @@ void write_coefficients(ResultsWriter& file, std::size_t b, const HydrodynamicDa
 }  // namespace
 
 HydrodynamicDatabase read_bemio(const std::filesystem::path& path) {
+  if (const auto death = death_of_reading(path, [&] { BemioFile(path).read(); }))
+    throw HydrodynamicFileError(path.string() + ": is damaged: reading it " + *death);
   try {
     return BemioFile(path).read();
   } catch (const ResultsError& error) {

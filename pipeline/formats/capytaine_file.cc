@@ -9,6 +9,7 @@
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/foreign_hydrodynamics.h"
 #include "pipeline/formats/netcdf_file.h"
+#include "pipeline/formats/read_apart.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -275,6 +276,8 @@ class CapytaineFile {
 }  // namespace
 
 HydrodynamicDatabase read_capytaine(const std::filesystem::path& path) {
+  if (const auto death = death_of_reading(path, [&] { CapytaineFile(path).read(); }))
+    throw HydrodynamicFileError(path.string() + ": is damaged: reading it " + *death);
   try {
     return CapytaineFile(path).read();
   } catch (const ResultsError& error) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dynamics/errors.h"
+#include "pipeline/formats/read_apart.h"
 #include "pipeline/formats/results_store.h"
 
 namespace blocklift::pipeline {
@@ -322,6 +323,9 @@ void write_hydrodynamic_file(const std::filesystem::path& path, const Hydrodynam
 }
 
 HydrodynamicFile read_hydrodynamic_file(const std::filesystem::path& path) {
+  if (const auto death = death_of_reading(path, [&] { read_all(Source(path)); })) {
+    throw HydrodynamicFileError(path.string() + ": is damaged: reading it " + *death);
+  }
   try {
     return read_all(Source(path));
   } catch (const ResultsError& error) {
@@ -348,10 +352,14 @@ dynamics::HydrodynamicDatabase read_hydrodynamic_database(const std::filesystem:
 }
 
 std::optional<std::string> read_identity(const std::filesystem::path& path) {
-  try {
+  const auto read = [&] {
     const Source source(path);
     require_format(source);
     return source.file().read_text_attribute("/", "identity");
+  };
+  if (death_of_reading(path, [&] { read(); })) return std::nullopt;
+  try {
+    return read();
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }

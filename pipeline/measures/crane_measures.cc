@@ -5,6 +5,7 @@
 #include <string>
 
 #include "pipeline/lift/history_figures.h"
+#include "pipeline/measures/chart_derating.h"
 
 namespace blocklift::pipeline {
 
@@ -71,8 +72,8 @@ double lead(const Vector3& pull_up, const Vector3& direction) {
   return std::atan2(-pull_up.dot(direction), pull_up.z());
 }
 
-void add_hook_measures(const CraneInCase& crane, const LiftHoist& hoist, const LiftRun& lift,
-                       std::vector<LiftMeasure>& all) {
+void add_hook_measures(const CraneInCase& crane, const ChartFactor& derated, const LiftHoist& hoist,
+                       const LiftRun& lift, std::vector<LiftMeasure>& all) {
   const dynamics::LiftSystem& system = lift.model.system;
   const HoistModel& model =
       *crane.model->find_hoist(hoist.name.substr(crane.name.value.size() + 1));
@@ -102,7 +103,8 @@ void add_hook_measures(const CraneInCase& crane, const LiftHoist& hoist, const L
     group.add({.subject = hoist.name,
                .kind = "share of the chart",
                .unit = "1",
-               .meaning = "load at the hook over what the load chart allows at its radius"});
+               .meaning = "load at the hook over what the load chart allows at its radius" +
+                          (derated.text.empty() ? "" : ", " + derated.text)});
   }
   group.fill(
       [&](const History& history, Eigen::Index sample, Eigen::VectorXd& values) {
@@ -123,7 +125,7 @@ void add_hook_measures(const CraneInCase& crane, const LiftHoist& hoist, const L
           values[2] = lead(pull, Vector3::UnitZ().cross(outwards));
         }
         if (chart.lines.empty()) return;
-        const double capacity = chart.capacity(radius), load = rope.tension[sample];
+        const double capacity = derated.value * chart.capacity(radius), load = rope.tension[sample];
         values[3] = capacity > 0 ? load / capacity
                                  : (load > 0 ? std::numeric_limits<double>::infinity() : 0);
       },
@@ -241,8 +243,9 @@ void add_crane_measures(const LiftCase& lift_case, const LiftRun& lift,
   for (std::size_t i = 0; i < lift_case.cranes.size(); ++i) {
     const CraneInCase& crane = lift_case.cranes[i];
     if (crane.model->radius_from) {
+      const ChartFactor derated = find_chart_factor(*crane.model, lift_case);
       for (const LiftHoist& hoist : lift.model.hoists)
-        if (hoist.crane == i) add_hook_measures(crane, hoist, lift, measures);
+        if (hoist.crane == i) add_hook_measures(crane, derated, hoist, lift, measures);
     }
     if (crane.model->stands_on) add_stand_measures(crane, lift, measures);
   }

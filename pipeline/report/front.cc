@@ -82,6 +82,14 @@ std::string bar_html(const Json& check) {
       value < beyond_any_limit ? f::share(utilisation) : "beyond any limit");
 }
 
+/// "82 to 90 %" below the bar of a check that the block's mesh gave.
+std::string band_html(const Json& check) {
+  const Json& band = at(check, "utilisation_band");
+  if (!band.is_array() || band.size() != 2) return "";
+  return fmt::format("<span class=\"note band\">{} to {} by the mesh</span>", f::share(band[0]),
+                     f::share(band[1]));
+}
+
 std::string mark_html(const Json& check) {
   return is_met(check) ? "<span class=\"mark pass\">pass</span>"
                        : "<span class=\"mark fail\">fail</span>";
@@ -258,7 +266,7 @@ std::vector<std::string> check_row(const Json& check, bool timed, const std::str
   if (!beside_name.empty()) name += "<span class=\"note\">" + escape_html(beside_name) + "</span>";
   std::vector<std::string> row{name, demand.text, limit.text, escape_html(limit.unit)};
   if (timed) row.push_back(f::fixed(at(check, "time_s"), 1));
-  row.push_back(bar_html(check));
+  row.push_back(bar_html(check) + band_html(check));
   row.push_back(mark_html(check));
   return row;
 }

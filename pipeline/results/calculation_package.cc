@@ -9,6 +9,7 @@
 #include "pipeline/files/input_hash.h"
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/results/assumptions.h"
+#include "pipeline/results/mesh_error.h"
 #include "pipeline/results/result_file.h"
 #include "pipeline/version.h"
 
@@ -129,6 +130,22 @@ void add_chains(const StandardAssessment& standard, TextDocument& document) {
   }
 }
 
+/// The checks that the block's mesh gave, each with the band in which its error leaves them.
+void add_block(const Assessment& assessment, TextDocument& document) {
+  std::vector<Row> rows;
+  for (const Check& check : assessment.checks) {
+    if (!check.band) continue;
+    const auto [lower, upper] = check.utilisation_band();
+    rows.push_back({check.name, fmt::format("{:.3f}", check.utilisation),
+                    fmt::format("{:.3f} to {:.3f}", lower, upper), check.pass ? "pass" : "FAIL"});
+  }
+  if (rows.empty()) return;
+  document.heading("Block by finite elements")
+      .table({"check", "utilisation", "by the error of the mesh", "result"}, std::move(rows));
+  if (const std::string indicative = why_indicative(assessment); !indicative.empty())
+    document.paragraph("Indicative only: " + indicative + ".");
+}
+
 /// One hash for what went in and what the rules made of it.
 std::string hash_of_calculation(const Assessment& assessment) {
   ContentHash hash;
@@ -164,6 +181,7 @@ TextDocument calculation_package(const Assessment& assessment) {
   add_geometry(lift_case, document);
   add_load_cases(lift_case, document);
   add_utilisations(*assessment.standard, document);
+  add_block(assessment, document);
   add_chains(*assessment.standard, document);
   add_revision(assessment, document);
   return document;

@@ -1,5 +1,7 @@
 #include "pipeline/results/mesh_error.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace blocklift::pipeline {
@@ -30,9 +32,13 @@ double checked_stress_band(const BlockRun& block) {
 }
 
 void note_band(double band, Check& check) {
+  check.band = band;
   if (!check.note.empty()) check.note += "; ";
-  check.note += fmt::format("{:.4g} to {:.4g} MPa by the error of the mesh",
-                            check.demand * (1 - band) / 1e6, check.demand * (1 + band) / 1e6);
+  const bool is_stress = check.unit == "Pa";
+  const double scale = is_stress ? 1e-6 : 1;
+  check.note += fmt::format("{:.4g} to {:.4g}{} by the error of the mesh",
+                            scale * check.demand * std::max(0.0, 1 - band),
+                            scale * check.demand * (1 + band), is_stress ? " MPa" : "");
 }
 
 }  // namespace blocklift::pipeline

@@ -21,7 +21,8 @@ std::string why_indicative(const Assessment& assessment);
 /// of the stress field in the energy norm. Of a block that was assessed.
 double checked_stress_band(const BlockRun& block);
 
-/// Adds the band to the note of a check of such a stress, MPa.
+/// Gives a check of such a stress, or of what is proportional to it, the band, and says in its note
+/// between what the demand stands: MPa for a stress.
 void note_band(double band, Check& check);
 
 }  // namespace blocklift::pipeline

@@ -38,6 +38,10 @@ Json check_json(const Check& check) {
             {"unit", check.unit},
             {"utilisation", json_number(check.utilisation)},
             {"pass", check.pass}};
+  if (check.band) {
+    const auto [lower, upper] = check.utilisation_band();
+    json["utilisation_band"] = {json_number(lower), json_number(upper)};
+  }
   if (check.time) json["time_s"] = *check.time;
   if (!check.note.empty()) json["note"] = check.note;
   return json;

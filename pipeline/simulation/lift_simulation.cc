@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pipeline/build/history_memory.h"
 #include "pipeline/checks/loop_loads.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/formats/atomic_file.h"
@@ -54,6 +55,7 @@ std::vector<OutputSeries> table_of(const LiftSimulation& simulation) {
 LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   if (!lift_case.has_structure()) {
     BuiltLift model = prepare_lift(lift_case, load_mass(lift_case.load.vessel->model), progress);
+    require_memory(lift_case, model);
     LiftRun run = run_lift(lift_case, std::move(model), progress);
     std::vector<structure::LiftingPoint> lugs = vessel_lugs(lift_case.load);
     return {std::move(lift_case), std::move(lugs), std::move(run)};
@@ -78,6 +80,7 @@ LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progres
                              NaturalModesOfRun modes) {
   BuiltLift model = prepare_lift(lift_case, block.mass, progress,
                                  block.flexibility ? &*block.flexibility : nullptr);
+  require_memory(lift_case, model);
   LiftRun run = run_lift(lift_case, std::move(model), progress, modes);
   return {std::move(lift_case), std::move(block.lugs), std::move(run)};
 }

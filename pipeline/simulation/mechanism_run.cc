@@ -7,6 +7,7 @@
 
 #include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/simulation/equilibrium.h"
+#include "pipeline/build/history_memory.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "pipeline/terminal/text_table.h"
 
@@ -20,6 +21,7 @@ MechanismRun run_mechanism(const MechanismFile& file,
   std::vector<NaturalModes> natural_modes;
   std::vector<std::string> findings;
   const dynamics::LiftSystem& system = mechanism.system;
+  require_memory({{&system, file.sample_interval(), "simulate.sample_interval", true}});
   Eigen::VectorXd q = system.q_start();
   if (file.simulate.start == Start::equilibrium) {
     dynamics::EquilibriumSolver solver(mechanism.at_rest());

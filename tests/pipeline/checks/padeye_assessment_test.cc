@@ -139,6 +139,9 @@ TEST_F(SmallLiftPadeyes, FailTheLiftWhereTheyAreTooWeak) {
   LiftCase lift_case = test::read_small_lift();
   EXPECT_EQ(check_padeyes(lift_case, found).size(), 2u);
   EXPECT_TRUE(all_pass(check_padeyes(lift_case, found)));
+  // Hand formulae know no mesh.
+  EXPECT_FALSE(check_padeyes(lift_case, found)[0].is_by_mesh);
+  EXPECT_TRUE(check_padeyes(lift_case, found)[1].is_by_mesh);
   lift_case.checks.yield_factor = 1e3;
   const auto checks = check_padeyes(lift_case, found);
   EXPECT_TRUE(checks[0].pass);

@@ -9,6 +9,7 @@
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/hdf5_handle.h"
 #include "tests/pipeline/formats/sample_database.h"
+#include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
@@ -152,6 +153,27 @@ TEST(HydrodynamicDatabaseFile, SaysWhatIsWrong) {
   EXPECT_THAT(message_of([] { read_hydrodynamic_database("none.h5"); }),
               HasSubstr("there is no such file"));
   EXPECT_FALSE(read_identity("none.h5"));
+}
+
+// HDF5 runs in circles where an object of a heap is longer than the heap.
+TEST(HydrodynamicDatabaseFile, RefusesDamageThatHdf5FindsNoEndOf) {
+  const test::TemporaryFolder folder;
+  write_hydrodynamic_database("db.h5", make_sample_database(), "identity", "sample");
+  const std::string sound = test::text_of_file("db.h5");
+  const std::size_t heap = sound.find("GCOL");
+  ASSERT_NE(heap, std::string::npos);
+  // Objects of the heap: a head of 16 bytes, the last eight of which are the size, and the content,
+  // which ends at a multiple of eight.
+  std::size_t object = heap + 16;
+  for (int i = 1; i < 17; ++i) {
+    const auto size = static_cast<std::size_t>(static_cast<unsigned char>(sound[object + 8]));
+    object += 16 + (size + 7) / 8 * 8;
+  }
+  std::string damaged = sound;
+  damaged[object + 9] = 10;  // 2560 more than it is
+  folder.write("db.h5", damaged);
+  EXPECT_EQ(read_identity("db.h5"), std::nullopt);
+  EXPECT_THROW(read_hydrodynamic_file("db.h5"), HydrodynamicFileError);
 }
 
 TEST(HydrodynamicDatabaseFile, WritesNoUnsoundDatabase) {

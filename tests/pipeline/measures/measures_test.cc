@@ -6,6 +6,7 @@
 
 #include "pipeline/checks/measure_checks.h"
 #include "pipeline/lift/stage_loads.h"
+#include "pipeline/measures/chart_derating.h"
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/load_measures.h"
 #include "pipeline/measures/measure.h"
@@ -31,7 +32,9 @@ struct WatchedLift {
   }
 };
 
-WatchedLift watch(const std::string& checks = "{}") {
+/// @param crane_lines, case_lines more of the crane and of the case.
+WatchedLift watch(const std::string& checks = "{}", const std::string& crane_lines = "",
+                  const std::string& case_lines = "") {
   test::SampleLift parts;
   parts.crane = test::with(parts.crane, "capacity: 20 t\n",
                            "capacity: 20 t\n"
@@ -47,7 +50,8 @@ WatchedLift watch(const std::string& checks = "{}") {
       parts.crane, "    rope: ropes/tackle\n    crane_stiffness: 10 MN/m\n    capacity: 10 t\n",
       "    rope: ropes/tackle\n    crane_stiffness: 10 MN/m\n    capacity: 10 t\n"
       "    load_chart: [{radius: 6 m, capacity: 8 t}, {radius: 7 m, capacity: 5 t}]\n");
-  parts.lift_case += "checks: " + checks + "\n";
+  parts.crane += crane_lines;
+  parts.lift_case += "checks: " + checks + "\n" + case_lines;
   const test::TemporaryFolder folder;
   parts.write(folder);
   LiftCase lift_case = read_lift_case("case.yaml");
@@ -343,6 +347,69 @@ TEST(LoadChart, TakesTheCapacityOfTheNextLargerRadius) {
   EXPECT_EQ(chart.capacity(7.01), 0);
 }
 
+TEST(Derating, TakesTheFactorOfTheNextLargerValue) {
+  const std::vector<DeratingLine> lines{{10, 1}, {14, 0.8}};
+  EXPECT_EQ(factor_in(lines, 0), 1);
+  EXPECT_EQ(factor_in(lines, 10), 1);
+  EXPECT_EQ(factor_in(lines, 10.1), 0.8);
+  EXPECT_EQ(factor_in(lines, 14.1), 0);
+}
+
+// The case has no sea, so that the sea's table does not count.
+TEST(Derating, DividesTheShareOfTheChartAndIsNamedByTheCheck) {
+  const std::string table =
+      "derating: {source: maker's table 4, wind: [{up_to: 5 m/s, factor: 1}, {up_to: 9 m/s, "
+      "factor: 0.8}, {up_to: 14 m/s, factor: 0.5}], sea: [{up_to: 1 m, factor: 0.1}]}\n";
+  const WatchedLift lift =
+      watch("{crane_capacity: true}", table, "wind: {speed: 8 m/s, towards: 60 deg}\n");
+  const LiftMeasure& share = lift.measure("C1.left: share of the chart");
+  const LiftRun& run = lift.run;
+  const Eigen::VectorXd& tension =
+      run.static_history.ropes[static_cast<std::size_t>(run.model.hoists[0].rope)].tension;
+  EXPECT_NEAR(share.at_rest[0], tension[0] / (0.8 * 8e3 * 9.80665), 1e-12);
+  EXPECT_THAT(share.meaning, HasSubstr("maker's table 4"));
+  bool named = false;
+  for (const Check& check : check_measures(lift.lift_case, lift.run, lift.measures))
+    named = named || (check.name == "hoist C1.left: load over the load chart at its radius" &&
+                      check.note.find("maker's table 4") != std::string::npos);
+  EXPECT_TRUE(named);
+}
+
+/// The factor for a crane with a table of the sea, in a case with these waves.
+ChartFactor at_sea(std::optional<WavesInCase> waves) {
+  CraneModel crane;
+  crane.derating.emplace();
+  crane.derating->source = "maker";
+  crane.derating->sea.emplace();
+  crane.derating->sea->value = {{0.5, 1}, {1, 0.9}, {1.5, 0.7}};
+  LiftCase lift_case;
+  lift_case.gravity = g;
+  lift_case.sea.emplace();
+  lift_case.sea->density = 1025;
+  lift_case.sea->waves = std::move(waves);
+  return find_chart_factor(crane, lift_case);
+}
+
+TEST(Derating, CountsTheSignificantHeightOfTheSea) {
+  EXPECT_EQ(at_sea({}).value, 1);
+  WavesInCase irregular;
+  irregular.spectrum.emplace();
+  irregular.spectrum->significant_height.emplace();
+  irregular.spectrum->significant_height->value = 1.5;
+  EXPECT_EQ(at_sea(irregular).value, 0.7);
+  irregular.spectrum->significant_height->value = 1.6;
+  EXPECT_EQ(at_sea(irregular).value, 0);
+  // 4 sqrt(a^2 / 2) of 0.3 m is 0.85 m.
+  WavesInCase regular;
+  RegularWaveInCase wave;
+  wave.amplitude = 0.3;
+  wave.frequency.emplace();
+  wave.frequency->value = 0.8;
+  regular.regular = {wave};
+  EXPECT_EQ(at_sea(regular).value, 0.9);
+  EXPECT_THAT(at_sea(regular).text, HasSubstr("waves of 0.849 m significant height (maker)"));
+}
+
 /// What is said of the sample's crane with these lines at its end.
 std::string complaints(const std::string& lines, const std::string& at_left = "") {
   test::SampleLift parts;
@@ -356,6 +423,23 @@ std::string complaints(const std::string& lines, const std::string& at_left = ""
   ModelLibrary library({});
   EXPECT_FALSE(read_lift_case("case.yaml", library, diagnostics));
   return diagnostics.to_text();
+}
+
+TEST(CraneKeys, SayWhatIsWrongInADerating) {
+  EXPECT_THAT(complaints("derating: {source: maker, wind: [{up_to: 9 m/s, factor: 1}]}\n"),
+              HasSubstr("no hoist has one"));
+  const std::string from = "radius_from: {body: world, position: [0 m, 0 m, 0 m]}\n";
+  const std::string chart = "    load_chart: [{radius: 6 m, capacity: 8 t}]\n";
+  EXPECT_THAT(complaints(from + "derating: {source: maker}\n", chart),
+              HasSubstr("give wind, sea, or both"));
+  EXPECT_THAT(complaints(from + "derating: {source: maker, wind: [{up_to: 9 m/s, factor: 1}, "
+                                "{up_to: 8 m/s, factor: 0.5}]}\n",
+                         chart),
+              HasSubstr("wind table of the derating does not ascend: 8 comes after 9"));
+  EXPECT_THAT(complaints(from + "derating: {source: maker, sea: [{up_to: 1 m, factor: 0.5}, "
+                                "{up_to: 2 m, factor: 1}]}\n",
+                         chart),
+              HasSubstr("leaves more, 1, at 2 than before, 0.5"));
 }
 
 TEST(CraneKeys, SayWhatIsWrong) {

@@ -64,6 +64,14 @@ TEST(Front, ShowsTheGoverningCheckOfEachGroupAndEveryOneInTheAnnex) {
   EXPECT_EQ(checks_html(page(Json::array())), "");
 }
 
+TEST(Front, HasTheBandOfTheMeshBesideTheUtilisation) {
+  Json with_band = check("buckling of panels in web", 0.5);
+  EXPECT_THAT(checks_html(page(Json::array({with_band}))), Not(HasSubstr("by the mesh")));
+  with_band["utilisation_band"] = {0.47, 0.53};
+  EXPECT_THAT(checks_html(page(Json::array({with_band}))),
+              HasSubstr(figures::share(0.47) + " to " + figures::share(0.53) + " by the mesh"));
+}
+
 TEST(Front, SaysThatTheVerdictIsIndicativeAndWhy) {
   Json data = page(checks());
   EXPECT_THAT(front_html(data), Not(HasSubstr("ndicative")));

@@ -112,7 +112,8 @@ TEST(WriteResults, HasTheCalculationWhereTheCaseNamesRules) {
   const std::string calculation = test::text_of_file("results/calculation.md");
   for (const char* text :
        {"## Design basis", "## Weights", "## Rigging list", "| R1 | L1 |", "## Geometry",
-        "## Load cases", "1. carry", "## Utilisations", "### sling R4", "hook C1.left",
+        "## Load cases", "1. carry", "## Utilisations", "## Block by finite elements",
+        "by the error of the mesh", "| buckling of panels in", "### sling R4", "hook C1.left",
         "EN 13001-2 4.2.2.2", "| prepared |", "hash of input and factors"})
     EXPECT_NE(calculation.find(text), std::string::npos) << text;
   const std::string word = test::text_of_file("results/calculation.docx");
@@ -307,10 +308,36 @@ TEST(MeshError, GivesChecksOfStressABand) {
   check.note = "web";
   note_band(0.05, check);
   EXPECT_EQ(check.note, "web; 95 to 105 MPa by the error of the mesh");
-  int noted = 0;
-  for (const Check& one : small_assessment().checks)
-    if (one.note.find("by the error of the mesh") != std::string::npos) ++noted;
-  EXPECT_GE(noted, 1);
+  Check buckling = check_at_most("buckling", 0.4, 0.8, "1");
+  note_band(0.05, buckling);
+  EXPECT_EQ(buckling.note, "0.38 to 0.42 by the error of the mesh");
+  EXPECT_NEAR(buckling.utilisation_band().first, 0.475, 1e-12);
+  EXPECT_NEAR(buckling.utilisation_band().second, 0.525, 1e-12);
+  note_band(1.5, buckling);
+  EXPECT_EQ(buckling.utilisation_band().first, 0);
+}
+
+TEST(MeshError, IsBesideEveryCheckThatTheMeshGaveAndNoOther) {
+  const TemporaryFolder folder;
+  write_results(small_assessment(), "results");
+  const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
+  const double band = summary.at("structure").at("accuracy").at("stress_band");
+  int of_stress = 0, of_buckling = 0;
+  for (const auto& check : summary.at("checks")) {
+    const std::string name = check.at("name");
+    const bool is_stress = name.starts_with("stress in"), buckles = name.starts_with("buckling");
+    const bool is_padeye = name.find("checked von Mises in the padeye") != std::string::npos;
+    of_stress += is_stress ? 1 : 0;
+    of_buckling += buckles ? 1 : 0;
+    EXPECT_EQ(check.contains("utilisation_band"), is_stress || buckles || is_padeye) << name;
+    if (!check.contains("utilisation_band")) continue;
+    const double utilisation = check.at("utilisation");
+    EXPECT_NEAR(check.at("utilisation_band")[1].get<double>(), utilisation * (1 + band), 1e-9);
+    EXPECT_NE(check.at("note").get<std::string>().find("by the error of the mesh"),
+              std::string::npos);
+  }
+  EXPECT_GE(of_stress, 1);
+  EXPECT_GE(of_buckling, 1);
 }
 
 class DoubtsOfALift : public ::testing::Test {

@@ -1,0 +1,40 @@
+#include "pipeline/formats/read_apart.h"
+
+#include <system_error>
+
+#include "structure/child_process.h"
+#include "structure/error.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+structure::ChildLimits limits_for(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  const double bytes = error ? 0 : static_cast<double>(size);
+  // Far more than a sound file takes: HDF5 reads hundreds of megabytes a second, and what was
+  // compressed becomes ten times as much at most.
+  return {2 + bytes / 10e6, 1e9 + 20 * bytes};
+}
+
+}  // namespace
+
+std::optional<std::string> death_of_reading(const std::filesystem::path& file,
+                                            const std::function<void()>& read) {
+  try {
+    structure::in_child_process(
+        [&] {
+          read();
+          return structure::Packet();
+        },
+        limits_for(file));
+  } catch (const structure::ChildDied& death) {
+    return death.what();
+  } catch (const structure::ModelError&) {
+    // It is said again, in its own kind, where the file is read.
+  }
+  return std::nullopt;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace blocklift::pipeline {
+
+/// Reads a file in a child process first, with limits of time and memory by the file's size: HDF5
+/// runs in circles or beyond its memory where a file's own tables are damaged. Errors that the
+/// reading throws are left to who reads the file then.
+/// @returns how the reading died, "came to no end ..."; none if the file can be read here.
+std::optional<std::string> death_of_reading(const std::filesystem::path& file,
+                                            const std::function<void()>& read);
+
+}  // namespace blocklift::pipeline
