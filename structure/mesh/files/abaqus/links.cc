@@ -9,6 +9,7 @@
 
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/mass_properties.h"
 
 namespace blocklift::structure {
@@ -365,33 +366,28 @@ class LinkBlocks {
         terms.insert(terms.end(), more.begin(), more.end());
       }
       if (static_cast<long>(terms.size()) < 3 * count) throw CardError{"terms are missing"};
-      const auto freedom = [&](std::size_t t) {
-        return abaqus_label(terms[3 * t + 1], "freedom") - 1;
-      };
-      const double a = abaqus_real(terms, 2, "factor");
-      const double b = count == 2 ? abaqus_real(terms, 5, "factor") : 0;
-      const std::vector<int> slaves = model_.nodes_of(*scope_, terms[0]);
-      const std::vector<int> masters =
-          count == 2 ? model_.nodes_of(*scope_, terms[3]) : std::vector<int>{};
-      const bool fits = count == 2 && freedom(0) == freedom(1) && freedom(0) < 6 &&
-                        std::abs(a + b) < 1e-9 * std::abs(a) &&
-                        (masters.size() == slaves.size() || masters.size() == 1);
-      for (std::size_t s = 0; fits && s < slaves.size(); ++s) {
-        const int master = masters.size() == 1 ? masters[0] : masters[s];
-        if (freedom(0) < 3 && (model_.place(slaves[s]) - model_.place(master)).norm() > 1e-6)
-          throw CardError{"an equation binds nodes that are apart; only nodes at one place are"};
-        RigidLink link;
-        link.master = master;
-        link.slaves = {slaves[s]};
-        link.bound = {};
-        link.bound[at(freedom(0))] = true;
-        link.axes = model_.axes(slaves[s]);
-        mesh_.rigid_links.push_back(link);
+      add_equation_of_sets(terms, static_cast<std::size_t>(count));
+    }
+  }
+
+  /// One equation for each node of the first term's set; a set of one node serves all.
+  void add_equation_of_sets(const Fields& fields, std::size_t count) {
+    std::vector<std::vector<int>> nodes;
+    for (std::size_t t = 0; t < count; ++t)
+      nodes.push_back(model_.nodes_of(*scope_, fields[3 * t]));
+    for (std::size_t s = 0; s < nodes.front().size(); ++s) {
+      std::vector<EquationTerm> terms;
+      for (std::size_t t = 0; t < count; ++t) {
+        if (nodes[t].size() != 1 && nodes[t].size() != nodes.front().size())
+          throw CardError{fmt::format("the sets {} and {} have {} and {} nodes", fields[0],
+                                      fields[3 * t], nodes.front().size(), nodes[t].size())};
+        const long freedom = abaqus_label(fields[3 * t + 1], "freedom");
+        if (freedom > 6) throw CardError{"freedoms go from 1 to 6"};
+        const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][s];
+        const double factor = abaqus_real(fields, 3 * t + 2, "factor");
+        terms.push_back({node, static_cast<int>(freedom) - 1, factor, model_.axes(node)});
       }
-      if (!fits)
-        throw CardError{
-            "an equation is none that says that two freedoms at one place are equal; "
-            "only such are read"};
+      add_equation(model_.deck, terms);
     }
   }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
 
@@ -103,7 +104,7 @@ class Supports {
   std::map<long, int> set_of_;
 };
 
-/// Equations between freedoms: those that say that two are one, or that one is held.
+/// Equations between freedoms; one that has a single term holds it.
 class Equations {
  public:
   explicit Equations(NastranModel& model) : model_(model) {
@@ -148,19 +149,15 @@ class Equations {
   }
 
  private:
-  struct Term {
-    int vertex = 0, component = 0;
-    double factor = 0;
-  };
-
   // MPC SID G1 C1 A1 G2 C2 A2 blank / blank G3 C3 A3 ...
   void add(const CardView& card) {
-    std::vector<Term> terms;
+    std::vector<EquationTerm> terms;
     for (std::size_t line = 0; line < card.size(); line += 8) {
       for (const std::size_t first : {line + 1, line + 4}) {
         if (!card.has(first)) continue;
-        Term term;
+        EquationTerm term;
         term.vertex = model_.vertex(card, first, "grid");
+        term.axes = model_.output_axes(term.vertex);
         term.component = static_cast<int>(card.integer(first + 1, "component")) - 1;
         term.factor = card.real(first + 2, "factor");
         if (term.component < 0 || term.component > 5)
@@ -172,30 +169,12 @@ class Equations {
       Support support;
       support.vertex = terms[0].vertex;
       support.held[at(terms[0].component)] = true;
-      support.axes = model_.output_axes(terms[0].vertex);
+      support.axes = terms[0].axes;
       held_.supports.push_back(support);
       return;
     }
-    if (terms.size() != 2 || !is_equality(terms[0], terms[1]))
-      throw CardError{fmt::format(
-          "an equation of set {} is none that says that two freedoms at one place are equal, or "
-          "that one is held; only such are read",
-          card.text(0))};
-    RigidLink link;
-    link.master = terms[1].vertex;
-    link.slaves = {terms[0].vertex};
-    link.bound.fill(false);
-    link.bound[at(terms[0].component)] = true;
-    link.axes = model_.output_axes(terms[0].vertex);
-    model_.deck.mesh.rigid_links.push_back(link);
-  }
-
-  bool is_equality(const Term& a, const Term& b) {
-    const bool opposite = std::abs(a.factor + b.factor) < 1e-9 * std::abs(a.factor);
-    const double distance = (model_.place(a.vertex) - model_.place(b.vertex)).norm();
-    const Eigen::Matrix3d turn = model_.output_axes(a.vertex) - model_.output_axes(b.vertex);
-    return opposite && a.component == b.component && turn.norm() < 1e-9 &&
-           (a.component >= 3 || distance < 1e-6);
+    if (terms.empty()) throw CardError{"an equation has no factors"};
+    add_equation(model_.deck, terms);
   }
 
   NastranModel& model_;
