@@ -41,6 +41,7 @@ class LinkBlocks {
         on("SPRING", [&] { add_springs(block); });
         on("COUPLING", [&] { add_coupling(block, next); });
         on("KINEMATIC COUPLING", [&] { add_kinematic_coupling(block); });
+        on("DISTRIBUTING COUPLING", [&] { add_distributing_coupling(block); });
         on("RIGID BODY", [&] { add_rigid_body(block); });
         on("MPC", [&] { add_mpc(block); });
         on("EQUATION", [&] { add_equations(block); });
@@ -310,6 +311,26 @@ class LinkBlocks {
     });
   }
 
+  // *DISTRIBUTING COUPLING, ELSET = (of one DCOUP3D) / node or set, weight
+  void add_distributing_coupling(const AbaqusBlock& block) {
+    for (const int e : elements(block, AbaqusKind::coupling)) {
+      DistributingLink link;
+      link.reference = model_.elements[at(e)].nodes.front();
+      link.label = model_.elements[at(e)].label;
+      model_.for_lines(block, [&](const Fields& fields) {
+        const double weight = abaqus_real(fields, 1, "weight", 1.0);
+        if (!(weight > 0)) throw CardError{"a weight must be positive"};
+        for (const int node : model_.nodes_of(*scope_, fields[0])) {
+          if (node == link.reference) continue;
+          link.vertices.push_back(node);
+          link.weights.push_back(weight);
+        }
+      });
+      if (block.data.empty()) throw CardError{"the coupling has no nodes"};
+      if (!link.vertices.empty()) mesh_.distributing_links.push_back(link);
+    }
+  }
+
   // *RIGID BODY, REF NODE = , ELSET = , PIN NSET = , TIE NSET =
   void add_rigid_body(const AbaqusBlock& block) {
     const int reference = model_.node_of(*scope_, block.required("REF NODE"));
@@ -334,12 +355,26 @@ class LinkBlocks {
     }
   }
 
-  // *MPC / BEAM | TIE | PIN, node or set, node
+  /// The distance between two nodes stays as it is.
+  void add_rigid_bar(int slave, int master) {
+    const Vector3 line = model_.place(master) - model_.place(slave);
+    if (!(line.norm() > 1e-9)) throw CardError{"LINK of nodes at one place is not known"};
+    MotionEquation equation;
+    equation.label = static_cast<long>(mesh_.equations.size()) + 1;
+    equation.terms = {{slave, line.normalized()}, {master, -line.normalized()}};
+    mesh_.equations.push_back(std::move(equation));
+  }
+
+  // *MPC / BEAM | LINK | TIE | PIN, node or set, node
   void add_mpc(const AbaqusBlock& block) {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"type, node and node are due"};
       const std::string type = upper(fields[0]);
       const int master = model_.node_of(*scope_, fields[2]);
+      if (type == "LINK") {
+        for (const int slave : model_.nodes_of(*scope_, fields[1])) add_rigid_bar(slave, master);
+        return;
+      }
       RigidLink link;
       link.master = master;
       link.slaves = model_.nodes_of(*scope_, fields[1]);
@@ -349,8 +384,8 @@ class LinkBlocks {
       });
       if (type != "BEAM" && !((type == "TIE" || type == "PIN") && is_at_place))
         throw CardError{
-            fmt::format("{} is not known of nodes {}; BEAM, and TIE and PIN of nodes at "
-                        "one place, are",
+            fmt::format("{} is not known of nodes {}; BEAM, LINK, and TIE and PIN of nodes at "
+                        "one place are",
                         type, is_at_place ? "at one place" : "apart")};
       mesh_.rigid_links.push_back(link);
     });

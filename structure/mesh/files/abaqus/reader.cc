@@ -58,6 +58,8 @@ const std::set<std::string, std::less<>>& keywords_read() {
                                                         "COUPLING",
                                                         "KINEMATIC COUPLING",
                                                         "TIE",
+                                                        "SHELL TO SOLID COUPLING",
+                                                        "DISTRIBUTING COUPLING",
                                                         "KINEMATIC",
                                                         "DISTRIBUTING",
                                                         "RIGID BODY",

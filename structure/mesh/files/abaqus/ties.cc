@@ -126,8 +126,11 @@ class Ties {
 
   void read() {
     for (const AbaqusScope& scope : model_.scopes)
-      for (const AbaqusBlock* block : scope.blocks)
+      for (const AbaqusBlock* block : scope.blocks) {
         if (block->name == "TIE") model_.guarded(*block, [&] { add(scope, *block); });
+        if (block->name == "SHELL TO SOLID COUPLING")
+          model_.guarded(*block, [&] { couple(scope, *block); });
+      }
   }
 
  private:
@@ -135,14 +138,7 @@ class Ties {
   void add(const AbaqusScope& scope, const AbaqusBlock& block) {
     for (const char* unknown : {"CYCLIC SYMMETRY", "MULTIPHYSICS", "CONSTRAINT RATIO"})
       if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
-    std::optional<double> tolerance;
-    if (block.has("POSITION TOLERANCE")) {
-      tolerance = to_real(block.value("POSITION TOLERANCE"));
-      if (!tolerance || *tolerance < 0)
-        throw CardError{fmt::format("POSITION TOLERANCE = {} is no distance",
-                                    block.value("POSITION TOLERANCE"))};
-      *tolerance *= model_.units.length;
-    }
+    const std::optional<double> tolerance = distance(block, "POSITION TOLERANCE");
     has_rotations_ = !block.has("NO ROTATION");
     if (block.data.empty()) throw CardError{"the two surfaces are missing"};
     for (const AbaqusLine& line : block.data) {
@@ -150,6 +146,31 @@ class Ties {
       if (fields.size() < 2) throw CardError{"two surfaces are due: slave and master"};
       fasten(slaves_of(scope, fields[0]), masters_of(fields[1]), tolerance, block.line);
     }
+  }
+
+  std::optional<double> distance(const AbaqusBlock& block, const char* parameter) const {
+    if (!block.has(parameter)) return std::nullopt;
+    const auto value = to_real(block.value(parameter));
+    if (!value || *value < 0)
+      throw CardError{fmt::format("{} = {} is no distance", parameter, block.value(parameter))};
+    return *value * model_.units.length;
+  }
+
+  // *SHELL TO SOLID COUPLING, CONSTRAINT NAME = , INFLUENCE DISTANCE = / shells' edge, solids' faces
+  // The solids' nodes follow the plate's edge as points of its thickness.
+  void couple(const AbaqusScope& scope, const AbaqusBlock& block) {
+    has_rotations_ = true;
+    for (const AbaqusLine& line : block.data) {
+      const auto fields = line.fields();
+      if (fields.size() < 2) throw CardError{"two surfaces are due: of shells, then of solids"};
+      const MasterSurface edge = masters_of(fields[0]);
+      if (edge.shells.empty() || !edge.faces.empty())
+        throw CardError{fmt::format("the surface {} is none of shells' edges", fields[0])};
+      fasten(slaves_of(scope, fields[1]), edge, distance(block, "INFLUENCE DISTANCE"), block.line);
+    }
+    model_.log.remark(block.line,
+                      "*SHELL TO SOLID COUPLING: cross-sections stay plane there, which stiffens "
+                      "the solids within a thickness of the edge");
   }
 
   const AbaqusSurface* find_surface(std::string_view name) const {
@@ -245,7 +266,7 @@ class Ties {
     double farthest = tolerance.value_or(0);
     if (!tolerance)
       for (const int s : master.shells) farthest = std::max(farthest, reach_of(s));
-    int loose = 0;
+    int loose = 0, hinged = 0;
     double moved = 0;
     for (const int slave : slaves) {
       if (master.vertices.count(slave) > 0) continue;  // joined already
@@ -273,6 +294,7 @@ class Ties {
       if (face != nullptr) {
         tie(slave, *face, nearest);
         moved = std::max(moved, nearest.distance);
+        if (turns(slave)) ++hinged;
       } else if (shell >= 0) {
         tie(slave, shell, nearest);
         if (nearest.distance >= touching)
@@ -286,10 +308,27 @@ class Ties {
       model_.log.remark(line, fmt::format("*TIE: {} of {} nodes are too far from the surface to be "
                                           "tied, and stay free",
                                           loose, slaves.size()));
+    if (hinged > 0)
+      model_.log.remark(line,
+                        fmt::format("*TIE: {} nodes of plates or beams follow solids by their "
+                                    "displacements and may turn; *SHELL TO SOLID COUPLING "
+                                    "ties plates' rotations",
+                                    hinged));
     if (moved >= 1e-6)
       model_.log.remark(line, fmt::format("*TIE: nodes tied to solids are moved onto their "
                                           "surface, by up to {:.3g} mm",
                                           1000 * moved));
+  }
+
+  bool turns(int vertex) {
+    if (turning_.empty()) {
+      turning_.assign(mesh_.vertices.size(), 0);
+      for (const Shell& shell : mesh_.shells)
+        for (const int corner : shell.vertices) turning_[at(corner)] = 1;
+      for (const Beam& beam : mesh_.beams)
+        for (const int end : beam.vertices) turning_[at(end)] = 1;
+    }
+    return at(vertex) < turning_.size() && turning_[at(vertex)] != 0;
   }
 
   /// A solid's surface has displacements alone: what is tied to it moves with the place of its
@@ -332,6 +371,7 @@ class Ties {
   AbaqusModel& model_;
   Mesh& mesh_;
   bool has_rotations_ = true;
+  std::vector<char> turning_;  ///< vertices of shells and beams
   long greatest_ = 0;
 };
 

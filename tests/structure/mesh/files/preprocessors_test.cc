@@ -1,5 +1,6 @@
 // Decks as preprocessors write them: their headers, comments, columns, sets and order of cards.
 
+#include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -616,6 +617,43 @@ TEST(Preprocessors, CalculixWaysOfSaying) {
   EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[1]).area, std::numbers::pi * 0.0025, 1e-12);
   EXPECT_THAT(entry(deck, "*HEAT TRANSFER").left_out, HasSubstr("what a step does"));
   EXPECT_EQ(deck.support_sets.at(0).supports.size(), 1U);
+}
+
+// Abaqus' older couplings, and bars of no weight and any stiffness.
+TEST(Preprocessors, DistributingCouplingsAndLinks) {
+  const std::string plate = R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+3, 2., 1., 0.
+4, 0., 1., 0.
+5, 1., 1., 3.
+6, 3., 0., 4.
+*ELEMENT, TYPE=S4, ELSET=PLATE
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=DCOUP3D, ELSET=HUB
+7, 5
+*SHELL SECTION, ELSET=PLATE, MATERIAL=STEEL
+.01
+*MATERIAL, NAME=STEEL
+*ELASTIC
+206.E9, .3
+*DENSITY
+7850.
+*DISTRIBUTING COUPLING, ELSET=HUB
+1, 2.
+2,
+)";
+  const Mesh mesh = abaqus(plate + "*MPC\nLINK, 6, 5\n").mesh;
+  ASSERT_EQ(mesh.distributing_links.size(), 1U);
+  EXPECT_EQ(mesh.distributing_links[0].reference, 4);
+  EXPECT_THAT(mesh.distributing_links[0].weights, ElementsAre(2, 1));
+  ASSERT_EQ(mesh.equations.size(), 1U);
+  expect_near(mesh.equations[0].terms[0].of_displacement, Vector3(-2, 1, -1) / std::sqrt(6.0),
+              1e-12);
+  MotionEquation balanced = mesh.equations[0];
+  EXPECT_LT(balance(mesh, balanced), 1e-12);
+  EXPECT_THAT(complaints_of_abaqus(plate + "*DISTRIBUTING COUPLING, ELSET=HUB\n1, -2.\n"),
+              HasSubstr("deck.inp:23: error: *DISTRIBUTING COUPLING: a weight must be positive"));
 }
 
 }  // namespace
