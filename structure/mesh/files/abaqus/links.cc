@@ -10,6 +10,7 @@
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/equations.h"
+#include "structure/mesh/files/deck/spread_mass.h"
 #include "structure/mesh/mass_properties.h"
 
 namespace blocklift::structure {
@@ -114,12 +115,7 @@ class LinkBlocks {
     } else if (units == "MASS PER LENGTH" && shells.empty()) {
       value /= length;
     } else if (units == "TOTAL MASS" && (shells.empty() || beams.empty())) {
-      double size = 0;
-      for (const int s : shells) size += area(mesh_, mesh_.shells[at(s)]);
-      for (const int b : beams)
-        size += (model_.place(mesh_.beams[at(b)].vertices[1]) -
-                 model_.place(mesh_.beams[at(b)].vertices[0]))
-                    .norm();
+      const double size = shells.empty() ? total_length(mesh_, beams) : total_area(mesh_, shells);
       if (!(size > 0)) throw CardError{"there is nothing to spread it over"};
       value /= size;
     } else {
@@ -128,25 +124,8 @@ class LinkBlocks {
                       "shells, MASS PER LENGTH of beams, TOTAL MASS of either are",
                       units)};
     }
-    spread(shells, value, mesh_.shells, mesh_.shell_sections, &ShellSection::mass_per_area);
-    spread(beams, value, mesh_.beams, mesh_.beam_sections, &BeamSection::mass_per_length);
-  }
-
-  /// Cells that get a mass get sections of their own, one for each that they had.
-  template <typename Cell, typename Section>
-  static void spread(const std::vector<int>& places, double value, std::vector<Cell>& cells,
-                     std::vector<Section>& sections, double Section::*mass) {
-    std::map<int, int> heavier;
-    for (const int place : places) {
-      int& section = cells[at(place)].section;
-      const auto [found, is_new] = heavier.try_emplace(section, static_cast<int>(sections.size()));
-      if (is_new) {
-        Section copy = sections[at(section)];
-        copy.*mass += value;
-        sections.push_back(copy);
-      }
-      section = found->second;
-    }
+    add_mass_per_area(mesh_, shells, value);
+    add_mass_per_length(mesh_, beams, value);
   }
 
   // *SPRING, ELSET = / freedoms (none for SPRINGA) / stiffness
@@ -355,16 +334,6 @@ class LinkBlocks {
     }
   }
 
-  /// The distance between two nodes stays as it is.
-  void add_rigid_bar(int slave, int master) {
-    const Vector3 line = model_.place(master) - model_.place(slave);
-    if (!(line.norm() > 1e-9)) throw CardError{"LINK of nodes at one place is not known"};
-    MotionEquation equation;
-    equation.label = static_cast<long>(mesh_.equations.size()) + 1;
-    equation.terms = {{slave, line.normalized()}, {master, -line.normalized()}};
-    mesh_.equations.push_back(std::move(equation));
-  }
-
   // *MPC / BEAM | LINK | TIE | PIN, node or set, node
   void add_mpc(const AbaqusBlock& block) {
     model_.for_lines(block, [&](const Fields& fields) {
@@ -372,7 +341,8 @@ class LinkBlocks {
       const std::string type = upper(fields[0]);
       const int master = model_.node_of(*scope_, fields[2]);
       if (type == "LINK") {
-        for (const int slave : model_.nodes_of(*scope_, fields[1])) add_rigid_bar(slave, master);
+        for (const int slave : model_.nodes_of(*scope_, fields[1]))
+          add_rigid_rod(model_.deck, slave, master);
         return;
       }
       RigidLink link;
@@ -420,7 +390,7 @@ class LinkBlocks {
         if (freedom > 6) throw CardError{"freedoms go from 1 to 6"};
         const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][s];
         const double factor = abaqus_real(fields, 3 * t + 2, "factor");
-        terms.push_back({node, static_cast<int>(freedom) - 1, factor, model_.axes(node)});
+        terms.push_back({{node, static_cast<int>(freedom) - 1, model_.axes(node)}, factor});
       }
       add_equation(model_.deck, terms);
     }

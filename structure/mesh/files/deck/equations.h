@@ -7,12 +7,17 @@
 
 namespace blocklift::structure {
 
-/// One term of a deck's equation: factor times a freedom of a vertex, in the deck's units.
-struct EquationTerm {
+/// A freedom of a vertex, as a deck names it.
+struct DeckFreedom {
   int vertex = 0;
-  int component = 0;  ///< 0 .. 2 displacement, 3 .. 5 rotation along `axes`
+  int component = 0;                                   ///< 0 .. 2 displacement, 3 .. 5 rotation
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: along which it counts
+};
+
+/// One term of a deck's equation: factor times a freedom, in the deck's units.
+struct EquationTerm {
+  DeckFreedom freedom;
   double factor = 0;
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns
 };
 
 /// Adds an equation between motions, whose first term follows the others, to a deck's mesh. Factors
@@ -20,6 +25,27 @@ struct EquationTerm {
 /// @throws CardError if they resist such a motion by more than a hundredth: a lifted block is held
 ///   by its ropes alone.
 void add_equation(Deck& deck, const std::vector<EquationTerm>& terms);
+
+/// Makes freedoms follow the rigid motion that six others determine.
+/// @throws CardError if the six do not determine one, or no freedom follows.
+void add_rigid_equations(Deck& deck, const std::vector<DeckFreedom>& independent,
+                         const std::vector<DeckFreedom>& dependent);
+
+/// A freedom that counts in a mean motion, with its weight.
+struct CountedFreedom {
+  DeckFreedom freedom;
+  double weight = 1;
+};
+
+/// Makes freedoms of a vertex follow the rigid motion that fits others' best by least squares, each
+/// with its weight; rotations count over the mean distance of the others' vertices from it. Source:
+/// MSC Nastran Quick Reference Guide, RBE3.
+/// @throws CardError if the others determine no such motion.
+void add_mean_equations(Deck& deck, const std::vector<DeckFreedom>& reference,
+                        const std::vector<CountedFreedom>& counted);
+
+/// Keeps the distance of two vertices as it is: `first` follows. @throws CardError for none.
+void add_rigid_rod(Deck& deck, int first, int second);
 
 /// A term along one freedom, as a deck says it.
 struct ScalarTerm {
