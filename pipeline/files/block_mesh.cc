@@ -246,6 +246,11 @@ class MeshReader {
       hold(link.master, link.bound.data());
       for (const int slave : link.slaves) hold(slave, link.bound.data());
     }
+    for (const structure::MotionEquation& equation : mesh.equations)
+      for (const structure::MotionEquation::Term& term : equation.terms) {
+        const Eigen::Array<bool, 3, 1> bound = term.of_displacement.array() != 0;
+        hold(term.vertex, bound.data());
+      }
     std::vector<char> carries;
     for (const auto& of_vertex : held) carries.push_back(of_vertex == all ? 1 : 0);
     return carries;
@@ -489,7 +494,9 @@ std::string describe_block_mesh(const MeshModel& mesh) {
       is_bare(mesh) ? "mesh of" : "deck", mesh.file.value, deck.mesh.vertices.size(),
       deck.mesh.shells.size(), deck.mesh.beams.size(),
       deck.mesh.solids.empty() ? "" : fmt::format("{} solids, ", deck.mesh.solids.size()),
-      deck.mesh.masses.size(), deck.mesh.rigid_links.size() + deck.mesh.distributing_links.size(),
+      deck.mesh.masses.size(),
+      deck.mesh.rigid_links.size() + deck.mesh.distributing_links.size() +
+          deck.mesh.equations.size(),
       deck.mesh.springs.size(), mesh.diagnosis->mass.mass / 1000, mesh.diagnosis->mass.centre.x(),
       mesh.diagnosis->mass.centre.y(), mesh.diagnosis->mass.centre.z());
   for (const structure::LedgerEntry& entry : unused_cards(mesh))

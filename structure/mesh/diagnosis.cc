@@ -98,14 +98,9 @@ class Doctor {
       for (const int v : beam.vertices) used_[at(v)] = 1;
     for (const Solid& solid : mesh_.solids)
       for (const int v : solid.vertices) used_[at(v)] = 1;
-    for (const RigidLink& link : mesh_.rigid_links) {
-      used_[at(link.master)] = 1;
-      for (const int v : link.slaves) used_[at(v)] = 1;
-    }
-    for (const DistributingLink& link : mesh_.distributing_links) {
-      used_[at(link.reference)] = 1;
-      for (const int v : link.vertices) used_[at(v)] = 1;
-    }
+    for_each_link(mesh_, [&](const std::vector<int>& vertices, long) {
+      for (const int v : vertices) used_[at(v)] = 1;
+    });
     for (const Spring& spring : mesh_.springs)
       for (const int v : spring.vertices)
         if (v >= 0) used_[at(v)] = 1;
@@ -270,8 +265,9 @@ class Doctor {
       for (const Shell& shell : mesh_.shells) see(shell.vertices[0], shell.label);
       for (const Beam& beam : mesh_.beams) see(beam.vertices[0], beam.label);
       for (const Solid& solid : mesh_.solids) see(solid.vertices[0], solid.label);
-      for (const RigidLink& link : mesh_.rigid_links) see(link.master, link.label);
-      for (const DistributingLink& link : mesh_.distributing_links) see(link.reference, link.label);
+      for_each_link(mesh_, [&](const std::vector<int>& vertices, long number) {
+        see(vertices.front(), number);
+      });
       for (const Spring& spring : mesh_.springs)
         see(std::max(spring.vertices[0], spring.vertices[1]), spring.label);
       say("unconnected parts", "{} parts hang together with nothing else; a cell of each",
@@ -353,14 +349,10 @@ class Doctor {
   std::unordered_map<int, std::vector<int>> vertices_joined() const {
     std::unordered_map<int, std::vector<int>> joints;
     int number = 0;
-    for (const RigidLink& link : mesh_.rigid_links) {
-      joints[link.master].push_back(++number);
-      for (const int v : link.slaves) joints[v].push_back(number);
-    }
-    for (const DistributingLink& link : mesh_.distributing_links) {
-      joints[link.reference].push_back(++number);
-      for (const int v : link.vertices) joints[v].push_back(number);
-    }
+    for_each_link(mesh_, [&](const std::vector<int>& vertices, long) {
+      ++number;
+      for (const int v : vertices) joints[v].push_back(number);
+    });
     for (const Spring& spring : mesh_.springs) {
       ++number;
       for (const int v : spring.vertices)
@@ -427,14 +419,9 @@ class Doctor {
     for (const Shell& shell : mesh_.shells)
       for (const int v : shell.vertices) is_held[at(v)] = 1;
     for (const SurfacePoint& point : mesh_.surface_points) is_held[at(point.vertex)] = 1;
-    for (const RigidLink& link : mesh_.rigid_links) {
-      is_held[at(link.master)] = 1;
-      for (const int v : link.slaves) is_held[at(v)] = 1;
-    }
-    for (const DistributingLink& link : mesh_.distributing_links) {
-      is_held[at(link.reference)] = 1;
-      for (const int v : link.vertices) is_held[at(v)] = 1;
-    }
+    for_each_link(mesh_, [&](const std::vector<int>& vertices, long) {
+      for (const int v : vertices) is_held[at(v)] = 1;
+    });
     std::unordered_map<int, Resistance> resistance;
     const auto resist = [&](int v, const Six& freedom) {
       if (is_held[at(v)] != 0) return;

@@ -140,11 +140,9 @@ class LugMaker {
     std::set<int> vertices = vertices_of(point_.shells);
     if (point_.shells.empty()) {
       std::set<int> held = held_;
-      for (const RigidLink& link : mesh_.rigid_links)
-        if (held_.count(link.master) > 0) held.insert(link.slaves.begin(), link.slaves.end());
-      for (const DistributingLink& link : mesh_.distributing_links)
-        if (held_.count(link.reference) > 0)
-          held.insert(link.vertices.begin(), link.vertices.end());
+      for_each_link(mesh_, [&](const std::vector<int>& linked, long) {
+        if (held_.count(linked.front()) > 0) held.insert(linked.begin(), linked.end());
+      });
       vertices = held;
       for (const Shell& shell : mesh_.shells)
         if (std::any_of(shell.vertices.begin(), shell.vertices.end(),

@@ -48,16 +48,7 @@ void for_each_joint(const Mesh& mesh, const Visit& visit) {
   for (const Beam& beam : mesh.beams)
     visit(std::vector<int>(beam.vertices.begin(), beam.vertices.end()));
   for (const Solid& solid : mesh.solids) visit(solid.vertices);
-  for (const RigidLink& link : mesh.rigid_links) {
-    std::vector<int> all = link.slaves;
-    all.push_back(link.master);
-    visit(all);
-  }
-  for (const DistributingLink& link : mesh.distributing_links) {
-    std::vector<int> all = link.vertices;
-    all.push_back(link.reference);
-    visit(all);
-  }
+  for_each_link(mesh, [&](const std::vector<int>& all, long) { visit(all); });
   for (const SurfacePoint& point : mesh.surface_points)
     visit(std::vector<int>{mesh.shells[at(point.shell)].vertices[0], point.vertex});
   for (const Spring& spring : mesh.springs) {
@@ -85,6 +76,71 @@ bool is_of_bars_alone(const Mesh& mesh, int material) {
 }
 
 }  // namespace
+
+std::vector<int> vertices_of(const RigidLink& link) {
+  std::vector<int> all{link.master};
+  all.insert(all.end(), link.slaves.begin(), link.slaves.end());
+  return all;
+}
+
+std::vector<int> vertices_of(const DistributingLink& link) {
+  std::vector<int> all{link.reference};
+  all.insert(all.end(), link.vertices.begin(), link.vertices.end());
+  return all;
+}
+
+std::vector<int> vertices_of(const MotionEquation& equation) {
+  std::vector<int> all;
+  for (const MotionEquation::Term& term : equation.terms) all.push_back(term.vertex);
+  return all;
+}
+
+double balance(const Mesh& mesh, MotionEquation& equation) {
+  const Vector3 origin = mesh.vertices[at(equation.terms.front().vertex)];
+  // Rotations count over a length, so that all coefficients are of one kind.
+  double size = 0, largest = 0;
+  for (const MotionEquation::Term& term : equation.terms)
+    size = std::max(size, (mesh.vertices[at(term.vertex)] - origin).norm());
+  if (!(size > 0)) size = 1;
+  for (const MotionEquation::Term& term : equation.terms)
+    largest = std::max({largest, term.of_displacement.cwiseAbs().maxCoeff(),
+                        term.of_rotation.cwiseAbs().maxCoeff() / size});
+  // Resultant of a change of the coefficients that may change: those of the terms but the first
+  // that are not nil.
+  std::vector<double*> free;
+  std::vector<Eigen::Matrix<double, 6, 1>> columns;
+  Eigen::Matrix<double, 6, 1> resultant = Eigen::Matrix<double, 6, 1>::Zero();
+  for (std::size_t t = 0; t < equation.terms.size(); ++t) {
+    MotionEquation::Term& term = equation.terms[t];
+    const Vector3 arm = (mesh.vertices[at(term.vertex)] - origin) / size;
+    for (int i = 0; i < 6; ++i) {
+      Eigen::Matrix<double, 6, 1> column = Eigen::Matrix<double, 6, 1>::Zero();
+      if (i < 3)
+        column << Vector3::Unit(i), arm.cross(Vector3::Unit(i));
+      else
+        column.tail<3>() = Vector3::Unit(i - 3) / size;
+      double& value = i < 3 ? term.of_displacement[i] : term.of_rotation[i - 3];
+      resultant += value * column;
+      if (t == 0 || value == 0) continue;
+      free.push_back(&value);
+      columns.push_back(i < 3 ? column : size * column);
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd effect(6, count);
+  for (Eigen::Index i = 0; i < count; ++i) effect.col(i) = columns[at(i)];
+  const Eigen::VectorXd change =
+      effect.completeOrthogonalDecomposition().solve(Eigen::VectorXd(-resultant));
+  if ((effect * change + resultant).norm() > 1e-9 * largest)
+    return std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const bool is_rotation = columns[at(i)].head<3>().isZero();
+    *free[at(i)] += (is_rotation ? size : 1) * change[i];
+    most = std::max(most, std::abs(change[i]) / largest);
+  }
+  return most;
+}
 
 BeamSection section_at(const Mesh& mesh, const Beam& beam, double share) {
   BeamSection section = mesh.section_of(beam);
@@ -218,6 +274,14 @@ void check_mesh(const Mesh& mesh) {
                 !link.vertices.empty() &&
                 std::all_of(link.vertices.begin(), link.vertices.end(), exists),
             "distributing link", link.label, "names a vertex that is not there");
+  for (const MotionEquation& equation : mesh.equations) {
+    const std::vector<int> vertices = vertices_of(equation);
+    require(!vertices.empty() && std::all_of(vertices.begin(), vertices.end(), exists), "equation",
+            equation.label, "names a vertex that is not there");
+    MotionEquation balanced = equation;
+    require(balance(mesh, balanced) < 1e-6, "equation", equation.label,
+            "resists motions of the whole");
+  }
 }
 
 }  // namespace blocklift::structure

@@ -132,6 +132,19 @@ struct DistributingLink {
   long label = 0;
 };
 
+/// Linear equation between motions of vertices: the sum of a_i . u_i + b_i . theta_i is zero. Its
+/// forces are in balance (sum a_i = 0, sum x_i x a_i + b_i = 0), so that it resists no motion of the
+/// whole.
+struct MotionEquation {
+  struct Term {
+    int vertex = 0;
+    Vector3 of_displacement = Vector3::Zero();  ///< a
+    Vector3 of_rotation = Vector3::Zero();      ///< b, m
+  };
+  std::vector<Term> terms;  ///< one a vertex; the motion of the first follows the others
+  long label = 0;
+};
+
 /// Vertex that lies on a shell without being a corner of it (the middle of a quadratic element's
 /// edge, where something else is fastened) and moves with it.
 struct SurfacePoint {
@@ -198,6 +211,7 @@ struct Mesh {
   std::vector<PointMass> masses;
   std::vector<RigidLink> rigid_links;
   std::vector<DistributingLink> distributing_links;
+  std::vector<MotionEquation> equations;
   std::vector<SurfacePoint> surface_points;
   std::vector<Spring> springs;
   std::vector<Region> regions;
@@ -217,6 +231,26 @@ struct Mesh {
     return groups[static_cast<std::size_t>(regions[static_cast<std::size_t>(region)].group)];
   }
 };
+
+/// Vertices of a link, those that others follow or that follows others first.
+std::vector<int> vertices_of(const RigidLink& link);
+std::vector<int> vertices_of(const DistributingLink& link);
+std::vector<int> vertices_of(const MotionEquation& equation);
+
+/// Calls visit(vertices, label) for each rigid link, distributing link and equation.
+template <typename Visit>
+void for_each_link(const Mesh& mesh, const Visit& visit) {
+  for (const RigidLink& link : mesh.rigid_links) visit(vertices_of(link), link.label);
+  for (const DistributingLink& link : mesh.distributing_links) visit(vertices_of(link), link.label);
+  for (const MotionEquation& equation : mesh.equations)
+    visit(vertices_of(equation), equation.label);
+}
+
+/// Puts an equation's forces in balance by the least change of the coefficients of all terms but
+/// the first.
+/// @return the largest change, as a share of the largest coefficient (rotations' over the
+///   equation's size); infinite where no change balances it.
+double balance(const Mesh& mesh, MotionEquation& equation);
 
 /// The section of a beam at a share of its length.
 BeamSection section_at(const Mesh& mesh, const Beam& beam, double share);

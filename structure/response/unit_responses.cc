@@ -30,6 +30,33 @@ namespace {
 
 constexpr double standard_gravity = 9.80665;  // m/s^2
 
+/// Where and how a freedom moves: "at (1, 2, 3) m, displacement along x".
+std::string describe_freedom(const Space& space, int freedom) {
+  const Vector3 place = space.nodes().col(freedom / 6);
+  return fmt::format("at ({:.4g}, {:.4g}, {:.4g}) m, {} {}", place.x(), place.y(), place.z(),
+                     freedom % 6 < 3 ? "displacement along" : "rotation about",
+                     static_cast<char>('x' + freedom % 3));
+}
+
+[[noreturn]] void refuse_mechanism(const Space& space, int freedom) {
+  throw ModelError(fmt::format(
+      "the block is a mechanism: a part of it can move against the rest, and nothing resists ({})",
+      describe_freedom(space, freedom)));
+}
+
+/// The freedom that depends most on an unknown.
+int freedom_of(const Space& space, int unknown) {
+  int found = 0;
+  double largest = 0;
+  for (int freedom = 0; freedom < space.freedoms(); ++freedom)
+    for (const Space::Term* term = space.begin_of(freedom); term != space.end_of(freedom); ++term)
+      if (term->unknown == unknown && std::abs(term->weight) > largest) {
+        largest = std::abs(term->weight);
+        found = freedom;
+      }
+  return found;
+}
+
 }  // namespace
 
 UnitResponses::~UnitResponses() = default;
@@ -43,7 +70,11 @@ UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(mo
       std::make_shared<System>(std::move(stiffness), statically_determinate_support(model.space()));
   timing_.factor_bytes = system->equations.factor_bytes();
   timing_.analysis_s = watch.lap();
-  system->equations.factorise();
+  try {
+    system->equations.factorise();
+  } catch (const LooseUnknown& loose) {
+    refuse_mechanism(model.space(), freedom_of(model.space(), loose.unknown));
+  }
   system_ = system;
   timing_.factorisation_s = watch.lap();
   added_loads_.resize(model_.freedoms(), 0);
@@ -87,6 +118,20 @@ void UnitResponses::solve_basis() {
   loads.conservativeResize(Eigen::NoChange, lug_forces + 12);
   loads.rightCols<6>() = model_.inertia_loads().leftCols<6>();
   displacements_ = solve(loads, reactions_);
+  check_stiffness();
+}
+
+// Rounding may leave a mechanism some stiffness. Held at three points it moves then by some 1e8
+// times its size under its own weight; what soft springs or slender bars hold by far less.
+void UnitResponses::check_stiffness() const {
+  const Space& space = model_.space();
+  const double farthest =
+      1e6 * (space.nodes().rowwise().maxCoeff() - space.nodes().rowwise().minCoeff()).norm();
+  for (int freedom = 0; freedom < space.freedoms(); ++freedom)
+    if (freedom % 6 < 3 &&
+        !(standard_gravity * displacements_.row(freedom).tail<6>().head<3>().cwiseAbs().maxCoeff() <
+          farthest))
+      refuse_mechanism(space, freedom);
 }
 
 Eigen::MatrixXd UnitResponses::solve(const Eigen::MatrixXd& loads,

@@ -96,6 +96,8 @@ class UnitResponses {
   struct System;
   void balance_loads(Eigen::MatrixXd& loads, Eigen::Ref<Eigen::MatrixXd> accelerations) const;
   void solve_basis();
+  /// @throws ModelError if the block is a mechanism but for rounding.
+  void check_stiffness() const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& loads, Eigen::MatrixXd& reactions) const;
 
   const ElasticModel& model_;

@@ -1,6 +1,7 @@
 #include "structure/space/links.h"
 
 #include <array>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -42,9 +43,42 @@ void append(Motion& motion, int node, const Eigen::RowVector3d& a, const Eigen::
   }
 }
 
-/// Ties three freedoms of a node along those of `axes` that are bound. One bound along no axis of
-/// the world's is solved for the component that it holds best; the node's others stand beside the
-/// masters.
+/// Ties three freedoms of a node by rows . (their motion) = wanted. Each row is solved for one
+/// component, those that the rows hold best; the node's others stand beside the masters.
+/// @param first freedom of the three; @param wanted motion of each row.
+/// @return false if the rows do not differ.
+bool tie_by_rows(const Eigen::MatrixX3d& rows, int first, const std::vector<Motion>& wanted,
+                 std::vector<FreedomTie>& ties) {
+  const auto count = rows.rows();
+  if (count == 0) return true;
+  if (count > 3) return false;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots{Eigen::MatrixXd(rows)};
+  if (pivots.rank() < count) return false;
+  const auto& order = pivots.colsPermutation().indices();
+  Eigen::MatrixXd of_held(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) of_held.col(i) = rows.col(order[i]);
+  const Eigen::MatrixXd inverse = of_held.inverse();
+  const Eigen::MatrixXd shares = inverse * rows;  // of the world's components
+  for (Eigen::Index i = 0; i < count; ++i) {
+    FreedomTie tie{first + static_cast<int>(order[i]), {}, {}};
+    for (Eigen::Index r = 0; r < count; ++r)
+      for (std::size_t k = 0; k < wanted[at(r)].freedoms.size(); ++k) {
+        const double weight = inverse(i, r) * wanted[at(r)].weights[k];
+        if (weight == 0) continue;
+        tie.masters.push_back(wanted[at(r)].freedoms[k]);
+        tie.weights.push_back(weight);
+      }
+    for (Eigen::Index k = count; k < 3; ++k) {
+      if (shares(i, order[k]) == 0) continue;
+      tie.masters.push_back(first + static_cast<int>(order[k]));
+      tie.weights.push_back(-shares(i, order[k]));
+    }
+    ties.push_back(std::move(tie));
+  }
+  return true;
+}
+
+/// Ties three freedoms of a node along those of `axes` that are bound.
 /// @param first freedom of the three; @param wanted motion of each, along the world's axes.
 void tie_along(const Matrix3& axes, const bool* bound, int first,
                const std::array<Motion, 3>& wanted, std::vector<FreedomTie>& ties) {
@@ -54,46 +88,20 @@ void tie_along(const Matrix3& axes, const bool* bound, int first,
       if (bound[c]) ties.push_back({first + c, wanted[at(c)].freedoms, wanted[at(c)].weights});
     return;
   }
-  Eigen::MatrixXd rows(0, 3);
+  Eigen::MatrixX3d rows(0, 3);
+  std::vector<Motion> along;
   for (int c = 0; c < 3; ++c) {
     if (!bound[c]) continue;
-    rows.conservativeResize(rows.rows() + 1, 3);
+    rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
     rows.bottomRows<1>() = axes.col(c).transpose();
-  }
-  if (rows.rows() == 0) return;
-  // Two directions leave one component free: the one with the largest share of what is not bound.
-  std::vector<int> held{0, 1, 2}, open;
-  if (rows.rows() == 1) {
-    int best = 0;
-    rows.row(0).cwiseAbs().maxCoeff(&best);
-    held = {best};
-    open = {(best + 1) % 3, (best + 2) % 3};
-  } else {
-    int least = 0;
-    Vector3(rows.row(0)).cross(Vector3(rows.row(1))).cwiseAbs().maxCoeff(&least);
-    held = {(least + 1) % 3, (least + 2) % 3};
-    open = {least};
-  }
-  const auto count = rows.rows();
-  Eigen::MatrixXd of_held(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) of_held.col(i) = rows.col(held[at(i)]);
-  const Eigen::MatrixXd solved = of_held.inverse() * rows;  // shares of the world's components
-  for (Eigen::Index i = 0; i < count; ++i) {
-    FreedomTie tie{first + held[at(i)], {}, {}};
-    for (int c = 0; c < 3; ++c)
-      for (std::size_t k = 0; k < wanted[at(c)].freedoms.size(); ++k) {
-        const double weight = solved(i, c) * wanted[at(c)].weights[k];
-        if (weight == 0) continue;
-        tie.masters.push_back(wanted[at(c)].freedoms[k]);
-        tie.weights.push_back(weight);
+    Motion& sum = along.emplace_back();
+    for (int i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < wanted[at(i)].freedoms.size(); ++k) {
+        sum.freedoms.push_back(wanted[at(i)].freedoms[k]);
+        sum.weights.push_back(axes(i, c) * wanted[at(i)].weights[k]);
       }
-    for (const int c : open) {
-      if (solved(i, c) == 0) continue;
-      tie.masters.push_back(first + c);
-      tie.weights.push_back(-solved(i, c));
-    }
-    ties.push_back(std::move(tie));
   }
+  tie_by_rows(rows, first, along, ties);
 }
 
 void tie_slaves(const RigidLink& link, const std::vector<int>& node_of,
@@ -157,6 +165,41 @@ void tie_reference(const DistributingLink& link, const std::vector<int>& node_of
   tie_along(link.axes, link.bound.data() + 3, 6 * reference + 3, rotation, ties);
 }
 
+/// Equations whose first terms are displacements, or rotations, of one vertex.
+struct EquationsOfVertex {
+  Eigen::MatrixX3d rows = Eigen::MatrixX3d(0, 3);
+  std::vector<Motion> wanted;
+  long label = 0;
+};
+
+/// Each equation is solved for a displacement of its first vertex, or for a rotation if it names
+/// none.
+void tie_by_equations(const Mesh& mesh, const std::vector<int>& node_of,
+                      std::vector<FreedomTie>& ties) {
+  std::map<int, EquationsOfVertex> of_freedom;
+  for (const MotionEquation& equation : mesh.equations) {
+    const MotionEquation::Term& first = equation.terms.front();
+    const bool is_rotation = first.of_displacement.isZero(0);
+    const int node = node_of[at(first.vertex)];
+    EquationsOfVertex& own = of_freedom[6 * node + (is_rotation ? 3 : 0)];
+    own.rows.conservativeResize(own.rows.rows() + 1, Eigen::NoChange);
+    own.rows.bottomRows<1>() =
+        (is_rotation ? first.of_rotation : first.of_displacement).transpose();
+    own.label = equation.label;
+    Motion& others = own.wanted.emplace_back();
+    if (!is_rotation)
+      append(others, node, Eigen::RowVector3d::Zero(), -first.of_rotation.transpose());
+    for (std::size_t t = 1; t < equation.terms.size(); ++t)
+      append(others, node_of[at(equation.terms[t].vertex)],
+             -equation.terms[t].of_displacement.transpose(),
+             -equation.terms[t].of_rotation.transpose());
+  }
+  for (const auto& [freedom, own] : of_freedom)
+    if (!tie_by_rows(own.rows, freedom, own.wanted, ties))
+      throw ModelError(
+          fmt::format("equation {} says of its first vertex what others say already", own.label));
+}
+
 }  // namespace
 
 std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>& node_of_vertex,
@@ -181,6 +224,9 @@ std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>&
     tie_reference(link, node_of_vertex, nodes, ties);
     require_once(first, "distributing link", link.label);
   }
+  const std::size_t first = ties.size();
+  tie_by_equations(mesh, node_of_vertex, ties);
+  require_once(first, "equation", mesh.equations.empty() ? 0 : mesh.equations.front().label);
   return ties;
 }
 

@@ -13,7 +13,7 @@ struct FreedomTie {
   std::vector<double> weights;
 };
 
-/// The ties of a mesh's rigid and distributing links.
+/// The ties of a mesh's rigid and distributing links and of its equations.
 ///
 /// Slave of a rigid link: u_i = u + theta x (x_i - x), theta_i = theta. Reference of a distributing
 /// link: with weights w_i, their centre c = sum w_i x_i / sum w_i and T = sum w_i (r^2 1 - r r'), r
@@ -24,7 +24,7 @@ struct FreedomTie {
 /// spread over the vertices with the same resultant. Source: the principle of virtual work on the
 /// least-squares rigid motion; MSC Nastran, RBE3.
 /// @param node_of_vertex nodes of the mesh's vertices; @param nodes their places, m.
-/// @throws ModelError if a freedom follows two links.
+/// @throws ModelError if a freedom follows two links, or two equations say the same.
 std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>& node_of_vertex,
                                        const Eigen::Matrix3Xd& nodes);
 

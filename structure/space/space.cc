@@ -382,14 +382,9 @@ void Space::make_free_nodes() {
     nodes_.conservativeResize(Eigen::NoChange, nodes_.cols() + 1);
     nodes_.col(nodes_.cols() - 1) = mesh_->vertices[at(vertex)];
   };
-  for (const RigidLink& link : mesh_->rigid_links) {
-    want(link.master);
-    for (const int slave : link.slaves) want(slave);
-  }
-  for (const DistributingLink& link : mesh_->distributing_links) {
-    want(link.reference);
-    for (const int vertex : link.vertices) want(vertex);
-  }
+  for_each_link(*mesh_, [&](const std::vector<int>& vertices, long) {
+    for (const int vertex : vertices) want(vertex);
+  });
   for (const PointMass& mass : mesh_->masses) want(mass.vertex);
   for (const Spring& spring : mesh_->springs)
     for (const int vertex : spring.vertices) want(vertex);
@@ -505,7 +500,7 @@ void Space::number_unknowns() {
   std::vector<Term> terms;
   std::function<void(int, double, int)> expand_freedom = [&](int freedom, double weight,
                                                              int depth) {
-    if (depth > 50) throw ModelError("rigid or distributing links follow one another in a circle");
+    if (depth > 50) throw ModelError("links or equations follow one another in a circle");
     const auto take = [&](int node, double share) {
       const int own_freedom = 6 * node + freedom % 6;
       const auto link = links.find(own_freedom);

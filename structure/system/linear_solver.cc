@@ -28,6 +28,21 @@ struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLowe
     return 8.0 * static_cast<double>(m_cholmodFactor->xsize) +
            8.0 * static_cast<double>(m_cholmodFactor->ssize);
   }
+  /// The column at which the matrix ceased to be positive definite; the number of columns if none.
+  Eigen::Index first_failure() const { return static_cast<Eigen::Index>(m_cholmodFactor->minor); }
+  /// Diagonal of L. Source: CHOLMOD's user guide, the supernodal factor.
+  Eigen::VectorXd diagonal() const {
+    const cholmod_factor& factor = *m_cholmodFactor;
+    Eigen::VectorXd values(static_cast<Eigen::Index>(factor.n));
+    const auto* super = static_cast<const long*>(factor.super);
+    const auto* rows = static_cast<const long*>(factor.pi);
+    const auto* start = static_cast<const long*>(factor.px);
+    const auto* entries = static_cast<const double*>(factor.x);
+    for (std::size_t s = 0; s < factor.nsuper; ++s)
+      for (long column = super[s]; column < super[s + 1]; ++column)
+        values[column] = entries[start[s] + (column - super[s]) * (rows[s + 1] - rows[s] + 1)];
+    return values;
+  }
 };
 
 double available_memory() {
@@ -100,15 +115,23 @@ void ConstrainedSystem::separate_fixed() {
 }
 
 void ConstrainedSystem::factorise() {
+  const Eigen::VectorXd stiffness = stiffness_.diagonal();
   factor_->factorize(stiffness_);
   if (factor_->is_short_of_memory())
     throw NotEnoughMemory(fmt::format(
         "the memory did not suffice to factorise the stiffness matrix of {} unknowns; use larger "
         "elements or a lower element degree",
         stiffness_.rows()));
+  const char* const loose =
+      "the stiffness matrix is not positive definite: the supports leave a part free to move";
   if (factor_->info() != Eigen::Success)
-    throw ModelError(
-        "the stiffness matrix is not positive definite: the supports leave a part free to move");
+    throw LooseUnknown(loose, static_cast<int>(factor_->first_failure()));
+  // What is left of an unknown's stiffness where nothing resists it: rounding, some tens of the
+  // unit of it. Slender blocks leave 1e-9 and more.
+  constexpr double rounding = 1e-14;
+  Eigen::Index least = 0;
+  const double left = (factor_->diagonal().array().square() / stiffness.array()).minCoeff(&least);
+  if (!(left > rounding)) throw LooseUnknown(loose, static_cast<int>(least));
   SparseLower().swap(stiffness_);
 }
 

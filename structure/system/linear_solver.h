@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "structure/error.h"
 #include "structure/system/sparse_matrix.h"
 
 namespace blocklift::structure {
@@ -13,6 +15,15 @@ namespace blocklift::structure {
 struct FixedUnknown {
   int unknown = 0;
   double value = 0;  ///< m
+};
+
+/// Nothing resists an unknown: the matrix is not positive definite, or so little that what resists
+/// it is rounding.
+class LooseUnknown : public ModelError {
+ public:
+  LooseUnknown(const std::string& message, int the_unknown)
+      : ModelError(message), unknown(the_unknown) {}
+  int unknown;  ///< one of those that move
 };
 
 /// K u = f with some displacements given, factorised once for any number of load vectors.
@@ -29,7 +40,8 @@ class ConstrainedSystem {
   /// Memory that the factor will take, bytes.
   double factor_bytes() const;
   /// Factorises and gives the stiffness free.
-  /// @throws ModelError if the matrix is not positive definite: the supports leave a mechanism.
+  /// @throws LooseUnknown if the matrix is not positive definite but for rounding: the supports
+  ///   leave a mechanism.
   void factorise();
   /// Displacements for load vectors (one a column; entries at fixed unknowns do not matter).
   Eigen::MatrixXd solve(Eigen::MatrixXd loads) const;

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "structure/error.h"
 #include "structure/formulation/solid.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/response/accuracy.h"
@@ -102,6 +103,28 @@ TEST(BlocksWithoutPlates, BarsOfAHangingFrame) {
   EXPECT_NEAR(envelope.checked_von_mises.value, 1.25 * stress, 1e-5 * stress);
   EXPECT_EQ(envelope.checked_von_mises.instant, 1);
   EXPECT_EQ(estimate_block_error(model, responses.displacement(load_case)).relative, 0);
+}
+
+// Two bars that rods join slide along each other: rounding leaves this no stiffness, or hardly any.
+TEST(BlocksWithoutPlates, MechanismsAreRefused) {
+  Mesh ladder = frame();
+  for (Beam& beam : ladder.beams)
+    if (beam.region == 1) beam.is_rod = true;
+  for (const double tilt : {0.0, 0.3, 1.1}) {
+    Mesh turned = ladder;
+    for (Vector3& place : turned.vertices)
+      place = Eigen::AngleAxisd(tilt, Vector3(1, 2, 3).normalized()) * place;
+    for (LiftingPoint& lug : turned.lifting_points)
+      lug.p_BPin = turned.vertices[static_cast<std::size_t>(lug.vertex)];
+    const ElasticModel model(std::move(turned), {.degree = 2, .largest_edge = {}}, {}, {});
+    try {
+      const UnitResponses responses(model);
+      FAIL() << tilt;
+    } catch (const ModelError& error) {
+      EXPECT_NE(std::string(error.what()).find("the block is a mechanism"), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(BlocksWithoutPlates, AreNotRefined) {

@@ -1,5 +1,6 @@
 #include "structure/space/links.h"
 
+#include <cmath>
 #include <set>
 
 #include <Eigen/Dense>
@@ -119,6 +120,51 @@ TEST(Links, TwoLinksOfOneFreedomAreRefused) {
       {0, {1}, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 3},
       {2, {1}, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 4}};
   EXPECT_THROW(find_link_ties(nodes.mesh, nodes.node_of_vertex, nodes.places), ModelError);
+}
+
+// Three equations of one vertex along axes of their own hold it where they say; one of a rotation
+// takes the displacements of two others.
+TEST(Links, EquationsAlongAnyAxes) {
+  Nodes nodes({{0.3, -0.2, 1}, {1, 0, 0.1}, {-0.5, 1, 0}});
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(0.7, Vector3(1, 2, -1).normalized()).toRotationMatrix();
+  // The first vertex on the line between the others, as far as the axes are seen: not balanced, but
+  // that is the reader's business.
+  for (int c = 0; c < 3; ++c)
+    nodes.mesh.equations.push_back({{{0, 2 * axes.col(c)},
+                                     {1, -0.5 * axes.col(c)},
+                                     {2, -1.5 * axes.col(c), Vector3(0.1, 0.2, 0.3)}},
+                                    c + 1});
+  nodes.mesh.equations.push_back(
+      {{{0, Vector3::Zero(), {0, 0, 2}}, {1, {0, 1, 0}}, {2, {0, -1, 0}}}, 4});
+  const Eigen::MatrixXd rows = nodes.rows_of(0);
+  Eigen::VectorXd motion = Eigen::VectorXd::LinSpaced(18, -1, 2).array().square();
+  const Motion6 own = rows * motion;
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(axes.col(c).dot(2 * own.head<3>() - 0.5 * motion.segment<3>(6) -
+                                1.5 * motion.segment<3>(12)) +
+                    Vector3(0.1, 0.2, 0.3).dot(motion.segment<3>(15)),
+                0, 1e-13);
+  EXPECT_NEAR(2 * own[5] + motion[7] - motion[13], 0, 1e-13);
+  nodes.mesh.equations.push_back(nodes.mesh.equations[1]);
+  EXPECT_THROW(nodes.rows_of(0), ModelError);
+}
+
+// Factors with four digits are mended; what holds the whole against the ground is not.
+TEST(Links, EquationsAreInBalance) {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
+  MotionEquation mean{{{1, {0, 0, 1}}, {0, {0, 0, -0.6667}}, {2, {0, 0, -0.3333}}}, 1};
+  EXPECT_NEAR(balance(mesh, mean), 1e-4 / 3, 1e-10);
+  EXPECT_NEAR(mean.terms[1].of_displacement.z(), -2.0 / 3, 1e-14);
+  MotionEquation exact = mean;
+  EXPECT_LT(balance(mesh, exact), 1e-14);
+  // Equal displacements across the line resist its turning: no change of one factor mends that.
+  MotionEquation tie{{{1, {0, 0, 1}}, {0, {0, 0, -1}}}, 2};
+  EXPECT_TRUE(std::isinf(balance(mesh, tie)));
+  MotionEquation arm{{{1, {0, 0, 1}}, {0, {0, 0, -1}, {0, 0.99, 0}}}, 3};
+  EXPECT_NEAR(balance(mesh, arm), 0.01, 1e-12);
+  EXPECT_NEAR(arm.terms[1].of_rotation.y(), 1, 1e-14);
 }
 
 // A cantilever plate, a rigid arm from its end to a free vertex, a distributing link over that end

@@ -49,8 +49,8 @@ const std::map<std::string, ElementType>& element_types() {
       {"C3D10HS", {Kind::solid, 10, 10}},  {"C3D10T", {Kind::solid, 10, 10}},
       {"C3D15", {Kind::solid, 15, 15}},    {"C3D20", {Kind::solid, 20, 20}},
       {"C3D20R", {Kind::solid, 20, 20}},   {"C3D20H", {Kind::solid, 20, 20}},
-      {"DASHPOT1", {Kind::nothing, 1, 1}}, {"DASHPOT2", {Kind::nothing, 2, 2}},
-      {"DASHPOTA", {Kind::nothing, 2, 2}}};
+      {"DCOUP3D", {Kind::coupling, 1, 1}}, {"DASHPOT1", {Kind::nothing, 1, 1}},
+      {"DASHPOT2", {Kind::nothing, 2, 2}}, {"DASHPOTA", {Kind::nothing, 2, 2}}};
   return types;
 }
 

@@ -122,9 +122,16 @@ std::vector<std::string_view> AbaqusLine::fields() const {
   return fields;
 }
 
+std::string without_blanks(std::string_view name) {
+  std::string letters(name);
+  std::erase(letters, ' ');
+  return letters;
+}
+
 const AbaqusBlock::Parameter* AbaqusBlock::find(std::string_view parameter) const {
   for (const Parameter& known : parameters)
-    if (known.name == parameter) return &known;
+    if (known.name == parameter || without_blanks(known.name) == without_blanks(parameter))
+      return &known;
   return nullptr;
 }
 

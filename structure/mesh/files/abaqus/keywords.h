@@ -31,12 +31,16 @@ struct AbaqusBlock {
   std::vector<AbaqusLine> data;
 
   bool has(std::string_view parameter) const { return find(parameter) != nullptr; }
+  /// Blanks within its name do not count.
   const Parameter* find(std::string_view parameter) const;
   /// Its value; empty if it is not given.
   std::string value(std::string_view parameter) const;
   /// @throws CardError if it is missing.
   std::string required(std::string_view parameter) const;
 };
+
+/// Blanks within names of keywords and parameters are free.
+std::string without_blanks(std::string_view name);
 
 /// Splits a deck into keywords, with the files that it includes. Complaints go into the log.
 std::vector<AbaqusBlock> read_abaqus_keywords(DeckFiles& files, const std::filesystem::path& path,

@@ -9,6 +9,8 @@
 
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/deck/equations.h"
+#include "structure/mesh/files/deck/spread_mass.h"
 #include "structure/mesh/mass_properties.h"
 
 namespace blocklift::structure {
@@ -40,6 +42,7 @@ class LinkBlocks {
         on("SPRING", [&] { add_springs(block); });
         on("COUPLING", [&] { add_coupling(block, next); });
         on("KINEMATIC COUPLING", [&] { add_kinematic_coupling(block); });
+        on("DISTRIBUTING COUPLING", [&] { add_distributing_coupling(block); });
         on("RIGID BODY", [&] { add_rigid_body(block); });
         on("MPC", [&] { add_mpc(block); });
         on("EQUATION", [&] { add_equations(block); });
@@ -112,12 +115,7 @@ class LinkBlocks {
     } else if (units == "MASS PER LENGTH" && shells.empty()) {
       value /= length;
     } else if (units == "TOTAL MASS" && (shells.empty() || beams.empty())) {
-      double size = 0;
-      for (const int s : shells) size += area(mesh_, mesh_.shells[at(s)]);
-      for (const int b : beams)
-        size += (model_.place(mesh_.beams[at(b)].vertices[1]) -
-                 model_.place(mesh_.beams[at(b)].vertices[0]))
-                    .norm();
+      const double size = shells.empty() ? total_length(mesh_, beams) : total_area(mesh_, shells);
       if (!(size > 0)) throw CardError{"there is nothing to spread it over"};
       value /= size;
     } else {
@@ -126,25 +124,8 @@ class LinkBlocks {
                       "shells, MASS PER LENGTH of beams, TOTAL MASS of either are",
                       units)};
     }
-    spread(shells, value, mesh_.shells, mesh_.shell_sections, &ShellSection::mass_per_area);
-    spread(beams, value, mesh_.beams, mesh_.beam_sections, &BeamSection::mass_per_length);
-  }
-
-  /// Cells that get a mass get sections of their own, one for each that they had.
-  template <typename Cell, typename Section>
-  static void spread(const std::vector<int>& places, double value, std::vector<Cell>& cells,
-                     std::vector<Section>& sections, double Section::*mass) {
-    std::map<int, int> heavier;
-    for (const int place : places) {
-      int& section = cells[at(place)].section;
-      const auto [found, is_new] = heavier.try_emplace(section, static_cast<int>(sections.size()));
-      if (is_new) {
-        Section copy = sections[at(section)];
-        copy.*mass += value;
-        sections.push_back(copy);
-      }
-      section = found->second;
-    }
+    add_mass_per_area(mesh_, shells, value);
+    add_mass_per_length(mesh_, beams, value);
   }
 
   // *SPRING, ELSET = / freedoms (none for SPRINGA) / stiffness
@@ -309,6 +290,26 @@ class LinkBlocks {
     });
   }
 
+  // *DISTRIBUTING COUPLING, ELSET = (of one DCOUP3D) / node or set, weight
+  void add_distributing_coupling(const AbaqusBlock& block) {
+    for (const int e : elements(block, AbaqusKind::coupling)) {
+      DistributingLink link;
+      link.reference = model_.elements[at(e)].nodes.front();
+      link.label = model_.elements[at(e)].label;
+      model_.for_lines(block, [&](const Fields& fields) {
+        const double weight = abaqus_real(fields, 1, "weight", 1.0);
+        if (!(weight > 0)) throw CardError{"a weight must be positive"};
+        for (const int node : model_.nodes_of(*scope_, fields[0])) {
+          if (node == link.reference) continue;
+          link.vertices.push_back(node);
+          link.weights.push_back(weight);
+        }
+      });
+      if (block.data.empty()) throw CardError{"the coupling has no nodes"};
+      if (!link.vertices.empty()) mesh_.distributing_links.push_back(link);
+    }
+  }
+
   // *RIGID BODY, REF NODE = , ELSET = , PIN NSET = , TIE NSET =
   void add_rigid_body(const AbaqusBlock& block) {
     const int reference = model_.node_of(*scope_, block.required("REF NODE"));
@@ -333,12 +334,17 @@ class LinkBlocks {
     }
   }
 
-  // *MPC / BEAM | TIE | PIN, node or set, node
+  // *MPC / BEAM | LINK | TIE | PIN, node or set, node
   void add_mpc(const AbaqusBlock& block) {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"type, node and node are due"};
       const std::string type = upper(fields[0]);
       const int master = model_.node_of(*scope_, fields[2]);
+      if (type == "LINK") {
+        for (const int slave : model_.nodes_of(*scope_, fields[1]))
+          add_rigid_rod(model_.deck, slave, master);
+        return;
+      }
       RigidLink link;
       link.master = master;
       link.slaves = model_.nodes_of(*scope_, fields[1]);
@@ -348,8 +354,8 @@ class LinkBlocks {
       });
       if (type != "BEAM" && !((type == "TIE" || type == "PIN") && is_at_place))
         throw CardError{
-            fmt::format("{} is not known of nodes {}; BEAM, and TIE and PIN of nodes at "
-                        "one place, are",
+            fmt::format("{} is not known of nodes {}; BEAM, LINK, and TIE and PIN of nodes at "
+                        "one place are",
                         type, is_at_place ? "at one place" : "apart")};
       mesh_.rigid_links.push_back(link);
     });
@@ -365,33 +371,28 @@ class LinkBlocks {
         terms.insert(terms.end(), more.begin(), more.end());
       }
       if (static_cast<long>(terms.size()) < 3 * count) throw CardError{"terms are missing"};
-      const auto freedom = [&](std::size_t t) {
-        return abaqus_label(terms[3 * t + 1], "freedom") - 1;
-      };
-      const double a = abaqus_real(terms, 2, "factor");
-      const double b = count == 2 ? abaqus_real(terms, 5, "factor") : 0;
-      const std::vector<int> slaves = model_.nodes_of(*scope_, terms[0]);
-      const std::vector<int> masters =
-          count == 2 ? model_.nodes_of(*scope_, terms[3]) : std::vector<int>{};
-      const bool fits = count == 2 && freedom(0) == freedom(1) && freedom(0) < 6 &&
-                        std::abs(a + b) < 1e-9 * std::abs(a) &&
-                        (masters.size() == slaves.size() || masters.size() == 1);
-      for (std::size_t s = 0; fits && s < slaves.size(); ++s) {
-        const int master = masters.size() == 1 ? masters[0] : masters[s];
-        if (freedom(0) < 3 && (model_.place(slaves[s]) - model_.place(master)).norm() > 1e-6)
-          throw CardError{"an equation binds nodes that are apart; only nodes at one place are"};
-        RigidLink link;
-        link.master = master;
-        link.slaves = {slaves[s]};
-        link.bound = {};
-        link.bound[at(freedom(0))] = true;
-        link.axes = model_.axes(slaves[s]);
-        mesh_.rigid_links.push_back(link);
+      add_equation_of_sets(terms, static_cast<std::size_t>(count));
+    }
+  }
+
+  /// One equation for each node of the first term's set; a set of one node serves all.
+  void add_equation_of_sets(const Fields& fields, std::size_t count) {
+    std::vector<std::vector<int>> nodes;
+    for (std::size_t t = 0; t < count; ++t)
+      nodes.push_back(model_.nodes_of(*scope_, fields[3 * t]));
+    for (std::size_t s = 0; s < nodes.front().size(); ++s) {
+      std::vector<EquationTerm> terms;
+      for (std::size_t t = 0; t < count; ++t) {
+        if (nodes[t].size() != 1 && nodes[t].size() != nodes.front().size())
+          throw CardError{fmt::format("the sets {} and {} have {} and {} nodes", fields[0],
+                                      fields[3 * t], nodes.front().size(), nodes[t].size())};
+        const long freedom = abaqus_label(fields[3 * t + 1], "freedom");
+        if (freedom > 6) throw CardError{"freedoms go from 1 to 6"};
+        const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][s];
+        const double factor = abaqus_real(fields, 3 * t + 2, "factor");
+        terms.push_back({{node, static_cast<int>(freedom) - 1, model_.axes(node)}, factor});
       }
-      if (!fits)
-        throw CardError{
-            "an equation is none that says that two freedoms at one place are equal; "
-            "only such are read"};
+      add_equation(model_.deck, terms);
     }
   }
 

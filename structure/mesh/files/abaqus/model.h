@@ -15,7 +15,18 @@
 namespace blocklift::structure {
 
 /// What an element type is here.
-enum class AbaqusKind { shell, beam, truss, mass, inertia, spring, rigid, solid, nothing };
+enum class AbaqusKind {
+  shell,
+  beam,
+  truss,
+  mass,
+  inertia,
+  spring,
+  rigid,
+  solid,
+  coupling,
+  nothing
+};
 
 struct AbaqusDeckElement {
   long label = 0;

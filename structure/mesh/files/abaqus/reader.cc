@@ -1,5 +1,6 @@
 #include "structure/mesh/files/abaqus/reader.h"
 
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ const std::set<std::string, std::less<>>& keywords_read() {
                                                         "ASSEMBLY",
                                                         "END ASSEMBLY",
                                                         "NODE",
+                                                        "NODAL THICKNESS",
                                                         "ELEMENT",
                                                         "NSET",
                                                         "ELSET",
@@ -56,6 +58,8 @@ const std::set<std::string, std::less<>>& keywords_read() {
                                                         "COUPLING",
                                                         "KINEMATIC COUPLING",
                                                         "TIE",
+                                                        "SHELL TO SOLID COUPLING",
+                                                        "DISTRIBUTING COUPLING",
                                                         "KINEMATIC",
                                                         "DISTRIBUTING",
                                                         "RIGID BODY",
@@ -111,12 +115,25 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
                                                         "FRICTION",
                                                         "SURFACE BEHAVIOR",
                                                         "INTEGRATED OUTPUT SECTION",
-                                                        "BASE STATE"};
+                                                        "BASE STATE",
+                                                        "MODAL DAMPING"};
   return names;
 }
 
+/// Gives names that are written without the blanks within them, such as ENDSTEP, their own.
+void restore_blanks(std::vector<AbaqusBlock>& blocks) {
+  std::map<std::string, std::string> name_of;
+  for (const auto* names : {&keywords_read(), &keywords_left_out()})
+    for (const std::string& name : *names) name_of.emplace(without_blanks(name), name);
+  for (AbaqusBlock& block : blocks)
+    if (const auto name = name_of.find(without_blanks(block.name)); name != name_of.end())
+      block.name = name->second;
+}
+
 void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& blocks) {
+  bool in_step = false;
   for (const AbaqusBlock& block : blocks) {
+    if (block.name == "STEP" || block.name == "END STEP") in_step = block.name == "STEP";
     if (block.name == "HEADING") {
       if (!block.data.empty()) model.deck.title = std::string(block.data.front().text);
       model.log.use("*HEADING");
@@ -124,6 +141,8 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
     if (keywords_read().count(block.name) > 0) continue;
     if (keywords_left_out().count(block.name) > 0)
       model.log.leave_out("*" + block.name, "what is solved, printed or met by no plate or beam");
+    else if (in_step)
+      model.log.leave_out("*" + block.name, "what a step does beyond its supports and forces");
     else
       model.log.miss(block.line, "*" + block.name, model.options);
   }
@@ -135,7 +154,8 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
                  const DeckOptions& options) {
   DeckLog log;
   DeckFiles files(log);
-  const std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log);
+  std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log);
+  restore_blanks(blocks);
   Deck deck;
   deck.path = path;
   deck.files = files.paths();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -47,6 +48,10 @@ class Sections {
   explicit Sections(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
 
   void read() {
+    for (const AbaqusScope& scope : model_.scopes)
+      for (const AbaqusBlock* block : scope.blocks)
+        if (block->name == "NODAL THICKNESS")
+          model_.guarded(*block, [&] { read_nodal_thickness(scope, *block); });
     for (const AbaqusScope& scope : model_.scopes) {
       for (std::size_t i = 0; i < scope.blocks.size(); ++i) {
         SectionBlocks blocks{&scope, scope.blocks[i], {}};
@@ -91,17 +96,21 @@ class Sections {
   // *SHELL SECTION, ELSET = , COMPOSITE / thickness, points, material, angle ...
   void add_shells(const SectionBlocks& blocks) {
     const AbaqusBlock& block = *blocks.block;
-    for (const char* unknown : {"NODAL THICKNESS", "SHELL THICKNESS", "DENSITY"})
+    for (const char* unknown : {"SHELL THICKNESS", "DENSITY"})
       if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
-    if (block.data.empty()) throw CardError{"the thickness is missing"};
+    if (block.data.empty() && !block.has("NODAL THICKNESS"))
+      throw CardError{"the thickness is missing"};
     if (block.name == "SHELL GENERAL SECTION" && !block.has("MATERIAL") && !block.has("COMPOSITE"))
       throw CardError{"a section by its stiffness is not known; MATERIAL or COMPOSITE is due"};
     ShellSection section;
     if (block.has("COMPOSITE")) {
       read_layers(block, section);
     } else {
+      // Where each node has a thickness of its own, that of the section stands for none.
       section.thickness =
-          abaqus_real(block.data.front().fields(), 0, "thickness") * model_.units.length;
+          block.data.empty()
+              ? model_.units.length
+              : abaqus_real(block.data.front().fields(), 0, "thickness") * model_.units.length;
       section.material = abaqus_material(model_, block.required("MATERIAL"));
     }
     if (!(section.thickness > 0)) throw CardError{"the thickness must be positive"};
@@ -118,8 +127,47 @@ class Sections {
         throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
       if (element.shell >= 0)
         throw CardError{fmt::format("element {} has two sections", element.label)};
-      add_shell(element, place, of_region, axis_1);
+      add_shell(element, section_by_nodes(element, place, block), of_region, axis_1);
     }
+  }
+
+  // *NODAL THICKNESS / node or set, thickness
+  void read_nodal_thickness(const AbaqusScope& scope, const AbaqusBlock& block) {
+    model_.for_lines(block, [&](const Fields& fields) {
+      const double thickness = abaqus_real(fields, 1, "thickness") * model_.units.length;
+      if (!(thickness > 0)) throw CardError{"the thickness must be positive"};
+      for (const int node : model_.nodes_of(scope, fields[0])) thickness_of_[node] = thickness;
+    });
+  }
+
+  /// The section of a shell whose nodes have a thickness of their own: as the section that it is
+  /// of, with the mean over its corners.
+  int section_by_nodes(const AbaqusDeckElement& element, int place, const AbaqusBlock& block) {
+    double sum = 0;
+    const std::size_t corners = element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < corners; ++i)
+      if (const auto found = thickness_of_.find(element.nodes[i]); found != thickness_of_.end()) {
+        sum += found->second;
+        ++known;
+      }
+    // CalculiX needs no parameter beside the keyword, Abaqus one.
+    if (known < corners) {
+      if (!block.has("NODAL THICKNESS")) return place;
+      throw CardError{fmt::format("nodes of element {} have no *NODAL THICKNESS", element.label)};
+    }
+    const double thickness = sum / static_cast<double>(corners);
+    const auto [found, is_new] = section_of_thickness_.try_emplace(
+        {place, thickness}, static_cast<int>(mesh_.shell_sections.size()));
+    if (!is_new) return found->second;
+    ShellSection own = mesh_.shell_sections[at(place)];
+    if (own.laminate >= 0) throw CardError{"layers cannot have the thickness of their nodes"};
+    own.offset *= thickness / own.thickness;
+    own.thickness = thickness;
+    own.label = static_cast<long>(mesh_.shell_sections.size()) + 1;
+    mesh_.shell_sections.push_back(own);
+    model_.log.leave_out("*NODAL THICKNESS", "its slope: each shell has the mean of its corners");
+    return found->second;
   }
 
   /// Of the mid-surface to the surface of the nodes, in thicknesses, along the normal.
@@ -222,15 +270,27 @@ class Sections {
     mesh_.shells.push_back(shell);
   }
 
+  /// CalculiX looks at the first four letters.
+  static std::string short_name(const std::string& section) {
+    return section.starts_with("RECT") ? "RECT" : section.starts_with("CIRC") ? "CIRC" : section;
+  }
+
   /// Profile in axes n1 (2) and n2 (3) about the beam's node. Source: Abaqus Elements Guide, beam
   /// cross-section library; the node of an L is where the middle lines of its legs meet.
-  Profile shape(const std::string& name, const std::vector<double>& d) const {
+  Profile shape(const std::string& given, const std::vector<double>& d) const {
+    const std::string name = short_name(given);
     const auto need = [&](std::size_t count) {
       if (d.size() < count)
         throw CardError{fmt::format("a section {} has {} dimensions", name, count)};
     };
     if (name == "RECT") return need(2), solid_rectangle(d[0], d[1]);
-    if (name == "CIRC") return need(1), solid_circle(d[0]);
+    if (name == "CIRC") {
+      need(1);
+      // Abaqus gives the radius, CalculiX the sizes along both axes.
+      if (d.size() > 1 && d[0] != d[1])
+        throw CardError{"an ellipse (CIRC of two sizes) is not known"};
+      return solid_circle(d.size() > 1 ? d[0] / 2 : d[0]);
+    }
     if (name == "PIPE" || name == "THICK PIPE") return need(2), pipe(d[0], d[0] - d[1]);
     if (name == "BOX") return need(6), box(d[0], d[1], d[2], d[4], d[5], d[3]);
     if (name == "I") {
@@ -279,10 +339,32 @@ class Sections {
     }
     beam.material = abaqus_material(model_, block.required("MATERIAL"));
     beam.axis_2 = direction(blocks);
-    for (const char* unknown : {"OFFSET1", "OFFSET2"})
-      if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
+    beam.profile.centroid += offset_by_sizes(block);
     read_details(blocks, beam);
     return beam;
+  }
+
+  /// Of the centroid from the nodes, by CalculiX' OFFSET1 and OFFSET2: shares of the section's
+  /// sizes that the nodes lie beyond its centre.
+  Eigen::Vector2d offset_by_sizes(const AbaqusBlock& block) const {
+    Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+    if (!block.has("OFFSET1") && !block.has("OFFSET2")) return offset;
+    const std::string kind = short_name(block.value("SECTION"));
+    const std::vector<double> d = dimensions(block);
+    Eigen::Vector2d size;
+    if (kind == "RECT" || kind == "BOX")
+      size << d[0], d[1];
+    else if (kind == "CIRC" || kind == "PIPE")
+      size.setConstant(kind == "CIRC" && d.size() > 1 ? d[0] : 2 * d[0]);
+    else
+      throw CardError{fmt::format("OFFSET1 and OFFSET2 of SECTION = {} are not known", kind)};
+    for (int i = 0; i < 2; ++i) {
+      const std::string given = block.value(i == 0 ? "OFFSET1" : "OFFSET2");
+      const auto share = given.empty() ? std::optional<double>(0) : to_real(given);
+      if (!share) throw CardError{fmt::format("OFFSET{} = {} is no number", i + 1, given)};
+      offset[i] = -*share * size[i];
+    }
+    return offset;
   }
 
   // *BEAM GENERAL SECTION, SECTION = GENERAL, ELSET = , DENSITY =
@@ -310,6 +392,13 @@ class Sections {
       } catch (const ModelError& error) {
         throw CardError{error.what()};
       }
+    }
+    if (block.has("MATERIAL")) {  // as CalculiX has it
+      beam.material = abaqus_material(model_, block.required("MATERIAL"));
+      beam.axis_2 = direction(blocks);
+      if (kind != "GENERAL" && !kind.empty()) beam.profile.centroid += offset_by_sizes(block);
+      read_details(blocks, beam);
+      return beam;
     }
     if (block.data.size() < 3) throw CardError{"the line of E and G is missing"};
     const Fields elastic = block.data[2].fields();
@@ -555,6 +644,8 @@ class Sections {
 
   AbaqusModel& model_;
   Mesh& mesh_;
+  std::map<int, double> thickness_of_;  ///< of nodes, m
+  std::map<std::pair<int, double>, int> section_of_thickness_;
 };
 
 }  // namespace

@@ -60,9 +60,13 @@ class StepBlocks {
         const long first = abaqus_label(fields[1], "freedom");
         const long last =
             fields.size() > 2 && !fields[2].empty() ? abaqus_label(fields[2], "freedom") : first;
-        if (last > 6 || first > last) throw CardError{"freedoms go from 1 to 6"};
+        if (first > last) throw CardError{"freedoms go from 1 to 6"};
+        if (first > 6) {  // warping, pressure, temperature, potential
+          model_.log.leave_out("*BOUNDARY", "freedoms beyond displacements and rotations");
+          return;
+        }
         const double value = abaqus_real(fields, 3, "displacement", 0.0);
-        for (long i = first; i <= last; ++i) {
+        for (long i = first; i <= std::min(last, 6L); ++i) {
           support.held[at(i - 1)] = true;
           support.value[at(i - 1)] = i <= 3 ? value * model_.units.length : value;
         }
@@ -135,7 +139,10 @@ class StepBlocks {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"node, freedom and value are due"};
       const long freedom = abaqus_label(fields[1], "freedom");
-      if (freedom > 6) throw CardError{"freedoms go from 1 to 6"};
+      if (freedom > 6) {
+        model_.log.leave_out("*CLOAD", "freedoms beyond displacements and rotations");
+        return;
+      }
       const double value = abaqus_real(fields, 2, "value");
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
         const Vector3 direction = model_.axes(node).col((freedom - 1) % 3);
@@ -209,11 +216,10 @@ class StepBlocks {
     static const std::map<std::string, Vector3> directions{
         {"PX", Vector3::UnitX()}, {"PY", Vector3::UnitY()}, {"PZ", Vector3::UnitZ()}};
     const auto direction = directions.find(kind);
-    if (direction == directions.end() || element.beams.empty())
-      throw CardError{
-          fmt::format("a load {} on element {} ({}) is not known; P of shells, PX, PY, PZ "
-                      "of beams and GRAV are",
-                      kind, element.label, element.type)};
+    if (direction == directions.end() || element.beams.empty()) {
+      model_.log.leave_out("*DLOAD", "loads other than P of shells, PX, PY, PZ of beams and GRAV");
+      return;
+    }
     for (const int beam : element.beams)
       loads_.beam_loads.push_back(
           {beam, value * model_.units.force / model_.units.length * direction->second});

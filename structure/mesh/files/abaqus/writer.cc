@@ -6,12 +6,14 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/solid_shape.h"
@@ -385,6 +387,18 @@ class AbaqusText {
       couple(link.reference, link.vertices, link.weights);
       line("*DISTRIBUTING");
       write_freedoms(link.bound);
+    }
+    write_equations();
+  }
+
+  void write_equations() {
+    std::set<int> taken;
+    for (const MotionEquation& equation : mesh_.equations) {
+      const std::vector<ScalarTerm> terms = scalar_terms(equation, units_, axes_, taken);
+      line("*EQUATION");
+      line(std::to_string(terms.size()));
+      for (const ScalarTerm& term : terms)
+        line(fmt::format("{}, {}, {}", label(term.vertex), term.component + 1, exact(term.factor)));
     }
   }
 

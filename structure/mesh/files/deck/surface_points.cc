@@ -16,14 +16,9 @@ void fasten_used_middles(Deck& deck, const std::vector<SurfacePoint>& middles) {
   for (const Beam& beam : mesh.beams)
     for (const int vertex : beam.vertices) use(vertex);
   for (const PointMass& mass : mesh.masses) use(mass.vertex);
-  for (const RigidLink& link : mesh.rigid_links) {
-    use(link.master);
-    for (const int vertex : link.slaves) use(vertex);
-  }
-  for (const DistributingLink& link : mesh.distributing_links) {
-    use(link.reference);
-    for (const int vertex : link.vertices) use(vertex);
-  }
+  for_each_link(mesh, [&](const std::vector<int>& vertices, long) {
+    for (const int vertex : vertices) use(vertex);
+  });
   for (const Spring& spring : mesh.springs)
     for (const int vertex : spring.vertices) use(vertex);
   for (const SupportSet& set : deck.support_sets)

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
 
@@ -103,7 +105,7 @@ class Supports {
   std::map<long, int> set_of_;
 };
 
-/// Equations between freedoms: those that say that two are one, or that one is held.
+/// Equations between freedoms; one that has a single term holds it.
 class Equations {
  public:
   explicit Equations(NastranModel& model) : model_(model) {
@@ -148,54 +150,33 @@ class Equations {
   }
 
  private:
-  struct Term {
-    int vertex = 0, component = 0;
-    double factor = 0;
-  };
-
   // MPC SID G1 C1 A1 G2 C2 A2 blank / blank G3 C3 A3 ...
   void add(const CardView& card) {
-    std::vector<Term> terms;
+    std::vector<EquationTerm> terms;
     for (std::size_t line = 0; line < card.size(); line += 8) {
       for (const std::size_t first : {line + 1, line + 4}) {
         if (!card.has(first)) continue;
-        Term term;
-        term.vertex = model_.vertex(card, first, "grid");
-        term.component = static_cast<int>(card.integer(first + 1, "component")) - 1;
+        EquationTerm term;
+        DeckFreedom& freedom = term.freedom;
+        freedom.vertex = model_.vertex(card, first, "grid");
+        freedom.axes = model_.output_axes(freedom.vertex);
+        freedom.component = static_cast<int>(card.integer(first + 1, "component")) - 1;
         term.factor = card.real(first + 2, "factor");
-        if (term.component < 0 || term.component > 5)
+        if (freedom.component < 0 || freedom.component > 5)
           throw CardError{fmt::format("component {} is none of 1 to 6", card.text(first + 1))};
         if (term.factor != 0) terms.push_back(term);
       }
     }
     if (terms.size() == 1) {
       Support support;
-      support.vertex = terms[0].vertex;
-      support.held[at(terms[0].component)] = true;
-      support.axes = model_.output_axes(terms[0].vertex);
+      support.vertex = terms[0].freedom.vertex;
+      support.held[at(terms[0].freedom.component)] = true;
+      support.axes = terms[0].freedom.axes;
       held_.supports.push_back(support);
       return;
     }
-    if (terms.size() != 2 || !is_equality(terms[0], terms[1]))
-      throw CardError{fmt::format(
-          "an equation of set {} is none that says that two freedoms at one place are equal, or "
-          "that one is held; only such are read",
-          card.text(0))};
-    RigidLink link;
-    link.master = terms[1].vertex;
-    link.slaves = {terms[0].vertex};
-    link.bound.fill(false);
-    link.bound[at(terms[0].component)] = true;
-    link.axes = model_.output_axes(terms[0].vertex);
-    model_.deck.mesh.rigid_links.push_back(link);
-  }
-
-  bool is_equality(const Term& a, const Term& b) {
-    const bool opposite = std::abs(a.factor + b.factor) < 1e-9 * std::abs(a.factor);
-    const double distance = (model_.place(a.vertex) - model_.place(b.vertex)).norm();
-    const Eigen::Matrix3d turn = model_.output_axes(a.vertex) - model_.output_axes(b.vertex);
-    return opposite && a.component == b.component && turn.norm() < 1e-9 &&
-           (a.component >= 3 || distance < 1e-6);
+    if (terms.empty()) throw CardError{"an equation has no factors"};
+    add_equation(model_.deck, terms);
   }
 
   NastranModel& model_;
@@ -207,7 +188,7 @@ class Equations {
 
 /// A subcase's choice of sets; 0: none.
 struct Choice {
-  long label = 1, load = 0, constraints = 0, equations = 0;
+  long label = 1, load = 0, constraints = 0, equations = 0, spread_mass = 0;
   std::string title;
   SourceLine line;
 };
@@ -232,6 +213,7 @@ class CaseControl {
       choices_.push_back(common_);
     use_equations();
     equations_.finish();
+    use_spread_mass();
     for (const Choice& choice : choices_) {
       try {
         add(choice);
@@ -251,6 +233,10 @@ class CaseControl {
         parts.emplace_back(card.label(i + 1, "load set"), factor * card.real(i, "factor"));
   }
 
+  static bool starts_combination(std::string_view key) {
+    return is_same(key, "SUBCOM") || is_same(key, "SUBSEQ") || is_same(key, "REPCASE");
+  }
+
   void read_line(const CaseControlLine& line) {
     const auto equals = line.text.find('=');
     std::string_view key = trimmed(line.text.substr(0, equals));
@@ -268,12 +254,15 @@ class CaseControl {
       if (!found) throw CardError{fmt::format("{} = \"{}\" is no number", key, value)};
       return *found;
     };
-    if (is_same(key, "SUBCASE")) {
+    const bool is_start = is_same(key, "SUBCASE");
+    if (in_combination_ && !is_start && !starts_combination(key)) return;
+    if (is_start) {
       Choice next = common_;
       next.label = number();
       next.line = line.line;
       choices_.push_back(next);
       has_subcases_ = true;
+      in_combination_ = false;
     } else if (is_same(key, "LOAD")) {
       choice.load = number();
       choice.line = line.line;
@@ -281,12 +270,18 @@ class CaseControl {
       choice.constraints = number();
     } else if (is_same(key, "MPC")) {
       choice.equations = number();
+    } else if (is_same(key, "NSM")) {
+      choice.spread_mass = number();
+      choice.line = line.line;
     } else if (is_same(key, "TITLE")) {
       model_.deck.title = std::string(value);
     } else if (is_same(key, "SUBTITLE") || is_same(key, "LABEL")) {
       choice.title = std::string(value);
-    } else if (is_same(key, "SUBCOM") || is_same(key, "SUBSEQ") || is_same(key, "REPCASE")) {
-      throw CardError{fmt::format("{} is not known; SUBCASE is", key)};
+    } else if (starts_combination(key)) {
+      const std::string name = "case control " + upper(key);
+      model_.log.read(name, line.line);
+      model_.log.leave_out(name, "combinations of subcases: each is a load case alone");
+      in_combination_ = true;
     } else {
       const std::string name = "case control " + upper(key.substr(0, key.find_first_of(" \t,")));
       model_.log.read(name, line.line);
@@ -317,6 +312,32 @@ class CaseControl {
       equations_.use(wanted);
     } catch (const CardError& error) {
       model_.log.complain(equations_.line(), error.text);
+    }
+  }
+
+  /// A block weighs the same in all subcases.
+  void use_spread_mass() {
+    std::set<long> asked;
+    SourceLine line;
+    for (const Choice& choice : choices_.empty() ? std::vector<Choice>{common_} : choices_) {
+      asked.insert(choice.spread_mass);
+      line = choice.line;
+    }
+    const auto& cards = model_.bulk.cards;
+    const bool has_any = std::any_of(cards.begin(), cards.end(), [](const NastranCard& card) {
+      return card.name.starts_with("NSM");
+    });
+    if (asked.size() > 1)
+      model_.log.complain(line, "NSM: subcases ask for different spread masses; a block has one");
+    if (asked.size() > 1 || (*asked.begin() == 0 && !has_any)) return;
+    if (*asked.begin() == 0) {
+      model_.log.leave_out("NSM", "sets that case control does not ask for");
+      return;
+    }
+    try {
+      use_nonstructural_mass(model_, *asked.begin());
+    } catch (const CardError& error) {
+      model_.log.complain(line, "case control: " + error.text);
     }
   }
 
@@ -363,7 +384,7 @@ class CaseControl {
   std::map<long, std::vector<std::pair<long, double>>> combinations_;
   Choice common_;
   std::vector<Choice> choices_;
-  bool has_subcases_ = false;
+  bool has_subcases_ = false, in_combination_ = false;
 };
 
 }  // namespace

@@ -211,7 +211,10 @@ Eigen::Matrix3d NastranModel::axes_at(long system, int vertex) {
 long NastranModel::new_element(const CardView& card) {
   const long label = card.label(0, "element number");
   // Rigid elements and masses have often numbers that plates have, too; solvers let them.
-  const std::size_t kind = card.name().front() == 'R' ? 1 : card.name().starts_with("CONM") ? 2 : 0;
+  const std::size_t kind = card.name().front() == 'R' ? 1
+                           : card.name().starts_with("CONM") || card.name().starts_with("CMASS")
+                               ? 2
+                               : 0;
   if (!elements[kind].insert(label).second)
     throw CardError{fmt::format("element {} is there twice", label)};
   for (std::size_t other = 0; other < elements.size(); ++other)

@@ -105,8 +105,15 @@ void read_nastran_grids(NastranModel& model);
 void read_nastran_cells(NastranModel& model);
 /// CHEXA, CPENTA and CTETRA with PSOLID.
 void read_nastran_solids(NastranModel& model);
-/// Masses, rigid and distributing links, springs, equations.
+/// CONM1, CONM2, CMASS1, CMASS2.
+void read_nastran_masses(NastranModel& model);
+/// RBE1, RBE2, RBE3, RBAR, RROD, RTRPLT, RJOINT.
 void read_nastran_links(NastranModel& model);
+/// CELAS1, CELAS2, CBUSH.
+void read_nastran_springs(NastranModel& model);
+/// Spreads the mass of a set (NSM, NSM1, NSML, NSML1, NSMADD) over its cells.
+/// @throws CardError if there is no such set.
+void use_nonstructural_mass(NastranModel& model, long set);
 /// Supports and loads by their sets, and case control that combines them.
 void read_nastran_cases(NastranModel& model);
 /// Fills the deck's load sets; FORCE, MOMENT, PLOAD2, PLOAD4, GRAV and the like.

@@ -17,14 +17,15 @@ namespace {
 /// Cards that some stage reads.
 const std::set<std::string, std::less<>>& cards_read() {
   static const std::set<std::string, std::less<>> names{
-      "GRID",    "GRDSET",  "CORD1R", "CORD1C", "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PARAM",
-      "CQUAD4",  "CQUAD8",  "CQUADR", "CTRIA3", "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",
-      "CTUBE",   "CONROD",  "CBUSH",  "CELAS1", "CELAS2", "CONM1",  "CONM2",  "RBE1",   "RBE2",
-      "RBE3",    "RBAR",    "PSHELL", "PCOMP",  "PCOMPG", "PBAR",   "PBARL",  "PBEAM",  "PBEAML",
-      "PROD",    "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",   "BAROR",  "BEAMOR",
-      "SPC",     "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1", "FORCE2", "MOMENT",
-      "MOMENT1", "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4", "INCLUDE",
-      "CHEXA",   "CPENTA",  "CTETRA", "PSOLID"};
+      "GRID",   "GRDSET",  "CORD1R",  "CORD1C",  "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PARAM",
+      "CQUAD4", "CQUAD8",  "CQUADR",  "CTRIA3",  "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",
+      "CTUBE",  "CONROD",  "CBUSH",   "CELAS1",  "CELAS2", "CONM1",  "CONM2",  "RBE1",   "RBE2",
+      "RBE3",   "RBAR",    "RROD",    "RTRPLT",  "RJOINT", "CMASS1", "CMASS2", "PMASS",  "NSM",
+      "NSM1",   "NSML",    "NSML1",   "NSMADD",  "PSHELL", "PCOMP",  "PCOMPG", "PBAR",   "PBARL",
+      "PBEAM",  "PBEAML",  "PROD",    "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",
+      "BAROR",  "BEAMOR",  "SPC",     "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1",
+      "FORCE2", "MOMENT",  "MOMENT1", "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2",
+      "PLOAD4", "INCLUDE", "CHEXA",   "CPENTA",  "CTETRA", "PSOLID"};
   return names;
 }
 
@@ -44,11 +45,15 @@ const std::vector<Reason>& reasons() {
         "CAERO4",  "CAERO5",  "PAERO1",  "PAERO2",  "PAERO3",  "PAERO4",  "PAERO5",  "SPLINE1",
         "SPLINE2", "SPLINE3", "SPLINE4", "SPLINE5", "SPLINE6", "SPLINE7", "SET1",    "SET2",
         "SET3",    "TRIM",    "TRIM2",   "FLUTTER", "FLFACT",  "MKAERO1", "MKAERO2", "GUST",
-        "MONPNT1", "MONPNT2", "MONPNT3", "MONDSP1", "DIVERG",  "CSSCHD",  "UXVEC"}},
+        "MONPNT1", "MONPNT2", "MONPNT3", "MONDSP1", "DIVERG",  "CSSCHD",  "UXVEC",   "AEPRESS",
+        "AEGRID",  "AEQUAD4", "AETRIA3", "PANLST1", "PANLST2", "PANLST3", "MONCNCM", "MONSUM",
+        "MONSUM1", "MONGRP",  "MONDSP2", "SPLINEX", "SPLINRB", "RVDOF",   "SPBLND1", "SPBLND2",
+        "SPRELAX"}},
       {"optimisation has no meaning here",
        {"DESVAR", "DVPREL1", "DVPREL2", "DVMREL1", "DVMREL2", "DVCREL1", "DVCREL2", "DRESP1",
         "DRESP2", "DRESP3",  "DCONSTR", "DCONADD", "DOPTPRM", "DLINK",   "DEQATN",  "DSCREEN",
-        "TOPVAR", "DVGRID",  "DVSHAP",  "DVBSHAP", "DTABLE",  "DDVAL",   "BEADVAR", "DSELOPT"}},
+        "TOPVAR", "DVGRID",  "DVSHAP",  "DVBSHAP", "DTABLE",  "DDVAL",   "BEADVAR", "DSELOPT",
+        "DESGLB", "DTABLE2", "TOMVAR",  "DVLREL1", "DVPSURF", "DVTREL1", "STOCHAS", "DSELECT"}},
       {"drawing alone",
        {"PLOTEL", "PLOTEL3", "PLOTEL4", "PLOTEL6", "PLOTEL8", "PLOTHEX", "PLOTPEN", "PLOTTET",
         "PLOTPYR"}},
@@ -59,11 +64,15 @@ const std::vector<Reason>& reasons() {
         "RLOAD2", "DAREA",   "DLOAD",  "TABLED1", "TABLED2", "TABLED3", "TABLED4", "DPHASE",
         "DELAY",  "RANDPS",  "RANDT1", "TABRND1", "TIC",     "TABLEM1", "TABLEM2", "DYNRED",
         "RSPECI", "PVISC",   "CVISC",  "CDAMP1",  "CDAMP2",  "PDAMP",   "NLPARM",  "NLPCI",
-        "NLSTEP", "TABLES1", "MATS1",  "SUPORT",  "SUPORT1"}},
+        "NLSTEP", "TABLES1", "MATS1",  "SUPORT",  "SUPORT1", "RCROSS",  "ROTORG",  "ROTOR",
+        "ROTORD", "RGYRO",   "RSPINR", "RSPINT",  "UNBALNC", "ACSRCE",  "NOLIN1",  "NOLIN2",
+        "NOLIN3", "NOLIN4",  "TF",     "TSTEP1",  "NLADAPT", "NLAUTO",  "TABDMP2", "CDAMP1D"}},
       {"temperatures are not loads of a lift",
-       {"TEMP",  "TEMPD", "TEMPP1", "TEMPP2",  "TEMPP3", "TEMPRB", "TEMPF",
-        "MATT1", "MAT4",  "MAT5",   "TABLEST", "CHBDYE", "CHBDYG", "CHBDYP",
-        "PCONV", "CONV",  "QBDY1",  "QBDY2",   "QBDY3",  "QVOL"},
+       {"TEMP",   "TEMPD", "TEMPP1",  "TEMPP2", "TEMPP3", "TEMPRB", "TEMPF",  "MATT1",
+        "MAT4",   "MAT5",  "TABLEST", "CHBDYE", "CHBDYG", "CHBDYP", "PCONV",  "CONV",
+        "QBDY1",  "QBDY2", "QBDY3",   "QVOL",   "TEMPN1", "TEMPG",  "TEMPB3", "TEMPP3",
+        "TEMPBC", "RADM",  "RADBC",   "RADSET", "VIEW",   "VIEW3D", "PHBDY",  "PCONVM",
+        "CONVM",  "BDYOR", "TEMPEX",  "QHBDY",  "QVECT",  "RADLST", "RADMTX"},
        true},
       {"a load that is not read",
        {"RFORCE", "ACCEL", "ACCEL1", "DEFORM", "SPCD", "SLOAD", "PLOADX1", "LSEQ", "PRESAX"},
@@ -73,15 +82,17 @@ const std::vector<Reason>& reasons() {
         "USET1", "SEQGP"}},
       {"of solids that are not read", {"PLSOLID", "PCOMPS", "MAT3", "MAT9", "MAT11"}},
       {"points without a place, on which nothing of the block hangs",
-       {"SPOINT", "EPOINT", "CELAS3", "CELAS4"}},
+       {"SPOINT", "EPOINT", "CELAS3", "CELAS4", "CMASS3", "CMASS4"}},
       {"properties and materials of elements that are not known, which are told of themselves",
        {"PBEND",   "PBUSH1D", "PGAP",   "PFAST",  "PWELD",  "PSEAM",  "PBCOMP", "PBMSECT",
-        "PBRSECT", "PLPLANE", "PPLANE", "PMASS",  "PBEAM3", "PRAC2D", "PRAC3D", "PACBAR",
-        "PACABS",  "PAABSF",  "PSHLN1", "PSHLN2", "PSLDN1", "PBARN1", "PBEMN1", "PRODN1",
-        "PSHEAR",  "MAT10",   "MATHP",  "MATHE",  "MATPOR", "MATF",   "MATG",   "MATT2",
-        "MATT3",   "MATT8",   "MATT9",  "MATS3",  "MATS8",  "CREEP"}},
+        "PBRSECT", "PLPLANE", "PPLANE", "PBEAM3", "PRAC2D", "PRAC3D", "PACBAR", "PACABS",
+        "PAABSF",  "PSHLN1",  "PSHLN2", "PSLDN1", "PBARN1", "PBEMN1", "PRODN1", "PSHEAR",
+        "MAT10",   "MATHP",   "MATHE",  "MATPOR", "MATF",   "MATG",   "MATT2",  "MATT3",
+        "MATT8",   "MATT9",   "MATS3",  "MATS8",  "CREEP"}},
       {"matrices and tables of the solver", {"DMI", "DTI", "DMIJ", "DMIJI", "DMIK", "DMIAX"}},
-      {"what is printed", {"STRESS", "BOLTSEQ", "CBARAO", "ECHOON", "ECHOOFF", "HYPERMESH"}},
+      {"what is printed, and how the solver goes about it",
+       {"STRESS", "BOLTSEQ", "CBARAO", "ECHOON", "ECHOOFF", "HYPERMESH", "MDLPRM", "OUTRCV",
+        "OUTPUT", "SPCOFF", "SPCOFF1", "NXSTRAT", "AUTOSPC", "SYSSET", "DYNOPT", "PARAMARN"}},
   };
   return all;
 }
@@ -173,7 +184,9 @@ Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
   read_nastran_grids(model);
   if (deck.mesh.vertices.empty()) log.complain({}, "the deck has no grids");
   read_nastran_cells(model);
+  read_nastran_masses(model);
   read_nastran_links(model);
+  read_nastran_springs(model);
   read_nastran_cases(model);
   log.check_left_out(options);
   log.check();

@@ -16,8 +16,9 @@ namespace blocklift::structure {
 /// - CBAR, CBEAM with offsets and pin flags, CROD, CTUBE, CONROD; PBAR, PBARL, PBEAM, PBEAML (of
 ///   one section from end to end), PROD, PTUBE
 /// - CHEXA, CPENTA, CTETRA with and without middles of edges, PSOLID
-/// - CONM1, CONM2, PARAM WTMASS; RBE1 (one independent grid), RBE2, RBAR, RBE3 of displacements;
-///   MPC that says that two freedoms are equal or one is held; CELAS1, CELAS2, CBUSH, PELAS, PBUSH
+/// - CONM1, CONM2, CMASS1, CMASS2 (of all three directions), NSM, NSM1, NSML, NSML1, NSMADD,
+///   PARAM WTMASS; RBE1, RBE2, RBE3, RBAR, RROD, RTRPLT, RJOINT; MPC that resists no motion of the
+///   whole, or holds one freedom; CELAS1, CELAS2, CBUSH, PELAS, PBUSH
 /// - SPC, SPC1, SPCADD, permanent constraints; FORCE and MOMENT with 1 and 2, PLOAD, PLOAD1 (even,
 ///   whole length), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
 ///

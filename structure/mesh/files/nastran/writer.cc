@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
@@ -22,6 +23,9 @@
 namespace blocklift::structure {
 
 namespace {
+
+/// Number of the set of all equations (MPC).
+constexpr long equation_set = 1;
 
 class NastranText {
  public:
@@ -110,6 +114,7 @@ class NastranText {
     if (!deck_.title.empty()) out_.line("TITLE = " + deck_.title);
     for (const char* result : {"DISPLACEMENT", "SPCFORCES", "STRESS"})
       out_.line(std::string(result) + " = ALL");
+    if (!mesh_.equations.empty()) out_.line(fmt::format("MPC = {}", equation_set));
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) {
       const DeckLoadCase& one = deck_.load_cases[i];
       out_.line(fmt::format("SUBCASE {}", one.label > 0 ? one.label : static_cast<long>(i) + 1));
@@ -407,6 +412,22 @@ class NastranText {
         fields.emplace_back(label(link.vertices[i]));
       }
       out_.card("RBE3", fields);
+    }
+    write_equations();
+  }
+
+  void write_equations() {
+    std::set<int> taken;
+    for (const MotionEquation& equation : mesh_.equations) {
+      Fields fields{equation_set};
+      for (const ScalarTerm& term : scalar_terms(equation, units_, axes_, taken)) {
+        // Two terms a line, its first and last field blank.
+        if (fields.size() % 8 == 7) fields.resize(fields.size() + 2);
+        fields.emplace_back(label(term.vertex));
+        fields.emplace_back(static_cast<long>(term.component) + 1);
+        fields.emplace_back(term.factor);
+      }
+      out_.card("MPC", fields);
     }
   }
 

@@ -257,12 +257,14 @@ TIE, 6, 1
   EXPECT_THAT(mesh.distributing_links[0].weights, ElementsAre(1, 1, 1, 1));
   EXPECT_THAT(mesh.distributing_links[1].weights, ElementsAre(2, 1));
   EXPECT_THAT(mesh.distributing_links[1].bound, ElementsAre(true, true, true, true, false, false));
-  ASSERT_EQ(mesh.rigid_links.size(), 6U);
+  ASSERT_EQ(mesh.rigid_links.size(), 5U);
   EXPECT_THAT(mesh.rigid_links[0].slaves, ElementsAre(0, 1));
   EXPECT_THAT(mesh.rigid_links[0].bound, ElementsAre(true, true, true, false, false, false));
   EXPECT_EQ(mesh.rigid_links[1].master, 4);
   EXPECT_THAT(mesh.rigid_links[3].slaves, ElementsAre(2));
-  EXPECT_THAT(mesh.rigid_links[5].bound, ElementsAre(false, false, true, false, false, false));
+  ASSERT_EQ(mesh.equations.size(), 1U);
+  EXPECT_EQ(mesh.equations[0].terms[0].vertex, 5);
+  expect_near(mesh.equations[0].terms[1].of_displacement, Vector3(0, 0, -1), 0);
   EXPECT_THAT(complaints_of_abaqus(square_plate + "*MPC\nTIE, 1, 2\n"),
               HasSubstr("TIE is not known of nodes apart"));
 }

@@ -1,5 +1,8 @@
 // Decks as preprocessors write them: their headers, comments, columns, sets and order of cards.
 
+#include <cmath>
+#include <numbers>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -556,6 +559,101 @@ TEST(Preprocessors, RemarksOfManyPropertiesAreOne) {
   const Deck deck = nastran(text + "ENDDATA\n");
   ASSERT_EQ(deck.remarks.size(), 1U);
   EXPECT_THAT(deck.remarks[0].text, HasSubstr("12 properties of plates, PSHELL 1 the first"));
+}
+
+// As CalculiX' own examples have it: names without blanks, procedures that are none of a lift,
+// temperatures as freedom 11, sections by general keywords with a material.
+TEST(Preprocessors, CalculixWaysOfSaying) {
+  const Deck deck = abaqus(R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+3, 2., 1., 0.
+4, 0., 1., 0.
+5, 4., 0., 0.
+6, 6., 0., 0.
+*ELEMENT, TYPE=S4, ELSET=PLATE
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=B31, ELSET=BOX
+2, 2, 5
+*ELEMENT, TYPE=B31, ELSET=PIN
+3, 5, 6
+*MATERIAL, NAME=STEEL
+*ELASTIC
+206.E9, .3
+*DENSITY
+7850.
+*SHELLSECTION, ELSET=PLATE, MATERIAL=STEEL, OFFSET=.5
+.01
+*NODALTHICKNESS
+1, .02
+2, .02
+3, .03
+4, .03
+*BEAM GENERAL SECTION, ELSET=BOX, SECTION=BOX, MATERIAL=STEEL, OFFSET1=.5
+.2, .1, .01, .01, .01, .01
+0., 0., 1.
+*BEAM SECTION, ELSET=PIN, SECTION=CIRCULAR, MATERIAL=STEEL
+.1, .1
+0., 0., 1.
+*STEP
+*HEAT TRANSFER
+*BOUNDARY
+1, 1, 3
+1, 11, 11, 20.
+*FILM
+1, F1, 10.
+*DLOAD
+2, P1, 5.
+*ENDSTEP
+)");
+  ASSERT_EQ(deck.mesh.shells.size(), 1U);
+  const ShellSection& section = deck.mesh.section_of(deck.mesh.shells[0]);
+  EXPECT_DOUBLE_EQ(section.thickness, 0.025);
+  EXPECT_DOUBLE_EQ(section.offset, -0.0125);
+  ASSERT_EQ(deck.mesh.beams.size(), 2U);
+  EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[0]).area, 0.2 * 0.1 - 0.18 * 0.08, 1e-12);
+  // The nodes lie half the height above the centre.
+  expect_near(deck.mesh.beams[0].offset[0], Vector3(0, 0, -0.1), 1e-12);
+  EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[1]).area, std::numbers::pi * 0.0025, 1e-12);
+  EXPECT_THAT(entry(deck, "*HEAT TRANSFER").left_out, HasSubstr("what a step does"));
+  EXPECT_EQ(deck.support_sets.at(0).supports.size(), 1U);
+}
+
+// Abaqus' older couplings, and bars of no weight and any stiffness.
+TEST(Preprocessors, DistributingCouplingsAndLinks) {
+  const std::string plate = R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+3, 2., 1., 0.
+4, 0., 1., 0.
+5, 1., 1., 3.
+6, 3., 0., 4.
+*ELEMENT, TYPE=S4, ELSET=PLATE
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=DCOUP3D, ELSET=HUB
+7, 5
+*SHELL SECTION, ELSET=PLATE, MATERIAL=STEEL
+.01
+*MATERIAL, NAME=STEEL
+*ELASTIC
+206.E9, .3
+*DENSITY
+7850.
+*DISTRIBUTING COUPLING, ELSET=HUB
+1, 2.
+2,
+)";
+  const Mesh mesh = abaqus(plate + "*MPC\nLINK, 6, 5\n").mesh;
+  ASSERT_EQ(mesh.distributing_links.size(), 1U);
+  EXPECT_EQ(mesh.distributing_links[0].reference, 4);
+  EXPECT_THAT(mesh.distributing_links[0].weights, ElementsAre(2, 1));
+  ASSERT_EQ(mesh.equations.size(), 1U);
+  expect_near(mesh.equations[0].terms[0].of_displacement, Vector3(-2, 1, -1) / std::sqrt(6.0),
+              1e-12);
+  MotionEquation balanced = mesh.equations[0];
+  EXPECT_LT(balance(mesh, balanced), 1e-12);
+  EXPECT_THAT(complaints_of_abaqus(plate + "*DISTRIBUTING COUPLING, ELSET=HUB\n1, -2.\n"),
+              HasSubstr("deck.inp:23: error: *DISTRIBUTING COUPLING: a weight must be positive"));
 }
 
 }  // namespace

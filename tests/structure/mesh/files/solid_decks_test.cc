@@ -1,4 +1,6 @@
 // Solids of Nastran's and Abaqus' decks.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -114,6 +116,69 @@ TEST(SolidDecks, AbaqusSolidsAndCouplingsOfTheirFaces) {
   EXPECT_EQ(link.vertices.size(), 4U);
   for (const int vertex : link.vertices)
     EXPECT_NEAR(deck.mesh.vertices[static_cast<std::size_t>(vertex)].z(), 1, 1e-12);
+}
+
+// Nodes tied to faces of solids follow the faces' own polynomial: a quadratic field comes out where
+// they are, on a square face and on a triangle, though the corners alone are in the deck. One that
+// is a little off the face is put onto it.
+TEST(SolidDecks, NodesTiedToFacesOfSolids) {
+  const std::string nodes = R"(*NODE
+21, .25, .5, 1.
+22, .9, .1, 1.03
+23, 2.3, .2, .5
+24, .5, .5, 1.6
+*NSET, NSET=POINTS
+21, 22, 23, 24
+*NODE
+11, 2., 0., 0.
+12, 3., 0., 0.
+13, 2., 1., 0.
+14, 2., 0., 1.
+*ELEMENT, TYPE=C3D4, ELSET=TETRAHEDRON
+20, 11, 12, 13, 14
+*SOLID SECTION, ELSET=TETRAHEDRON, MATERIAL=STEEL
+*SURFACE, NAME=BOTH
+CUBE, S2
+TETRAHEDRON, S3
+*MASS, ELSET=WEIGHTS
+100.
+*ELEMENT, TYPE=MASS, ELSET=WEIGHTS
+101, 21
+102, 22
+103, 23
+*SURFACE, NAME=SLAVES, TYPE=NODE
+POINTS
+*TIE, NAME=T
+SLAVES, BOTH
+)";
+  const Deck deck = abaqus(abaqus_solids + nodes);
+  const Mesh& mesh = deck.mesh;
+  const auto vertex = [&](long label) {
+    const auto& labels = mesh.vertex_labels;
+    return static_cast<int>(std::find(labels.begin(), labels.end(), label) - labels.begin());
+  };
+  ASSERT_EQ(mesh.equations.size(), 9U);  // the fourth is too far away
+  EXPECT_NEAR(mesh.vertices[static_cast<std::size_t>(vertex(22))].z(), 1, 1e-9);
+  const auto field = [](const Vector3& x) {
+    return 1 + x.x() - 2 * x.y() + x.x() * x.x() + 3 * x.x() * x.y() + x.z() * x.y();
+  };
+  for (const MotionEquation& equation : mesh.equations) {
+    double sum = 0;
+    for (const MotionEquation::Term& term : equation.terms)
+      sum +=
+          term.of_displacement.sum() * field(mesh.vertices[static_cast<std::size_t>(term.vertex)]);
+    EXPECT_NEAR(sum, 0, 1e-9) << equation.terms.front().vertex;
+  }
+  for (const MotionEquation& equation : mesh.equations) {
+    MotionEquation balanced = equation;
+    EXPECT_LT(balance(mesh, balanced), 1e-9);
+  }
+  ASSERT_FALSE(deck.remarks.empty());
+  const bool is_said =
+      std::any_of(deck.remarks.begin(), deck.remarks.end(), [](const DeckRemark& remark) {
+        return remark.text.find("moved onto their surface, by up to 30 mm") != std::string::npos;
+      });
+  EXPECT_TRUE(is_said);
 }
 
 TEST(SolidDecks, WrittenAndReadAgainTheyAreTheSame) {

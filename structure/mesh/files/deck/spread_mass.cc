@@ -1,0 +1,61 @@
+#include "structure/mesh/files/deck/spread_mass.h"
+
+#include <map>
+
+#include "structure/index.h"
+#include "structure/mesh/mass_properties.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+template <typename Section>
+int heavier_copy(int section, double mass, std::vector<Section>& sections, double Section::*figure,
+                 std::map<int, int>& heavier) {
+  const auto [found, is_new] = heavier.try_emplace(section, static_cast<int>(sections.size()));
+  if (is_new) {
+    Section copy = sections[at(section)];
+    copy.*figure += mass;
+    sections.push_back(copy);
+  }
+  return found->second;
+}
+
+}  // namespace
+
+void add_mass_per_area(Mesh& mesh, const std::vector<int>& shells, double mass) {
+  std::map<int, int> heavier;
+  for (const int s : shells) {
+    int& section = mesh.shells[at(s)].section;
+    section =
+        heavier_copy(section, mass, mesh.shell_sections, &ShellSection::mass_per_area, heavier);
+  }
+}
+
+void add_mass_per_length(Mesh& mesh, const std::vector<int>& beams, double mass) {
+  std::map<int, int> heavier;
+  for (const int b : beams) {
+    Beam& beam = mesh.beams[at(b)];
+    for (int* section : {&beam.section, &beam.end_section})
+      if (*section >= 0)
+        *section = heavier_copy(*section, mass, mesh.beam_sections, &BeamSection::mass_per_length,
+                                heavier);
+  }
+}
+
+double total_area(const Mesh& mesh, const std::vector<int>& shells) {
+  double sum = 0;
+  for (const int s : shells) sum += area(mesh, mesh.shells[at(s)]);
+  return sum;
+}
+
+double total_length(const Mesh& mesh, const std::vector<int>& beams) {
+  double sum = 0;
+  for (const int b : beams) {
+    const auto& ends = mesh.beams[at(b)].vertices;
+    sum += (mesh.vertices[at(ends[1])] - mesh.vertices[at(ends[0])]).norm();
+  }
+  return sum;
+}
+
+}  // namespace blocklift::structure

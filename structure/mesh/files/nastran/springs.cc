@@ -1,0 +1,185 @@
+// Springs and bushes.
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/nastran/model.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+class Springs {
+ public:
+  explicit Springs(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
+
+  void read() {
+    for (const NastranCard& card : model_.bulk.cards)
+      if (card.name == "PELAS" || card.name == "PBUSH") keep(CardView(model_.bulk, card));
+    model_.for_each(
+        {{"CELAS1", [&](const CardView& card) { add_with_property(card); }},
+         {"CELAS2", [&](const CardView& card) { add_spring(card, card.real(1, "stiffness"), 2); }},
+         {"CBUSH", [&](const CardView& card) { add_bush(card); }}});
+  }
+
+ private:
+  // PELAS PID1 K1 GE1 S1 PID2 K2 GE2 S2
+  // PBUSH PID K K1 ... K6 / ...
+  void keep(const CardView& card) {
+    try {
+      if (card.name() == "PBUSH") {
+        bushes_.emplace(card.label(0, "property"), card);
+        return;
+      }
+      for (const std::size_t first : {0U, 4U})
+        if (card.has(first))
+          springs_.emplace(card.label(first, "property"), card.real(first + 1, "stiffness"));
+    } catch (const CardError& error) {
+      model_.log.complain(card.line(), card.name() + ": " + error.text);
+    }
+  }
+
+  double unit(int component) const {
+    return component < 3 ? model_.units.force / model_.units.length : model_.units.moment();
+  }
+
+  void add_with_property(const CardView& card) {
+    const auto found = springs_.find(card.label(1, "property"));
+    if (found == springs_.end())
+      throw CardError{fmt::format("property {} does not exist", card.text(1))};
+    model_.log.use("PELAS");
+    add_spring(card, found->second, 2);
+  }
+
+  // ... G1 C1 G2 C2
+  void add_spring(const CardView& card, double stiffness, std::size_t first) {
+    Spring spring;
+    spring.label = model_.new_element(card);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::size_t field = first + 2 * end;
+      if (!card.has(field) || card.is(field, "0")) continue;
+      if (model_.is_scalar_point(card.label(field, "end"))) {
+        model_.log.leave_out(card.name(), "springs to points without a place");
+        return;
+      }
+      spring.vertices[end] = model_.vertex(card, field, "end");
+      spring.components[end] = component(card, field + 1);
+      spring.axes[end] = model_.output_axes(spring.vertices[end]);
+    }
+    if (spring.vertices[0] < 0) {
+      std::swap(spring.vertices[0], spring.vertices[1]);
+      std::swap(spring.components[0], spring.components[1]);
+      std::swap(spring.axes[0], spring.axes[1]);
+    }
+    if (spring.vertices[0] < 0)
+      throw CardError{fmt::format("{} {} joins nothing", card.name(), card.text(0))};
+    if (spring.vertices[1] < 0) {
+      spring.components[1] = spring.components[0];
+      spring.axes[1] = spring.axes[0];
+    }
+    if ((spring.components[0] < 3) != (spring.components[1] < 3))
+      throw CardError{
+          fmt::format("{} {} joins a displacement with a rotation", card.name(), card.text(0))};
+    add(card, spring, stiffness * unit(spring.components[0]));
+  }
+
+  static int component(const CardView& card, std::size_t i) {
+    const long number = card.integer(i, "component");
+    if (number < 1 || number > 6)
+      throw CardError{fmt::format("component {} is none of 1 to 6", number)};
+    return static_cast<int>(number) - 1;
+  }
+
+  void add(const CardView& card, Spring& spring, double stiffness) {
+    if (!(stiffness >= 0))
+      throw CardError{fmt::format("{} {} has a negative stiffness", card.name(), card.text(0))};
+    spring.stiffness = stiffness;
+    if (stiffness > 0) mesh_.springs.push_back(spring);
+  }
+
+  // CBUSH EID PID GA GB X1/G0 X2 X3 CID / S OCID S1 S2 S3
+  void add_bush(const CardView& card) {
+    Spring spring;
+    spring.label = model_.new_element(card);
+    const auto found = bushes_.find(card.label(1, "property", spring.label));
+    if (found == bushes_.end())
+      throw CardError{fmt::format("property {} does not exist", card.text(1))};
+    spring.vertices[0] = model_.vertex(card, 2, "end");
+    const bool has_end = card.has(3) && !card.is(3, "0");
+    if (has_end) spring.vertices[1] = model_.vertex(card, 3, "end");
+    const Vector3 from = model_.place(spring.vertices[0]);
+    const Vector3 to = has_end ? model_.place(spring.vertices[1]) : from;
+    spring.axes[0] = spring.axes[1] = bush_axes(card, spring, from, to);
+    Vector3 place = from + card.real(8, "place of the spring", 0.5) * (to - from);
+    if (const long system = card.integer(9, "system of its place", -1); system >= 0) {
+      const Vector3 given(card.real(10, "place", 0.0), card.real(11, "place", 0.0),
+                          card.real(12, "place", 0.0));
+      place = model_.units.length * model_.systems.get(system).place(given);
+    }
+    spring.arms[0] = place - from;
+    if (has_end) spring.arms[1] = place - to;
+    const std::array<double, 6> stiffness = bush_stiffness(found->second);
+    for (int i = 0; i < 6; ++i) {
+      spring.components = {i, i};
+      add(card, spring, stiffness[at(i)] * unit(i));
+    }
+  }
+
+  Eigen::Matrix3d bush_axes(const CardView& card, const Spring& spring, const Vector3& from,
+                            const Vector3& to) {
+    if (card.has(7))
+      return model_.axes_at(card.integer(7, "coordinate system"), spring.vertices[0]);
+    const Vector3 line = to - from;
+    if (!(line.norm() > 1e-9))
+      throw CardError{
+          fmt::format("CBUSH {} has no length and no coordinate system (CID)", card.text(0))};
+    Vector3 vector = Vector3::Zero();
+    if (card.is_integer(4) && !card.has(5))
+      vector = model_.place(model_.vertex(card, 4, "grid that orients it")) - from;
+    else if (card.has(4) || card.has(5) || card.has(6))
+      vector = model_.output_axes(spring.vertices[0]) * Vector3(card.real(4, "vector", 0.0),
+                                                                card.real(5, "vector", 0.0),
+                                                                card.real(6, "vector", 0.0));
+    if (!(line.cross(vector).norm() > 1e-6 * line.norm() * vector.norm()))
+      throw CardError{
+          fmt::format("CBUSH {} has neither a coordinate system nor a vector that "
+                      "orients it",
+                      card.text(0))};
+    Eigen::Matrix3d axes;
+    axes.col(0) = line.normalized();
+    axes.col(2) = line.cross(vector).normalized();
+    axes.col(1) = axes.col(2).cross(axes.col(0));
+    return axes;
+  }
+
+  std::array<double, 6> bush_stiffness(const CardView& property) {
+    std::array<double, 6> stiffness{};
+    for (std::size_t first = 1; first < property.size(); first += 8) {
+      if (property.is(first, "K")) {
+        for (std::size_t i = 0; i < 6; ++i)
+          stiffness[i] = property.is(first + 1 + i, "RIGID")
+                             ? throw CardError{"a RIGID component of PBUSH is not known"}
+                             : property.real(first + 1 + i, "stiffness", 0.0);
+      } else if (property.has(first)) {
+        model_.log.leave_out("PBUSH", "damping, stress coefficients and mass");
+      }
+    }
+    model_.log.use("PBUSH");
+    return stiffness;
+  }
+
+  NastranModel& model_;
+  Mesh& mesh_;
+  std::unordered_map<long, double> springs_;
+  std::unordered_map<long, CardView> bushes_;
+};
+
+}  // namespace
+
+void read_nastran_springs(NastranModel& model) { Springs(model).read(); }
+
+}  // namespace blocklift::structure

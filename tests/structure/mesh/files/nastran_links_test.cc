@@ -1,0 +1,184 @@
+// Nastran's rigid elements beyond those of one independent grid, general means, masses along
+// freedoms, mass spread over cells.
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "structure/index.h"
+#include "structure/mesh/mass_properties.h"
+#include "structure/space/links.h"
+#include "tests/structure/mesh/files/deck_text.h"
+
+namespace blocklift::structure::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string grids = R"(GRID,1,,0.,0.,0.
+GRID,2,,2000.,0.,0.
+GRID,3,,0.,1000.,0.
+GRID,4,,300.,400.,500.
+CORD2R,7,,0.,0.,0.,0.,.6,.8
+,1.,0.,0.
+GRID,5,,300.,400.,1500.,7
+)";
+
+/// The equation's sum for a motion (displacement, rotation) of each vertex.
+double sum_of(const MotionEquation& equation, const std::vector<Vector3>& displacements,
+              const std::vector<Vector3>& rotations) {
+  double sum = 0;
+  for (const MotionEquation::Term& term : equation.terms)
+    sum += term.of_displacement.dot(displacements[at(term.vertex)]) +
+           term.of_rotation.dot(rotations[at(term.vertex)]);
+  return sum;
+}
+
+/// A rigid motion fulfils all of a deck's equations, and one that strains them does not.
+void expect_rigid(const Deck& deck, std::size_t count) {
+  ASSERT_EQ(deck.mesh.equations.size(), count);
+  const Vector3 shift(0.3, -0.2, 0.7), turn(0.1, 0.5, -0.4);
+  std::vector<Vector3> moved, turned, strained;
+  for (const Vector3& place : deck.mesh.vertices) {
+    moved.emplace_back(shift + turn.cross(place));
+    turned.push_back(turn);
+    strained.emplace_back(place.z() * place.x(), place.x() * place.x(), place.y() + place.x());
+  }
+  for (const MotionEquation& equation : deck.mesh.equations) {
+    EXPECT_NEAR(sum_of(equation, moved, turned), 0, 1e-12);
+    MotionEquation balanced = equation;
+    EXPECT_LT(balance(deck.mesh, balanced), 1e-12);
+  }
+  EXPECT_GT(std::abs(sum_of(deck.mesh.equations.front(), strained, turned)), 1e-3);
+}
+
+// Six components at two ends (three and three turned ones), at three corners, of several grids.
+TEST(NastranLinks, RigidElementsOfSeveralIndependentGrids) {
+  // Along x both ends are held to each other; the other end turns about the bar with the first.
+  expect_rigid(nastran(grids + "RBAR,1,1,2,1234,23\n", "mm-t-N"), 6);
+  expect_rigid(nastran(grids + "RTRPLT,1,1,2,3,123,23,3\n", "mm-t-N"), 12);
+  expect_rigid(nastran(grids + "RTRPLT,1,1,2,3,123,23,3\n,4\n", "mm-t-N"), 1);
+  expect_rigid(nastran(grids + "RBE1,1,1,123,2,23,3,3\n,UM,4,123456\n", "mm-t-N"), 6);
+  // Grid 5 has axes of its own.
+  expect_rigid(nastran(grids + "RBE1,1,1,123,2,23,3,3\n,UM,5,2\n", "mm-t-N"), 1);
+  EXPECT_THAT(complaints_of_nastran(grids + "RBAR,1,1,2,123,123\n"),
+              HasSubstr("RBAR: the independent components do not determine a rigid motion"));
+  EXPECT_THAT(complaints_of_nastran(grids + "RBE1,1,1,12345,UM,4,123\n"),
+              HasSubstr("RBE1: the independent components do not determine a rigid motion"));
+}
+
+TEST(NastranLinks, RodsAndJoints) {
+  expect_rigid(nastran(grids + "RROD,1,4,2,,1\n", "mm-t-N"), 1);
+  EXPECT_EQ(nastran(grids + "RROD,1,4,2,,1\n").mesh.equations[0].terms[0].vertex, 1);
+  const Mesh mesh = nastran(grids + "GRID,6,,300.,400.,500.\nRJOINT,1,4,6,12346\n").mesh;
+  ASSERT_EQ(mesh.rigid_links.size(), 1U);
+  EXPECT_EQ(mesh.rigid_links[0].master, 3);
+  EXPECT_FALSE(mesh.rigid_links[0].bound[4]);
+}
+
+// With displacements alone the general mean is the distributing link; with rotations it is a second
+// least-squares problem, solved by hand for two grids on a line.
+TEST(NastranLinks, MeansOfAnyComponents) {
+  const Deck plain = nastran(grids + "RBE3,1,,4,123456,1.,123,1,2\n,2.,123,3\n", "mm-t-N");
+  ASSERT_EQ(plain.mesh.distributing_links.size(), 1U);
+  // One whose components differ by nothing that counts: a rotation of next to no weight.
+  const Deck general =
+      nastran(grids + "RBE3,1,,4,123456,1.,123,1,2\n,2.,123,3,1.-14,4,5\n", "mm-t-N");
+  expect_rigid(general, 6);
+  Eigen::Matrix3Xd places(3, 5);
+  std::vector<int> nodes;
+  for (int v = 0; v < 5; ++v) {
+    places.col(v) = plain.mesh.vertices[at(v)];
+    nodes.push_back(v);
+  }
+  const auto rows_of = [&](const Deck& deck) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(6, 30);
+    for (const FreedomTie& tie : find_link_ties(deck.mesh, nodes, places))
+      for (std::size_t i = 0; i < tie.masters.size(); ++i)
+        rows(tie.freedom - 18, tie.masters[i]) += tie.weights[i];
+    return rows;
+  };
+  EXPECT_LT((rows_of(plain) - rows_of(general)).norm(), 1e-10);
+
+  // Grids 1 and 2 at x = -1 and 1 about the reference; their mean distance is 1 m. Of the least
+  // squares of w and theta_y: w = (w1 + w2) / 2, theta_y = (w1 - w2 + t1 + t2) / 4.
+  const Deck line = nastran(
+      "GRID,1,,-1.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,0.,0.\nRBE3,1,,3,35,1.,123456,1,2\n");
+  ASSERT_EQ(line.mesh.equations.size(), 2U);
+  const auto coefficients = [&](std::size_t equation, int vertex) -> Eigen::Vector2d {
+    for (const MotionEquation::Term& term : line.mesh.equations[equation].terms)
+      if (term.vertex == vertex) return {term.of_displacement.z(), term.of_rotation.y()};
+    return {0, 0};
+  };
+  expect_near(coefficients(0, 0), Eigen::Vector2d(-0.5, 0), 1e-14);
+  expect_near(coefficients(0, 1), Eigen::Vector2d(-0.5, 0), 1e-14);
+  expect_near(coefficients(1, 0), Eigen::Vector2d(-0.25, -0.25), 1e-14);
+  expect_near(coefficients(1, 1), Eigen::Vector2d(0.25, -0.25), 1e-14);
+  EXPECT_THAT(complaints_of_nastran(grids + "RBE3,1,,4,3,1.,3,1,2\n"),
+              HasSubstr("RBE3: the components that count do not determine the motion"));
+}
+
+const std::string plate = R"(GRID,1,,0.,0.,0.
+GRID,2,,2.,0.,0.
+GRID,3,,2.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,5,,5.,0.,0.
+CQUAD4,10,5,1,2,3,4
+CBAR,11,6,2,5,0.,0.,1.
+PSHELL,5,7,.01,7,,7
+PBARL,6,7,,ROD
+,.1
+MAT1,7,206.+9,,.3,7850.
+)";
+
+TEST(NastranLinks, MassesAlongFreedoms) {
+  const Deck deck = nastran(plate +
+                            "CMASS2,20,30.,3,1\nCMASS2,21,30.,3,2\nCMASS1,22,9,3,3\n"
+                            "PMASS,8,1.,9,30.\nCMASS2,23,4.,3,5\nCMASS2,24,1.,99,0\nSPOINT,99\n");
+  ASSERT_EQ(deck.mesh.masses.size(), 1U);
+  EXPECT_DOUBLE_EQ(deck.mesh.masses[0].mass, 30);
+  EXPECT_DOUBLE_EQ(deck.mesh.masses[0].inertia(1, 1), 4);
+  EXPECT_DOUBLE_EQ(deck.mesh.masses[0].inertia(0, 0), 0);
+  EXPECT_THAT(complaints_of_nastran(plate + "CMASS2,20,30.,3,1\n"),
+              HasSubstr("are 30, 0 and 0; those of a body are equal"));
+  EXPECT_THAT(complaints_of_nastran(plate + "CMASS2,20,30.,3,1,4,1\n"),
+              HasSubstr("a mass between two freedoms is no body's"));
+}
+
+// 2 m^2 of plate, 3 m of bar.
+TEST(NastranLinks, MassSpreadOverCells) {
+  const double bare = mass_properties(nastran(plate).mesh).mass;
+  const auto extra = [&](const std::string& masses, const std::string& cases = "NSM = 1\n") {
+    return mass_properties(nastran("CEND\n" + cases + "BEGIN BULK\n" + plate + masses).mesh).mass -
+           bare;
+  };
+  EXPECT_NEAR(extra("NSM,1,PSHELL,5,10.\n"), 20, 1e-9);
+  EXPECT_NEAR(extra("NSM1,1,PBARL,10.,6\n"), 30, 1e-9);
+  EXPECT_NEAR(extra("NSM1,1,PBAR,10.,ALL\n"), 30, 1e-9);
+  EXPECT_NEAR(extra("NSML1,1,ELEMENT,10.,10,THRU,10\n"), 10, 1e-9);
+  EXPECT_NEAR(extra("NSML,1,ELEMENT,11,10.\n"), 10, 1e-9);
+  EXPECT_NEAR(extra("NSMADD,1,2,3\nNSM,2,PSHELL,5,10.\nNSM1,3,ELEMENT,1.,11\n"), 23, 1e-9);
+  // Nothing asks for it.
+  EXPECT_NEAR(extra("NSM,1,PSHELL,5,10.\n", ""), 0, 1e-9);
+  EXPECT_THAT(complaints_of_nastran("CEND\nNSM = 4\nBEGIN BULK\n" + plate),
+              HasSubstr("deck.bdf:2: error: case control: set 4 of spread masses (NSM) does not "
+                        "exist"));
+  EXPECT_THAT(
+      complaints_of_nastran("CEND\nNSM = 1\nBEGIN BULK\n" + plate + "NSM1,1,PSHELL,10.,6\n"),
+      HasSubstr("NSM1: there is no cell of PSHELL that has mass spread over it"));
+}
+
+// A combination is listed; its title is not that of the subcase before it.
+TEST(NastranLinks, CombinationsOfSubcasesAreListed) {
+  const Deck deck = nastran(
+      "CEND\nSUBCASE 1\nSUBTITLE = first\nSUBCOM 2\nSUBTITLE = both\n"
+      "SUBSEQ = 1., 1.\nSUBCASE 3\nSUBTITLE = third\nBEGIN BULK\n" +
+      plate);
+  ASSERT_EQ(deck.load_cases.size(), 2U);
+  EXPECT_EQ(deck.load_cases[0].title, "first");
+  EXPECT_EQ(deck.load_cases[1].title, "third");
+}
+
+}  // namespace
+}  // namespace blocklift::structure::test
