@@ -33,6 +33,26 @@ Format<FrequencyRange> frequency_range_format() {
   return table.format();
 }
 
+Format<LidModel> lid_format() {
+  Table<LidModel> table(
+      "lid",
+      "A rectangle of the water's surface on which waves fade: a moonpool, or the "
+      "gap between two hulls.");
+  table
+      .required("from", &LidModel::from, array_of<double, 2>(quantity(Dimension::length)),
+                "one corner, level, in the world")
+      .required("to", &LidModel::to, array_of<double, 2>(quantity(Dimension::length)),
+                "the opposite corner")
+      .required("rate", &LidModel::rate, quantity(Dimension::angular_speed, Range::positive()),
+                "water that swings there by itself fades as exp(-rate t): its share of critical "
+                "damping times its frequency")
+      .rule([](const LidModel& lid, Reading& reading, const Mark& mark) {
+        if (lid.from[0] != lid.to[0] && lid.from[1] != lid.to[1]) return;
+        reading.error(mark, "a lid without an area", {"from and to are opposite corners"});
+      });
+  return table.format();
+}
+
 void check_settings(const HydrodynamicSettings& settings, Reading& reading, const Mark& mark) {
   if (settings.as_meshed && !settings.draughts.empty()) {
     reading.error(mark, "the water line is given twice",
@@ -95,6 +115,9 @@ Format<HydrodynamicSettings> hydrodynamic_settings_format() {
       .by_default("mean_drift", &HydrodynamicSettings::mean_drift, boolean(), "false",
                   "compute mean drift forces of the hull that floats freely, from the waves it "
                   "sends far away; of a single vessel")
+      .optional("lids", &HydrodynamicSettings::lids, list_of(lid_format()),
+                "rectangles on which waves fade, for water in gaps and moonpools that would swing "
+                "on: what the hulls radiate and scatter, not the waves that come in")
       .by_default("symmetry", &HydrodynamicSettings::symmetry, boolean(), "true",
                   "compute a half or a quarter where the hulls are symmetric in x = 0 or y = 0")
       .rule(check_settings);

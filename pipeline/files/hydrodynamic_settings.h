@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -18,6 +19,12 @@ struct FrequencyRange {
   std::vector<double> list() const;
 };
 
+/// Rectangle of the water on which waves fade.
+struct LidModel {
+  std::array<double, 2> from{}, to{};                      ///< opposite corners in the world, m
+  double rate = std::numeric_limits<double>::quiet_NaN();  ///< rad/s
+};
+
 /// What `blocklift hydro` computes for a vessel, or for several together. SI units.
 struct HydrodynamicSettings {
   FrequencyRange frequencies;
@@ -28,7 +35,9 @@ struct HydrodynamicSettings {
   std::vector<double> draughts;  ///< upright, m, ascending; empty: afloat by its own weight
   bool as_meshed = false;        ///< z = 0 of the hull's own frame is the water
   bool mean_drift = false;       ///< compute mean drift forces of the hull afloat
-  bool symmetry = true;          ///< use the planes of symmetry that there are
+  /// Where water in gaps and moonpools is damped.
+  std::optional<std::vector<LidModel>> lids;
+  bool symmetry = true;  ///< use the planes of symmetry that there are
 };
 
 Format<HydrodynamicSettings> hydrodynamic_settings_format();

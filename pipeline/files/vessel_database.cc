@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/errors.h"
+#include "dynamics/marine/loads/whole_turn.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/content_hash.h"
@@ -144,6 +146,17 @@ void check_water(const Located<std::string>& file, const HydrodynamicDatabase& d
                      "gravity"});
 }
 
+/// A vessel that waves meet must have their forces from all sides, since it may turn.
+void check_headings(const Located<std::string>& file, const HydrodynamicDatabase& database,
+                    const SeaInCase& sea, Diagnostics& diagnostics) {
+  if (!sea.waves) return;
+  try {
+    dynamics::headings_of_whole_turn(file.value, database.headings);
+  } catch (const dynamics::ModelError& error) {
+    diagnostics.error(file.mark, error.what(), {"compute it for headings all around"});
+  }
+}
+
 }  // namespace
 
 void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesystem::path& beside,
@@ -168,6 +181,7 @@ void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostic
   for (const VesselInCase* vessel : radiating) {
     if (!vessel->hydrodynamics || !parts.sea) continue;
     check_water(*vessel->database, *vessel->hydrodynamics, *parts.sea, gravity, diagnostics);
+    check_headings(*vessel->database, *vessel->hydrodynamics, *parts.sea, diagnostics);
     return;
   }
 }

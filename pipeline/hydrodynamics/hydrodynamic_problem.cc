@@ -135,11 +135,12 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
       make_surface_mesh(lines, dynamics::surface_settings(lines, length(problem.frequencies.back()),
                                                           length(problem.frequencies.front())));
   const dynamics::Symmetry symmetry =
-      problem.symmetry ? find_symmetry(bodies) : dynamics::Symmetry{};
+      problem.symmetry ? keep_symmetry(find_symmetry(bodies), problem.lids) : dynamics::Symmetry{};
   state.model = std::make_shared<const dynamics::PanelModel>(std::move(bodies), surface,
                                                              problem.water, symmetry);
   state.settings.frequencies = problem.frequencies;
   state.settings.headings = problem.headings;
+  state.settings.lids = problem.lids;
   state.settings.with_coarser = true;
   state.settings.with_far_field = problem.mean_drift;
   state.settings.rankine.memory_limit = problem.memory_limit;
@@ -161,6 +162,11 @@ std::string identity_of(const HydrodynamicProblem& problem) {
   hash.add(problem.headings);
   hash.add(static_cast<std::int64_t>(problem.symmetry));
   hash.add(static_cast<std::int64_t>(problem.mean_drift));
+  for (const dynamics::DampingLid& lid : problem.lids) {
+    hash.add(std::span(lid.low.data(), 2));
+    hash.add(std::span(lid.high.data(), 2));
+    hash.add(lid.rate);
+  }
   for (const HydrodynamicBody& body : problem.bodies) {
     hash.add(std::string_view(body.name));
     hash.add(body.body.mass);

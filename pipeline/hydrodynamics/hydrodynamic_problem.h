@@ -35,8 +35,9 @@ struct HydrodynamicProblem {
   std::vector<double> frequencies;  ///< rad/s
   std::vector<double> headings;     ///< rad
   bool mean_drift = false;          ///< of the single body as it floats freely
-  bool symmetry = true;             ///< use what planes of symmetry there are
-  double memory_limit = 0.0;        ///< bytes; 0: dynamics::usable_memory()
+  std::vector<dynamics::DampingLid> lids;
+  bool symmetry = true;       ///< use what planes of symmetry there are
+  double memory_limit = 0.0;  ///< bytes; 0: dynamics::usable_memory()
   Mark place;
   Mark frequencies_place;
 

@@ -60,7 +60,7 @@ SlowDrift::SlowDrift(Definition definition) : definition_(std::move(definition))
         values += (1.0 - place.share) * database.mean_drift[place.upper - 1].row(row);
       }
       wave.drift.row(static_cast<Eigen::Index>(i)).head(columns - 1) =
-          component.amplitude * component.amplitude * values;
+          component.amplitude * component.amplitude * values.head(columns - 1);
     }
     wave.drift.col(columns - 1) = wave.drift.col(0);
     waves_.push_back(std::move(wave));

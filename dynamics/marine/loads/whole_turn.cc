@@ -16,7 +16,11 @@ constexpr double largest_gap = std::numbers::pi / 4.0;  // between headings, rad
 }  // namespace
 
 std::vector<double> headings_of_whole_turn(const std::string& who, std::vector<double> headings) {
-  headings.push_back(headings.front() + turn);
+  if (headings.empty()) throw ModelError(who + ": the database has no headings of waves");
+  const double whole = headings.front() + turn;
+  // Some databases have 0 and 360 degrees.
+  if (headings.size() > 1 && std::abs(headings.back() - whole) < 1e-9) headings.pop_back();
+  headings.push_back(whole);
   for (std::size_t i = 1; i < headings.size(); ++i) {
     const double gap = headings[i] - headings[i - 1];
     if (gap > 0.0 && gap <= largest_gap + 1e-9) continue;

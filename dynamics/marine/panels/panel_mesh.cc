@@ -10,6 +10,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/point_text.h"
+#include "dynamics/marine/panels/plane_polygon.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -70,6 +71,21 @@ std::vector<Edge> edges_at_surface(const PanelMesh& whole) {
     }
   }
   return edges;
+}
+
+/// Lines counter-clockwise, but for those that an odd number of the hull's other lines holds: they
+/// are openings.
+void turn_lines(std::vector<WaterLine>& lines) {
+  std::vector<PlanePolygon> polygons;
+  for (const WaterLine& line : lines) polygons.push_back(to_polygon(line));
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    bool is_opening = false;
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      if (j != k && contains(polygons[j], polygons[k][0])) is_opening = !is_opening;
+    }
+    if ((enclosed_area(lines[k]) < 0.0) != is_opening)
+      std::reverse(lines[k].begin(), lines[k].end());
+  }
 }
 
 /// The unused edge that starts at a point, or nothing.
@@ -202,9 +218,9 @@ std::vector<WaterLine> find_water_lines(const PanelMesh& hull) {
       }
       edge = next;
     } while (true);
-    if (enclosed_area(line) < 0.0) std::reverse(line.begin(), line.end());
     lines.push_back(std::move(line));
   }
+  turn_lines(lines);
   return lines;
 }
 

@@ -65,14 +65,16 @@ PanelMesh restrict_to_symmetry(const PanelMesh& whole, const Symmetry& symmetry)
 /// The whole mesh, images as panels of their own.
 PanelMesh expand_symmetry(const PanelMesh& part);
 
-/// Closed polygon in the plane z = 0, counter-clockwise seen from above, m.
+/// Closed polygon in the plane z = 0, m: counter-clockwise seen from above where the water is
+/// outside, clockwise around an opening of the body.
 using WaterLine = std::vector<Vector3>;
 
 /// The lines along which a hull's panels end at z = 0. Symmetric parts are expanded first.
 /// @throws ModelError if the edges at z = 0 do not close: where the gap is.
 std::vector<WaterLine> find_water_lines(const PanelMesh& hull);
 
-/// Area enclosed by a water line, m2.
+/// Area enclosed by a water line, m2; negative for an opening: those of a body add up to its water
+/// plane.
 double enclosed_area(const WaterLine& water_line);
 
 }  // namespace blocklift::dynamics

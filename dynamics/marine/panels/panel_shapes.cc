@@ -213,6 +213,39 @@ PanelMesh make_vertical_cylinder(double radius, double draught, bool closed,
   return make_panel_mesh(std::move(panels));
 }
 
+PanelMesh make_ring(double outer_radius, double inner_radius, double draught,
+                    const RoundDivision& division) {
+  require_positive(inner_radius, "the inner radius of the ring");
+  require_positive(outer_radius - inner_radius, "the breadth of the ring");
+  require_positive(draught, "the draught of the ring");
+  require_count(division.meridians, 3, "the number of panels around");
+  require_count(division.parallels, 1, "the number of panels downwards");
+  const int n = division.meridians, parallels = division.parallels;
+  const double angle = 2.0 * std::numbers::pi / n;
+  const double scale =
+      division.exact_volume ? std::sqrt(2.0 * std::numbers::pi / (n * std::sin(angle))) : 1.0;
+  const double outer = scale * outer_radius, inner = scale * inner_radius;
+  const int rings = std::max(2, static_cast<int>(std::ceil(parallels * (outer - inner) / draught)));
+  const auto depth = graded_to_both_ends(parallels, division.grading);
+  const auto breadth = graded_to_both_ends(rings, division.grading);
+  const auto at = [&](double radius, double z, int j) -> Vector3 {
+    const auto [c, s] = around(((j % n) + n) % n, n);
+    return {radius * c, radius * s, z};
+  };
+  const auto height = [&](int i) { return draught * (depth[static_cast<std::size_t>(i)] - 0.5); };
+  std::vector<Panel> panels;
+  add_grid(
+      parallels, n, [&](int i, int j) { return at(outer, height(i), j); }, panels);
+  add_grid(
+      parallels, n, [&](int i, int j) { return at(inner, height(i), n - j); }, panels);
+  const auto bottom = [&](int i, int j) {
+    const double share = breadth[static_cast<std::size_t>(i)] + 0.5;
+    return at(inner + share * (outer - inner), -draught, j);
+  };
+  add_grid(rings, n, bottom, panels);
+  return make_panel_mesh(std::move(panels));
+}
+
 PanelMesh make_box_hull(double length, double breadth, double draught,
                         const BoxDivision& division) {
   require_positive(length, "the length of the box");

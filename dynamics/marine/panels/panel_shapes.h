@@ -30,6 +30,11 @@ PanelMesh make_ellipsoid(const Vector3& semi_axes, const Vector3& centre,
 PanelMesh make_vertical_cylinder(double radius, double draught, bool closed,
                                  const RoundDivision& division = {});
 
+/// Wetted surface of a floating ring of rectangular section about the z axis, open in the middle:
+/// radii and draught in m. Its sides and its bottom are finer towards the edges and the water line.
+PanelMesh make_ring(double outer_radius, double inner_radius, double draught,
+                    const RoundDivision& division = {});
+
 /// How finely a box is divided; panels are finer towards the edges and the water line.
 struct BoxDivision {
   int length = 16;

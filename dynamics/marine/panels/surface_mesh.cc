@@ -7,32 +7,12 @@
 #include <string>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/panels/enclosed_surface.h"
 
 namespace blocklift::dynamics {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
-using PlanePolygon = std::vector<Vector2>;
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-PlanePolygon to_polygon(const WaterLine& line) {
-  PlanePolygon polygon;
-  for (const Vector3& p : line) polygon.emplace_back(p.x(), p.y());
-  return polygon;
-}
-
-Vector2 centroid(const PlanePolygon& polygon) {
-  Vector2 sum = Vector2::Zero();
-  double doubled = 0.0;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vector2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    sum += cross(a, b) * (a + b);
-    doubled += cross(a, b);
-  }
-  return sum / (3.0 * doubled);
-}
-
 /// Points with |n.p| <= offset on the left: n.p <= offset.
 struct HalfPlane {
   Vector2 normal;
@@ -60,18 +40,6 @@ Nearest nearest_vertex_to_edge(const PlanePolygon& first, const PlanePolygon& se
   return best;
 }
 
-bool contains(const PlanePolygon& polygon, const Vector2& p) {
-  bool inside = false;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Vector2 &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    if ((a.y() > p.y()) != (b.y() > p.y()) &&
-        p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) {
-      inside = !inside;
-    }
-  }
-  return inside;
-}
-
 /// The half-plane of the first polygon: bounded half way to the second.
 HalfPlane separate(const PlanePolygon& first, const PlanePolygon& second, double& gap) {
   Nearest nearest = nearest_vertex_to_edge(first, second);
@@ -88,39 +56,13 @@ HalfPlane separate(const PlanePolygon& first, const PlanePolygon& second, double
       std::any_of(second.begin(), second.end(), crosses_back)) {
     std::ostringstream message;
     message << "two water lines intersect or embrace each other near (" << nearest.from.x() << ", "
-            << nearest.from.y() << ") m: a straight line must pass between each two bodies";
+            << nearest.from.y()
+            << ") m: a straight line must pass between each two bodies, or one of them float in an "
+               "opening of the other";
     throw ModelError(message.str());
   }
   gap = std::min(gap, nearest.distance);
   return half;
-}
-
-/// Widths of rings, from the water line outwards.
-struct RingWidths {
-  double width;        ///< of the next ring, m
-  double slow_from;    ///< width from which the rings widen slowly, m
-  double fast_growth;  ///< up to there
-  double growth;
-
-  void widen() {
-    width = width < slow_from ? std::min(width * fast_growth, std::max(slow_from, width * growth))
-                              : width * growth;
-  }
-};
-
-/// Edges of the rings that cover a distance best, in shares of it: 0 to 1, one ring at least.
-/// `widths` is left at the ring that follows.
-std::vector<double> ring_edges(double distance, RingWidths& widths) {
-  std::vector<double> edges{0.0, widths.width};
-  widths.widen();
-  while (edges.back() + 0.5 * widths.width < distance) {
-    edges.push_back(edges.back() + widths.width);
-    widths.widen();
-  }
-  const double sum = edges.back();
-  for (double& edge : edges) edge /= sum;
-  edges.back() = 1.0;
-  return edges;
 }
 
 class SurfaceMesher {
@@ -148,13 +90,17 @@ class SurfaceMesher {
   std::vector<RayEnd> find_corners(const Body& body) const;
   std::vector<RayEnd> find_ends(const Body& body, const PlanePolygon& from) const;
   void add_rings(const Vector2& a, const Vector2& b, const Vector2& a_end, const Vector2& b_end,
-                 const std::vector<double>& edges);
-  RingWidths widths_at(const Body& body) const;
+                 const std::vector<double>& edges) {
+    add_surface_rings({a, b}, {a_end, b_end}, edges, tolerance(), panels_);
+  }
+  /// Points nearer than this are one, m.
+  double tolerance() const { return 1e-9 * settings_.first_ring; }
+  RingWidths widths_at(const PlanePolygon& line) const;
   void add_outer_rings();
-  void add_panel(const std::vector<Vector2>& points);
 
   SurfaceMeshSettings settings_;
   std::vector<Body> bodies_;
+  std::vector<EnclosedSurface> enclosed_;
   Vector2 centre_ = Vector2::Zero();
   double inner_radius_ = 0.0;   ///< holds the bodies
   double common_radius_ = 0.0;  ///< from here on the rings are common
@@ -172,8 +118,10 @@ SurfaceMesher::SurfaceMesher(std::span<const WaterLine> lines, const SurfaceMesh
         std::to_string(settings.first_ring) + " m and " + std::to_string(settings.growth));
   }
   Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const WaterLine& line : lines) {
-    Body body{to_polygon(line), {}, {}};
+  SortedWaterLines sorted = sort_water_lines(lines);
+  enclosed_ = std::move(sorted.enclosed);
+  for (PlanePolygon& line : sorted.outer) {
+    Body body{std::move(line), {}, {}};
     body.centre = centroid(body.line);
     for (const Vector2& p : body.line) {
       low = low.cwiseMin(p);
@@ -301,41 +249,12 @@ std::vector<SurfaceMesher::RayEnd> SurfaceMesher::find_ends(const Body& body,
   return ends;
 }
 
-void SurfaceMesher::add_panel(const std::vector<Vector2>& points) {
-  std::vector<Vector3> distinct;
-  const double scale = settings_.first_ring;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vector2& next = points[(k + 1) % points.size()];
-    if ((next - points[k]).norm() > 1e-9 * scale) {
-      distinct.emplace_back(points[k].x(), points[k].y(), 0.0);
-    }
-  }
-  if (distinct.size() < 3) return;
-  std::reverse(distinct.begin(), distinct.end());  // normals down
-  const Panel panel = make_panel(distinct);
-  if (panel.normal.z() > 0.0 || !(panel.area > 0.0)) {
-    throw ModelError("a ray of the surface mesh crosses another near (" +
-                     std::to_string(points[0].x()) + ", " + std::to_string(points[0].y()) +
-                     ") m: the water line there is too hollow; divide the body or round the line");
-  }
-  panels_.push_back(panel);
-}
-
-/// Rings between two neighbouring rays a -> a_end and b -> b_end.
-void SurfaceMesher::add_rings(const Vector2& a, const Vector2& b, const Vector2& a_end,
-                              const Vector2& b_end, const std::vector<double>& edges) {
-  for (std::size_t j = 0; j + 1 < edges.size(); ++j) {
-    const double s = edges[j], t = edges[j + 1];
-    add_panel({a + s * (a_end - a), a + t * (a_end - a), b + t * (b_end - b), b + s * (b_end - b)});
-  }
-}
-
-RingWidths SurfaceMesher::widths_at(const Body& body) const {
+RingWidths SurfaceMesher::widths_at(const PlanePolygon& line) const {
   double length = 0.0;
-  for (std::size_t k = 0; k < body.line.size(); ++k) {
-    length += (body.line[(k + 1) % body.line.size()] - body.line[k]).norm();
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    length += (line[(k + 1) % line.size()] - line[k]).norm();
   }
-  const double edge = length / static_cast<double>(body.line.size());
+  const double edge = length / static_cast<double>(line.size());
   RingWidths widths{settings_.first_ring, settings_.first_ring, settings_.edge_growth,
                     settings_.growth};
   if (settings_.edge_share > 0.0) {
@@ -351,7 +270,7 @@ void SurfaceMesher::mesh_body(const Body& body) {
   double size = 0.0;
   for (const Vector2& p : body.line) size = std::max(size, (p - body.centre).norm());
   const double reach = std::min(0.25 * size, 0.3 * body.gap);
-  RingWidths widths = widths_at(body);
+  RingWidths widths = widths_at(body.line);
   widths.width = std::min(widths.width, reach);
   const std::vector<double> near_edges = ring_edges(reach, widths);
   PlanePolygon offset(count);
@@ -406,6 +325,10 @@ void SurfaceMesher::add_outer_rings() {
 SurfaceMesh SurfaceMesher::make() {
   for (const Body& body : bodies_) mesh_body(body);
   add_outer_rings();
+  for (const EnclosedSurface& water : enclosed_) {
+    mesh_enclosed_surface(
+        water, [&](const PlanePolygon& line) { return widths_at(line); }, tolerance(), panels_);
+  }
   SurfaceMesh surface;
   surface.mesh = make_panel_mesh(std::move(panels_));
   surface.centre = Vector3(centre_.x(), centre_.y(), 0.0);
@@ -430,7 +353,7 @@ SurfaceMeshSettings surface_settings(std::span<const WaterLine> water_lines, dou
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    smallest = std::min(smallest, std::sqrt(enclosed_area(line) / std::numbers::pi));
+    smallest = std::min(smallest, std::sqrt(std::abs(enclosed_area(line)) / std::numbers::pi));
   }
   SurfaceMeshSettings settings;
   settings.first_ring = std::max(shortest_wave / 15.0, 0.06 * smallest);
@@ -450,7 +373,7 @@ SurfaceMesh make_surface_mesh(std::span<const WaterLine> water_lines,
   // The panels must cover the outer polygon less the water lines, once.
   double covered = surface.mesh.total_area();
   for (const WaterLine& line : water_lines) covered += enclosed_area(line);
-  if (std::abs(covered - mesher.outer_area()) > 1e-6 * enclosed_area(water_lines[0])) {
+  if (std::abs(covered - mesher.outer_area()) > 1e-6 * std::abs(enclosed_area(water_lines[0]))) {
     throw ModelError(
         "the regions half way between the bodies do not fill the surface: " +
         std::to_string(covered) + " m2 of " + std::to_string(mesher.outer_area()) +

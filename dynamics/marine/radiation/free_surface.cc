@@ -8,6 +8,26 @@
 
 namespace blocklift::dynamics {
 
+Symmetry keep_symmetry(const Symmetry& symmetry, const std::vector<DampingLid>& lids) {
+  Symmetry kept = symmetry;
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    const auto is_image = [axis](const DampingLid& lid, const DampingLid& other) {
+      DampingLid image = lid;
+      image.low[axis] = -lid.high[axis];
+      image.high[axis] = -lid.low[axis];
+      const double tolerance = 1e-6 * (lid.high - lid.low).norm();
+      return (image.low - other.low).norm() < tolerance &&
+             (image.high - other.high).norm() < tolerance && lid.rate == other.rate;
+    };
+    const bool symmetric = std::all_of(lids.begin(), lids.end(), [&](const DampingLid& lid) {
+      return std::any_of(lids.begin(), lids.end(),
+                         [&](const DampingLid& other) { return is_image(lid, other); });
+    });
+    if (!symmetric) (axis == 0 ? kept.x : kept.y) = false;
+  }
+  return kept;
+}
+
 Eigen::VectorXd DampingZone::rates(const SurfaceMesh& surface) const {
   Eigen::VectorXd rates(surface.mesh.size());
   for (int k = 0; k < surface.mesh.size(); ++k) {
@@ -16,6 +36,9 @@ Eigen::VectorXd DampingZone::rates(const SurfaceMesh& surface) const {
     const double fraction =
         std::clamp(distance / (surface.outer_radius - surface.inner_radius), 0.0, 1.0);
     rates[k] = strength * fraction * fraction;
+    for (const DampingLid& lid : lids) {
+      if (lid.contains(p)) rates[k] = std::max(rates[k], lid.rate);
+    }
   }
   return rates;
 }

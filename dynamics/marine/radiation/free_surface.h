@@ -4,11 +4,33 @@
 
 namespace blocklift::dynamics {
 
+/// A rectangle of the water's surface, along the world's axes, on which waves fade: what friction
+/// and vortices do to the water in a moonpool or in the gap between two hulls, which potential flow
+/// lets swing on. There
+///
+///   dphi/dz = (w - i nu)^2/g phi,
+///
+/// so that water that swings by itself does so at the same frequency and fades as exp(-nu t). For a
+/// small nu this is the dissipation epsilon = 2 nu/w of Chen's condition dphi/dz = w^2/g (1 - i
+/// epsilon) phi (Chen 2005). Incident waves pass a lid as they are.
+struct DampingLid {
+  Eigen::Vector2d low, high;  ///< corners, m
+  double rate = 0.0;          ///< nu, rad/s
+
+  bool contains(const Vector3& p_W) const {
+    return p_W.x() >= low.x() && p_W.x() <= high.x() && p_W.y() >= low.y() && p_W.y() <= high.y();
+  }
+};
+
+/// The planes of symmetry in which each lid, too, is its own image or that of another.
+Symmetry keep_symmetry(const Symmetry& symmetry, const std::vector<DampingLid>& lids);
+
 /// Numerical beach: where waves that leave the bodies are damped before they reach the edge of the
 /// surface mesh. The rate nu (rad/s) of the paper's equation (26) grows with the square of the
 /// distance from the circle that holds the bodies.
 struct DampingZone {
-  double strength = 0.0;  ///< nu at the outer edge, rad/s
+  double strength = 0.0;              ///< nu at the outer edge, rad/s
+  std::vector<DampingLid> lids = {};  ///< where more than that of the beach
 
   /// nu for each panel of the surface, rad/s.
   Eigen::VectorXd rates(const SurfaceMesh& surface) const;

@@ -102,7 +102,7 @@ PartComputation::PartComputation(const PanelModel& model, const Parity& parity,
                                  double damping_strength)
     : model_(model),
       settings_(settings),
-      damping_rates_(DampingZone{damping_strength}.rates(model.surface())),
+      damping_rates_(DampingZone{damping_strength, settings.lids}.rates(model.surface())),
       part_(model, parity, rankine),
       run_(part_, damping_rates_, model.water(), settings.frequencies) {
   if (part_.coarser() == nullptr) return;

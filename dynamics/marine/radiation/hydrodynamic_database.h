@@ -69,6 +69,7 @@ struct DatabaseSettings {
   double time_step = 0.0;
   /// 0: of damping_zone() for the lowest frequency, rad/s.
   double damping_strength = 0.0;
+  std::vector<DampingLid> lids;
   /// Compute HydrodynamicDatabase::change_from_coarser, at about a tenth of the cost.
   bool with_coarser = false;
   /// Compute HydrodynamicDatabase::far_field: a dense complex system for each frequency and part.

@@ -41,5 +41,10 @@ VerificationCase free_decay_of_a_sphere();
 /// The shipped sphere from its file to a database's file, and its decay in a mechanism that names
 /// it.
 VerificationCase sphere_through_files();
+/// A ring that slides along a spar, both bodies of one database, in regular waves: simulated from a
+/// mechanism file against the same equations in the frequency domain.
+VerificationCase bodies_at_a_joint();
+/// Water that swings in a moonpool, without and with a lid that damps it.
+VerificationCase moonpool();
 
 }  // namespace blocklift::pipeline

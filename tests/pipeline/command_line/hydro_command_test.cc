@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/formats/hydrodynamic_database_file.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -192,6 +193,34 @@ TEST_F(HydroCommand, RefusesImportsWithoutNumbersOrFrequencies) {
   EXPECT_THAT(import_with(masses, forces.substr(seventh)), HasSubstr("frequencies are missing"));
 }
 
+// Water between a ring and its spar swings from side to side hardly damped: with a lid the same
+// file is another problem, and its spar's damping in surge no longer passes below zero.
+TEST_F(HydroCommand, LidsDampTheWaterInAGap) {
+  const std::string pair =
+      "kind: vessels\n"
+      "vessels:\n"
+      "  float: {vessel: vessels/absorber-float, position: [0 m, 0 m]}\n"
+      "  spar: {vessel: vessels/absorber-spar, position: [0 m, 0 m]}\n"
+      "hydrodynamics:\n"
+      "  frequencies: {lowest: 0.5 rad/s, highest: 2.0 rad/s, count: 16}\n";
+  const auto lowest_damping = [&] {
+    double lowest = 0.0;
+    for (const Eigen::MatrixXd& damping : read_hydrodynamic_database("pair.h5").damping) {
+      lowest = std::min(lowest, damping(6, 6));
+    }
+    return lowest;
+  };
+  folder_.write("pair.yaml", pair);
+  ASSERT_EQ(run("pair.yaml -o pair.h5").exit_code, 0);
+  EXPECT_LT(lowest_damping(), -1e5);
+  folder_.write("pair.yaml",
+                pair + "  lids: [{from: [-4.5 m, -4.5 m], to: [4.5 m, 4.5 m], rate: 0.1 rad/s}]\n");
+  const Outcome outcome = run("pair.yaml -o pair.h5");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, Not(HasSubstr("already computed")));
+  EXPECT_EQ(lowest_damping(), 0.0);
+}
+
 TEST_F(HydroCommand, SaysWhatIsWrong) {
   EXPECT_THAT(complaint("highest: 3 rad/s", "highest: 9 rad/s"),
               AllOf(HasSubstr("vessel.yaml:8:16: error: at 9 rad/s waves are"),
@@ -202,6 +231,10 @@ TEST_F(HydroCommand, SaysWhatIsWrong) {
   EXPECT_THAT(complaint("150 t", "600 t"), HasSubstr("would have to displace"));
   EXPECT_THAT(complaint("  headings:", "  draughts: [2 m, 1 m]\n  headings:"),
               HasSubstr("draughts must ascend"));
+  EXPECT_THAT(
+      complaint("  headings:",
+                "  lids: [{from: [1 m, 2 m], to: [1 m, 4 m], rate: 0.1 rad/s}]\n  headings:"),
+      HasSubstr("a lid without an area"));
   EXPECT_THAT(complaint("  headings:", "  heading:"), HasSubstr("did you mean \"headings\"?"));
   const Outcome memory = run("pontoon --memory-limit 0.001 -o small.h5");
   EXPECT_EQ(memory.exit_code, 2);

@@ -19,6 +19,7 @@ namespace {
 
 using test::TemporaryFolder;
 using test::with;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // 40 x 20 m, upright sides: draught 2 m at 1,640 t in water of 1,025 kg/m3.
@@ -161,7 +162,7 @@ TEST(MarineParts, DatabaseMakesWaterAndDiffraction) {
 
 /// A database of bodies afloat in the water of `floating`, written into the current folder.
 void write_database(const std::string& file, const std::vector<std::string>& bodies,
-                    double density = 1025) {
+                    double density = 1025, int headings = 8) {
   const auto modes = static_cast<Eigen::Index>(6 * bodies.size());
   dynamics::HydrodynamicDatabase database;
   database.water = {density, 9.81};
@@ -175,11 +176,11 @@ void write_database(const std::string& file, const std::vector<std::string>& bod
                                    Eigen::MatrixXd::Identity(modes, modes));
   }
   database.frequencies = {0.5, 1.5};
-  for (int h = 0; h < 8; ++h) database.headings.push_back(h * std::numbers::pi / 4);
+  for (int h = 0; h < headings; ++h) database.headings.push_back(h * std::numbers::pi / 4);
   database.added_mass.assign(2, database.infinite_added_mass);
   database.damping.assign(2, 1e5 * Eigen::MatrixXd::Identity(modes, modes));
-  database.froude_krylov.assign(2, Eigen::MatrixXcd::Zero(modes, 8));
-  database.diffraction.assign(2, Eigen::MatrixXcd::Constant(modes, 8, 1e4));
+  database.froude_krylov.assign(2, Eigen::MatrixXcd::Zero(modes, headings));
+  database.diffraction.assign(2, Eigen::MatrixXcd::Constant(modes, headings, 1e4));
   write_hydrodynamic_database(file, database);
 }
 
@@ -215,6 +216,7 @@ TEST(MarineParts, ComplainsAboutDatabases) {
     write_database("one.h5", {"pontoon"});
     write_database("fresh.h5", {"pontoon"}, 1000);
     write_database("two.h5", {"B1", "B2"});
+    write_database("ahead.h5", {"pontoon"}, 1025, 3);
     Diagnostics diagnostics;
     ModelLibrary library({});
     EXPECT_FALSE(read_mechanism("mechanism.yaml", library, diagnostics));
@@ -222,8 +224,11 @@ TEST(MarineParts, ComplainsAboutDatabases) {
   };
   EXPECT_THAT(complaint("database: none.h5"), HasSubstr("there is no database none.h5"));
   EXPECT_THAT(complaint("database: one.h5, database_body: ponton"),
-              HasSubstr("holds no body \"ponton\""));
+              AllOf(HasSubstr("holds no body \"ponton\""), HasSubstr("pontoon")));
   EXPECT_THAT(complaint("database: fresh.h5"), HasSubstr("for water of 1000 kg/m3"));
+  EXPECT_THAT(
+      complaint("database: ahead.h5"),
+      AllOf(HasSubstr("mechanism.yaml:"), HasSubstr("90 and 360 degrees follow each other")));
   EXPECT_THAT(complaint("database: two.h5"), HasSubstr("holds body B2, which no vessel is"));
   EXPECT_THAT(complaint("radiation: none, database: one.h5"), HasSubstr("its radiation is none"));
   EXPECT_THAT(complaint("draughts: [1 m, 2 m], database: one.h5"),

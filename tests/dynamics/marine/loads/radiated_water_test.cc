@@ -300,6 +300,17 @@ TEST(DiffractionForce, RefusesWavesThatTheDatabaseDoesNotHold) {
       },
       ThrowsMessage<ModelError>(HasSubstr("0.5 to 1.1 rad/s")));
   auto definition = diffraction({{1, 0.8, 0, 0}});
+  // 0 and 360 degrees may both be there.
+  auto closed = std::make_shared<HydrodynamicDatabase>(*definition.database);
+  closed->headings.push_back(closed->headings.front() + 2 * std::numbers::pi);
+  for (auto* forces : {&closed->froude_krylov, &closed->diffraction}) {
+    for (Eigen::MatrixXcd& force : *forces) {
+      force.conservativeResize(Eigen::NoChange, force.cols() + 1);
+      force.rightCols(1) = force.leftCols(1);
+    }
+  }
+  definition.database = closed;
+  EXPECT_NO_THROW(DiffractionForce{definition});
   auto few = std::make_shared<HydrodynamicDatabase>(*definition.database);
   few->headings.resize(20);
   definition.database = few;

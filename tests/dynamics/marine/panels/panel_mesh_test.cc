@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/panels/enclosed_surface.h"
 #include "dynamics/marine/panels/panel_clusters.h"
 #include "dynamics/marine/panels/panel_model.h"
 #include "dynamics/marine/panels/panel_shapes.h"
@@ -54,6 +55,7 @@ TEST(PanelShapes, KeepOutTheirVolume) {
   EXPECT_NEAR(make_vertical_cylinder(2, 3, true, division).displaced_volume(),
               12.0 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(make_box_hull(10, 4, 2).displaced_volume(), 80.0, 1e-12);
+  EXPECT_NEAR(make_ring(3, 2, 1.5, division).displaced_volume(), 7.5 * std::numbers::pi, 1e-12);
 }
 
 TEST(PanelMesh, SymmetricPartAndWholeAreTheSame) {
@@ -193,6 +195,77 @@ TEST(SurfaceMesh, ThreeBodiesInARow) {
   const auto lines = find_water_lines(spheres({-3, 0, 3}));
   const SurfaceMesh surface = make_surface_mesh(lines, {.first_ring = 0.15, .radius = 40});
   EXPECT_EQ(4 * restrict_to_symmetry(surface.mesh, {true, true}).size(), surface.mesh.size());
+}
+
+/// A ring with a hole of 2 m, and what floats in it.
+std::vector<WettedBody> ring_around(const std::vector<PanelMesh>& inner) {
+  std::vector<WettedBody> bodies{
+      {"ring", make_ring(4, 2, 1, {.meridians = 24, .parallels = 3}), {}}};
+  for (const PanelMesh& hull : inner) bodies.push_back({"spar", hull, {}});
+  return bodies;
+}
+
+// A moonpool's line runs the other way round, so that the lines add up to the water plane.
+TEST(PanelMesh, OpeningsRunClockwise) {
+  const auto lines = find_water_lines(ring_around({}));
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_NEAR(enclosed_area(lines[0]) + enclosed_area(lines[1]), 12 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(std::min(enclosed_area(lines[0]), enclosed_area(lines[1])), -4 * std::numbers::pi,
+              1e-12);
+}
+
+// Water within a body is covered once, as the water outside: a moonpool, the gap to a body in it of
+// another number of panels, and that to a body that does not lie in the middle.
+TEST(SurfaceMesh, CoversTheWaterThatABodyEmbraces) {
+  const PanelMesh spar = make_vertical_cylinder(1.5, 3, true, {.meridians = 20, .parallels = 4});
+  const std::vector<std::vector<PanelMesh>> inner{{}, {spar}, {translate(spar, {0.2, 0.1, 0})}};
+  for (const auto& within : inner) {
+    const auto bodies = ring_around(within);
+    const auto lines = find_water_lines(bodies);
+    const SurfaceMesh surface = make_surface_mesh(lines, surface_settings(lines, 4.0, 12.0));
+    const double held = within.empty() ? 0.0 : 2.25 * std::numbers::pi;
+    double inside = 0.0;
+    for (const Panel& panel : surface.mesh.panels) {
+      EXPECT_LT((panel.normal - Vector3(0, 0, -1)).norm(), 1e-15);
+      if (panel.centroid.norm() < 2.0) inside += panel.area;
+    }
+    EXPECT_NEAR(inside, 4.0 * std::numbers::pi - held, 1e-9);
+    if (&within == &inner[1]) {
+      EXPECT_EQ(4 * restrict_to_symmetry(surface.mesh, {true, true}).size(), surface.mesh.size());
+    }
+    // Each centroid lies in its own panel only, as between bodies.
+    for (std::size_t i = 0; i < surface.mesh.panels.size(); i += 13) {
+      double angle = 0.0;
+      for (const Panel& panel : surface.mesh.panels) {
+        const Vector3 above = surface.mesh.panels[i].centroid - Vector3(0, 0, 1e-7);
+        angle += calc_panel_potentials(panel, above).dipole;
+      }
+      EXPECT_NEAR(angle, 2.0 * std::numbers::pi, 1e-3);
+    }
+  }
+}
+
+TEST(SurfaceMesh, RefusesWhatDoesNotFitIntoAnOpening) {
+  const auto refused = [](const std::vector<PanelMesh>& inner) {
+    const auto lines = find_water_lines(ring_around(inner));
+    make_surface_mesh(lines, surface_settings(lines, 4.0, 12.0));
+  };
+  const PanelMesh spar = make_vertical_cylinder(0.5, 3, true, {.meridians = 12, .parallels = 4});
+  EXPECT_THAT(
+      [&] {
+        refused({translate(spar, {1, 0, 0}), translate(spar, {-1, 0, 0})});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("two bodies float in one opening")));
+  EXPECT_THAT(
+      [&] {
+        refused({translate(spar, {-1.8, 0, 0})});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("two water lines intersect")));
+  const EnclosedSurface hollow{{{0, 0}, {4, 0}, {4, 4}, {3, 4}, {3, 1}, {0, 1}}, {}};
+  std::vector<Panel> panels;
+  const auto widths = [](const PlanePolygon&) { return RingWidths{0.1, 0.1, 1.4, 1.1}; };
+  EXPECT_THAT([&] { mesh_enclosed_surface(hollow, widths, 1e-9, panels); },
+              ThrowsMessage<ModelError>(HasSubstr("cannot be seen from its middle")));
 }
 
 TEST(SurfaceMesh, NamesWhatIsWrong) {

@@ -119,6 +119,23 @@ TEST(RankineProblem, TimeAndFrequencyDomainAgree) {
   }
 }
 
+TEST(DampingLid, HoldsOnItsRectangleAndKeepsItsSymmetry) {
+  const PanelModel model = make_sphere_model({true, true});
+  DampingZone zone{0.0, {{{2, -1}, {4, 1}, 0.3}, {{-4, -1}, {-2, 1}, 0.3}}};
+  const Eigen::VectorXd rates = zone.rates(model.surface());
+  const auto& panels = model.surface_mesh().panels;
+  for (Eigen::Index k = 0; k < rates.size(); ++k) {
+    const Vector3& p = panels[static_cast<std::size_t>(k)].centroid;
+    const bool inside = p.x() > 2 && p.x() < 4 && p.y() < 1;
+    EXPECT_EQ(rates[k], inside ? 0.3 : 0.0);
+  }
+  EXPECT_GT(rates.maxCoeff(), 0.0);
+  EXPECT_EQ(keep_symmetry({true, true}, zone.lids), (Symmetry{true, true}));
+  zone.lids.pop_back();
+  EXPECT_EQ(keep_symmetry({true, true}, zone.lids), (Symmetry{false, true}));
+  EXPECT_EQ(keep_symmetry({true, true}, {}), (Symmetry{true, true}));
+}
+
 TEST(RankineProblem, RefusesWhatDoesNotFitIntoMemory) {
   const PanelModel model = make_sphere_model({});
   RankineSettings settings;
