@@ -147,6 +147,11 @@ std::string AbaqusBlock::required(std::string_view parameter) const {
   return known->value;
 }
 
+std::string AbaqusBlock::required_as_given(std::string_view parameter) const {
+  (void)required(parameter);
+  return find(parameter)->as_given;
+}
+
 std::vector<AbaqusBlock> read_abaqus_keywords(DeckFiles& files, const std::filesystem::path& path,
                                               DeckLog& log) {
   return KeywordSplitter(files, log).split(path);

@@ -35,8 +35,9 @@ struct AbaqusBlock {
   const Parameter* find(std::string_view parameter) const;
   /// Its value; empty if it is not given.
   std::string value(std::string_view parameter) const;
-  /// @throws CardError if it is missing.
+  /// Its value in capitals, or as it stands in the deck. @throws CardError if it is missing.
   std::string required(std::string_view parameter) const;
+  std::string required_as_given(std::string_view parameter) const;
 };
 
 /// Blanks within names of keywords and parameters are free.

@@ -84,9 +84,8 @@ class Sections {
 
   /// One region and group for each section.
   int region(const SectionBlocks& blocks, int material) {
-    (void)blocks.block->required("ELSET");  // before anything is made of it
     const std::string name = (blocks.scope->name.empty() ? "" : blocks.scope->name + ".") +
-                             blocks.block->find("ELSET")->as_given;
+                             blocks.block->required_as_given("ELSET");
     mesh_.groups.push_back({name, material});
     mesh_.regions.push_back({.name = name, .group = static_cast<int>(mesh_.groups.size()) - 1});
     return static_cast<int>(mesh_.regions.size()) - 1;
@@ -467,7 +466,7 @@ class Sections {
   void add_beams(const SectionBlocks& blocks, const BeamShape& shape) {
     BeamSection section = shape.profile.section;
     section.material = shape.material;
-    section.name = blocks.block->find("ELSET")->as_given;
+    section.name = blocks.block->required_as_given("ELSET");
     section.label = static_cast<long>(mesh_.beam_sections.size()) + 1;
     mesh_.beam_sections.push_back(section);
     const int of_region = region(blocks, shape.material);
@@ -593,7 +592,7 @@ class Sections {
     section.area *= model_.units.length * model_.units.length;
     if (!(section.area > 0)) throw CardError{"the area must be positive"};
     section.material = abaqus_material(model_, block.required("MATERIAL"));
-    section.name = block.find("ELSET")->as_given;
+    section.name = block.required_as_given("ELSET");
     section.label = static_cast<long>(mesh_.beam_sections.size()) + 1;
     mesh_.beam_sections.push_back(section);
     const int of_region = region(blocks, section.material);

@@ -616,6 +616,9 @@ TEST(Preprocessors, CalculixWaysOfSaying) {
   expect_near(deck.mesh.beams[0].offset[0], Vector3(0, 0, -0.1), 1e-12);
   EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[1]).area, std::numbers::pi * 0.0025, 1e-12);
   EXPECT_THAT(entry(deck, "*HEAT TRANSFER").left_out, HasSubstr("what a step does"));
+  EXPECT_THAT(complaints_of_abaqus("*NODE\n1, 0., 0., 0.\n*MATERIAL, NAME=S\n*ELASTIC\n206.E9, .3\n"
+                                   "*BEAM SECTION, MATERIAL=S, SECTION=RECT\n.1, .1\n"),
+              HasSubstr("deck.inp:6: error: *BEAM SECTION: ELSET = ... is missing"));
   EXPECT_EQ(deck.support_sets.at(0).supports.size(), 1U);
 }
 
