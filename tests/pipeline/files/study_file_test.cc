@@ -61,7 +61,7 @@ TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
   EXPECT_THAT(complaints("design: sensitivity\nmembers: 4\nvary: {a: {keys: [x], values: [1]}}\n"),
               HasSubstr("Sobol' indices need a spread"));
   EXPECT_THAT(complaints("members: 4\nvary: {a: {keys: [x]}}\n"),
-              HasSubstr("either values or spread is due"));
+              HasSubstr("one of values, spread and between is due"));
 }
 
 }  // namespace
