@@ -21,6 +21,7 @@
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/study/members.h"
+#include "pipeline/study/search.h"
 #include "pipeline/study/study_design.h"
 #include "pipeline/study/study_results.h"
 #include "pipeline/terminal/progress_bar.h"
@@ -156,10 +157,14 @@ std::optional<int> write_worst(const SweepOptions& options, const fs::path& fold
   return well ? std::optional<int>(worst) : std::nullopt;
 }
 
-void print_study(const StudyResults& results, const fs::path& folder, std::optional<int> worst) {
+void warn_of_failures(const StudyResults& results) {
   for (const Member& member : results.members)
     if (!member.failure.empty())
       say_warning(fmt::format("member {} failed: {}", member.number, member.failure));
+}
+
+void print_study(const StudyResults& results, const fs::path& folder, std::optional<int> worst) {
+  warn_of_failures(results);
   if (is_quiet()) return;
   const StudyFile& study = results.study;
   fmt::print("{}\n\n{}", study.title.empty() ? study.name : study.title, study_text(results));
@@ -169,6 +174,75 @@ void print_study(const StudyResults& results, const fs::path& folder, std::optio
                               results.spreads[results.leading.front()].path,
                               (folder / "worst" / "report.html").string()));
   fmt::print("page: {}\n", (folder / "study.html").string());
+}
+
+/// A member of a search: what a run before it computed is taken.
+Member member_of_search(const StudyFile& study, const MemberStore& store, StudyBlocks& blocks,
+                        const Eigen::VectorXd& values, int number) {
+  if (std::optional<Member> known = store.read(number)) return std::move(*known);
+  Member member = number == 0 ? run_first_member(study, values, blocks)
+                              : run_member(study, values, number, blocks);
+  const HeldSignals until_it_is_written;
+  store.write(member);
+  return member;
+}
+
+/// Removes what a study has put into a folder so far, and the folder if there is nothing else.
+void remove_new_folder(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder / "members", ignored);
+  if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
+}
+
+/// Runs the sample side by side, then the search, a member after another.
+SearchResults run_search(const SweepOptions& options, const fs::path& folder,
+                         const StudyFile& study, const Eigen::MatrixXd& sample,
+                         const MemberStore& store) {
+  StudyBlocks blocks(study, folder / "members");
+  // Before all others: it tells whether the lift has the figures. Where it has not, nothing is left.
+  const bool is_new = store.count_done(static_cast<int>(sample.rows())) == 0;
+  try {
+    member_of_search(study, store, blocks, sample.row(0), 0);
+  } catch (const InputError&) {
+    if (is_new) remove_new_folder(folder);
+    throw;
+  }
+  const auto count = static_cast<int>(sample.rows());
+  run_members(options, folder, store, count);
+  ProgressBar bar("search");
+  return search_members(study, sample, read_members(store, count),
+                        [&](const Eigen::VectorXd& values, int number) {
+                          bar.show(static_cast<double>(number) / study.members,
+                                   fmt::format("member {} of {} at most", number, study.members));
+                          return member_of_search(study, store, blocks, values, number);
+                        });
+}
+
+/// All results of a search, its page and the report of its best member.
+int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
+           const Eigen::MatrixXd& sample) {
+  const MemberStore store(folder, identity_of_study(study));
+  SearchResults found = run_search(options, folder, study, sample, store);
+  const StudyResults results = evaluate_search(std::move(study), std::move(found));
+  {
+    const HeldSignals until_all_is_in_place;
+    write_study(results, folder);
+  }
+  const int best = results.search->best;
+  StudyBlocks blocks(results.study, folder / "members");
+  const Member whole =
+      run_member(results.study, results.design.row(best), best, blocks, folder / "best");
+  warn_of_failures(results);
+  if (!is_quiet()) {
+    fmt::print("{}\n\n{}", results.study.title.empty() ? results.study.name : results.study.title,
+               search_text(results));
+    fmt::print("\n{} members, {} failed\n", results.members.size(), results.failed());
+    fmt::print("page: {}\n", (folder / "study.html").string());
+  }
+  if (!whole.failure.empty())
+    throw std::runtime_error(fmt::format(
+        "the report of member {}, the best, could not be written: {}", best, whole.failure));
+  return results.search->is_feasible ? exit_code::done : exit_code::lift_fails;
 }
 
 }  // namespace
@@ -192,6 +266,7 @@ int sweep(const SweepOptions& options) {
     work(study, folder);
     return exit_code::done;
   }
+  check_bounds(study);
   require_writable(folder);
   if (study.limits && study.limits->scatter)
     read_sea_states(study.beside(study.limits->scatter->value), false);
@@ -202,6 +277,7 @@ int sweep(const SweepOptions& options) {
     ProgressBar bar("reading members");
     check_members(study, design, [&](double fraction) { bar.show(fraction); });
   }
+  if (study.design == StudyDesign::search) return search(options, folder, std::move(study), design);
   const MemberStore store(folder, identity_of_study(study));
   const auto count = static_cast<int>(design.rows());
   if (study.run == StudyRun::stress && store.count_done(count) < count)

@@ -94,8 +94,15 @@ Format<SpreadLaw> law_format() {
 }
 
 void check_variable(const StudyVariable& variable, Reading& reading, const Mark& mark) {
-  if (variable.values.empty() == !variable.law)
-    reading.error(mark, "either values or spread is due");
+  const int told = (variable.values.empty() ? 0 : 1) + (variable.law ? 1 : 0) +
+                   (variable.between.empty() ? 0 : 1);
+  if (told != 1) reading.error(mark, "one of values, spread and between is due");
+  if (variable.between.size() != 2) return;
+  const Located<Measure>&low = variable.between[0], &high = variable.between[1];
+  if (!(low.value.exponents == high.value.exponents))
+    reading.error(high.mark, "the two bounds are not of one dimension");
+  else if (!(low.value.value < high.value.value))
+    reading.error(high.mark, "the second bound is not above the first");
 }
 
 Format<StudyVariable> variable_format() {
@@ -107,6 +114,8 @@ Format<StudyVariable> variable_format() {
       .optional("values", &StudyVariable::values, list_of(located(measure()), 1),
                 "which are taken in turn")
       .optional("spread", &StudyVariable::law, law_format(), "a law by which the value is spread")
+      .optional("between", &StudyVariable::between, list_of(located(measure()), 2),
+                "of a search, the lowest and the highest value")
       .rule(check_variable)
       .place(&StudyVariable::place);
   return table.format();
@@ -120,6 +129,23 @@ Format<QuantityLimit> quantity_limit_format() {
                 "utilisation of a check")
       .required("at", &QuantityLimit::at, located(measure()),
                 "its limit: the largest that is allowed, or the smallest of a clearance or margin");
+  return table.format();
+}
+
+void check_bound(const FigureBound& bound, Reading& reading, const Mark& mark) {
+  if (bound.at_most.has_value() == bound.at_least.has_value())
+    reading.error(mark, "either at_most or at_least is due");
+}
+
+Format<FigureBound> figure_bound_format() {
+  Table<FigureBound> table("bound of a figure", "A value that a figure may not pass in a search.");
+  table
+      .required("figure", &FigureBound::figure, located(text()),
+                "of summary.json, ropes.H1.max_dynamic_tension_N or, with run: assess, the "
+                "utilisation of a check")
+      .optional("at_most", &FigureBound::at_most, located(measure()), "its largest value")
+      .optional("at_least", &FigureBound::at_least, located(measure()), "its smallest value")
+      .rule(check_bound);
   return table.format();
 }
 
@@ -178,6 +204,25 @@ void check_limits(const StudyFile& study, Reading& reading) {
   }
 }
 
+void check_search(const StudyFile& study, Reading& reading, const Mark& mark) {
+  const bool is_search = study.design == StudyDesign::search;
+  const bool has_goal = study.minimise || study.maximise;
+  if (is_search && study.minimise.has_value() == study.maximise.has_value())
+    reading.error(mark, "a search needs minimise or maximise, and not both");
+  if (!is_search && (has_goal || !study.subject_to.empty()))
+    reading.error(mark, "minimise, maximise and subject_to go with design: search");
+  for (const StudyVariable& variable : study.variables) {
+    if (is_search && variable.between.empty())
+      reading.error(variable.place, "a search takes between and no values or spread");
+    if (!is_search && !variable.between.empty())
+      reading.error(variable.place, "between goes with design: search");
+  }
+  const std::size_t least = 4 * (study.variables.size() + 1);
+  if (is_search && study.members > 0 && static_cast<std::size_t>(study.members) < least)
+    reading.error(mark, fmt::format("a search over {} values needs {} members at least",
+                                    study.variables.size(), least));
+}
+
 void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   const bool is_grid = study.design == StudyDesign::grid;
   if (is_grid && study.members > 0)
@@ -185,6 +230,7 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   if (!is_grid && study.members <= 0) reading.error(mark, "the number of members is missing");
   if (study.variables.empty()) reading.error(mark, "nothing varies");
   check_limits(study, reading);
+  check_search(study, reading, mark);
   double size = 1;
   for (const StudyVariable& variable : study.variables) {
     if (is_grid && variable.law) reading.error(variable.place, "a grid takes values and no spread");
@@ -218,13 +264,14 @@ Format<StudyFile> study_file_format() {
                                        {"latin hypercube", StudyDesign::latin_hypercube},
                                        {"low discrepancy", StudyDesign::low_discrepancy},
                                        {"grid", StudyDesign::grid},
-                                       {"sensitivity", StudyDesign::sensitivity}}),
+                                       {"sensitivity", StudyDesign::sensitivity},
+                                       {"search", StudyDesign::search}}),
                   "latin hypercube",
                   "how members are chosen: independently; each tenth, hundredth, ... of each "
                   "spread alike; by Sobol's sequence; every value with every other; for Sobol' "
-                  "indices, members (n + 2) of n variables")
+                  "indices, members (n + 2) of n variables; towards the best of a figure")
       .optional("members", &StudyFile::members, integer(Range::between(1, most_members)),
-                "how many lifts; of a sensitivity, the size of its samples")
+                "how many lifts; of a sensitivity, the size of its samples; of a search, at most")
       .by_default("seed", &StudyFile::seed, integer(Range::between(0, 2'000'000'000)), "1",
                   "of the random numbers")
       .required("vary", &StudyFile::variables, named_tables(variable_format()), "by name")
@@ -233,6 +280,11 @@ Format<StudyFile> study_file_format() {
                 "usual ones of a comparison if left out")
       .optional("limits", &StudyFile::limits, sea_limits_format(),
                 "which sea states the lift bears; of a grid")
+      .optional("minimise", &StudyFile::minimise, located(text()),
+                "of a search: the figure of summary.json that is to be small")
+      .optional("maximise", &StudyFile::maximise, located(text()), "or that is to be large")
+      .optional("subject_to", &StudyFile::subject_to, list_of(figure_bound_format(), 1),
+                "of a search: what other figures keep to")
       .rule(check_study)
       .place(&StudyFile::place);
   return table.format();

@@ -24,11 +24,12 @@ struct StudyVariable {
   std::vector<Located<std::string>> keys;  ///< "ropes.R1.length", "blocks/hull-860t:mass"
   std::vector<Located<Measure>> values;    ///< in turn; empty if a law spreads them
   std::optional<SpreadLaw> law;
+  std::vector<Located<Measure>> between;  ///< lowest and highest of a search; else empty
   Mark place;
 };
 
 /// How values are put together to members.
-enum class StudyDesign { random, latin_hypercube, low_discrepancy, grid, sensitivity };
+enum class StudyDesign { random, latin_hypercube, low_discrepancy, grid, sensitivity, search };
 
 /// What is computed of each member.
 enum class StudyRun { simulate, stress, assess };
@@ -48,6 +49,12 @@ struct SeaLimits {
   Mark place;
 };
 
+/// A value that a figure may not pass in a search.
+struct FigureBound {
+  Located<std::string> figure;                        ///< path of summary.json
+  std::optional<Located<Measure>> at_most, at_least;  ///< one of them, in the summary's unit
+};
+
 /// A study: many lifts of one case whose keys vary.
 struct StudyFile {
   std::string name;
@@ -60,6 +67,8 @@ struct StudyFile {
   std::vector<StudyVariable> variables;
   std::vector<Located<std::string>> figures;  ///< paths of summary.json; empty: the usual ones
   std::optional<SeaLimits> limits;
+  std::optional<Located<std::string>> minimise, maximise;  ///< figure of a search: one of them
+  std::vector<FigureBound> subject_to;                     ///< of a search
   std::string yaml;
   std::filesystem::path file;
   Mark place;

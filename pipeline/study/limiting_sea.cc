@@ -42,12 +42,6 @@ std::size_t place_of(const std::vector<double>& values, double value) {
                                   values.begin());
 }
 
-double figure_of(const Member& member, const std::string& path) {
-  for (const auto& [name, value] : member.figures)
-    if (name == path) return value;
-  return not_known;
-}
-
 /// The worse of two; what is not known is worst.
 double worse(double a, double b, bool worse_when_smaller) {
   if (std::isnan(a) || std::isnan(b)) return not_known;
@@ -92,7 +86,7 @@ std::vector<std::vector<double>> worst_over_seeds(const SeaGrid& grid,
     const Eigen::Index row = member.number;
     double& value =
         worst[grid.cell_of(design, row)][place_of(grid.heights, design(row, grid.height))];
-    value = worse(value, figure_of(member, path), worse_when_smaller);
+    value = worse(value, member.figure(path), worse_when_smaller);
   }
   return worst;
 }
@@ -190,7 +184,7 @@ LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& d
   LimitingSeas seas{grid.periods, grid.headings, {}, {}, {}};
   for (const QuantityLimit& quantity : study.limits->quantities) {
     const std::string& path = quantity.figure.value;
-    const auto has_it = [&](const Member& member) { return !std::isnan(figure_of(member, path)); };
+    const auto has_it = [&](const Member& member) { return !std::isnan(member.figure(path)); };
     if (std::none_of(members.begin(), members.end(), has_it))
       throw std::runtime_error(fmt::format("no member has the figure {}, which is limited", path));
     const bool smaller = std::any_of(members.begin(), members.end(), [&](const Member& member) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -58,6 +59,15 @@ std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
   return text;
 }
 
+/// The goal of a search and what is subject to bounds.
+std::vector<const Located<std::string>*> figures_of_search(const StudyFile& study) {
+  std::vector<const Located<std::string>*> figures;
+  for (const auto* goal : {&study.minimise, &study.maximise})
+    if (*goal) figures.push_back(&**goal);
+  for (const FigureBound& bound : study.subject_to) figures.push_back(&bound.figure);
+  return figures;
+}
+
 /// The figures that are looked at, of a summary.
 std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
                                                        const Json& summary) {
@@ -68,6 +78,7 @@ std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
                                       [&](const auto& figure) { return figure.first == path; });
     if (value && value->is_number() && !is_known) figures.emplace_back(path, value->get<double>());
   };
+  for (const Located<std::string>* path : figures_of_search(study)) take(path->value);
   for (const Located<std::string>& path : study.figures) take(path.value);
   if (study.figures.empty())
     for (const SummaryFigure& figure : list_figures(summary)) take(figure.path);
@@ -84,8 +95,12 @@ void take_figures(const StudyFile& study, const Json& summary, Member& member) {
 /// Measures cost as much as a third of a motion, natural modes a tenth: they are found where a
 /// figure is one of them.
 bool asks_for(const StudyFile& study, const char* beginning) {
-  return std::any_of(study.figures.begin(), study.figures.end(),
-                     [&](const auto& path) { return path.value.starts_with(beginning); });
+  const auto begins_so = [&](const std::string& path) { return path.starts_with(beginning); };
+  const std::vector<const Located<std::string>*> sought = figures_of_search(study);
+  return std::any_of(sought.begin(), sought.end(),
+                     [&](const auto* path) { return begins_so(path->value); }) ||
+         std::any_of(study.figures.begin(), study.figures.end(),
+                     [&](const auto& path) { return begins_so(path.value); });
 }
 
 /// The part of a summary's structure that a study of stress has, at an assessment's places.
@@ -158,6 +173,12 @@ class LockedFile {
 
 }  // namespace
 
+double Member::figure(const std::string& path) const {
+  for (const auto& [name, value] : figures)
+    if (name == path) return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
                      const std::vector<int>* only) {
   Diagnostics diagnostics;
@@ -201,6 +222,37 @@ Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int num
   } catch (const std::exception& error) {
     member.failure = error.what();
   }
+  return member;
+}
+
+Member run_first_member(const StudyFile& study, const Eigen::VectorXd& values,
+                        StudyBlocks& blocks) {
+  Json summary;
+  try {
+    summary = summary_of(study, values, blocks, std::nullopt);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return {0, error.what(), {}, {}};
+  }
+  std::vector<std::string> known;
+  for (const SummaryFigure& figure : list_figures(summary)) known.push_back(figure.path);
+  Diagnostics diagnostics;
+  for (const Located<std::string>* path : figures_of_search(study)) {
+    const Json* value = find_figure(summary, path->value);
+    if (value && value->is_number()) continue;
+    const std::string nearest = nearest_name(path->value, known);
+    std::vector<std::string> hints;
+    if (!nearest.empty()) hints.push_back(fmt::format("did you mean \"{}\"?", nearest));
+    diagnostics.error(path->mark,
+                      fmt::format("the lift's summary has no figure \"{}\"", path->value),
+                      std::move(hints));
+  }
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  Member member{0, {}, {}, {}};
+  take_figures(study, summary, member);
   return member;
 }
 

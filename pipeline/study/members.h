@@ -32,6 +32,9 @@ struct Member {
   std::string failure;                                  ///< empty: it ran
   std::vector<std::pair<std::string, double>> figures;  ///< path in summary.json, value there
   std::vector<std::string> worse_when_smaller;          ///< those of the paths that are
+
+  /// The figure at a path; not a number if there is none.
+  double figure(const std::string& path) const;
 };
 
 /// Computes a member: its motion, or stress and checks as well. What fails is told in it.
@@ -41,6 +44,10 @@ struct Member {
 Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int number,
                   StudyBlocks& blocks,
                   const std::optional<std::filesystem::path>& full = std::nullopt);
+
+/// Computes the first member of a search.
+/// @throws InputError naming the figures of the search that the lift does not have.
+Member run_first_member(const StudyFile& study, const Eigen::VectorXd& values, StudyBlocks& blocks);
 
 /// The folder of a study's results while it runs: what is done is on the disk, a file a member.
 class MemberStore {

@@ -1,5 +1,6 @@
 #include "pipeline/study/study_design.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -52,6 +53,8 @@ OT::Distribution cut_law_of(const SpreadLaw& law) {
 
 /// A variable of values has a share of the unit interval for each.
 OT::Distribution distribution_of(const StudyVariable& variable) {
+  if (!variable.between.empty())
+    return OT::Uniform(variable.between[0].value.value, variable.between[1].value.value);
   if (!variable.law) return OT::Uniform(0, static_cast<double>(variable.values.size()));
   try {
     return cut_law_of(*variable.law);
@@ -80,12 +83,19 @@ Eigen::MatrixXd grid_of(const StudyFile& study) {
   return design;
 }
 
+/// A search begins with a sample over the whole range, of half its members at most.
+int sample_of_search(const StudyFile& study) {
+  return std::min(study.members / 2, 4 * (static_cast<int>(study.variables.size()) + 1));
+}
+
 OT::Sample sample_of(const StudyFile& study, const OT::Distribution& joint) {
-  const auto size = static_cast<OT::UnsignedInteger>(study.members);
+  const auto size = static_cast<OT::UnsignedInteger>(
+      study.design == StudyDesign::search ? sample_of_search(study) : study.members);
   switch (study.design) {
     case StudyDesign::latin_hypercube:
       return OT::LHSExperiment(joint, size).generate();
     case StudyDesign::low_discrepancy:
+    case StudyDesign::search:
       return OT::LowDiscrepancyExperiment(OT::SobolSequence(), joint, size).generate();
     case StudyDesign::sensitivity:
       return OT::SobolIndicesExperiment(joint, size).generate();
@@ -108,6 +118,7 @@ std::string unit_of(const Exponents& exponents) {
 }
 
 Exponents exponents_of(const StudyVariable& variable) {
+  if (!variable.between.empty()) return variable.between.front().value.exponents;
   if (!variable.law) return variable.values.front().value.exponents;
   for (const auto* key : {&variable.law->mean, &variable.law->lowest})
     if (*key) return (*key)->value.exponents;
@@ -130,7 +141,7 @@ Eigen::MatrixXd make_design(const StudyFile& study) {
           sample(static_cast<OT::UnsignedInteger>(member), static_cast<OT::UnsignedInteger>(v));
       const StudyVariable& variable = study.variables[static_cast<std::size_t>(v)];
       design(member, v) =
-          variable.law
+          variable.law || !variable.between.empty()
               ? drawn
               : variable
                     .values[std::min(variable.values.size() - 1, static_cast<std::size_t>(drawn))]

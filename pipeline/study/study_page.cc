@@ -230,6 +230,9 @@ std::string study_page(const StudyResults& results) {
       "<h1>{0}</h1>\n<p>{2} lifts of {3}{4}. Each is a row of study.csv.</p>\n",
       title, style, results.members.size(), escape_html(study.case_name.value),
       results.failed() > 0 ? fmt::format("; {} failed and are left out", results.failed()) : "");
+  // What a search tries is no sample: it has no quantiles.
+  if (results.search)
+    return page + search_section(results) + all_figures(results) + "</body></html>\n";
   page += limiting_seas(results);
   page += "<h2>Leading figures</h2>\n" + leading_table(results);
   page += "<div class=\"charts\">\n";

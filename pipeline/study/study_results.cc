@@ -150,6 +150,34 @@ Json limits_json(const StudyResults& results) {
   return json;
 }
 
+Json search_json(const StudyResults& results) {
+  const SearchResults& search = *results.search;
+  Json values = Json::object(), bounds = Json::array();
+  for (std::size_t v = 0; v < results.study.variables.size(); ++v)
+    values[results.study.variables[v].name.value] = {
+        {"value", search.design(search.best, static_cast<Eigen::Index>(v))},
+        {"unit", unit_text(results.study.variables[v])},
+        {"at_edge", search.at_edge[v] < 0   ? "lowest"
+                    : search.at_edge[v] > 0 ? "highest"
+                                            : "no"}};
+  for (const BoundOfSearch& bound : search.bounds)
+    bounds.push_back({{"figure", bound.figure},
+                      {bound.is_least ? "at_least" : "at_most", bound.limit},
+                      {"value", number_or_null(bound.value)},
+                      {"is_active", bound.is_active}});
+  Json json{{"figure", search.figure},
+            {"sought", search.is_largest ? "largest" : "smallest"},
+            {"is_feasible", search.is_feasible},
+            {"is_converged", search.is_converged},
+            {"member", search.best},
+            {"value", number_or_null(search.value)},
+            {"variables", std::move(values)},
+            {"bounds", std::move(bounds)},
+            {"first_sample", search.first_sample}};
+  json["elsewhere"] = search.elsewhere ? Json(*search.elsewhere) : Json(nullptr);
+  return json;
+}
+
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string inside;
@@ -244,7 +272,7 @@ std::vector<double> StudyResults::values_of(const std::string& path) const {
 
 StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members) {
   StudyResults results{
-      std::move(study), std::move(design), std::move(members), {}, {}, {}, {}, {}, {}};
+      std::move(study), std::move(design), std::move(members), {}, {}, {}, {}, {}, {}, {}};
   std::vector<int> numbers;
   for (const Member& member : results.members)
     if (member.failure.empty()) numbers.push_back(member.number);
@@ -272,6 +300,12 @@ StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector
   return results;
 }
 
+StudyResults evaluate_search(StudyFile study, SearchResults search) {
+  StudyResults results = evaluate_study(std::move(study), search.design, search.members);
+  results.search = std::move(search);
+  return results;
+}
+
 Json study_json(const StudyResults& results) {
   Json figures = Json::array(), sensitivities = Json::object(), failures = Json::array();
   for (const Spread& spread : results.spreads)
@@ -287,6 +321,7 @@ Json study_json(const StudyResults& results) {
             {"failures", std::move(failures)},       {"figures", std::move(figures)}};
   if (!results.sensitivities.empty()) json["sobol_indices"] = std::move(sensitivities);
   if (results.limits) json["limits"] = limits_json(results);
+  if (results.search) json["search"] = search_json(results);
   return json;
 }
 

@@ -11,6 +11,7 @@
 #include "pipeline/files/study_file.h"
 #include "pipeline/study/limiting_sea.h"
 #include "pipeline/study/members.h"
+#include "pipeline/study/search.h"
 #include "pipeline/study/spread.h"
 #include "pipeline/study/study_design.h"
 
@@ -35,6 +36,7 @@ struct StudyResults {
 
   std::optional<LimitingSeas> limits;  ///< if the study asks for them
   std::optional<Operability> in_scatter, in_forecast;
+  std::optional<SearchResults> search;  ///< of a search, with the design and the members of it
 
   int failed() const;
   /// Whether any member says so of a figure.
@@ -46,6 +48,9 @@ struct StudyResults {
 /// @throws std::runtime_error if no member ran.
 StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members);
 
+/// Of a search: its members are all that were tried.
+StudyResults evaluate_search(StudyFile study, SearchResults search);
+
 /// study.json: the spreads, with units as the names of the figures have them.
 nlohmann::ordered_json study_json(const StudyResults& results);
 
@@ -55,6 +60,11 @@ std::string study_text(const StudyResults& results);
 /// Writes study.csv and study.h5 (a member a row), study.json and study.html into a folder: all of
 /// them or none.
 void write_study(const StudyResults& results, const std::filesystem::path& folder);
+
+/// What a search found, for a terminal.
+std::string search_text(const StudyResults& results);
+/// The same for the page: the best member, its bounds, how it was found.
+std::string search_section(const StudyResults& results);
 
 /// The page: leading figures with exceedance, what they depend on, all figures.
 std::string study_page(const StudyResults& results);

@@ -147,6 +147,67 @@ TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {
   EXPECT_FALSE(fs::exists("out"));
 }
 
+// Tensions at rest are in proportion to the weight: the lightest that pulls 18 kN at R2 is known.
+TEST_F(SweepCommand, SearchesForTheBestWithinBounds) {
+  write_study(
+      "design: grid\nfigures: [ropes.R2.max_static_tension_N]\n"
+      "vary: {weight: {keys: ['block:mass'], values: [8 t]}}\n");
+  ASSERT_EQ(run("sweep study.yaml -o one -q").exit_code, 0);
+  const double at_8_t = figure("one", "ropes.R2.max_static_tension_N")["mean"].get<double>();
+  const std::string search =
+      "design: search\nmembers: 40\nminimise: ropes.R1.max_static_tension_N\n"
+      "vary: {weight: {keys: ['block:mass'], between: [7 t, 9 t]}}\n";
+  write_study(search + "subject_to: [{figure: ropes.R2.max_static_tension_N, at_least: " +
+              std::to_string(at_8_t / 1000) + " kN}]\n");
+  const Outcome outcome = run("sweep study.yaml -o out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("smallest ropes, R1, max static tension"));
+  EXPECT_THAT(outcome.out, HasSubstr("reached"));
+  const auto found = nlohmann::json::parse(text_of_file("out/study.json"))["search"];
+  EXPECT_TRUE(found["is_feasible"].get<bool>());
+  // Steps end at 2 kg.
+  EXPECT_NEAR(found["variables"]["weight"]["value"].get<double>(), 8000, 8);
+  EXPECT_TRUE(fs::is_regular_file("out/best/report.html"));
+  EXPECT_THAT(text_of_file("out/study.html"), HasSubstr("best so far"));
+
+  // A killed search takes what is done.
+  fs::create_directories("killed");
+  fs::copy("out/members", "killed/members", fs::copy_options::recursive);
+  fs::remove("killed/members/000010.json");
+  ASSERT_EQ(run("sweep study.yaml -o killed -q").exit_code, 0);
+  EXPECT_EQ(text_of_file("out/study.json"), text_of_file("killed/study.json"));
+
+  write_study(search + "subject_to: [{figure: ropes.R2.max_static_tension_N, at_least: 90 kN}]\n");
+  const Outcome none = run("sweep study.yaml -o none");
+  EXPECT_EQ(none.exit_code, 3) << none.err;
+  EXPECT_THAT(none.out, HasSubstr("no member keeps to all bounds"));
+}
+
+TEST_F(SweepCommand, SaysWhatIsWrongWithASearch) {
+  const auto refused = [&](const std::string& lines, const std::string& text) {
+    write_study(lines);
+    const Outcome outcome = run("sweep study.yaml -o out");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr(text));
+    EXPECT_FALSE(fs::exists("out"));
+  };
+  const std::string vary = "vary: {weight: {keys: ['block:mass'], between: [7 t, 9 t]}}\n";
+  const std::string search = "design: search\nmembers: 40\n" + vary;
+  refused(search, "a search needs minimise or maximise, and not both");
+  refused(search + "minimise: ropes.R1.max_static_tensionN\n",
+          "did you mean \"ropes.R1.max_static_tension_N\"?");
+  refused(search +
+              "minimise: ropes.R1.max_static_tension_N\n"
+              "subject_to: [{figure: ropes.R2.max_static_tension_N, at_least: 3 m}]\n",
+          "its limit has another dimension");
+  refused(
+      "design: search\nmembers: 40\nminimise: ropes.R1.max_static_tension_N\n"
+      "vary: {weight: {keys: ['block:mass'], between: [9 t, 7 t]}}\n",
+      "the second bound is not above the first");
+  refused("members: 40\nminimise: ropes.R1.max_static_tension_N\n" + vary,
+          "minimise, maximise and subject_to go with design: search");
+}
+
 TEST_F(SweepCommand, RefusesAFolderOfAnotherStudy) {
   ASSERT_EQ(run("sweep study.yaml -o out -q").exit_code, 0);
   write_study(std::string(weight) + "seed: 2\n");

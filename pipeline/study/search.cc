@@ -1,0 +1,308 @@
+#include "pipeline/study/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <openturns/OT.hxx>
+
+#include "pipeline/comparison/summary_figures.h"
+#include "pipeline/declaration/diagnostics.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double first_step = 0.25;  // of each variable's range
+constexpr double last_step = 1e-3;   // likewise
+constexpr double apart = 0.25;       // likewise: how far from the first the second search begins
+constexpr double rounding = 1e-9;    // of a limit
+constexpr double near_limit = 0.01;  // likewise
+
+/// A limit in the unit that the figure has in the summary.
+double limit_of(const FigureBound& bound) {
+  const Located<Measure>& given = bound.at_most ? *bound.at_most : *bound.at_least;
+  const std::string_view unit = unit_of_path(bound.figure.value);
+  struct Unit {
+    Exponents exponents;
+    double scale;
+  };
+  static const std::map<std::string_view, Unit> units{
+      {"N", {{1, 1, -2, 0}, 1}},  {"Pa", {{-1, 1, -2, 0}, 1}},
+      {"m", {{1, 0, 0, 0}, 1}},   {"mm", {{1, 0, 0, 0}, 1e3}},
+      {"s", {{0, 0, 1, 0}, 1}},   {"kg", {{0, 1, 0, 0}, 1}},
+      {"Nm", {{2, 1, -2, 0}, 1}}, {"m_per_s", {{1, 0, -1, 0}, 1}},
+      {"rad", {{0, 0, 0, 1}, 1}}, {"deg", {{0, 0, 0, 1}, 180 / std::numbers::pi}}};
+  const auto known = units.find(unit);
+  const Exponents due = known == units.end() ? Exponents{} : known->second.exponents;
+  if (!(given.value.exponents == due)) {
+    Diagnostics diagnostics;
+    diagnostics.error(given.mark,
+                      fmt::format("{} is {}: its limit has another dimension", bound.figure.value,
+                                  unit.empty() ? "a plain number" : "in " + std::string(unit)));
+    throw InputError(diagnostics);
+  }
+  return given.value.value * (known == units.end() ? 1 : known->second.scale);
+}
+
+/// The goal and the bounds of a study as numbers.
+class Problem {
+ public:
+  explicit Problem(const StudyFile& study) : study_(study), sign_(study.maximise ? -1 : 1) {
+    for (const FigureBound& bound : study.subject_to) limits_.push_back(limit_of(bound));
+    const auto count = static_cast<Eigen::Index>(study.variables.size());
+    lowest_.resize(count);
+    range_.resize(count);
+    for (Eigen::Index v = 0; v < count; ++v) {
+      const auto& between = study.variables[static_cast<std::size_t>(v)].between;
+      lowest_[v] = between[0].value.value;
+      range_[v] = between[1].value.value - between[0].value.value;
+    }
+  }
+
+  const std::string& figure() const {
+    return study_.maximise ? study_.maximise->value : study_.minimise->value;
+  }
+  bool is_largest() const { return sign_ < 0; }
+  std::size_t bounds() const { return limits_.size(); }
+  Eigen::Index variables() const { return range_.size(); }
+
+  /// The figure that is to be small; not a number of a member that failed.
+  double goal(const Member& member) const { return sign_ * member.figure(figure()); }
+  double shown(double goal) const { return sign_ * goal; }
+  /// What is left to a limit: negative where it is passed.
+  double margin(const Member& member, std::size_t bound) const {
+    const FigureBound& one = study_.subject_to[bound];
+    const double value = member.figure(one.figure.value);
+    return one.at_most ? limits_[bound] - value : value - limits_[bound];
+  }
+  /// The largest excess over a limit, in shares of it; not finite of a member that failed.
+  double excess(const Member& member) const {
+    if (!std::isfinite(goal(member))) return std::numeric_limits<double>::infinity();
+    double most = 0;
+    for (std::size_t b = 0; b < limits_.size(); ++b) {
+      const double margin_left = margin(member, b);
+      if (!std::isfinite(margin_left)) return std::numeric_limits<double>::infinity();
+      most = std::max(most, -margin_left / size(b));
+    }
+    return most > rounding ? most : 0;
+  }
+  /// By what a bound's margins are counted.
+  double size(std::size_t bound) const {
+    return std::abs(limits_[bound]) > 0 ? std::abs(limits_[bound]) : 1;
+  }
+  /// Is one member better than another: within its bounds, or nearer to them, then by its figure?
+  bool is_better(const Member& one, const Member& other) const {
+    const double a = excess(one), b = excess(other);
+    if (a != b) return a < b;
+    return goal(one) < goal(other);
+  }
+
+  BoundOfSearch state(const Member& member, std::size_t bound) const {
+    const FigureBound& one = study_.subject_to[bound];
+    return {one.figure.value, limits_[bound], member.figure(one.figure.value),
+            one.at_least.has_value(), margin(member, bound) < near_limit * size(bound)};
+  }
+
+  Eigen::VectorXd shares_of(const Eigen::VectorXd& values) const {
+    return (values - lowest_).cwiseQuotient(range_);
+  }
+  Eigen::VectorXd values_of(const Eigen::VectorXd& shares) const {
+    return lowest_ + shares.cwiseMax(0).cwiseMin(1).cwiseProduct(range_);
+  }
+
+ private:
+  const StudyFile& study_;
+  double sign_;
+  std::vector<double> limits_;
+  Eigen::VectorXd lowest_, range_;
+};
+
+/// Members as a search asks for them: each set of values is computed once.
+class Trials {
+ public:
+  Trials(const Problem& problem, const EvaluateMember& evaluate, SearchResults& results,
+         int most_members)
+      : problem_(problem), evaluate_(evaluate), results_(results), most_(most_members) {}
+
+  int left() const { return most_ - static_cast<int>(results_.members.size()); }
+
+  const Member& at(const OT::Point& point) {
+    Eigen::VectorXd shares(problem_.variables());
+    for (Eigen::Index v = 0; v < shares.size(); ++v)
+      shares[v] = point[static_cast<OT::UnsignedInteger>(v)];
+    const Eigen::VectorXd values = problem_.values_of(shares);
+    for (std::size_t m = 0; m < results_.members.size(); ++m)
+      if (results_.design.row(static_cast<Eigen::Index>(m)).transpose() == values)
+        return results_.members[m];
+    const auto number = static_cast<int>(results_.members.size());
+    results_.members.push_back(evaluate_(values, number));
+    results_.design.conservativeResize(number + 1, Eigen::NoChange);
+    results_.design.row(number) = values.transpose();
+    return results_.members.back();
+  }
+
+ private:
+  const Problem& problem_;
+  const EvaluateMember& evaluate_;
+  SearchResults& results_;
+  int most_;
+};
+
+/// The goal in shares of what it spreads over the sample; a member that failed is as bad as can be.
+struct GoalScale {
+  double lowest = 0, range = 1;
+
+  GoalScale(const Problem& problem, const std::vector<Member>& members) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Member& member : members) {
+      const double goal = problem.goal(member);
+      if (!std::isfinite(goal)) continue;
+      low = std::min(low, goal);
+      high = std::max(high, goal);
+    }
+    if (!(low <= high)) return;
+    lowest = low;
+    range = high > low ? high - low : std::max(1.0, std::abs(low));
+  }
+  double of(double goal) const { return std::isfinite(goal) ? (goal - lowest) / range : 10; }
+};
+
+/// Goal and margins as OpenTURNS asks for them, of shares of the variables' ranges.
+class Functions {
+ public:
+  Functions(const Problem& problem, const GoalScale& scale, Trials& trials)
+      : problem_(problem), scale_(scale), trials_(trials) {}
+
+  OT::Point goal(const OT::Point& point) const {
+    return {scale_.of(problem_.goal(trials_.at(point)))};
+  }
+  OT::Point margins(const OT::Point& point) const {
+    const Member& member = trials_.at(point);
+    OT::Point margins(static_cast<OT::UnsignedInteger>(problem_.bounds()));
+    for (std::size_t b = 0; b < problem_.bounds(); ++b) {
+      const double margin = problem_.margin(member, b) / problem_.size(b);
+      margins[static_cast<OT::UnsignedInteger>(b)] = std::isfinite(margin) ? margin : -1;
+    }
+    return margins;
+  }
+
+ private:
+  const Problem& problem_;
+  const GoalScale& scale_;
+  Trials& trials_;
+};
+
+/// Goes on from some values until the steps are small. @returns whether they became so.
+bool descend(const Problem& problem, const GoalScale& scale, Trials& trials,
+             const Eigen::VectorXd& from, int most) {
+  OT::Log::Show(OT::Log::NONE);  // it warns where members run out, which is said here
+  const Functions functions(problem, scale, trials);
+  const auto count = static_cast<OT::UnsignedInteger>(problem.variables());
+  OT::OptimizationProblem task(OT::Function(
+      OT::bindMethod<Functions, OT::Point, OT::Point>(functions, &Functions::goal, count, 1)));
+  if (problem.bounds() > 0)
+    task.setInequalityConstraint(OT::Function(OT::bindMethod<Functions, OT::Point, OT::Point>(
+        functions, &Functions::margins, count,
+        static_cast<OT::UnsignedInteger>(problem.bounds()))));
+  task.setBounds(OT::Interval(count));
+  OT::Cobyla algorithm(task, first_step);
+  algorithm.setIgnoreFailure(true);
+  algorithm.setMaximumAbsoluteError(last_step);
+  algorithm.setMaximumEvaluationNumber(static_cast<OT::UnsignedInteger>(most));
+  OT::Point start(count);
+  const Eigen::VectorXd shares = problem.shares_of(from);
+  for (OT::UnsignedInteger v = 0; v < count; ++v) start[v] = shares[static_cast<Eigen::Index>(v)];
+  algorithm.setStartingPoint(start);
+  algorithm.run();
+  return algorithm.getResult().getEvaluationNumber() < static_cast<OT::UnsignedInteger>(most);
+}
+
+int best_of(const Problem& problem, const std::vector<Member>& members,
+            const std::vector<int>& among) {
+  int best = -1;
+  for (const int m : among)
+    if (best < 0 || problem.is_better(members[static_cast<std::size_t>(m)],
+                                      members[static_cast<std::size_t>(best)]))
+      best = m;
+  return best;
+}
+
+std::vector<int> numbers(int from, int to) {
+  std::vector<int> all;
+  for (int m = from; m < to; ++m) all.push_back(m);
+  return all;
+}
+
+void describe_best(const Problem& problem, const StudyFile& study, SearchResults& results) {
+  const Member& best = results.members[static_cast<std::size_t>(results.best)];
+  results.is_feasible = problem.excess(best) == 0;
+  results.value = problem.shown(problem.goal(best));
+  for (std::size_t b = 0; b < study.subject_to.size(); ++b)
+    results.bounds.push_back(problem.state(best, b));
+  const Eigen::VectorXd shares = problem.shares_of(results.design.row(results.best));
+  for (const double share : shares)
+    results.at_edge.push_back(share < last_step ? -1 : share > 1 - last_step ? 1 : 0);
+}
+
+}  // namespace
+
+void check_bounds(const StudyFile& study) { const Problem whose_limits_are_read(study); }
+
+SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& sample,
+                             std::vector<Member> members, const EvaluateMember& evaluate) {
+  const Problem problem(study);
+  SearchResults results;
+  results.figure = problem.figure();
+  results.is_largest = problem.is_largest();
+  results.design = sample;
+  results.members = std::move(members);
+  results.first_sample = static_cast<int>(results.members.size());
+  const GoalScale scale(problem, results.members);
+  Trials trials(problem, evaluate, results, study.members);
+  const auto count = [&] { return static_cast<int>(results.members.size()); };
+
+  const int start = best_of(problem, results.members, numbers(0, count()));
+  // Members that are left when the steps are small serve a second search.
+  results.is_converged = descend(problem, scale, trials, results.design.row(start), trials.left());
+  results.best = best_of(problem, results.members, numbers(0, count()));
+
+  std::vector<int> far;
+  const Eigen::VectorXd found = problem.shares_of(results.design.row(results.best));
+  for (int m = 0; m < results.first_sample; ++m)
+    if ((problem.shares_of(results.design.row(m)) - found).cwiseAbs().maxCoeff() > apart)
+      far.push_back(m);
+  const int least = 4 * (static_cast<int>(problem.variables()) + 1);
+  if (!far.empty() && trials.left() >= least) {
+    const int second = best_of(problem, results.members, far), from = count();
+    descend(problem, scale, trials, results.design.row(second), trials.left());
+    std::vector<int> of_second = numbers(from, count());
+    of_second.push_back(second);
+    const Member& best =
+        results.members[static_cast<std::size_t>(best_of(problem, results.members, of_second))];
+    if (problem.excess(best) == 0) results.elsewhere = problem.shown(problem.goal(best));
+    results.best = best_of(problem, results.members, numbers(0, count()));
+  }
+  describe_best(problem, study, results);
+  return results;
+}
+
+std::vector<double> best_so_far(const StudyFile& study, const SearchResults& results) {
+  const Problem problem(study);
+  std::vector<double> values;
+  int best = 0;
+  for (int m = 0; m < static_cast<int>(results.members.size()); ++m) {
+    const Member& member = results.members[static_cast<std::size_t>(m)];
+    if (m > 0 && problem.is_better(member, results.members[static_cast<std::size_t>(best)]))
+      best = m;
+    const Member& so_far = results.members[static_cast<std::size_t>(best)];
+    values.push_back(problem.excess(so_far) == 0 ? problem.shown(problem.goal(so_far)) : nan);
+  }
+  return values;
+}
+
+}  // namespace blocklift::pipeline
