@@ -251,7 +251,9 @@ void describe_best(const Problem& problem, const StudyFile& study, SearchResults
 
 }  // namespace
 
-void check_bounds(const StudyFile& study) { const Problem whose_limits_are_read(study); }
+void check_bounds(const StudyFile& study) {
+  for (const FigureBound& bound : study.subject_to) limit_of(bound);
+}
 
 SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& sample,
                              std::vector<Member> members, const EvaluateMember& evaluate) {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -208,14 +210,23 @@ std::string limiting_seas(const StudyResults& results) {
          limiting_polar(seas) + "</div>\n" + operability_text(results);
 }
 
+/// Of a study beside its case, the folder's name.
+std::string name_of_case(const StudyFile& study) {
+  std::error_code ignored;
+  const std::filesystem::path path = std::filesystem::weakly_canonical(study.case_path(), ignored);
+  return path.empty() ? study.case_name.value : path.filename().string();
+}
+
 std::string all_figures(const StudyResults& results) {
   std::string text = "<h2>All figures</h2>\n<div class=\"scroll\"><table>\n" +
                      cells({"figure", "smallest", "mean", "deviation", "largest"}, "th");
-  for (const Spread& spread : results.spreads)
-    text += cells(
-        {name_with_unit(spread.path), format_figure(spread.smallest), format_figure(spread.mean),
-         format_figure(spread.deviation, 3), format_figure(spread.largest)},
-        "td");
+  for (const Spread& spread : results.spreads) {
+    const double scale = shown_figure(spread.path).scale;
+    text += cells({name_with_unit(spread.path), format_figure(scale * spread.smallest),
+                   format_figure(scale * spread.mean), format_figure(scale * spread.deviation, 3),
+                   format_figure(scale * spread.largest)},
+                  "td");
+  }
   return text + "</table></div>\n";
 }
 
@@ -228,7 +239,7 @@ std::string study_page(const StudyResults& results) {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n"
       "<h1>{0}</h1>\n<p>{2} lifts of {3}{4}. Each is a row of study.csv.</p>\n",
-      title, style, results.members.size(), escape_html(study.case_name.value),
+      title, style, results.members.size(), escape_html(name_of_case(study)),
       results.failed() > 0 ? fmt::format("; {} failed and are left out", results.failed()) : "");
   // What a search tries is no sample: it has no quantiles.
   if (results.search)

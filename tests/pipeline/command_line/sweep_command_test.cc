@@ -4,6 +4,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -61,7 +63,14 @@ TEST_F(SweepCommand, LoadsAtRestSpreadAsTheWeight) {
   EXPECT_NEAR(tension["rank_correlation"]["weight"].get<double>(), 1, 1e-12);
   for (const char* file : {"study.csv", "study.h5", "study.html", "worst/report.html"})
     EXPECT_TRUE(fs::is_regular_file(fs::path("out") / file)) << file;
-  EXPECT_THAT(text_of_file("out/study.html"), HasSubstr("<svg"));
+  const std::string page = text_of_file("out/study.html");
+  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("24 lifts of lift"));
+  // Two tables show it, both in kN: some 20 kN are the weight's at each of four slings.
+  const auto rows = std::regex("ropes, R1, max static tension, kN</td><td>1?[0-9]{2}\\.");
+  EXPECT_EQ(
+      std::distance(std::sregex_iterator(page.begin(), page.end(), rows), std::sregex_iterator()),
+      2);
 }
 
 TEST_F(SweepCommand, GivesTheSameWithAnyNumberOfWorkersAndAfterAKill) {

@@ -160,7 +160,7 @@ class Cells {
                     abaqus_real(fields, 2, "coordinate", 0.0),
                     abaqus_real(fields, 3, "coordinate", 0.0));
       // Abaqus' spherical system counts its last angle from the plane of axes 1 and 2.
-      if (local.kind == SystemKind::spherical) given << given[0], 90 - given[2], given[1];
+      if (local.kind == SystemKind::spherical) given = Vector3(given[0], 90 - given[2], given[1]);
       const Vector3 place =
           model_.units.length * (scope().turn * local.place(given) + scope().shift);
       if (!(place.cwiseAbs().maxCoeff() < 1e7))

@@ -323,8 +323,8 @@ class Sections {
     Vector3 given = -Vector3::UnitZ();
     if (block.data.size() > 1 && !block.data[1].fields().empty()) {
       const Fields fields = block.data[1].fields();
-      given << abaqus_real(fields, 0, "n1", 0.0), abaqus_real(fields, 1, "n1", 0.0),
-          abaqus_real(fields, 2, "n1", 0.0);
+      given = Vector3(abaqus_real(fields, 0, "n1", 0.0), abaqus_real(fields, 1, "n1", 0.0),
+                      abaqus_real(fields, 2, "n1", 0.0));
     }
     return blocks.scope->turn * given;
   }

@@ -32,9 +32,9 @@ class Transforms {
     const double length = model_.units.length;
     std::array<Vector3, 2> points;
     for (std::size_t p = 0; p < 2; ++p)
-      points[p] << abaqus_real(fields, 3 * p, "coordinate") * length,
-          abaqus_real(fields, 3 * p + 1, "coordinate") * length,
-          abaqus_real(fields, 3 * p + 2, "coordinate") * length;
+      points[p] = length * Vector3(abaqus_real(fields, 3 * p, "coordinate"),
+                                   abaqus_real(fields, 3 * p + 1, "coordinate"),
+                                   abaqus_real(fields, 3 * p + 2, "coordinate"));
     const auto to_world = [&](const Vector3& point) -> Vector3 {
       return scope_->turn * point + length * scope_->shift;
     };

@@ -269,6 +269,18 @@ TIE, 6, 1
               HasSubstr("TIE is not known of nodes apart"));
 }
 
+// Cylindrical nodes: radius, angle, height. Spherical ones: radius, angle about axis 3, angle from
+// the plane of axes 1 and 2.
+TEST(AbaqusReader, NodesOfOtherSystems) {
+  const Mesh mesh = abaqus(
+                        "*NODE, SYSTEM=C\n1, 2., 90., 3.\n*NODE, SYSTEM=S\n2, 2., 90., 30.\n"
+                        "3, 2., 0., -60.\n")
+                        .mesh;
+  expect_near(mesh.vertices[0], Vector3(0, 2, 3), 1e-12);
+  expect_near(mesh.vertices[1], Vector3(0, std::sqrt(3.0), 1), 1e-12);
+  expect_near(mesh.vertices[2], Vector3(1, 0, -std::sqrt(3.0)), 1e-12);
+}
+
 // Two instances of one part, the second turned by 90 degrees about z after its shift.
 TEST(AbaqusReader, PartsAndInstances) {
   const Deck deck = abaqus(
