@@ -101,7 +101,7 @@ dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
     bodies.push_back(make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B));
     bodies.back().name = body.name;
   }
-  const dynamics::Symmetry symmetry = find_symmetry(bodies);
+  const dynamics::Symmetry symmetry = keep_symmetry(find_symmetry(bodies), problem.lids);
   const std::vector<dynamics::WaterLine> lines = find_water_lines(bodies);
   const auto surface = make_surface_mesh(
       lines,
@@ -117,6 +117,7 @@ MarchedWater make_marched_water(const RadiationProblem& problem) {
   const dynamics::PanelModel model = make_panel_model(problem);
   dynamics::DirectRadiation::Settings settings;
   settings.damping_strength = dynamics::damping_zone(problem.frequencies.front()).strength;
+  settings.lids = problem.lids;
   settings.waves = problem.waves;
   settings.with_froude_krylov = false;  // HullForce's
   settings.ramp = problem.ramp;
@@ -133,6 +134,7 @@ dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem
   dynamics::DatabaseSettings settings;
   settings.frequencies = problem.frequencies;
   settings.headings = problem.headings;
+  settings.lids = problem.lids;
   settings.with_coarser = true;
   settings.with_far_field = problem.drifting.has_value();
   return compute_database(model, settings);
@@ -252,6 +254,9 @@ RadiationProblem MarineBuilder::radiation_problem() const {
     }
   }
   problem.origin = middle.head<2>();
+  if (const auto& lids = parts_.sea->radiation.lids) {
+    problem.lids = make_lids(lids->value, problem.origin);
+  }
   problem.water = water_of(*parts_.sea, gravity_);
   problem.place = parts_.sea->radiation.place;
   problem.frequencies = radiation_frequencies(*parts_.sea);

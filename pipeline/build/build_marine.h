@@ -36,9 +36,10 @@ struct RadiationProblem {
   /// its world.
   std::shared_ptr<const dynamics::HydrodynamicDatabase> given = nullptr;
   dynamics::Water water;
-  std::vector<double> frequencies;  ///< rad/s, ascending
-  std::vector<double> headings;     ///< rad, a whole turn
-  Mark place;                       ///< of what the file says about radiation
+  std::vector<double> frequencies;              ///< rad/s, ascending
+  std::vector<double> headings;                 ///< rad, a whole turn
+  std::vector<dynamics::DampingLid> lids = {};  ///< in D
+  Mark place;                                   ///< of what the file says about radiation
   /// Of the one vessel whose mean drift is asked for, floating freely, 6 x 6 about its reference
   /// point along the axes of D; none: no drift, or one that `given` tells.
   struct FreeVessel {

@@ -33,6 +33,34 @@ Format<FrequencyRange> frequency_range_format() {
   return table.format();
 }
 
+void check_settings(const HydrodynamicSettings& settings, Reading& reading, const Mark& mark) {
+  if (settings.as_meshed && !settings.draughts.empty()) {
+    reading.error(mark, "the water line is given twice",
+                  {"give draughts, or water_line: as meshed"});
+  }
+}
+
+}  // namespace
+
+std::vector<double> FrequencyRange::list() const {
+  std::vector<double> values{lowest};
+  for (int k = 1; k < count; ++k) {
+    values.push_back(lowest + (highest - lowest) * k / static_cast<double>(count - 1));
+  }
+  return values;
+}
+
+std::vector<dynamics::DampingLid> make_lids(const std::optional<std::vector<LidModel>>& models,
+                                            const Eigen::Vector2d& origin) {
+  std::vector<dynamics::DampingLid> lids;
+  if (!models) return lids;
+  for (const LidModel& model : *models) {
+    const Eigen::Vector2d from(model.from[0], model.from[1]), to(model.to[0], model.to[1]);
+    lids.push_back({from.cwiseMin(to) - origin, from.cwiseMax(to) - origin, model.rate});
+  }
+  return lids;
+}
+
 Format<LidModel> lid_format() {
   Table<LidModel> table(
       "lid",
@@ -51,23 +79,6 @@ Format<LidModel> lid_format() {
         reading.error(mark, "a lid without an area", {"from and to are opposite corners"});
       });
   return table.format();
-}
-
-void check_settings(const HydrodynamicSettings& settings, Reading& reading, const Mark& mark) {
-  if (settings.as_meshed && !settings.draughts.empty()) {
-    reading.error(mark, "the water line is given twice",
-                  {"give draughts, or water_line: as meshed"});
-  }
-}
-
-}  // namespace
-
-std::vector<double> FrequencyRange::list() const {
-  std::vector<double> values{lowest};
-  for (int k = 1; k < count; ++k) {
-    values.push_back(lowest + (highest - lowest) * k / static_cast<double>(count - 1));
-  }
-  return values;
 }
 
 Format<std::vector<double>> draughts_format() {

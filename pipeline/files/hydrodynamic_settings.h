@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/marine/radiation/free_surface.h"
 #include "pipeline/declaration/format.h"
 
 namespace blocklift::pipeline {
@@ -40,6 +41,12 @@ struct HydrodynamicSettings {
   bool symmetry = true;  ///< use the planes of symmetry that there are
 };
 
+/// Lids (none given: none) whose places count from `origin` (m, level, in the world).
+std::vector<dynamics::DampingLid> make_lids(
+    const std::optional<std::vector<LidModel>>& models,
+    const Eigen::Vector2d& origin = Eigen::Vector2d::Zero());
+
+Format<LidModel> lid_format();
 Format<HydrodynamicSettings> hydrodynamic_settings_format();
 
 /// Draughts as a list of lengths that ascend.

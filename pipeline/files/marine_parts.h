@@ -12,6 +12,7 @@
 #include "dynamics/marine/waves/sea.h"
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/hull_places.h"
+#include "pipeline/files/hydrodynamic_settings.h"
 #include "pipeline/files/vessel_model.h"
 #include "pipeline/mechanism/mechanism_parts.h"
 
@@ -81,6 +82,8 @@ struct CurrentInCase {
 struct RadiationSettings {
   double lowest = 0, highest = 0;  ///< frequencies, rad/s
   int frequencies = 0;
+  /// Where water in gaps and moonpools is damped.
+  std::optional<Located<std::vector<LidModel>>> lids;
   Mark place;
 };
 

@@ -163,6 +163,9 @@ Format<RadiationSettings> radiation_settings_format() {
                   "19",
                   "at which diffraction is computed, evenly between; those of regular waves "
                   "are added")
+      .optional("lids", &RadiationSettings::lids, located(list_of(lid_format())),
+                "rectangles on which waves fade, for water in gaps and moonpools that would swing "
+                "on, where the vessels are at the start; a database has its own")
       .place(&RadiationSettings::place)
       .rule([](const RadiationSettings& settings, Reading& reading, const Mark& mark) {
         if (settings.lowest < settings.highest) return;

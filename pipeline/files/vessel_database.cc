@@ -157,6 +157,15 @@ void check_headings(const Located<std::string>& file, const HydrodynamicDatabase
   }
 }
 
+/// Lids are part of a database: beside one they would do nothing.
+void check_lids(const MarineParts& parts, bool named, bool radiating, Diagnostics& diagnostics) {
+  if (!parts.sea || !parts.sea->radiation.lids || (radiating && !named)) return;
+  diagnostics.error(parts.sea->radiation.lids->mark,
+                    named ? "lids are given beside a database, which was computed with its own"
+                          : "lids are given, but no vessel makes waves",
+                    {named ? "give them to blocklift hydro, which computes it" : "leave them out"});
+}
+
 }  // namespace
 
 void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesystem::path& beside,
@@ -178,6 +187,10 @@ void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostic
     if (vessel.radiation.value != RadiationMethod::none) radiating.push_back(&vessel);
   }
   check_together(radiating, diagnostics);
+  check_lids(parts,
+             std::any_of(radiating.begin(), radiating.end(),
+                         [](const VesselInCase* vessel) { return vessel->database.has_value(); }),
+             !radiating.empty(), diagnostics);
   for (const VesselInCase* vessel : radiating) {
     if (!vessel->hydrodynamics || !parts.sea) continue;
     check_water(*vessel->database, *vessel->hydrodynamics, *parts.sea, gravity, diagnostics);

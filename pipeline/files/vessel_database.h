@@ -15,7 +15,7 @@ void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesy
 /// Complains about databases that cannot stand for the water of these vessels: some vessels with
 /// and some without, several files, bodies of a file that no vessel is or two are, vessels that are
 /// lowered or make no waves, water of another density, depth or gravity (m/s2), and in waves
-/// headings that do not go all around.
+/// headings that do not go all around. Complains about lids beside a database, or without waves.
 void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

@@ -125,9 +125,17 @@ std::vector<MatrixXcd> responses_of(const HydrodynamicFile& file,
   return calc_response_amplitudes(database, masses[state]);
 }
 
-std::string name_of_state(const HydrodynamicFile& file, std::size_t state) {
+/// A body with the draught of the state: its own, or that of the body that is lowered beside it.
+std::string name_of_state(const HydrodynamicFile& file, std::size_t state, int body) {
+  const std::vector<std::string>& names = file.series.databases[state].body_names;
+  const std::string& name = names[static_cast<std::size_t>(body)];
   const double draught = file.series.draughts[state];
-  return draught > 0.0 ? fmt::format("draught {:.3f} m", draught) : std::string("draught unknown");
+  if (!(draught > 0.0)) return name + ", draught unknown";
+  const int lowered = file.series.lowered_body;
+  if (body == lowered) return fmt::format("{}, draught {:.3f} m", name, draught);
+  if (file.series.draughts.size() == 1) return name;
+  return fmt::format("{}, {} at a draught of {:.3f} m", name,
+                     names[static_cast<std::size_t>(lowered)], draught);
 }
 
 // ------------------------------------------------------------------------------------------ page
@@ -218,9 +226,8 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
     const HydrodynamicDatabase& database = file.series.databases[s];
     const std::vector<MatrixXcd> responses = responses_of(file, masses, s);
     for (int b = 0; b < database.body_count(); ++b) {
-      const auto body = static_cast<std::size_t>(b);
-      text += fmt::format("\n{}, {}, {:.6g} m3 displaced\n", database.body_names[body],
-                          name_of_state(file, s), database.displaced_volumes[body]);
+      text += fmt::format("\n{}, {:.6g} m3 displaced\n", name_of_state(file, s, b),
+                          database.displaced_volumes[static_cast<std::size_t>(b)]);
       const Eigen::Index first = Eigen::Index{modes_per_body} * b;
       if (!responses.empty()) {
         ModeTable periods("natural period, s");
@@ -275,8 +282,7 @@ std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& t
     const HydrodynamicDatabase& database = file.series.databases[s];
     const std::vector<MatrixXcd> responses = responses_of(file, masses, s);
     for (int b = 0; b < database.body_count(); ++b) {
-      page += fmt::format("<h2>{}, {}</h2>\n<div class=\"charts\">\n",
-                          database.body_names[static_cast<std::size_t>(b)], name_of_state(file, s));
+      page += fmt::format("<h2>{}</h2>\n<div class=\"charts\">\n", name_of_state(file, s, b));
       for (int m = 0; m < modes_per_body; ++m) {
         page += charts_of_mode(database, responses, Eigen::Index{modes_per_body} * b + m);
       }

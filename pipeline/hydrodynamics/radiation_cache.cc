@@ -70,6 +70,11 @@ std::string identity_of(const RadiationProblem& problem) {
   hash.add(problem.headings);
   // Others are kept under the names that they had before there was a far field.
   if (problem.drifting) hash.add("far field");
+  for (const dynamics::DampingLid& lid : problem.lids) {
+    hash.add(std::span<const double>(lid.low.data(), 2));
+    hash.add(std::span<const double>(lid.high.data(), 2));
+    hash.add(lid.rate);
+  }
   return hash.digits();
 }
 

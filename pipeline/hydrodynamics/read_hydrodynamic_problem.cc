@@ -52,10 +52,7 @@ void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& pr
   if (settings.water_depth) problem.water.depth = *settings.water_depth;
   problem.symmetry = settings.symmetry;
   problem.mean_drift = settings.mean_drift;
-  for (const LidModel& lid : settings.lids.value_or(std::vector<LidModel>{})) {
-    const Eigen::Vector2d from(lid.from[0], lid.from[1]), to(lid.to[0], lid.to[1]);
-    problem.lids.push_back({from.cwiseMin(to), from.cwiseMax(to), lid.rate});
-  }
+  problem.lids = make_lids(settings.lids);
   for (HydrodynamicBody& body : problem.bodies) body.body.water_density = settings.water_density;
 }
 

@@ -70,8 +70,9 @@ class DirectRadiation {
  public:
   struct Settings {
     double damping_strength = not_a_number;  ///< nu at the edge of the surface, rad/s
-    std::vector<RegularWave> waves;          ///< that the bodies diffract
-    bool with_froude_krylov = true;          ///< exert their own pressure as well
+    std::vector<DampingLid> lids;
+    std::vector<RegularWave> waves;  ///< that the bodies diffract
+    bool with_froude_krylov = true;  ///< exert their own pressure as well
     /// How the waves grow; none: over the first two periods of the longest.
     std::optional<WaveRamp> ramp;
     /// Of the panels' world in that of the mechanism, which has the same axes, m. The waves' phases

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/spatial/pose.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/simulation/mechanism_run.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"

@@ -66,9 +66,10 @@ Swing compute_swing(int meridians, double lid_rate) {
 
 // Water in a narrow pool swings as in a pipe with a flange: its length is the draught and an end
 // correction of 0.8217 radii (Norris and Sheng 1989; 8/(3 pi) if the flow in the mouth is even,
-// Rayleigh, and Molin 2001). A flange that ends at R, with a potential that vanishes beyond, takes
-// a^2/(pi R) of it away: by inversion in the sphere of radius R that is a disc's capacity. What
-// waves outside and the height of the ring's edge do besides is of the next order in a/R.
+// Rayleigh, and Molin 2001). A flange that ends at R, with a potential that vanishes beyond (as
+// Molin, Zhang, Huang and Remy 2018 take it, too), leaves a^2/(pi R) less: by inversion in the
+// sphere of radius R that follows from a disc's capacity. What waves outside and the height of the
+// ring's edge do besides is of the next order in a/R.
 std::vector<VerificationRow> moonpool_rows() {
   const double length = ring_draught + 0.8217 - 1.0 / (std::numbers::pi * ring_radius);
   const double frequency = std::sqrt(pool_gravity / length);

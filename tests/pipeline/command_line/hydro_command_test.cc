@@ -83,7 +83,8 @@ TEST_F(HydroCommand, ComputesSeveralVesselsTogether) {
   const Outcome outcome = run("pair.yaml -o pair.h5");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("draught 1.000 m"), HasSubstr("draught 1.500 m"),
-                                 HasSubstr("left"), HasSubstr("right")));
+                                 HasSubstr("left, right at a draught of 1.000 m, "),
+                                 HasSubstr("right, draught 1.500 m, ")));
   folder_.write("crash.yaml",
                 "kind: vessels\n"
                 "vessels:\n"
@@ -218,6 +219,9 @@ TEST_F(HydroCommand, LidsDampTheWaterInAGap) {
   const Outcome outcome = run("pair.yaml -o pair.h5");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, Not(HasSubstr("already computed")));
+  // The draught that is told is that of the first body alone.
+  EXPECT_THAT(outcome.out,
+              AllOf(HasSubstr("float, draught 3.000 m, "), HasSubstr("\nspar, 907.9")));
   EXPECT_EQ(lowest_damping(), 0.0);
 }
 

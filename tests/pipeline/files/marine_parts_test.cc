@@ -236,6 +236,26 @@ TEST(MarineParts, ComplainsAboutDatabases) {
   EXPECT_THAT(complaint("database_body: pontoon"), HasSubstr("is a body of no database"));
 }
 
+// A lid lies in the world; the problem's own begins at the middle of the barge, (3, 4).
+TEST(MarineParts, LidsAreThoseOfTheProblem) {
+  const std::string lid = "lids: [{from: [5 m, 9 m], to: [4 m, 6 m], rate: 0.1 rad/s}]";
+  const auto changed = [&](const std::string& vessel) {
+    return with(with(floating, "sea:", "sea:\n  radiation: {" + lid + "}"),
+                "damping:", vessel + "damping:");
+  };
+  const RadiationProblem problem = radiation_problem(sound(changed("")));
+  ASSERT_EQ(problem.lids.size(), 1U);
+  EXPECT_LT((problem.lids[0].low - Eigen::Vector2d(1, 2)).norm(), 1e-12);
+  EXPECT_LT((problem.lids[0].high - Eigen::Vector2d(2, 5)).norm(), 1e-12);
+  EXPECT_EQ(problem.lids[0].rate, 0.1);
+  EXPECT_EQ(make_panel_model(problem).symmetry(), dynamics::Symmetry{});
+  std::string complaints;
+  EXPECT_FALSE(read_floating(changed("radiation: none, "), complaints));
+  EXPECT_THAT(complaints, HasSubstr("no vessel makes waves"));
+  EXPECT_FALSE(read_floating(changed("database: none.h5, "), complaints));
+  EXPECT_THAT(complaints, HasSubstr("lids are given beside a database"));
+}
+
 // The free vessel whose mean drift is asked for: mass with what stands on it, about the point in
 // the water line above the origin, in the world's axes (the barge heads along y).
 TEST(MarineParts, DriftAsksForTheFarField) {

@@ -11,6 +11,7 @@
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/radiation/frequency_domain.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "dynamics/marine/radiation/radiation.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -134,6 +135,42 @@ TEST(DampingLid, HoldsOnItsRectangleAndKeepsItsSymmetry) {
   zone.lids.pop_back();
   EXPECT_EQ(keep_symmetry({true, true}, zone.lids), (Symmetry{false, true}));
   EXPECT_EQ(keep_symmetry({true, true}, {}), (Symmetry{true, true}));
+}
+
+// The surface marched beside a sphere that heaves, under a lid all around it, answers as the
+// retardation functions computed under the same lid, and otherwise than without.
+TEST(DampingLid, ActsAlikeInTheDatabaseAndBesideTheBodies) {
+  constexpr double step = 0.05;
+  const PanelModel model = make_sphere_model({true, true});
+  const DampingLid lid{{-3, -3}, {3, 3}, 0.6};
+  const auto last_force = [&](const std::vector<DampingLid>& lids) {
+    DirectRadiation::Settings settings;
+    settings.damping_strength = 0.5;
+    settings.lids = lids;
+    DirectRadiation direct(model, settings);
+    direct.start(step);
+    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(6);
+    for (int k = 0; k < 120; ++k) {
+      velocity[heave] = std::sin(0.8 * step * (k + 0.5));
+      direct.advance(velocity);
+    }
+    return direct.calc_force()[heave];
+  };
+  DatabaseSettings settings = short_settings();
+  settings.time_step = step;
+  settings.damping_strength = 0.5;
+  settings.lids = {lid};
+  const HydrodynamicDatabase database = compute_database(model, settings);
+  double sum = 0.0;
+  for (int k = 0; k < 120; ++k) {
+    const auto lag = static_cast<std::size_t>(119 - k);
+    const double K = 0.5 * (database.retardation[lag](heave, heave) +
+                            database.retardation[lag + 1](heave, heave));
+    sum -= step * K * std::sin(0.8 * step * (k + 0.5));
+  }
+  const double under_lid = last_force({lid});
+  EXPECT_NEAR(under_lid, sum, 0.01 * std::abs(sum));
+  EXPECT_GT(std::abs(last_force({}) - under_lid), 0.1 * std::abs(sum));
 }
 
 TEST(RankineProblem, RefusesWhatDoesNotFitIntoMemory) {
