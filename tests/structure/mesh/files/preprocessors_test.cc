@@ -589,7 +589,7 @@ TEST(Preprocessors, CalculixWaysOfSaying) {
 2, .02
 3, .03
 4, .03
-*BEAM GENERAL SECTION, ELSET=BOX, SECTION=BOX, MATERIAL=STEEL, OFFSET1=.5
+*BEAM GENERAL SECTION, ELSET=BOX, SECTION=BOX, MATERIAL=STEEL, OFFSET1=.5, OFFSET2=.5
 .2, .1, .01, .01, .01, .01
 0., 0., 1.
 *BEAM SECTION, ELSET=PIN, SECTION=CIRCULAR, MATERIAL=STEEL
@@ -612,8 +612,8 @@ TEST(Preprocessors, CalculixWaysOfSaying) {
   EXPECT_DOUBLE_EQ(section.offset, -0.0125);
   ASSERT_EQ(deck.mesh.beams.size(), 2U);
   EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[0]).area, 0.2 * 0.1 - 0.18 * 0.08, 1e-12);
-  // The nodes lie half the height above the centre.
-  expect_near(deck.mesh.beams[0].offset[0], Vector3(0, 0, -0.1), 1e-12);
+  // The nodes lie half the height above the centre, and half the width along n2 = -y.
+  expect_near(deck.mesh.beams[0].offset[0], Vector3(0, 0.05, -0.1), 1e-12);
   EXPECT_NEAR(deck.mesh.section_of(deck.mesh.beams[1]).area, std::numbers::pi * 0.0025, 1e-12);
   EXPECT_THAT(entry(deck, "*HEAT TRANSFER").left_out, HasSubstr("what a step does"));
   EXPECT_THAT(complaints_of_abaqus("*NODE\n1, 0., 0., 0.\n*MATERIAL, NAME=S\n*ELASTIC\n206.E9, .3\n"
