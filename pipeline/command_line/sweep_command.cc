@@ -202,7 +202,7 @@ SearchResults run_search(const SweepOptions& options, const fs::path& folder,
   // Before all others: it tells whether the lift has the figures. Where it has not, nothing is left.
   const bool is_new = store.count_done(static_cast<int>(sample.rows())) == 0;
   try {
-    member_of_search(study, store, blocks, sample.row(0), 0);
+    check_bounds(study, {member_of_search(study, store, blocks, sample.row(0), 0)});
   } catch (const InputError&) {
     if (is_new) remove_new_folder(folder);
     throw;

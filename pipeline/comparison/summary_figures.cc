@@ -214,4 +214,14 @@ std::string_view unit_of_path(std::string_view path) {
   return {};
 }
 
+std::string unit_of_figure(const Json& summary, std::string_view path) {
+  if (const std::string_view unit = unit_of_path(path); !unit.empty()) return std::string(unit);
+  const auto dot = path.rfind('.');
+  if (dot == std::string_view::npos) return {};
+  const Json* row = find_figure(summary, path.substr(0, dot));
+  if (!row || !row->is_object()) return {};
+  const std::string unit = row->value("unit", std::string());
+  return unit == "1" ? std::string() : unit;
+}
+
 }  // namespace blocklift::pipeline

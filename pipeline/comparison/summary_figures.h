@@ -44,4 +44,8 @@ bool is_worse_when_smaller(const nlohmann::ordered_json& summary, std::string_vi
 /// "s", ...; empty for a pure number.
 std::string_view unit_of_path(std::string_view path);
 
+/// The same of a figure whose row of the summary tells its unit, as those of measures do: "rad",
+/// "N m"; empty if neither tells one.
+std::string unit_of_figure(const nlohmann::ordered_json& summary, std::string_view path);
+
 }  // namespace blocklift::pipeline

@@ -90,6 +90,10 @@ void take_figures(const StudyFile& study, const Json& summary, Member& member) {
   member.figures = figures_of(study, summary);
   for (const auto& [path, value] : member.figures)
     if (is_worse_when_smaller(summary, path)) member.worse_when_smaller.push_back(path);
+  for (const auto& [path, value] : member.figures)
+    if (unit_of_path(path).empty())
+      if (std::string unit = unit_of_figure(summary, path); !unit.empty())
+        member.units.emplace_back(path, std::move(unit));
 }
 
 /// Measures cost as much as a third of a motion, natural modes a tenth: they are found where a
@@ -177,6 +181,12 @@ double Member::figure(const std::string& path) const {
   for (const auto& [name, value] : figures)
     if (name == path) return value;
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string Member::unit(const std::string& path) const {
+  for (const auto& [name, unit] : units)
+    if (name == path) return unit;
+  return std::string(unit_of_path(path));
 }
 
 LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
@@ -294,6 +304,7 @@ void MemberStore::write(const Member& member) const {
   Json json{{"member", member.number}, {"figures", std::move(figures)}};
   if (!member.worse_when_smaller.empty()) json["worse_when_smaller"] = member.worse_when_smaller;
   if (!member.failure.empty()) json["failure"] = member.failure;
+  for (const auto& [path, unit] : member.units) json["units"][path] = unit;
   write_file(file_of(member.number), json.dump(1));
 }
 
@@ -305,6 +316,9 @@ std::optional<Member> MemberStore::read(int number) const {
   member.worse_when_smaller = json.value("worse_when_smaller", std::vector<std::string>());
   for (const auto& [path, value] : json.at("figures").items())
     if (value.is_number()) member.figures.emplace_back(path, value.get<double>());
+  const Json units = json.value("units", Json::object());
+  for (const auto& [path, unit] : units.items())
+    member.units.emplace_back(path, unit.get<std::string>());
   return member;
 }
 

@@ -33,8 +33,13 @@ struct Member {
   std::vector<std::pair<std::string, double>> figures;  ///< path in summary.json, value there
   std::vector<std::string> worse_when_smaller;          ///< those of the paths that are
 
+  /// Units of figures whose paths do not tell them.
+  std::vector<std::pair<std::string, std::string>> units = {};
+
   /// The figure at a path; not a number if there is none.
   double figure(const std::string& path) const;
+  /// Its unit in the summary; empty for a pure number.
+  std::string unit(const std::string& path) const;
 };
 
 /// Computes a member: its motion, or stress and checks as well. What fails is told in it.

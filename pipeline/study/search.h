@@ -41,8 +41,9 @@ struct SearchResults {
   std::optional<double> elsewhere;
 };
 
+/// @param members that tell the units of figures; without any, those are looked at whose names do.
 /// @throws InputError if the unit of a bound of a search is not that of its figure.
-void check_bounds(const StudyFile& study);
+void check_bounds(const StudyFile& study, const std::vector<Member>& members = {});
 
 /// Searches for the best member from those of a first sample on, by linear approximations in a
 /// trust region (COBYLA; Powell 1994, "A direct search optimization method that models the objective
@@ -51,7 +52,7 @@ void check_bounds(const StudyFile& study);
 /// from what it found. The same study tries the same values.
 ///
 /// @param sample values of the first members, a member a row. @param members they themselves.
-/// @throws InputError as check_bounds.
+/// @throws InputError if the unit of a bound is not that of its figure.
 SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& sample,
                              std::vector<Member> members, const EvaluateMember& evaluate);
 

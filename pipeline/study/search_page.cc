@@ -13,8 +13,8 @@
 namespace blocklift::pipeline {
 namespace {
 
-std::string with_unit(const std::string& path, double value) {
-  const ShownFigure figure = shown_figure(path);
+std::string with_unit(const StudyResults& results, const std::string& path, double value) {
+  const ShownFigure figure = results.shown(path);
   return format_figure(figure.scale * value) + (figure.unit.empty() ? "" : " " + figure.unit);
 }
 
@@ -23,13 +23,15 @@ const char* edge_text(int at_edge) {
 }
 
 /// "smallest ropes, R1, max static tension: 39.2 kN in member 31".
-std::string found_text(const SearchResults& search) {
+std::string found_text(const StudyResults& results) {
+  const SearchResults& search = *results.search;
   return fmt::format("{} {}: {} in member {}", search.is_largest ? "largest" : "smallest",
-                     shown_figure(search.figure).name, with_unit(search.figure, search.value),
-                     search.best);
+                     results.shown(search.figure).name,
+                     with_unit(results, search.figure, search.value), search.best);
 }
 
-std::vector<std::string> remarks(const SearchResults& search) {
+std::vector<std::string> remarks(const StudyResults& results) {
+  const SearchResults& search = *results.search;
   std::vector<std::string> texts;
   if (!search.is_feasible)
     texts.emplace_back("no member keeps to all bounds; this one exceeds them least");
@@ -39,7 +41,7 @@ std::vector<std::string> remarks(const SearchResults& search) {
           : "not converged: the members ran out while the search still went on; give more");
   if (search.elsewhere)
     texts.push_back(fmt::format("a second search that began elsewhere ended at {}",
-                                with_unit(search.figure, *search.elsewhere)));
+                                with_unit(results, search.figure, *search.elsewhere)));
   else
     texts.emplace_back("no second search from elsewhere: it may be the best of its neighbourhood");
   return texts;
@@ -54,7 +56,7 @@ std::string row(const std::vector<std::string>& texts, const char* tag) {
 
 std::string history_chart(const StudyResults& results) {
   const SearchResults& search = *results.search;
-  const ShownFigure figure = shown_figure(search.figure);
+  const ShownFigure figure = results.shown(search.figure);
   Curve tried{"tried", {}, {}}, best{"best so far", {}, {}};
   const std::vector<double> so_far = best_so_far(results.study, search);
   for (const Member& member : search.members) {
@@ -86,7 +88,7 @@ std::string variable_chart(const StudyResults& results, std::size_t v) {
 
 std::string search_text(const StudyResults& results) {
   const SearchResults& search = *results.search;
-  std::string text = found_text(search) + "\n\n";
+  std::string text = found_text(results) + "\n\n";
   TextTable values({{"value"}, {"best", 1}, {"", 0}});
   for (std::size_t v = 0; v < results.study.variables.size(); ++v)
     values.add_row({results.study.variables[v].name.value,
@@ -97,21 +99,22 @@ std::string search_text(const StudyResults& results) {
   if (!search.bounds.empty()) {
     TextTable bounds({{"bound"}, {"limit", 1}, {"value", 1}, {"", 0}});
     for (const BoundOfSearch& bound : search.bounds)
-      bounds.add_row({shown_figure(bound.figure).name,
-                      (bound.is_least ? ">= " : "<= ") + with_unit(bound.figure, bound.limit),
-                      with_unit(bound.figure, bound.value), bound.is_active ? "reached" : ""});
+      bounds.add_row(
+          {results.shown(bound.figure).name,
+           (bound.is_least ? ">= " : "<= ") + with_unit(results, bound.figure, bound.limit),
+           with_unit(results, bound.figure, bound.value), bound.is_active ? "reached" : ""});
     text += "\n" + bounds.text();
   }
   text += "\n";
-  for (const std::string& remark : remarks(search)) text += remark + "\n";
+  for (const std::string& remark : remarks(results)) text += remark + "\n";
   return text;
 }
 
 std::string search_section(const StudyResults& results) {
   const SearchResults& search = *results.search;
   std::string text = fmt::format("<h2>What was found</h2>\n<p><strong>{}</strong></p>\n<ul>\n",
-                                 escape_html(found_text(search)));
-  for (const std::string& remark : remarks(search))
+                                 escape_html(found_text(results)));
+  for (const std::string& remark : remarks(results))
     text += fmt::format("<li>{}</li>\n", escape_html(remark));
   text += fmt::format(
       "</ul>\n<p>The report of the best member: <a href=\"best/report.html\">best</a>. The first "
@@ -133,9 +136,9 @@ std::string search_section(const StudyResults& results) {
     text += "<h2>Bounds</h2>\n<div class=\"scroll\"><table>\n" +
             row({"figure", "limit", "value of the best", ""}, "th");
     for (const BoundOfSearch& bound : search.bounds)
-      text += row({shown_figure(bound.figure).name,
-                   (bound.is_least ? "≥ " : "≤ ") + with_unit(bound.figure, bound.limit),
-                   with_unit(bound.figure, bound.value), bound.is_active ? "reached" : ""},
+      text += row({results.shown(bound.figure).name,
+                   (bound.is_least ? "≥ " : "≤ ") + with_unit(results, bound.figure, bound.limit),
+                   with_unit(results, bound.figure, bound.value), bound.is_active ? "reached" : ""},
                   "td");
     text += "</table></div>\n";
   }

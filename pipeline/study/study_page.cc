@@ -43,8 +43,8 @@ std::string with_interval(double value, double low, double high) {
   return fmt::format("{} ({} to {})", format_figure(value), end(low), end(high));
 }
 
-std::string name_with_unit(const std::string& path) {
-  const ShownFigure figure = shown_figure(path);
+std::string name_with_unit(const StudyResults& results, const std::string& path) {
+  const ShownFigure figure = results.shown(path);
   return escape_html(figure.name + (figure.unit.empty() ? "" : ", " + figure.unit));
 }
 
@@ -54,13 +54,13 @@ std::string leading_table(const StudyResults& results) {
       cells({"figure", "mean", "deviation", "median", "95 %", "99 %", "worst", "in member"}, "th");
   for (const std::size_t i : results.leading) {
     const Spread& spread = results.spreads[i];
-    const double scale = shown_figure(spread.path).scale;
+    const double scale = results.shown(spread.path).scale;
     const auto quantile = [&](double share) {
       const Quantile& one = spread.quantile_of_better(share);
       return with_interval(scale * one.value, scale * one.low, scale * one.high);
     };
     text += cells(
-        {name_with_unit(spread.path), format_figure(scale * spread.mean),
+        {name_with_unit(results, spread.path), format_figure(scale * spread.mean),
          format_figure(scale * spread.deviation, 3), quantile(0.5), quantile(0.95), quantile(0.99),
          format_figure(scale * spread.worst()) + (spread.worse_when_smaller ? " (smallest)" : ""),
          std::to_string(spread.member_of_worst())},
@@ -76,7 +76,7 @@ std::string leading_table(const StudyResults& results) {
 
 /// Share of the members above a value, or below it where small values are bad.
 std::string exceedance(const StudyResults& results, const Spread& spread) {
-  const ShownFigure figure = shown_figure(spread.path);
+  const ShownFigure figure = results.shown(spread.path);
   std::vector<double> values = results.values_of(spread.path);
   std::sort(values.begin(), values.end());
   Curve curve{"", {}, {}};
@@ -95,13 +95,13 @@ std::string exceedance(const StudyResults& results, const Spread& spread) {
 std::string extremes_table(const StudyResults& results) {
   std::string rows;
   for (const std::size_t i : results.leading) {
-    const double scale = shown_figure(results.spreads[i].path).scale;
+    const double scale = results.shown(results.spreads[i].path).scale;
     for (const ExtremeFit& fit : results.spreads[i].extremes)
-      rows +=
-          cells({name_with_unit(results.spreads[i].path), fit.law, fmt::format("{:g}", fit.share),
-                 with_interval(scale * fit.value, scale * fit.low, scale * fit.high),
-                 fmt::format("{:.2f}{}", fit.p_value, fit.p_value < 0.05 ? ": no fit" : "")},
-                "td");
+      rows += cells({name_with_unit(results, results.spreads[i].path), fit.law,
+                     fmt::format("{:g}", fit.share),
+                     with_interval(scale * fit.value, scale * fit.low, scale * fit.high),
+                     fmt::format("{:.2f}{}", fit.p_value, fit.p_value < 0.05 ? ": no fit" : "")},
+                    "td");
   }
   if (rows.empty()) return "";
   return "<h2>Extremes</h2>\n<div class=\"scroll\"><table>\n" +
@@ -123,7 +123,8 @@ std::string tornado(const StudyResults& results, const Spread& spread) {
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return strength(a) > strength(b); });
-  std::string text = "<table>\n" + cells({name_with_unit(spread.path), "rank correlation"}, "th");
+  std::string text =
+      "<table>\n" + cells({name_with_unit(results, spread.path), "rank correlation"}, "th");
   for (const std::size_t v : order)
     text += cells({escape_html(results.study.variables[v].name.value),
                    bar(spread.rank_correlation[static_cast<Eigen::Index>(v)])},
@@ -139,7 +140,8 @@ std::string sensitivities(const StudyResults& results) {
   for (std::size_t i = 0; i < results.sensitivities.size(); ++i) {
     const Sensitivity& one = results.sensitivities[i];
     text += "<div class=\"scroll\"><table>\n" +
-            cells({name_with_unit(results.spreads[results.leading[i]].path), "by itself", "in all"},
+            cells({name_with_unit(results, results.spreads[results.leading[i]].path), "by itself",
+                   "in all"},
                   "th");
     for (std::size_t v = 0; v < results.study.variables.size(); ++v) {
       const auto k = static_cast<Eigen::Index>(v);
@@ -196,7 +198,7 @@ std::string limiting_seas(const StudyResults& results) {
   const LimitingSeas& seas = *results.limits;
   std::string quantities;
   for (const QuantityLimit& quantity : results.study.limits->quantities) {
-    const ShownFigure figure = shown_figure(quantity.figure.value);
+    const ShownFigure figure = results.shown(quantity.figure.value);
     quantities +=
         fmt::format("{}{} at {} {}", quantities.empty() ? "" : "; ", escape_html(figure.name),
                     format_figure(figure.scale * quantity.at.value.value), figure.unit);
@@ -221,8 +223,8 @@ std::string all_figures(const StudyResults& results) {
   std::string text = "<h2>All figures</h2>\n<div class=\"scroll\"><table>\n" +
                      cells({"figure", "smallest", "mean", "deviation", "largest"}, "th");
   for (const Spread& spread : results.spreads) {
-    const double scale = shown_figure(spread.path).scale;
-    text += cells({name_with_unit(spread.path), format_figure(scale * spread.smallest),
+    const double scale = results.shown(spread.path).scale;
+    text += cells({name_with_unit(results, spread.path), format_figure(scale * spread.smallest),
                    format_figure(scale * spread.mean), format_figure(scale * spread.deviation, 3),
                    format_figure(scale * spread.largest)},
                   "td");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -237,16 +239,27 @@ void write_arrays(const StudyResults& results, const std::filesystem::path& path
 
 }  // namespace
 
-ShownFigure shown_figure(const std::string& path) {
-  const std::string_view unit = unit_of_path(path);
-  ShownFigure figure{unit.empty() ? path : path.substr(0, path.size() - unit.size() - 1),
-                     unit == "percent" ? "%" : std::string(unit), 1};
-  if (unit == "N") figure = {figure.name, "kN", 1e-3};
-  if (unit == "Pa") figure = {figure.name, "MPa", 1e-6};
+ShownFigure shown_figure(const std::string& path, const std::string& unit) {
+  const std::string_view at_end = unit_of_path(path);
+  ShownFigure figure{at_end.empty() ? path : path.substr(0, path.size() - at_end.size() - 1), unit,
+                     1};
+  static const std::map<std::string, std::pair<const char*, double>> shown_units{
+      {"percent", {"%", 1}},  {"N", {"kN", 1e-3}},   {"N m", {"kN m", 1e-3}},
+      {"Nm", {"kN m", 1e-3}}, {"Pa", {"MPa", 1e-6}}, {"rad", {"°", 180 / std::numbers::pi}}};
+  if (const auto shown = shown_units.find(unit); shown != shown_units.end()) {
+    figure.unit = shown->second.first;
+    figure.scale = shown->second.second;
+  }
   std::string name;
   for (const char c : figure.name) name += c == '.' ? ", " : std::string(1, c == '_' ? ' ' : c);
   figure.name = std::move(name);
   return figure;
+}
+
+ShownFigure StudyResults::shown(const std::string& path) const {
+  for (const Member& member : members)
+    if (member.failure.empty()) return shown_figure(path, member.unit(path));
+  return shown_figure(path, std::string(unit_of_path(path)));
 }
 
 int StudyResults::failed() const {
@@ -335,7 +348,7 @@ std::string study_text(const StudyResults& results) {
                    {"member", 6}});
   for (const std::size_t i : results.leading) {
     const Spread& spread = results.spreads[i];
-    const ShownFigure figure = shown_figure(spread.path);
+    const ShownFigure figure = results.shown(spread.path);
     const auto shown = [&](double value, int digits) {
       return format_figure(figure.scale * value, digits);
     };

@@ -17,13 +17,15 @@
 
 namespace blocklift::pipeline {
 
-/// How a figure of summary.json is spoken of: "ropes, R1, max dynamic tension", in kN.
+/// How a figure of summary.json is spoken of: "ropes, R1, max dynamic tension", in kN; angles in
+/// degrees.
 struct ShownFigure {
   std::string name;
   std::string unit;  ///< empty for a pure number
   double scale = 1;  ///< from the summary's unit to the shown one
 };
-ShownFigure shown_figure(const std::string& path);
+/// @param unit that it has in the summary.
+ShownFigure shown_figure(const std::string& path, const std::string& unit);
 
 /// A study with what its members say together.
 struct StudyResults {
@@ -38,6 +40,7 @@ struct StudyResults {
   std::optional<Operability> in_scatter, in_forecast;
   std::optional<SearchResults> search;  ///< of a search, with the design and the members of it
 
+  ShownFigure shown(const std::string& path) const;
   int failed() const;
   /// Whether any member says so of a figure.
   bool is_worse_when_smaller(const std::string& path) const;

@@ -186,10 +186,13 @@ TEST_F(SweepCommand, SearchesForTheBestWithinBounds) {
   ASSERT_EQ(run("sweep study.yaml -o killed -q").exit_code, 0);
   EXPECT_EQ(text_of_file("out/study.json"), text_of_file("killed/study.json"));
 
-  write_study(search + "subject_to: [{figure: ropes.R2.max_static_tension_N, at_least: 90 kN}]\n");
+  write_study(search +
+              "subject_to: [{figure: ropes.R2.max_static_tension_N, at_least: 90 kN}, "
+              "{figure: 'measures.load: tilt.static', at_most: 45 deg}]\n");
   const Outcome none = run("sweep study.yaml -o none");
   EXPECT_EQ(none.exit_code, 3) << none.err;
   EXPECT_THAT(none.out, HasSubstr("no member keeps to all bounds"));
+  EXPECT_THAT(none.out, HasSubstr("<= 45.00 °"));
 }
 
 TEST_F(SweepCommand, SaysWhatIsWrongWithASearch) {
