@@ -20,6 +20,7 @@
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/study/figure_limit.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/search.h"
 #include "pipeline/study/study_design.h"
@@ -202,7 +203,7 @@ SearchResults run_search(const SweepOptions& options, const fs::path& folder,
   // Before all others: it tells whether the lift has the figures. Where it has not, nothing is left.
   const bool is_new = store.count_done(static_cast<int>(sample.rows())) == 0;
   try {
-    check_bounds(study, {member_of_search(study, store, blocks, sample.row(0), 0)});
+    check_figure_limits(study, {member_of_search(study, store, blocks, sample.row(0), 0)});
   } catch (const InputError&) {
     if (is_new) remove_new_folder(folder);
     throw;
@@ -266,7 +267,7 @@ int sweep(const SweepOptions& options) {
     work(study, folder);
     return exit_code::done;
   }
-  check_bounds(study);
+  check_figure_limits(study);
   require_writable(folder);
   if (study.limits && study.limits->scatter)
     read_sea_states(study.beside(study.limits->scatter->value), false);

@@ -14,6 +14,7 @@
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/formats/series_file.h"
+#include "pipeline/study/figure_limit.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -184,6 +185,7 @@ LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& d
   LimitingSeas seas{grid.periods, grid.headings, {}, {}, {}};
   for (const QuantityLimit& quantity : study.limits->quantities) {
     const std::string& path = quantity.figure.value;
+    const double limit = limit_of(quantity.at, path, unit_of(members, path));
     const auto has_it = [&](const Member& member) { return !std::isnan(member.figure(path)); };
     if (std::none_of(members.begin(), members.end(), has_it))
       throw std::runtime_error(fmt::format("no member has the figure {}, which is limited", path));
@@ -194,8 +196,7 @@ LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& d
     const auto worst = worst_over_seeds(grid, design, members, path, smaller);
     const bool is_first = seas.quantities.empty();
     for (std::size_t cell = 0; cell < worst.size(); ++cell) {
-      const LimitingHeight height =
-          find_limiting_height(grid.heights, worst[cell], quantity.at.value.value, smaller);
+      const LimitingHeight height = find_limiting_height(grid.heights, worst[cell], limit, smaller);
       if (is_first) {
         seas.heights.push_back(height);
         seas.governing.push_back(height.kind == LimitKind::above_grid ? "" : path);

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numbers>
 #include <utility>
 
-#include <fmt/format.h>
 #include <openturns/OT.hxx>
 
-#include "pipeline/comparison/summary_figures.h"
-#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/study/figure_limit.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -23,28 +19,9 @@ constexpr double apart = 0.25;       // likewise: how far from the first the sec
 constexpr double rounding = 1e-9;    // of a limit
 constexpr double near_limit = 0.01;  // likewise
 
-/// A limit in a unit of the summary.
-double limit_of(const FigureBound& bound, const std::string& unit) {
-  const Located<Measure>& given = bound.at_most ? *bound.at_most : *bound.at_least;
-  struct Unit {
-    Exponents exponents;
-    double scale;
-  };
-  static const std::map<std::string, Unit> units{
-      {"N", {{1, 1, -2, 0}, 1}},   {"Pa", {{-1, 1, -2, 0}, 1}}, {"m", {{1, 0, 0, 0}, 1}},
-      {"s", {{0, 0, 1, 0}, 1}},    {"kg", {{0, 1, 0, 0}, 1}},   {"Nm", {{2, 1, -2, 0}, 1}},
-      {"N m", {{2, 1, -2, 0}, 1}}, {"rad", {{0, 0, 0, 1}, 1}},  {"Hz", {{0, 0, -1, 0}, 1}},
-      {"J", {{2, 1, -2, 0}, 1}},   {"m/s", {{1, 0, -1, 0}, 1}}, {"rad/s", {{0, 0, -1, 1}, 1}}};
-  const auto known = units.find(unit);
-  const Exponents due = known == units.end() ? Exponents{} : known->second.exponents;
-  if (!(given.value.exponents == due)) {
-    Diagnostics diagnostics;
-    diagnostics.error(given.mark,
-                      fmt::format("{} is {}: its limit has another dimension", bound.figure.value,
-                                  unit.empty() ? "a plain number" : "in " + unit));
-    throw InputError(diagnostics);
-  }
-  return given.value.value * (known == units.end() ? 1 : known->second.scale);
+double limit_of(const FigureBound& bound, const std::vector<Member>& members) {
+  return limit_of(bound.at_most ? *bound.at_most : *bound.at_least, bound.figure.value,
+                  unit_of(members, bound.figure.value));
 }
 
 /// The goal and the bounds of a study as numbers.
@@ -53,8 +30,7 @@ class Problem {
   /// @param members that tell the units of figures.
   Problem(const StudyFile& study, const std::vector<Member>& members)
       : study_(study), sign_(study.maximise ? -1 : 1) {
-    for (const FigureBound& bound : study.subject_to)
-      limits_.push_back(limit_of(bound, unit_of(members, bound.figure.value)));
+    for (const FigureBound& bound : study.subject_to) limits_.push_back(limit_of(bound, members));
     const auto count = static_cast<Eigen::Index>(study.variables.size());
     lowest_.resize(count);
     range_.resize(count);
@@ -63,13 +39,6 @@ class Problem {
       lowest_[v] = between[0].value.value;
       range_[v] = between[1].value.value - between[0].value.value;
     }
-  }
-
-  /// Of the first member that did not fail.
-  static std::string unit_of(const std::vector<Member>& members, const std::string& path) {
-    for (const Member& member : members)
-      if (member.failure.empty()) return member.unit(path);
-    return std::string(unit_of_path(path));
   }
 
   const std::string& figure() const {
@@ -258,12 +227,6 @@ void describe_best(const Problem& problem, const StudyFile& study, SearchResults
 }
 
 }  // namespace
-
-void check_bounds(const StudyFile& study, const std::vector<Member>& members) {
-  for (const FigureBound& bound : study.subject_to)
-    if (!members.empty() || !unit_of_path(bound.figure.value).empty())
-      limit_of(bound, Problem::unit_of(members, bound.figure.value));
-}
 
 SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& sample,
                              std::vector<Member> members, const EvaluateMember& evaluate) {

@@ -41,10 +41,6 @@ struct SearchResults {
   std::optional<double> elsewhere;
 };
 
-/// @param members that tell the units of figures; without any, those are looked at whose names do.
-/// @throws InputError if the unit of a bound of a search is not that of its figure.
-void check_bounds(const StudyFile& study, const std::vector<Member>& members = {});
-
 /// Searches for the best member from those of a first sample on, by linear approximations in a
 /// trust region (COBYLA; Powell 1994, "A direct search optimization method that models the objective
 /// and constraint functions by linear interpolation"; OpenTURNS'), which needs no derivatives. It

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/study/figure_limit.h"
 #include "pipeline/study/study_design.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -59,13 +60,21 @@ class LinearLift : public ::testing::Test {
     }
   }
   static QuantityLimit limit(const std::string& path, double value) {
-    return {{path, {}}, {{value, {}}, {}}};
+    const Exponents force{1, 1, -2, 0}, length{1, 0, 0, 0};
+    return {{path, {}}, {{value, path.ends_with("_N") ? force : length}, {}}};
   }
 
   StudyFile study_;
   Eigen::MatrixXd design_;
   std::vector<Member> members_;
 };
+
+TEST_F(LinearLift, RefusesALimitOfAnotherDimension) {
+  study_.limits->quantities = {limit("load_N", 160)};
+  study_.limits->quantities[0].at.value.exponents = {0, 1, 0, 0};
+  EXPECT_THROW(find_limiting_seas(study_, design_, members_), InputError);
+  EXPECT_THROW(check_figure_limits(study_), InputError);
+}
 
 TEST_F(LinearLift, HasTheHeightsThatAreKnownByHand) {
   const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
