@@ -219,6 +219,14 @@ void print_details(const BlockRun& block) {
                               block.buckling.panels.size(), worst.worst.utilisation.critical,
                               worst.worst.utilisation.elastic, worst.panel.plate));
   }
+  if (!block.buckling.bars.empty()) {
+    const BuckledBar& worst = block.buckling.bars.front();
+    print_wrapped(
+        fmt::format("bars as columns, {} spans free of plates: {:.2f} under {:g} times "
+                    "the forces in {}",
+                    block.buckling.bars.size(), worst.worst.utilisation, block.buckling.bar_factor,
+                    worst.span.bar));
+  }
   print_padeyes(block.padeyes.padeyes);
 }
 

@@ -17,6 +17,7 @@
 #include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/hydro_command.h"
 #include "pipeline/command_line/limits.h"
+#include "pipeline/command_line/measured_command.h"
 #include "pipeline/command_line/new_command.h"
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/rig_command.h"
@@ -173,6 +174,12 @@ void add_sweep(CLI::App& app, int& code) {
       ->add_option("--workers", options->workers,
                    "lifts side by side (as many as the machine has processors if not given)")
       ->check(CLI::Range(1, 4096));
+  command->add_option("--part", options->part,
+                      "compute one part of the members alone, 3/10 say, on each of ten machines");
+  command
+      ->add_option("--join", options->join,
+                   "folder of a part that another machine computed; may be repeated")
+      ->allow_extra_args(false);
   command->add_flag("--worker", options->is_worker)->group("");
   command->add_option("--blocks", options->blocks)->group("");
   command->add_option("--whole", options->whole)->group("");
@@ -329,6 +336,42 @@ bool is_unknown_command(const CLI::App& app, int argc, char** argv) {
   return true;
 }
 
+void add_measured(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "measured", "Hold what was measured of a lift against what was computed of it");
+  auto options = std::make_shared<MeasuredOptions>();
+  command
+      ->add_option("RESULT", options->result,
+                   "folder of results, or a case that was assessed into results/")
+      ->required();
+  command
+      ->add_option("RECORDS", options->records,
+                   "CSV files, \"time [s], ropes.R1 [kN], bodies.block.roll [deg], ...\"")
+      ->required()
+      ->expected(1, CLI::detail::expected_max_vector_size);
+  command
+      ->add_option("--shift", options->shifts,
+                   "seconds to add to a record's clock, one for all or one for each record; found "
+                   "by correlation if not given")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--window", options->window,
+                      "what is compared, FROM:TO in seconds of the lift (all if not given)");
+  command->add_option("--decay", options->decay,
+                      "when the load swings freely, FROM:TO: periods and damping are identified");
+  command->add_option(
+      "--rest", options->rest,
+      "when the load hangs still, FROM:TO: weight and centre of mass are estimated");
+  command
+      ->add_option("--cell-accuracy", options->accuracy,
+                   "standard deviation of a load cell's scale")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "print JSON");
+  command->add_option("-o,--output", options->page,
+                      "write a page as well: tables, and curves over each other");
+  command->callback([options, &code] { code = show_measured(*options); });
+}
+
 /// Says so if several processes were started for a command that runs in one.
 bool is_launched_in_vain(int argc, char** argv) {
   using blocklift::structure::ProcessGroup;
@@ -357,6 +400,7 @@ int run(int argc, char** argv) {
   add_report(app, code);
   add_rig(app, code);
   add_sweep(app, code);
+  add_measured(app, code);
   add_schema(app);
   add_verify(app, code);
   LogChoice log;

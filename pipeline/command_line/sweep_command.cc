@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -20,6 +22,7 @@
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/declaration/quantity.h"
 #include "pipeline/study/figure_limit.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/search.h"
@@ -45,9 +48,40 @@ fs::path folder_of(const SweepOptions& options, const StudyFile& study) {
   return options.output ? fs::path(*options.output) : fs::path("results") / study.name;
 }
 
+/// The part of the members that is computed: all of them where none is named.
+StudyPart part_of(const SweepOptions& options) {
+  if (!options.part) return {};
+  const std::string& text = *options.part;
+  const std::size_t slash = text.find('/');
+  constexpr int most_parts = 100'000;
+  try {
+    if (slash == std::string::npos) throw QuantityError("there is no \"/\"");
+    const double index = parse_number(text.substr(0, slash));
+    const double of = parse_number(text.substr(slash + 1));
+    if (of >= 1 && of <= most_parts && index >= 1 && index <= of && index == std::floor(index) &&
+        of == std::floor(of))
+      return {static_cast<int>(index) - 1, static_cast<int>(of)};
+  } catch (const QuantityError&) {
+    // What is due is said below, whatever the text is.
+  }
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>("--part " + text), 0, 0},
+                    "a part and the number of parts are due, for example 3/10");
+  throw InputError(diagnostics);
+}
+
+/// The members of a part, as rows.
+Eigen::MatrixXd rows_of_part(const Eigen::MatrixXd& design, const StudyPart& part) {
+  const auto count = static_cast<int>(design.rows());
+  Eigen::MatrixXd rows(part.size(count), design.cols());
+  for (Eigen::Index row = 0; row < rows.rows(); ++row)
+    rows.row(row) = design.row(part.index + row * part.of);
+  return rows;
+}
+
 /// Computes members until none is left.
-void work(const StudyFile& study, const fs::path& folder) {
-  const MemberStore store(folder, identity_of_study(study));
+void work(const StudyFile& study, const fs::path& folder, const StudyPart& part) {
+  const MemberStore store(folder, identity_of_study(study), part);
   StudyBlocks blocks(study, folder / "members");
   const Eigen::MatrixXd design = make_design(study);
   const auto count = static_cast<int>(design.rows());
@@ -91,8 +125,11 @@ bool wait_for(std::vector<pid_t> processes, const std::function<void()>& meanwhi
 }
 
 std::vector<std::string> worker_arguments(const SweepOptions& options, const fs::path& folder) {
-  return {"blocklift", "sweep",     options.study, "--output", folder.string(),
-          "--worker",  "--threads", "1",           "--quiet"};
+  std::vector<std::string> arguments{"blocklift",     "sweep",    options.study, "--output",
+                                     folder.string(), "--worker", "--threads",   "1",
+                                     "--quiet"};
+  if (options.part) arguments.insert(arguments.end(), {"--part", *options.part});
+  return arguments;
 }
 
 int workers_of(const SweepOptions& options) {
@@ -123,7 +160,7 @@ void run_members(const SweepOptions& options, const fs::path& folder, const Memb
   const int asked = workers_of(options);
   ProgressBar bar("members");
   for (int round = 0; round < most_rounds; ++round) {
-    const int missing = count - store.count_done(count);
+    const int missing = store.count_all(count) - store.count_done(count);
     if (missing == 0) return;
     store.begin();
     std::vector<pid_t> workers;
@@ -131,10 +168,11 @@ void run_members(const SweepOptions& options, const fs::path& folder, const Memb
       workers.push_back(start(worker_arguments(options, folder)));
     wait_for(std::move(workers), [&] {
       const int done = store.count_done(count);
-      bar.show(static_cast<double>(done) / count, fmt::format("{} of {}", done, count));
+      const int all = store.count_all(count);
+      bar.show(static_cast<double>(done) / all, fmt::format("{} of {}", done, all));
     });
   }
-  if (store.count_done(count) < count)
+  if (store.count_done(count) < store.count_all(count))
     throw std::runtime_error("workers of the study ended before their members were done");
 }
 
@@ -175,6 +213,30 @@ void print_study(const StudyResults& results, const fs::path& folder, std::optio
                               results.spreads[results.leading.front()].path,
                               (folder / "worst" / "report.html").string()));
   fmt::print("page: {}\n", (folder / "study.html").string());
+}
+
+/// Members of a search follow from those before them.
+[[noreturn]] void refuse_parts_of_search(const StudyFile& study) {
+  Diagnostics diagnostics;
+  diagnostics.error(study.place,
+                    "a search has no parts: each of its members follows from those before");
+  throw InputError(diagnostics);
+}
+
+void take_over_parts(const SweepOptions& options, const MemberStore& store) {
+  for (const std::string& folder : options.join) {
+    const int taken = store.take_over(folder);
+    if (!is_quiet()) fmt::print("{}: {} members taken over\n", folder, taken);
+  }
+}
+
+void print_part(const SweepOptions& options, const fs::path& folder, const MemberStore& store,
+                int count) {
+  if (is_quiet()) return;
+  print_wrapped(fmt::format(
+      "part {}: its {} of {} members are in {}; \"blocklift sweep {} --join "
+      "FOLDER ...\" makes the study of all parts",
+      *options.part, store.count_all(count), count, (folder / "members").string(), options.study));
 }
 
 /// A member of a search: what a run before it computed is taken.
@@ -260,13 +322,17 @@ int sweep(const SweepOptions& options) {
   }
   if (options.blocks) {
     StudyBlocks(study, folder / "members")
-        .prepare(make_design(study), *options.blocks, std::max(1, options.workers));
+        .prepare(rows_of_part(make_design(study), part_of(options)), *options.blocks,
+                 std::max(1, options.workers));
     return exit_code::done;
   }
   if (options.is_worker) {
-    work(study, folder);
+    work(study, folder, part_of(options));
     return exit_code::done;
   }
+  const StudyPart part = part_of(options);
+  if (study.design == StudyDesign::search && (options.part || !options.join.empty()))
+    refuse_parts_of_search(study);
   check_figure_limits(study);
   require_writable(folder);
   if (study.limits && study.limits->scatter)
@@ -279,11 +345,16 @@ int sweep(const SweepOptions& options) {
     check_members(study, design, [&](double fraction) { bar.show(fraction); });
   }
   if (study.design == StudyDesign::search) return search(options, folder, std::move(study), design);
-  const MemberStore store(folder, identity_of_study(study));
+  const MemberStore store(folder, identity_of_study(study), part);
   const auto count = static_cast<int>(design.rows());
-  if (study.run == StudyRun::stress && store.count_done(count) < count)
+  take_over_parts(options, store);
+  if (study.run == StudyRun::stress && store.count_done(count) < store.count_all(count))
     prepare_blocks(options, folder);
   run_members(options, folder, store, count);
+  if (options.part) {
+    print_part(options, folder, store, count);
+    return exit_code::done;
+  }
   const StudyResults results =
       evaluate_study(std::move(study), std::move(design), read_members(store, count));
   {

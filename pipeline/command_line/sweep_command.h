@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blocklift::pipeline {
 
@@ -12,6 +13,8 @@ struct SweepOptions {
   int workers = 0;                    ///< processes side by side; 0: as many as the machine has
   bool is_worker = false;             ///< computes members until none is left
   std::optional<int> blocks;          ///< prepares every so-many-th block of the members, from here
+  std::optional<std::string> part;    ///< "3/10": the third of ten parts of the members, alone
+  std::vector<std::string> join;      ///< folders of parts whose members are taken over
   std::optional<int> whole;           ///< a member whose whole results are written
 };
 

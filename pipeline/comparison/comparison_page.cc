@@ -93,9 +93,11 @@ Json page_data(const ResultComparison& comparison) {
 std::string comparison_page(const ResultComparison& comparison) {
   const std::string content = results_table(comparison) + tolerance_list(comparison) +
                               input_table(comparison) + figures_table(comparison);
-  return fill_page(comparison_page_template(), {{"%TITLE%", escape_html(title_of(comparison))},
-                                                {"%CONTENT%", content},
-                                                {"%DATA%", script_safe(page_data(comparison))}});
+  return fill_page(comparison_page_template(),
+                   {{"%TITLE%", escape_html(title_of(comparison)) + " – lifts compared"},
+                    {"%HEADING%", "Lifts compared"},
+                    {"%CONTENT%", content},
+                    {"%DATA%", script_safe(page_data(comparison))}});
 }
 
 }  // namespace blocklift::pipeline

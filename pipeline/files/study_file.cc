@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "pipeline/declaration/document.h"
@@ -114,7 +115,7 @@ Format<StudyVariable> variable_format() {
       .optional("values", &StudyVariable::values, list_of(located(measure()), 1),
                 "which are taken in turn")
       .optional("spread", &StudyVariable::law, law_format(), "a law by which the value is spread")
-      .optional("between", &StudyVariable::between, list_of(located(measure()), 2),
+      .optional("between", &StudyVariable::between, list_of(located(measure()), 2, 2),
                 "of a search, the lowest and the highest value")
       .rule(check_variable)
       .place(&StudyVariable::place);
@@ -223,6 +224,64 @@ void check_search(const StudyFile& study, Reading& reading, const Mark& mark) {
                                     study.variables.size(), least));
 }
 
+void check_correlation(const StudyCorrelation& correlation, Reading& reading, const Mark& mark) {
+  if (correlation.of.size() == 2 && correlation.of[0].value == correlation.of[1].value)
+    reading.error(mark, "a value is not correlated with itself");
+}
+
+Format<StudyCorrelation> correlation_format() {
+  Table<StudyCorrelation> table(
+      "correlation",
+      "Two values that are not independent of each other. The spread of each stays what it is: a "
+      "normal copula joins them.");
+  table
+      .required("of", &StudyCorrelation::of, list_of(located(text()), 2, 2),
+                "names of two variables that have a spread")
+      .required(
+          "is", &StudyCorrelation::is, number(Range::between(-0.999, 0.999)),
+          "correlation of the standard normal values behind the two; of normal laws, which are "
+          "not cut off, that of the values themselves")
+      .rule(check_correlation)
+      .place(&StudyCorrelation::place);
+  return table.format();
+}
+
+/// What a correlation names: variables with a law, each pair once.
+void check_correlated_variables(const StudyFile& study, Reading& reading) {
+  std::vector<std::string> names;
+  for (const StudyVariable& variable : study.variables)
+    if (variable.law) names.push_back(variable.name.value);
+  for (std::size_t i = 0; i < study.correlations.size(); ++i) {
+    const auto& pair = study.correlations[i].of;
+    for (const Located<std::string>& name : pair)
+      if (std::find(names.begin(), names.end(), name.value) == names.end())
+        reading.error(name.mark, fmt::format("no variable with a spread is called {}", name.value),
+                      {names_hint("variables with a spread are", names, name.value)});
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto& other = study.correlations[k].of;
+      if ((pair[0].value == other[0].value && pair[1].value == other[1].value) ||
+          (pair[0].value == other[1].value && pair[1].value == other[0].value))
+        reading.error(study.correlations[i].place, "these two have a correlation already");
+    }
+  }
+}
+
+void check_correlations(const StudyFile& study, Reading& reading) {
+  if (study.correlations.empty()) return;
+  const Mark& mark = study.correlations.front().place;
+  if (study.design != StudyDesign::random && study.design != StudyDesign::latin_hypercube &&
+      study.design != StudyDesign::low_discrepancy)
+    reading.error(mark, "correlations go with design: random, latin hypercube or low discrepancy");
+  for (const StudyCorrelation& correlation : study.correlations)
+    if (correlation.of.size() != 2) return;
+  check_correlated_variables(study, reading);
+  const Eigen::LLT<Eigen::MatrixXd> factor(study.correlation_matrix());
+  if (factor.info() != Eigen::Success)
+    reading.error(mark,
+                  "these correlations contradict each other: their matrix is not positive "
+                  "definite");
+}
+
 void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   const bool is_grid = study.design == StudyDesign::grid;
   if (is_grid && study.members > 0)
@@ -231,6 +290,7 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   if (study.variables.empty()) reading.error(mark, "nothing varies");
   check_limits(study, reading);
   check_search(study, reading, mark);
+  check_correlations(study, reading);
   double size = 1;
   for (const StudyVariable& variable : study.variables) {
     if (is_grid && variable.law) reading.error(variable.place, "a grid takes values and no spread");
@@ -275,6 +335,8 @@ Format<StudyFile> study_file_format() {
       .by_default("seed", &StudyFile::seed, integer(Range::between(0, 2'000'000'000)), "1",
                   "of the random numbers")
       .required("vary", &StudyFile::variables, named_tables(variable_format()), "by name")
+      .optional("correlations", &StudyFile::correlations, list_of(correlation_format(), 1),
+                "of values with a spread; others are drawn independently")
       .optional("figures", &StudyFile::figures, list_of(located(text()), 1),
                 "figures of summary.json that are looked at, ropes.R1.max_dynamic_tension_N; the "
                 "usual ones of a comparison if left out")
@@ -288,6 +350,22 @@ Format<StudyFile> study_file_format() {
       .rule(check_study)
       .place(&StudyFile::place);
   return table.format();
+}
+
+Eigen::MatrixXd StudyFile::correlation_matrix() const {
+  const auto size = static_cast<Eigen::Index>(variables.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
+  const auto place_of = [&](const Located<std::string>& name) {
+    return std::find_if(variables.begin(), variables.end(),
+                        [&](const StudyVariable& one) { return one.name.value == name.value; }) -
+           variables.begin();
+  };
+  for (const StudyCorrelation& correlation : correlations) {
+    const Eigen::Index a = place_of(correlation.of[0]), b = place_of(correlation.of[1]);
+    if (a >= size || b >= size) continue;
+    matrix(a, b) = matrix(b, a) = correlation.is;
+  }
+  return matrix;
 }
 
 fs::path StudyFile::case_path() const {

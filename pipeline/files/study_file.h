@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "pipeline/declaration/parameters_format.h"
 
 namespace blocklift::pipeline {
@@ -55,6 +57,13 @@ struct FigureBound {
   std::optional<Located<Measure>> at_most, at_least;  ///< one of them, in the summary's unit
 };
 
+/// Two values that are not drawn independently of each other.
+struct StudyCorrelation {
+  std::vector<Located<std::string>> of;  ///< names of two variables with laws
+  double is = 0;                         ///< of the standard normal values behind them
+  Mark place;
+};
+
 /// A study: many lifts of one case whose keys vary.
 struct StudyFile {
   std::string name;
@@ -65,6 +74,7 @@ struct StudyFile {
   int members = 0;
   int seed = 1;
   std::vector<StudyVariable> variables;
+  std::vector<StudyCorrelation> correlations;
   std::vector<Located<std::string>> figures;  ///< paths of summary.json; empty: the usual ones
   std::optional<SeaLimits> limits;
   std::optional<Located<std::string>> minimise, maximise;  ///< figure of a search: one of them
@@ -75,6 +85,8 @@ struct StudyFile {
 
   /// The case's file or folder: beside the study, or in the working folder.
   std::filesystem::path case_path() const;
+  /// Correlations of all variables with one another: a normal copula's matrix.
+  Eigen::MatrixXd correlation_matrix() const;
   /// A file that the study names, beside it.
   std::filesystem::path beside(const std::string& name) const { return file.parent_path() / name; }
 };

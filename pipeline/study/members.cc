@@ -266,8 +266,23 @@ Member run_first_member(const StudyFile& study, const Eigen::VectorXd& values,
   return member;
 }
 
-MemberStore::MemberStore(const fs::path& folder, const std::string& identity)
-    : folder_(folder / "members") {
+namespace {
+
+[[noreturn]] void refuse_folder(const fs::path& folder, std::string message,
+                                std::vector<std::string> hints) {
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
+                    std::move(message), std::move(hints));
+  throw InputError(diagnostics);
+}
+
+constexpr const char* other_study =
+    "the folder holds members of another study, or of this one as it was before";
+
+}  // namespace
+
+MemberStore::MemberStore(const fs::path& folder, const std::string& identity, StudyPart part)
+    : folder_(folder / "members"), identity_(identity), part_(part) {
   fs::create_directories(folder_);
   const fs::path known = folder_ / identity_file;
   std::error_code ignored;
@@ -276,11 +291,26 @@ MemberStore::MemberStore(const fs::path& folder, const std::string& identity)
     return;
   }
   if (read_file(known) == identity) return;
-  Diagnostics diagnostics;
-  diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
-                    "the folder holds members of another study, or of this one as it was before",
-                    {"name another folder with --output, or remove this one"});
-  throw InputError(diagnostics);
+  refuse_folder(folder, other_study, {"name another folder with --output, or remove this one"});
+}
+
+int MemberStore::take_over(const fs::path& folder) const {
+  const fs::path theirs = folder / "members";
+  std::error_code ignored;
+  if (!fs::exists(theirs / identity_file, ignored))
+    refuse_folder(folder, "the folder holds no members of a study",
+                  {"\"blocklift sweep STUDY --part 1/2 --output FOLDER\" computes some"});
+  if (read_file(theirs / identity_file) != identity_)
+    refuse_folder(folder, other_study,
+                  {"all parts need the same study, case and version of the program"});
+  int taken = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(theirs)) {
+    const fs::path name = entry.path().filename();
+    if (name.extension() != ".json" || fs::exists(folder_ / name, ignored)) continue;
+    write_file(folder_ / name, read_file(entry.path()));
+    ++taken;
+  }
+  return taken;
 }
 
 fs::path MemberStore::file_of(int number) const {
@@ -293,7 +323,7 @@ int MemberStore::take_next(int members) const {
   const LockedFile queue(folder_ / queue_file);
   int next = queue.number();
   std::error_code ignored;
-  while (next < members && fs::exists(file_of(next), ignored)) ++next;
+  while (next < members && (!part_.has(next) || fs::exists(file_of(next), ignored))) ++next;
   queue.set_number(next + 1);
   return next < members ? next : -1;
 }
@@ -326,7 +356,7 @@ int MemberStore::count_done(int members) const {
   int done = 0;
   std::error_code ignored;
   for (int number = 0; number < members; ++number)
-    if (fs::exists(file_of(number), ignored)) ++done;
+    if (part_.has(number) && fs::exists(file_of(number), ignored)) ++done;
   return done;
 }
 

@@ -54,12 +54,24 @@ Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int num
 /// @throws InputError naming the figures of the search that the lift does not have.
 Member run_first_member(const StudyFile& study, const Eigen::VectorXd& values, StudyBlocks& blocks);
 
+/// The members that one machine of several computes: every so-many-th.
+struct StudyPart {
+  int index = 0;  ///< from 0
+  int of = 1;
+
+  bool has(int member) const { return member % of == index; }
+  /// How many of the first `members` it has.
+  int size(int members) const { return (members - index + of - 1) / of; }
+};
+
 /// The folder of a study's results while it runs: what is done is on the disk, a file a member.
 class MemberStore {
  public:
   /// @param identity of study and case: members of another are not taken.
+  /// @param part outside of which no member is taken or counted.
   /// @throws InputError if the folder holds members of another study.
-  MemberStore(const std::filesystem::path& folder, const std::string& identity);
+  MemberStore(const std::filesystem::path& folder, const std::string& identity,
+              StudyPart part = {});
 
   /// The next member that nobody has begun, of this run's workers, or done before; -1: none is
   /// left. Several processes may ask at once.
@@ -70,11 +82,17 @@ class MemberStore {
   void write(const Member& member) const;
   std::optional<Member> read(int number) const;
   int count_done(int members) const;
+  int count_all(int members) const { return part_.size(members); }
+  /// Takes the members that another folder of the same study has and this one has not.
+  /// @returns how many. @throws InputError if that folder has none, or those of another study.
+  int take_over(const std::filesystem::path& folder) const;
 
  private:
   std::filesystem::path file_of(int number) const;
 
   std::filesystem::path folder_;
+  std::string identity_;
+  StudyPart part_;
 };
 
 /// Identity of all that the members' figures depend on.

@@ -15,6 +15,7 @@ the files that it writes. All numbers are in SI units; arrays carry theirs in th
 from .case import Case
 from .errors import Complaint, InputError, RunError
 from .hydrodynamics import Hydrodynamics, hydro
+from .measurements import Measured, measured
 from .program import executable, schema, version
 from .results import Result
 from .study import Study, sweep
@@ -24,11 +25,13 @@ __all__ = [
     "Complaint",
     "Hydrodynamics",
     "InputError",
+    "Measured",
     "Result",
     "RunError",
     "Study",
     "executable",
     "hydro",
+    "measured",
     "schema",
     "sweep",
     "version",

@@ -161,6 +161,30 @@ class StudyTest(InATemporaryFolder):
         self.assertEqual(list(study.worst.history("dynamic").rope.values), ["R1", "R2", "R3", "R4"])
 
 
+class MeasuredTest(InATemporaryFolder):
+    def test_finds_clock_scale_and_weight(self):
+        result = blocklift.Case("lift").simulate("out")
+        table = result.to_dataframe()
+        # R1's cell shows 4 % too much, and the clock is that of a day.
+        table["R1"] *= 1.04
+        table.index = table.index + 36000
+        table.columns = [f"ropes.{rope} [N]" for rope in table.columns]
+        table.to_csv("cells.csv", index_label="time [s]")
+        found = blocklift.measured(result, "cells.csv", rest=(0, 18), cell_accuracy=0.005,
+                                   page="page.html")
+        self.assertAlmostEqual(found.shifts["cells.csv"], -36000, places=3)
+        self.assertAlmostEqual(found.channels.loc["ropes.R1", "scale"], 1.04, places=4)
+        self.assertAlmostEqual(found.channels.loc["ropes.R2", "scale"], 1, places=4)
+        self.assertEqual(found.doubts, [])
+        self.assertAlmostEqual(found.weight["mass_kg"] / 8000, 1.01, delta=0.005)
+        self.assertTrue(Path("page.html").is_file())
+        given = blocklift.measured("out", ["cells.csv"], shifts=-36000, window=(2, 10))
+        self.assertEqual(given.shifts["cells.csv"], -36000)
+        self.assertIsNone(given.weight)
+        with self.assertRaises(blocklift.InputError):
+            blocklift.measured("out", "missing.csv")
+
+
 class ProgramTest(unittest.TestCase):
     def test_knows_its_version_and_the_schema(self):
         self.assertRegex(blocklift.version(), r"^\d+\.\d+")

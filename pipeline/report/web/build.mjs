@@ -36,7 +36,7 @@ const makePage = async (html, entry, marks, draws) => {
 };
 const report = await makePage("src/page.html", "src/main.ts", ["%TITLE%", "%MARGINS%", "%FRONT%", "%CHECKS%", "%ANNEX%", "%DATA%"],
   ` This page draws with ${listed}.`);
-const comparison = await makePage("src/comparison.html", "src/comparison.ts", ["%TITLE%", "%CONTENT%", "%DATA%"], "");
+const comparison = await makePage("src/comparison.html", "src/comparison.ts", ["%TITLE%", "%HEADING%", "%CONTENT%", "%DATA%"], "");
 
 // Octal escapes: unlike hexadecimal ones they end after three digits.
 const literal = (bytes) => {

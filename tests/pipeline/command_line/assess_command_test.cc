@@ -293,7 +293,7 @@ TEST_F(AssessCommand, TellsWrongUseByItsExitCode) {
             "blocklift: error: there is no command \"asess\"\n"
             "    the commands are assess, compare, expect, new, simulate, validate, stress, hydro, "
             "report, "
-            "rig, sweep, schema, ... (13 in all); did you mean \"assess\"?\n");
+            "rig, sweep, measured, ... (14 in all); did you mean \"assess\"?\n");
   const Outcome option = run("assess lift --fast");
   EXPECT_EQ(option.exit_code, 2);
   EXPECT_THAT(option.err, HasSubstr("--fast"));

@@ -87,6 +87,39 @@ TEST_F(SweepCommand, GivesTheSameWithAnyNumberOfWorkersAndAfterAKill) {
   EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("killed/study.csv"));
 }
 
+// A part that was lost is computed by the machine that joins the others.
+TEST_F(SweepCommand, IsSplitOverMachinesAndJoined) {
+  ASSERT_EQ(run("sweep study.yaml -o whole -q").exit_code, 0);
+  const Outcome first = run("sweep study.yaml --part 1/3 -o first --workers 2");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("part 1/3: its 8 of 24 members"));
+  EXPECT_FALSE(fs::exists("first/study.json"));
+  EXPECT_TRUE(fs::exists("first/members/000003.json"));
+  EXPECT_FALSE(fs::exists("first/members/000004.json"));
+  ASSERT_EQ(run("sweep study.yaml --part 3/3 -o third -q").exit_code, 0);
+  const Outcome joined = run("sweep study.yaml --join first --join third -o joined");
+  ASSERT_EQ(joined.exit_code, 0) << joined.err;
+  EXPECT_THAT(joined.out, HasSubstr("third: 8 members taken over\n"));
+  EXPECT_EQ(text_of_file("joined/study.csv"), text_of_file("whole/study.csv"));
+  EXPECT_EQ(text_of_file("joined/study.json"), text_of_file("whole/study.json"));
+}
+
+TEST_F(SweepCommand, RefusesPartsThatDoNotFit) {
+  for (const char* part : {"0/3", "4/3", "1.5/3", "3", "a/b", "1/0"}) {
+    const Outcome outcome = run(std::string("sweep study.yaml -o out --part ") + part);
+    EXPECT_EQ(outcome.exit_code, 2) << part;
+    EXPECT_THAT(outcome.err, HasSubstr("for example 3/10")) << part;
+  }
+  ASSERT_EQ(run("sweep study.yaml --part 1/12 -o part -q").exit_code, 0);
+  write_study(std::string(weight) + "seed: 5\n");
+  const Outcome other = run("sweep study.yaml --join part -o out");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("part: error: the folder holds members of another study"));
+  const Outcome none = run("sweep study.yaml --join lift -o out");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("lift: error: the folder holds no members of a study"));
+}
+
 TEST_F(SweepCommand, GoesOnAfterKillsInTheMiddle) {
   ASSERT_EQ(run("sweep study.yaml -o whole -q").exit_code, 0);
   for (int kill = 0; kill < 3; ++kill)
@@ -193,6 +226,37 @@ TEST_F(SweepCommand, SearchesForTheBestWithinBounds) {
   EXPECT_EQ(none.exit_code, 3) << none.err;
   EXPECT_THAT(none.out, HasSubstr("no member keeps to all bounds"));
   EXPECT_THAT(none.out, HasSubstr("<= 45.00 °"));
+}
+
+// What was "measured" is the tension of a lift whose sling is softer than the case says.
+TEST_F(SweepCommand, FindsTheStiffnessThatFitsAMeasurement) {
+  const std::string lift_case = text_of_file("lift/case.yaml");
+  std::string softer = lift_case;
+  softer.replace(softer.find("30 MN"), 5, "18 MN");  // of R1, the first
+  folder_.write("lift/case.yaml", softer);
+  ASSERT_EQ(run("simulate lift -o softer --csv -q").exit_code, 0);
+  std::ifstream table("softer/results.csv");
+  std::string line, record = "time,tension\n";
+  std::getline(table, line);
+  ASSERT_THAT(line, testing::StartsWith("time [s],C1.left.tension [N],C1.right.tension [N],R1."));
+  while (std::getline(table, line)) {
+    std::size_t begin = 0;
+    for (int column = 0; column < 3; ++column) begin = line.find(',', begin) + 1;
+    record += line.substr(0, line.find(',') + 1) +
+              line.substr(begin, line.find(',', begin) - begin) + '\n';
+  }
+  folder_.write("lift/R1.csv", record);
+  folder_.write("lift/case.yaml",
+                lift_case + "compare: {source: a cell, series: {R1: {file: R1.csv, unit: N}}}\n");
+  write_study(
+      "design: search\nmembers: 30\n"
+      "vary: {k: {keys: [ropes.R1.model.axial_stiffness], between: [10 MN, 50 MN]}}\n"
+      "minimise: comparison.series.R1.mean_difference_percent\n");
+  const Outcome outcome = run("sweep study.yaml -o out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto summary = nlohmann::json::parse(text_of_file("out/best/summary.json"));
+  EXPECT_LT(summary["comparison"]["series"][0]["mean_difference_percent"].get<double>(), 0.01);
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("k +1\\.[78][0-9]*e\\+07"));
 }
 
 TEST_F(SweepCommand, SaysWhatIsWrongWithASearch) {

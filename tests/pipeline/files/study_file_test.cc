@@ -64,5 +64,31 @@ TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
               HasSubstr("one of values, spread and between is due"));
 }
 
+TEST(StudyFile, RefusesCorrelationsThatMakeNoSense) {
+  const std::string laws =
+      "members: 9\nvary:\n"
+      "  a: {keys: [x], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  b: {keys: [y], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  c: {keys: [z], spread: {law: uniform, lowest: 3, highest: 4}}\n"
+      "  d: {keys: [w], values: [1, 2]}\n"
+      "correlations:\n";
+  EXPECT_EQ(complaints(laws + "  - {of: [a, b], is: 0.5}\n  - {of: [c, b], is: -0.5}\n"), "");
+  EXPECT_THAT(complaints(laws + "  - {of: [a, e], is: 0.5}\n"),
+              HasSubstr("no variable with a spread is called e"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, d], is: 0.5}\n"),
+              HasSubstr("no variable with a spread is called d"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, a], is: 0.5}\n"),
+              HasSubstr("not correlated with itself"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.5}\n  - {of: [b, a], is: 0.5}\n"),
+              HasSubstr("these two have a correlation already"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 1.5}\n"), HasSubstr("error"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b, c], is: 0.5}\n"), HasSubstr("error"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.9}\n  - {of: [b, c], is: 0.9}\n"
+                                "  - {of: [a, c], is: -0.9}\n"),
+              HasSubstr("contradict each other"));
+  EXPECT_THAT(complaints("design: sensitivity\n" + laws + "  - {of: [a, b], is: 0.5}\n"),
+              HasSubstr("correlations go with design: random"));
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

@@ -154,5 +154,47 @@ TEST(StudyDesign, SobolIndicesOfIshigami) {
   }
 }
 
+StudyFile correlated_study(StudyDesign design, int members) {
+  StudyFile study = study_of(design, members, {normal_length(10, 2), uniform_length(0, 1)});
+  study.variables.push_back(normal_length(-5, 0.5));
+  study.variables[1].name = {"y", {}};
+  study.variables[2].name = {"z", {}};
+  study.correlations.push_back({{{"x", {}}, {"y", {}}}, 0.8, {}});
+  study.correlations.push_back({{{"z", {}}, {"x", {}}}, -0.5, {}});
+  return study;
+}
+
+double correlation_of_columns(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd x = a.array() - a.mean(), y = b.array() - b.mean();
+  return x.dot(y) / (x.norm() * y.norm());
+}
+
+TEST(StudyDesign, JoinsCorrelatedValuesByANormalCopula) {
+  for (const StudyDesign design :
+       {StudyDesign::random, StudyDesign::low_discrepancy, StudyDesign::latin_hypercube}) {
+    const Eigen::MatrixXd values = make_design(correlated_study(design, 8000));
+    // Normal values have the correlation itself; with a uniform one it is rho sqrt(3 / pi), by
+    // Stein's lemma: E[X Phi(Y)] = rho E[phi(Y)] = rho / (2 sqrt(pi)).
+    EXPECT_NEAR(correlation_of_columns(values.col(0), values.col(2)), -0.5, 0.02);
+    EXPECT_NEAR(correlation_of_columns(values.col(0), values.col(1)),
+                0.8 * std::sqrt(3 / std::numbers::pi), 0.02);
+    // y and z have nothing to do with each other of themselves.
+    EXPECT_NEAR(correlation_of_columns(values.col(1), values.col(2)), 0, 0.03);
+    EXPECT_NEAR(values.col(1).mean(), 0.5, 0.01);
+    EXPECT_NEAR(values.col(2).mean(), -5, 0.02);
+    EXPECT_GE(values.col(1).minCoeff(), 0);
+    EXPECT_LE(values.col(1).maxCoeff(), 1);
+  }
+}
+
+TEST(StudyDesign, KeepsTheStrataOfACorrelatedLatinHypercube) {
+  const Eigen::MatrixXd design = make_design(correlated_study(StudyDesign::latin_hypercube, 50));
+  std::vector<double> values(design.col(1).begin(), design.col(1).end());
+  std::sort(values.begin(), values.end());
+  for (int stratum = 0; stratum < 50; ++stratum)
+    EXPECT_EQ(static_cast<int>(std::floor(50 * values[static_cast<std::size_t>(stratum)])),
+              stratum);
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

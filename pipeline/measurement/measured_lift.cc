@@ -1,0 +1,246 @@
+#include "pipeline/measurement/measured_lift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/declaration/diagnostics.h"
+#include "pipeline/declaration/quantity.h"
+#include "pipeline/formats/results_layout.h"
+#include "pipeline/measurement/weighing_of_results.h"
+#include "pipeline/report/input_values.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+[[noreturn]] void refuse(const std::string& place, std::string message,
+                         std::vector<std::string> hints = {}) {
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(place), 0, 0}, std::move(message),
+                    std::move(hints));
+  throw InputError(diagnostics);
+}
+
+bool is_surrounding(const MeasuredChannel& channel) {
+  return channel.name == wind_channel || channel.name == wave_channel;
+}
+
+/// The shift of one record, given or found.
+AlignedRecord align(const MeasuredRecord& record, const std::vector<ChannelPair>& pairs,
+                    const std::optional<double>& given, std::vector<std::string>& doubts) {
+  AlignedRecord aligned{record.file, given.value_or(0), std::nullopt};
+  if (given || pairs.empty()) return aligned;
+  aligned.found = find_time_shift(pairs);
+  if (!aligned.found)
+    refuse(record.file,
+           "nothing in this record or in what was computed of it moves, so that the "
+           "two cannot be aligned",
+           {"--shift says by how many seconds the clock of the lift is ahead of the record's"});
+  aligned.shift = aligned.found->shift;
+  if (aligned.found->is_doubtful())
+    doubts.push_back(fmt::format(
+        "the alignment of {} is to be doubted: its correlation is {:.2f}{}; --shift gives it",
+        record.file, aligned.found->correlation,
+        aligned.found->runner_up
+            ? fmt::format(", that of another shift {:.2f}", *aligned.found->runner_up)
+            : ""));
+  return aligned;
+}
+
+/// Puts every record on the clock of the lift and takes its channels over.
+void take_record(const MeasuredRecord& record, const ResultsReader& results,
+                 const std::optional<double>& given, MeasuredLift& lift) {
+  std::vector<HeldChannel> channels;
+  std::vector<ChannelPair> pairs;
+  for (const MeasuredChannel& channel : record.channels) {
+    if (is_surrounding(channel)) continue;
+    HeldChannel held{channel.name,
+                     channel.unit,
+                     channel.series,
+                     read_computed_channel(results, channel.name),
+                     {},
+                     {},
+                     {},
+                     {}};
+    if (held.computed.in_motion.size() < 2)
+      refuse(record.file, fmt::format("the results have no values of \"{}\"", channel.name));
+    pairs.push_back({held.measured, held.computed.in_motion});
+    channels.push_back(std::move(held));
+  }
+  lift.records.push_back(align(record, pairs, given, lift.doubts));
+  for (HeldChannel& channel : channels) {
+    channel.measured = shifted(std::move(channel.measured), lift.records.back().shift);
+    lift.channels.push_back(std::move(channel));
+  }
+  for (const MeasuredChannel& channel : record.channels) {
+    if (channel.name == wind_channel) lift.wind = wind_of(channel.series);
+    if (channel.name == wave_channel) lift.waves = waves_of(channel.series);
+  }
+}
+
+TimeWindow whole_time() {
+  const double infinity = std::numeric_limits<double>::infinity();
+  return {-infinity, infinity};
+}
+
+/// The time that all of several series and a window have.
+TimeWindow common_time(const std::vector<TimeSeries>& series, TimeWindow window) {
+  for (const TimeSeries& one : series) {
+    window.from = std::max(window.from, one.time.front());
+    window.to = std::min(window.to, one.time.back());
+  }
+  return window;
+}
+
+void compare_channels(const TimeWindow& window, MeasuredLift& lift) {
+  for (HeldChannel& channel : lift.channels) {
+    channel.agreement = compare_series(channel.measured, channel.computed.in_motion,
+                                       channel.computed.at_rest, window);
+    if (!channel.agreement)
+      lift.doubts.push_back(
+          fmt::format("{} has less than two instants in the time that is compared", channel.name));
+  }
+}
+
+void share_ropes(const TimeWindow& window, MeasuredLift& lift) {
+  std::vector<HeldChannel*> ropes;
+  std::vector<TimeSeries> measured;
+  std::vector<TimeSeries> computed;
+  for (HeldChannel& channel : lift.channels) {
+    if (channel.name.rfind("ropes.", 0) != 0) continue;
+    ropes.push_back(&channel);
+    measured.push_back(channel.measured);
+    computed.push_back(channel.computed.in_motion);
+  }
+  if (ropes.size() < 2) return;
+  const TimeWindow common = common_time(computed, common_time(measured, window));
+  if (common.from >= common.to) return;
+  const std::vector<Sharing> shares = find_sharing(measured, computed, common);
+  for (std::size_t i = 0; i < ropes.size(); ++i) ropes[i]->sharing = shares[i];
+}
+
+void identify_decays(const TimeWindow& window, MeasuredLift& lift) {
+  lift.looked_for_decay = true;
+  for (HeldChannel& channel : lift.channels) {
+    channel.measured_decay = fit_decay(samples_in(channel.measured, window));
+    channel.computed_decay = fit_decay(samples_in(channel.computed.in_motion, window));
+  }
+  if (std::none_of(lift.channels.begin(), lift.channels.end(),
+                   [](const HeldChannel& channel) { return channel.measured_decay.has_value(); }))
+    lift.doubts.push_back(
+        fmt::format("in no measured quantity does one free oscillation rule from {:g} s to {:g} s",
+                    window.from, window.to));
+}
+
+/// A quantity of the case file whose key ends so; none where it is not there, or an expression.
+std::optional<double> input_quantity(const ComparedResult& result, const std::string& ending,
+                                     Dimension dimension) {
+  if (result.input.empty()) return std::nullopt;
+  for (const InputValue& value : list_input_values(result.input.front().yaml)) {
+    const std::string key = '.' + value.key;
+    if (key.size() < ending.size() ||
+        key.compare(key.size() - ending.size(), ending.size(), ending) != 0)
+      continue;
+    try {
+      return parse_quantity(value.value, dimension);
+    } catch (const QuantityError&) {
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+bool has_unreadable_gravity(const ComparedResult& result) {
+  if (result.input.empty()) return false;
+  const std::vector<InputValue> values = list_input_values(result.input.front().yaml);
+  return std::any_of(values.begin(), values.end(),
+                     [](const InputValue& value) { return value.key == "gravity"; }) &&
+         !input_quantity(result, ".gravity", Dimension::acceleration);
+}
+
+void weigh_load(const ResultsReader& results, const MeasurementSettings& settings,
+                MeasuredLift& lift) {
+  const TimeWindow& window = *settings.rest;
+  const std::string place = fmt::format("--rest {:g}:{:g}", window.from, window.to);
+  const std::vector<std::string> ropes = ropes_at_load(results);
+  if (ropes.empty()) refuse(place, "these results know of no rope at the load");
+  std::map<std::string, TimeSeries> tensions;
+  for (const HeldChannel& channel : lift.channels) tensions[channel.name] = channel.measured;
+  std::vector<std::string> missing;
+  for (const std::string& rope : ropes)
+    if (tensions.count(rope) == 0) missing.push_back(rope);
+  if (!missing.empty())
+    refuse(place, "the load cannot be weighed: not every rope at it was measured",
+           {"what lacks is " + list_of_names(missing)});
+  if (has_unreadable_gravity(lift.result))
+    refuse(place, "gravity stands in the case as an expression, which is not followed here",
+           {"write it as a number with its unit"});
+  const double gravity = input_quantity(lift.result, ".gravity", Dimension::acceleration)
+                             .value_or(newton_per_tonne / 1000);
+  const auto weighing =
+      weigh(weighing_instants(results, tensions, window), gravity, settings.cell_accuracy);
+  if (!weighing) refuse(place, "all records have less than 20 instants in common there");
+  lift.weight = HeldWeight{*weighing, window, std::nullopt, std::nullopt};
+  const nlohmann::ordered_json& summary = lift.result.summary;
+  if (summary.contains("structure") && summary["structure"].contains("mass")) {
+    const auto& block = summary["structure"]["mass"];
+    if (block.contains("total_kg")) lift.weight->computed_mass = block["total_kg"].get<double>();
+    if (block.contains("centre_of_mass_m") && block["centre_of_mass_m"].size() == 3) {
+      const auto& c = block["centre_of_mass_m"];
+      lift.weight->computed_centre_B =
+          Eigen::Vector3d(c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
+    }
+  }
+}
+
+}  // namespace
+
+TimeWindow parse_window(const std::string& option, const std::string& text) {
+  const std::string place = option + ' ' + text;
+  const auto colon = text.find(':');
+  if (colon == std::string::npos)
+    refuse(place, "two instants of the lift are due, in seconds, for example 10:25");
+  try {
+    const TimeWindow window{parse_number(text.substr(0, colon)),
+                            parse_number(text.substr(colon + 1))};
+    if (window.from >= window.to) refuse(place, "the second instant must be later than the first");
+    return window;
+  } catch (const QuantityError& error) {
+    refuse(place, error.what());
+  }
+}
+
+MeasuredLift hold_against_measurements(const std::filesystem::path& result,
+                                       const std::vector<std::filesystem::path>& records,
+                                       const MeasurementSettings& settings) {
+  if (settings.shifts.size() > 1 && settings.shifts.size() != records.size())
+    refuse("--shift", fmt::format("there are {} shifts for {} records; one for all or one for each "
+                                  "is due",
+                                  settings.shifts.size(), records.size()));
+  MeasuredLift lift;
+  lift.result = read_compared_result(result);
+  const ResultsReader results(lift.result.folder / layout::results_file);
+  const std::vector<MeasuredRecord> read = read_records(records, results);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    std::optional<double> given;
+    if (!settings.shifts.empty())
+      given = settings.shifts.size() == 1 ? settings.shifts.front() : settings.shifts[i];
+    take_record(read[i], results, given, lift);
+  }
+  lift.computed_wind = input_quantity(lift.result, ".wind.speed", Dimension::speed);
+  lift.computed_wave_height =
+      input_quantity(lift.result, ".spectrum.significant_height", Dimension::length);
+  const TimeWindow window = settings.window.value_or(whole_time());
+  compare_channels(window, lift);
+  share_ropes(window, lift);
+  if (settings.decay) identify_decays(*settings.decay, lift);
+  if (settings.rest) weigh_load(results, settings, lift);
+  return lift;
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace blocklift::pipeline {
+
+/// The load at one instant at rest: what each rope pulls with, and where.
+struct WeighingInstant {
+  double time = 0;                        ///< s
+  Eigen::Matrix3d R_WB;                   ///< attitude of the load
+  std::vector<Eigen::Vector3d> force_W;   ///< of each rope on the load, as its cell reads it, N
+  std::vector<Eigen::Vector3d> moment_W;  ///< about the origin of the load's frame, N m
+};
+
+/// Mass and centre of mass that hold the balance of measured forces best.
+struct Weighing {
+  double mass = 0;                                             ///< kg
+  double mass_deviation = 0;                                   ///< standard deviation, kg
+  Eigen::Vector3d centre_of_mass_B = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d centre_deviation = Eigen::Vector3d::Zero();  ///< standard deviations, m
+  /// A load that keeps its attitude leaves open how high the centre of mass is: it lies on a line
+  /// in this direction (of unit length) through the point above, which is the one nearest to the
+  /// origin of the load's frame. Deviations are across the line then.
+  std::optional<Eigen::Vector3d> open_direction_B;
+  double force_residual = 0;  ///< rms of what the vertical balance leaves, N
+};
+
+/// Solves m g = sum of vertical forces and R_WB (m c) x (0, 0, g) = the horizontal moments, in the
+/// sense of least squares, for the mass m and its first moments m c. It is linear in these four.
+///
+/// Deviations come from the scatter, by ten stretches of the instants taken as independent
+/// (sandwich estimate, so that correlation within a stretch does no harm), and from the cells: each
+/// errs by a share of its own, one over all instants.
+/// @param cell_accuracy standard deviation of a cell's scale, a share
+/// @returns none for less than 20 instants.
+std::optional<Weighing> weigh(const std::vector<WeighingInstant>& instants, double gravity,
+                              double cell_accuracy);
+
+}  // namespace blocklift::pipeline
