@@ -43,7 +43,8 @@ structure::Stiffeners describe_stiffeners(const PlateModel& plate) {
   stiffeners.first = row.first;
   stiffeners.side = row.side;
   stiffeners.section = row.profile->section;
-  stiffeners.centroid = row.profile->centroid;
+  const Eigen::Vector2d foot(structure::foot_of(*row.profile), 0);
+  stiffeners.centroid = row.profile->centroid - foot;
   stiffeners.material = row.material.value;
   return stiffeners;
 }
@@ -75,6 +76,11 @@ structure::BlockDescription describe_block(const BlockModel& model, const std::s
     if (plate.stiffeners && plate.stiffeners->profile)
       block.stiffeners.push_back(describe_stiffeners(plate));
   }
+  for (const BarModel& bar : model.bars)
+    block.bars.push_back(
+        {bar.name.value, bar.points.value, bar.section.value.value(), bar.towards,
+         bar.material.value.empty() ? model.materials.front().name.value : bar.material.value,
+         bar.is_hinged});
   for (const OpeningModel& opening : model.openings) {
     if (const PlateModel* plate = model.find_plate(opening.plate.value);
         plate && plate->is_free()) {

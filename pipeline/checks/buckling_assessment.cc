@@ -38,7 +38,35 @@ struct States {
   const Eigen::VectorXd* time = nullptr;  ///< s
 };
 
-/// The worse of static and dynamic states, panel by panel.
+double buckling_factor(const LiftCase& lift_case) {
+  return lift_case.checks.buckling_factor.value_or(lift_case.checks.yield_factor);
+}
+
+/// Sorts by what `figure` says of each, the largest first.
+template <class T, class Figure>
+void sort_by(std::vector<T>& items, const Figure& figure) {
+  std::stable_sort(items.begin(), items.end(),
+                   [&](const T& a, const T& b) { return figure(a) > figure(b); });
+}
+
+/// The worse of static and dynamic states, bar by bar.
+void find_bars(const structure::UnitResponses& responses, const States& static_states,
+               const States& dynamic_states, BucklingAssessment& result) {
+  const structure::BlockBars bars(responses.model(), responses.displacements());
+  result.unknown_rods = bars.unknown_rods();
+  const auto at_rest = bars.find_worst(static_states.factors, result.bar_factor);
+  const auto in_motion = bars.find_worst(dynamic_states.factors, result.bar_factor);
+  for (std::size_t b = 0; b < bars.spans().size(); ++b) {
+    const bool moving = in_motion[b].utilisation >= at_rest[b].utilisation;
+    BuckledBar bar{bars.spans()[b], moving ? in_motion[b] : at_rest[b], moving, {}};
+    if (const Eigen::VectorXd* time = (moving ? dynamic_states : static_states).time)
+      bar.time = (*time)[bar.worst.instant];
+    result.bars.push_back(std::move(bar));
+  }
+  sort_by(result.bars, [](const BuckledBar& bar) { return bar.worst.utilisation; });
+}
+
+/// The worse of static and dynamic states, panel by panel and bar by bar.
 BucklingAssessment worse_of(const LiftCase& lift_case, const structure::UnitResponses& responses,
                             const States& static_states, const States& dynamic_states) {
   Stopwatch watch;
@@ -53,9 +81,10 @@ BucklingAssessment worse_of(const LiftCase& lift_case, const structure::UnitResp
       panel.time = (*time)[panel.worst.instant];
     result.panels.push_back(std::move(panel));
   }
-  std::stable_sort(result.panels.begin(), result.panels.end(), [](const auto& a, const auto& b) {
-    return a.worst.utilisation.critical > b.worst.utilisation.critical;
-  });
+  sort_by(result.panels,
+          [](const BuckledPanel& panel) { return panel.worst.utilisation.critical; });
+  result.bar_factor = buckling_factor(lift_case);
+  find_bars(responses, static_states, dynamic_states, result);
   result.evaluation_s = watch.lap();
   return result;
 }
@@ -65,6 +94,15 @@ std::string field_text(const structure::Panel& panel) {
                      panel.plate, panel.centre_B.x(), panel.centre_B.y(), panel.centre_B.z(),
                      panel.size.a / panel.fields_a, panel.size.b / panel.fields_b,
                      1000 * panel.size.thickness);
+}
+
+std::string span_text(const BuckledBar& bar) {
+  const structure::BarSpan& span = bar.span;
+  return fmt::format(
+      "{} from ({:.2f}, {:.2f}, {:.2f}) m to ({:.2f}, {:.2f}, {:.2f}) m; EN 1993-1-1, 6.3.1.1, "
+      "curve c, moments growing by 5.2.2(5)",
+      span.bar, span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z(), span.p_BTo.x(),
+      span.p_BTo.y(), span.p_BTo.z());
 }
 
 }  // namespace
@@ -85,7 +123,7 @@ BucklingAssessment assess_buckling(const LiftCase& lift_case,
 }
 
 std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAssessment& buckling) {
-  const double factor = lift_case.checks.buckling_factor.value_or(lift_case.checks.yield_factor);
+  const double factor = buckling_factor(lift_case);
   std::vector<Check> checks;
   std::set<std::string> seen;
   for (const BuckledPanel& panel : buckling.panels) {
@@ -96,6 +134,18 @@ std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAsses
                       panel.worst.utilisation.critical, 1 / factor, "1");
     check.time = panel.time;
     check.note = field_text(panel.panel);
+    check.is_by_mesh = true;
+    checks.push_back(std::move(check));
+  }
+  seen.clear();
+  for (const BuckledBar& bar : buckling.bars) {
+    if (!seen.insert(bar.span.group).second) continue;
+    Check check =
+        check_at_most(fmt::format("buckling of bars in {}: compression with bending, times {:g}",
+                                  bar.span.group, buckling.bar_factor),
+                      bar.worst.utilisation, 1, "1");
+    check.time = bar.time;
+    check.note = span_text(bar);
     check.is_by_mesh = true;
     checks.push_back(std::move(check));
   }
@@ -124,10 +174,60 @@ nlohmann::ordered_json buckling_json(const BucklingAssessment& buckling) {
     if (panel.time) row["time_s"] = *panel.time;
     json["panels"].push_back(std::move(row));
   }
+  if (buckling.bars.empty() && buckling.unknown_rods == 0) return json;
+  json["bars_looked_at"] = buckling.bars.size();
+  json["rods_without_second_moments"] = buckling.unknown_rods;
+  json["bar_factor"] = buckling.bar_factor;
+  json["bars"] = Json::array();
+  for (const BuckledBar& bar : buckling.bars) {
+    if (json["bars"].size() == panels_in_summary) break;
+    const structure::BarSpan& span = bar.span;
+    Json row{{"bar", span.bar},
+             {"from_m", {span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z()}},
+             {"to_m", {span.p_BTo.x(), span.p_BTo.y(), span.p_BTo.z()}},
+             {"buckling_length_m", span.column.length},
+             {"compression_N", bar.worst.forces.compression},
+             {"moments_Nm", bar.worst.forces.moments},
+             {"buckling_resistance_N", structure::buckling_resistance(span.column)},
+             {"utilisation", bar.worst.utilisation},
+             {"state", bar.in_motion ? "dynamic" : "static"}};
+    if (bar.time) row["time_s"] = *bar.time;
+    json["bars"].push_back(std::move(row));
+  }
   return json;
 }
 
+namespace {
+
+void write_bars(ResultsWriter& file, const BucklingAssessment& buckling) {
+  const auto rows = static_cast<Eigen::Index>(buckling.bars.size());
+  if (rows == 0) return;
+  RowMajorMatrix table(rows, 14);
+  std::vector<std::string> names;
+  for (Eigen::Index b = 0; b < rows; ++b) {
+    const BuckledBar& bar = buckling.bars[static_cast<std::size_t>(b)];
+    const structure::BarSpan& span = bar.span;
+    const structure::ColumnForces& forces = bar.worst.forces;
+    names.push_back(span.bar);
+    table.row(b) << span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z(), span.p_BTo.x(),
+        span.p_BTo.y(), span.p_BTo.z(), span.column.length, forces.compression, forces.moments[0],
+        forces.moments[1], structure::buckling_resistance(span.column), bar.worst.utilisation,
+        bar.in_motion ? 1.0 : 0.0, bar.time.value_or(0);
+  }
+  file.write_texts(layout::join(layout::columns_group, "bars"), names,
+                   "name of the bar of each span, the nearest to buckling first");
+  file.write_matrix(
+      layout::join(layout::columns_group, "table"), table,
+      {"1",
+       "SI units, a span a row: its ends x, y, z in the block frame; buckling length; compression "
+       "(negative: pulled); moments about the section's principal axes; buckling resistance; "
+       "utilisation under forces times the factor; 1 in motion, 0 at rest; time"});
+}
+
+}  // namespace
+
 void write_buckling(ResultsWriter& file, const BucklingAssessment& buckling) {
+  write_bars(file, buckling);
   const auto rows = static_cast<Eigen::Index>(buckling.panels.size());
   if (rows == 0) return;
   RowMajorMatrix table(rows, 15);

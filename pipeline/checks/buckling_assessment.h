@@ -10,6 +10,7 @@
 #include "pipeline/files/lift_case.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/lift/history_assessment.h"
+#include "structure/practice/bar_buckling.h"
 #include "structure/practice/panel_buckling.h"
 
 namespace blocklift::pipeline {
@@ -22,13 +23,24 @@ struct BuckledPanel {
   std::optional<double> time;  ///< s; none for a load table
 };
 
-/// Every panel of the block over the whole lift.
-struct BucklingAssessment {
-  std::vector<BuckledPanel> panels;  ///< the nearest to buckling first
-  double evaluation_s = 0;           ///< wall-clock time
+/// A span of a bar at the instant at which it bears most as a column, of both histories.
+struct BuckledBar {
+  structure::BarSpan span;
+  structure::BlockBars::Worst worst;
+  bool in_motion = false;      ///< in the dynamic history, else in the static one
+  std::optional<double> time;  ///< s; none for a load table
 };
 
-/// Looks at every panel at every instant of both histories.
+/// Every panel and every bar that stands free of plates over the whole lift.
+struct BucklingAssessment {
+  std::vector<BuckledPanel> panels;  ///< the nearest to buckling first
+  std::vector<BuckledBar> bars;      ///< likewise, under forces times bar_factor
+  double bar_factor = 1;
+  int unknown_rods = 0;     ///< without second moments, not looked at
+  double evaluation_s = 0;  ///< wall-clock time
+};
+
+/// Looks at every panel and bar at every instant of both histories.
 BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const structure::UnitResponses& responses,
                                    const HistoryAssessment& history);
@@ -39,13 +51,14 @@ BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const BlockAssessment& block);
 
 /// A line for each name of plates: its panel that is nearest to buckling, critical stresses by
-/// Johnson and Ostenfeld, against 1 over the case's buckling factor.
+/// Johnson and Ostenfeld, against 1 over the case's buckling factor. Then one for each name of bars:
+/// what its worst span bears over what it may bear as a column, forces times that factor.
 std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAssessment& buckling);
 
-/// `structure.buckling` of summary.json: the first panels; all of them are in results.h5.
+/// `structure.buckling` of summary.json: the first panels and bars; all of them are in results.h5.
 nlohmann::ordered_json buckling_json(const BucklingAssessment& buckling);
 
-/// All panels, where results_layout.h has them.
+/// All panels and bars, where results_layout.h has them.
 void write_buckling(ResultsWriter& file, const BucklingAssessment& buckling);
 
 }  // namespace blocklift::pipeline

@@ -363,6 +363,38 @@ void check_pad(const BlockModel& block, const PadModel& pad, Reading& reading) {
   }
 }
 
+void check_bar(const BlockModel& block, const BarModel& bar, Reading& reading) {
+  constexpr double shortest = 0.01, longest = 1000;  // m
+  const std::string user = "bar " + bar.name.value;
+  if (!bar.material.value.empty())
+    look_up(bar.material, block.materials, user, "material", reading);
+  else if (block.materials.size() > 1)
+    reading.error(bar.name.mark, user + " names no material, and the block has several",
+                  {"its materials are " + list_of_names(names_of(block.materials))});
+  if (find_by_name(block.plates, bar.name.value) || find_by_name(block.pads, bar.name.value) ||
+      find_by_name(block.lugs, bar.name.value))
+    reading.error(bar.name.mark, user + " has the name of another part of the block",
+                  {"results are listed by names"});
+  const std::vector<Vector3>& points = bar.points.value;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double length = (points[i + 1] - points[i]).norm();
+    if (length < shortest)
+      reading.error(bar.points.mark,
+                    fmt::format("{} is {:.3g} mm long from its point {} to the "
+                                "next",
+                                user, 1000 * length, i + 1),
+                    {fmt::format("{:g} mm is the least", 1000 * shortest)});
+    if (length > longest)
+      reading.error(bar.points.mark,
+                    fmt::format("{} is {:.4g} m long: is its unit mistaken?", user, length));
+    const Vector3 along = (points[i + 1] - points[i]) / length;
+    if (length >= shortest && bar.towards && along.cross(*bar.towards).norm() < 1e-3)
+      reading.error(bar.points.mark,
+                    fmt::format("{} runs along the direction towards which it stands", user),
+                    {"\"towards\" is a direction across it"});
+  }
+}
+
 const char* frame_name(bool is_in_plate_frame) {
   return is_in_plate_frame ? "the frame of its plate" : "that of the block";
 }
@@ -427,6 +459,7 @@ void check_mesh_block(const BlockModel& block, Reading& reading) {
       reading.error(item.name.mark, fmt::format("{} {}: {}", noun, item.name.value, why));
   };
   refuse(block.plates, "plate");
+  refuse(block.bars, "bar");
   refuse(block.openings, "opening");
   refuse(block.pads, "pad");
   for (const PadeyeDesign& padeye : block.padeyes)
@@ -471,6 +504,7 @@ void check_block(const BlockModel& block, Reading& reading, const Mark& mark) {
     check_corners(plate, reading);
   });
   check_overlaps(block, reading);
+  check_each(block.bars, reading, [&](const BarModel& bar) { check_bar(block, bar, reading); });
   check_each(block.openings, reading,
              [&](const OpeningModel& opening) { check_opening(block, opening, reading); });
   check_each(block.pads, reading, [&](const PadModel& pad) { check_pad(block, pad, reading); });

@@ -204,7 +204,7 @@ class MeshReader {
     reading.units = units_of_length();
     reading.leave_solids_out = mesh_model_.leave_solids_out;
     for (const auto& group : mesh_model_.groups)
-      (group.section ? reading.given.bars : reading.given.plates).push_back(group.name.value);
+      (group.is_of_bars() ? reading.given.bars : reading.given.plates).push_back(group.name.value);
     if (!mesh_model_.element_size) return reading;
     constexpr double share_at_lugs = 1.0 / 3;
     reading.sizes.largest = mesh_model_.element_size->value;
@@ -410,8 +410,8 @@ Format<MeshModel> mesh_model_format() {
       "A deck of Nastran or Abaqus: shells, beams, masses, links, springs with their properties. "
       "Its loads and supports are not those of a lift, and are left out; cards that are not used "
       "are listed, and what cannot be honoured is an error with its line. Or a mesh of Gmsh, whose "
-      "physical groups are plates and bars, or surfaces of CAD, which are cut at their joints and "
-      "meshed here; their properties are given by groups.");
+      "physical groups are plates and bars, or surfaces and free curves of CAD, which are cut at "
+      "their joints and meshed here; their properties are given by groups.");
   table
       .required("file", &MeshModel::file, text(),
                 "from the folder of this file on: Nastran (.bdf, .nas, .dat), Abaqus (.inp), Gmsh "

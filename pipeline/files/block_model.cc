@@ -298,6 +298,30 @@ Format<OpeningModel> opening_format() {
   return taken(table);
 }
 
+Format<BarModel> bar_format() {
+  Table<BarModel> table(
+      "bar",
+      "A strut, pillar, brace or edge flange: a beam along straight lines from point to point. It "
+      "is joined to what it ends on, crosses or runs along in the middle planes. Where it runs "
+      "along a plate and stands towards its normal, it stands on the plate's face. Elsewhere the "
+      "foot of flat bars, bulb flats, angles and tees, and the middle of other profiles, is on the "
+      "line.");
+  table
+      .required("points", &BarModel::points, located(list_of(position_format(), 2)),
+                "two or more, in order")
+      .required("section", &BarModel::section, profile_format(), "its profile")
+      .optional("towards", &BarModel::towards, direction_format(),
+                "direction in which the section stands; pipes and round bars need none")
+      .optional("material", &BarModel::material, reference(),
+                "one of the block's materials; may be left out if there is one only")
+      .by_default("hinged", &BarModel::is_hinged, boolean(), "false",
+                  "its two ends pass on forces and torsion, no bending")
+      .rule([](const BarModel& bar, Reading& reading, const Mark& mark) {
+        check_direction(bar.section.value, bar.towards, reading, mark);
+      });
+  return table.format();
+}
+
 bool has_plate_axes(const YAML::Node& node) { return node["u"] || node["v"] || node["n"]; }
 
 Format<PadModel> axis_pad_format() {
@@ -487,6 +511,8 @@ Format<BlockModel> block_model_format() {
                 "decks, shells, frames, girders, stiffeners")
       .optional("mesh", &BlockModel::mesh, mesh_model_format(),
                 "in place of plates: a deck of Nastran or Abaqus, a mesh of Gmsh, CAD surfaces")
+      .optional("bars", &BlockModel::bars, named_tables(bar_format()),
+                "struts, pillars, braces, flanges of edges")
       .optional("openings", &BlockModel::openings, named_tables(opening_format()),
                 "holes in plates")
       .optional("pads", &BlockModel::pads, named_tables(pad_format()),

@@ -113,6 +113,17 @@ struct LugModel : Rectangle {
   bool is_place = false;  ///< on a mesh, by these keys, rather than a plate of its own
 };
 
+/// Bar from point to point: a strut, a pillar, a brace.
+struct BarModel {
+  Located<std::string> name;
+  std::string origin;                    ///< of a copy: the name of what it was made of; else empty
+  Located<std::vector<Vector3>> points;  ///< two or more, m
+  Located<std::optional<structure::Profile>> section;
+  std::optional<Vector3> towards;  ///< the section stands, a unit vector; none of a round one
+  Located<std::string> material;   ///< the block's only one where the file names none
+  bool is_hinged = false;
+};
+
 /// Stiffened block of flat plates, or the mesh of one, in its own frame: x along, y across, z up.
 /// SI units.
 struct BlockModel {
@@ -123,6 +134,7 @@ struct BlockModel {
   std::optional<Located<Vector3>> centre_of_mass;  ///< likewise, m
   std::optional<MeshModel> mesh;                   ///< in place of plates
   std::vector<PlateModel> plates;
+  std::vector<BarModel> bars;
   std::vector<OpeningModel> openings;
   std::vector<PadModel> pads;
   std::vector<LugModel> lugs;
@@ -143,7 +155,7 @@ struct BlockModel {
 Format<BlockModel> block_model_format();
 
 /// Rules over several keys: names exist, rectangles have the extents that their normal asks for,
-/// pads lie on their plates, pins in their lugs.
+/// pads lie on their plates, pins in their lugs, bars have a length.
 void check_block(const BlockModel& block, Reading& reading, const Mark& mark);
 
 }  // namespace blocklift::pipeline

@@ -48,6 +48,7 @@ class Placing {
   void place(std::vector<Vector3>& points) const {
     for (Vector3& point : points) place(point);
   }
+  void turn(Vector3& direction) const { direction = sign_.cwiseProduct(direction); }
   void place(Vector3& point) const { point = sign_.cwiseProduct(point) + shift_; }
 
  private:
@@ -81,6 +82,15 @@ void place_part(const Placing& placing, PlateModel& plate) {
   if (plate.corners) placing.place(plate.corners->value);
   if (plate.edges)
     for (EdgeModel& edge : plate.edges->value) placing.place(edge.points);
+}
+
+/// A profile's axis 3 is (along) x (axis 2), which does not follow a reflection.
+void place_part(const Placing& placing, BarModel& bar) {
+  placing.place(bar.points.value);
+  if (!placing.is_mirror()) return;
+  if (bar.towards) placing.turn(*bar.towards);
+  std::optional<structure::Profile>& profile = bar.section.value;
+  if (profile) profile = structure::seen(*profile, false, false, true);
 }
 
 void place_part(const Placing& placing, PadModel& pad) {
@@ -132,6 +142,12 @@ Reach reach_of(const PlateModel& plate, std::size_t axis) {
   return axis == plate.normal ? plate.at : reach_of(plate.extent, axis);
 }
 
+Reach reach_of(const BarModel& bar, std::size_t axis) {
+  Reach reach;
+  add_points(bar.points.value, axis, reach);
+  return reach;
+}
+
 template <class T>
 Reach reach_of_one(const T& part, std::size_t axis) {
   if (part.is_in_plate_frame) return {};
@@ -149,12 +165,12 @@ Reach reach_of(const OpeningModel& opening, std::size_t axis) {
 
 /// Parts that are copied, by their names.
 struct Selection {
-  std::set<std::string> plates, openings, pads, lugs;
+  std::set<std::string> plates, bars, openings, pads, lugs;
 };
 
 /// Where they stand in the lists of a block.
 struct Places {
-  std::vector<std::size_t> plates, openings, pads, lugs;
+  std::vector<std::size_t> plates, bars, openings, pads, lugs;
 };
 
 bool has_name(const std::set<std::string>& names, const std::string& name) {
@@ -183,6 +199,7 @@ class Copying {
     Selection selected = select(mirror);
     keep_with_plates(&mirror, selected);
     keep_beside(mirror, block_.plates, "plate", selected.plates);
+    keep_beside(mirror, block_.bars, "bar", selected.bars);
     keep_with_plates(nullptr, selected);  // a plate in the mirror plane stays with what it carries
     keep_openings_beside(mirror, selected);
     keep_beside(mirror, block_.pads, "pad", selected.pads);
@@ -215,6 +232,7 @@ class Copying {
   Selection select(const CopiedParts& what) {
     Selection selected;
     select(block_.plates, what, selected.plates);
+    select(block_.bars, what, selected.bars);
     select(block_.openings, what, selected.openings);
     select(block_.pads, what, selected.pads);
     select(block_.lugs, what, selected.lugs);
@@ -232,6 +250,7 @@ class Copying {
       names.insert(names.end(), more.begin(), more.end());
     };
     add(names_of(block_.plates));
+    add(names_of(block_.bars));
     add(names_of(block_.openings));
     add(names_of(block_.pads));
     add(names_of(block_.lugs));
@@ -286,7 +305,7 @@ class Copying {
   }
 
   Places places_of(const Selection& selected) const {
-    return {places_of(block_.plates, selected.plates),
+    return {places_of(block_.plates, selected.plates), places_of(block_.bars, selected.bars),
             places_of(block_.openings, selected.openings), places_of(block_.pads, selected.pads),
             places_of(block_.lugs, selected.lugs)};
   }
@@ -298,6 +317,8 @@ class Copying {
     };
     copy_items(what, "plate", suffix, places.plates, block_.plates, names_.plates,
                [&](PlateModel& plate) { place_part(placing, plate); });
+    copy_items(what, "bar", suffix, places.bars, block_.bars, names_.bars,
+               [&](BarModel& bar) { place_part(placing, bar); });
     copy_items(what, "opening", suffix, places.openings, block_.openings, names_.openings,
                [&](OpeningModel& opening) {
                  place_opening(placing, opening);
@@ -418,9 +439,10 @@ class Copying {
 template <class T>
 Table<T>& add_parts_key(Table<T>& table) {
   return table
-      .optional("parts", &T::parts, list_of(located(reference()), 1),
-                "names of plates, openings, pads and lugs, each with the copies made of it before; "
-                "openings go with their plate; all parts of the block if left out")
+      .optional(
+          "parts", &T::parts, list_of(located(reference()), 1),
+          "names of plates, bars, openings, pads and lugs, each with the copies made of it before; "
+          "openings go with their plate; all parts of the block if left out")
       .place(&T::place);
 }
 

@@ -302,8 +302,8 @@ Format<CheckSettings> checks_format() {
                   "of the rope's force, along the pin, that hand formulae of padeyes take at least "
                   "(API RP 2A)")
       .optional("buckling_factor", &CheckSettings::buckling_factor, number(Range::at_least(1)),
-                "critical stress of a plate panel over the stress in it; the yield factor if left "
-                "out")
+                "critical stress of a plate panel over the stress in it, and on the forces in bars "
+                "as columns; the yield factor if left out")
       .optional("spreader_factor", &CheckSettings::spreader_factor, number(Range::at_least(1)),
                 "on the forces in spreaders, against yield and buckling; the yield factor if left "
                 "out")

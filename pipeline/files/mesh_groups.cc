@@ -17,17 +17,16 @@ namespace {
 constexpr double thickest = 1;  // m, beyond any plate
 
 void check_group(const MeshGroupModel& group, Reading& reading, const Mark& mark) {
-  if (group.thickness.has_value() == group.section.has_value())
+  if (group.thickness.has_value() == group.is_of_bars())
     reading.error(mark,
                   reading.owner() + (group.thickness ? " has a thickness and also a section"
                                                      : " has neither a thickness nor a section"),
                   {"plates have a thickness, bars a section"});
-  if (group.section.has_value() != group.towards.has_value())
-    reading.error(
-        mark,
-        reading.owner() + (group.section ? " has a section, but not towards what it stands"
-                                         : " has \"towards\", but no section"),
-        {"such as section: {flat_bar: [150 mm, 12 mm]}, towards: [0, 0, -1]"});
+  if (group.is_of_bars())
+    check_direction(group.section.value, group.towards, reading, mark);
+  else if (group.towards)
+    reading.error(mark, reading.owner() + " has \"towards\", but no section",
+                  {"such as section: {flat_bar: [150 mm, 12 mm]}, towards: [0, 0, -1]"});
 }
 
 class PropertyGiver {
@@ -66,8 +65,8 @@ class PropertyGiver {
 
   void check(const MeshGroupModel& group) {
     const auto& groups =
-        group.section ? deck_.groups_without_section : deck_.groups_without_thickness;
-    const char* what = group.section ? "section" : "thickness";
+        group.is_of_bars() ? deck_.groups_without_section : deck_.groups_without_thickness;
+    const char* what = group.is_of_bars() ? "section" : "thickness";
     if (std::find(groups.begin(), groups.end(), group.name.value) == groups.end())
       diagnostics_.error(
           group.name.mark,
@@ -117,9 +116,9 @@ class PropertyGiver {
   }
 
   void give_section(const MeshGroupModel& group) {
-    if (!group.section) return;
+    if (!group.section.value) return;
     try {
-      structure::give_profile(deck_.mesh, group.name.value, *group.section, *group.towards,
+      structure::give_profile(deck_.mesh, group.name.value, *group.section.value, group.towards,
                               material_of(group));
     } catch (const structure::ModelError& wrong) {
       diagnostics_.error(group.name.mark, wrong.what());
@@ -140,10 +139,13 @@ Format<std::vector<MeshGroupModel>> mesh_groups_format() {
                               "thickness alone.");
   const auto thickness = quantity(Dimension::length, Range::positive());
   table.optional("thickness", &MeshGroupModel::thickness, thickness, "of plates")
-      .optional("section", &MeshGroupModel::section, profile_format(),
-                "of bars; it stands on the plate along which they run, or on their nodes")
+      .optional(
+          "section", &MeshGroupModel::section, profile_format(),
+          "of bars; it stands on the plate along which they run, elsewhere on their nodes: flat "
+          "bars, bulb flats, angles and tees with their foot, other profiles with their middle")
       .optional("towards", &MeshGroupModel::towards, direction_format(),
-                "direction in which the section stands, away from its plate")
+                "direction in which the section stands, away from its plate; pipes and round bars "
+                "need none")
       .optional("material", &MeshGroupModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
       .rule(check_group);

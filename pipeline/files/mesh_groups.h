@@ -16,10 +16,12 @@ struct BlockModel;
 /// What the plates or bars of one group of a mesh are, where its file does not say it.
 struct MeshGroupModel {
   Located<std::string> name;
-  std::optional<double> thickness;            ///< of plates, m
-  std::optional<structure::Profile> section;  ///< of bars
-  std::optional<Vector3> towards;             ///< the section stands, a unit vector
-  Located<std::string> material;              ///< empty: the block's only one
+  std::optional<double> thickness;                     ///< of plates, m
+  Located<std::optional<structure::Profile>> section;  ///< of bars
+  std::optional<Vector3> towards;                      ///< the section stands, a unit vector
+  Located<std::string> material;                       ///< empty: the block's only one
+
+  bool is_of_bars() const { return section.mark.line > 0; }
 };
 
 /// Groups by their names, each a table, or a thickness alone.

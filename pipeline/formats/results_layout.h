@@ -67,6 +67,7 @@
 ///                                      patches/plates, texts
 ///   /structure/panels              (o) plates   texts [p]   table   [p x 15], a panel a row, the nearest to
 ///                                      buckling first; what the columns are stands in its description
+///   /structure/columns             (o) bars   texts [b]   table   [b x 14], a free span of a bar a row, likewise
 ///   /structure/padeyes/<lug>       (o) the governing state of a padeye; attributes state, rope, time (o)
 ///     corners                          m [c x 8], x y of four corners of a column of elements, padeye's frame
 ///     plate                            [c]  0 main plate, 1, 2 cheek plates in front and behind
@@ -121,7 +122,11 @@
 ///     estimated_error (o) {relative, worst_part, worst_point_m, groups: {name: relative}}: of the stress field
 ///                      in the energy norm, at the instant of the largest checked stress
 ///     buckling     (o) {panels_looked_at, panels: the worst of [{plate, centre_m, sides_m, field_m, thickness_m,
-///                      free_edges, s11_Pa, s22_Pa, s12_Pa, utilisation, elastic_utilisation, state, time_s (o)}]}
+///                      free_edges, s11_Pa, s22_Pa, s12_Pa, utilisation, elastic_utilisation, state, time_s (o)}],
+///                      bars_looked_at (o), rods_without_second_moments, bar_factor, bars: the worst of [{bar,
+///                      from_m, to_m, buckling_length_m, compression_N, moments_Nm, buckling_resistance_N,
+///                      utilisation (under forces times bar_factor; null: beyond Euler's load), state,
+///                      time_s (o)}]}
 ///     padeyes      (o) [{lug, rope, padeye, consequence_factor, unknowns, governing_state, file,
 ///                      formulas: [{name, demand, limit, unit, utilisation, pass, source, time_s (o)}], with
 ///                      the factor, states: [{name, time_s (o), force_N, main_plate_checked_von_mises_Pa,
@@ -188,6 +193,7 @@ inline constexpr std::string_view surface_quad_group = "/structure/surface/quad_
 inline constexpr std::string_view surface_group_names = "/structure/surface/group_names";
 
 inline constexpr std::string_view panels_group = "/structure/panels";
+inline constexpr std::string_view columns_group = "/structure/columns";
 inline constexpr std::string_view padeyes_group = "/structure/padeyes";
 
 inline constexpr std::string_view simultaneous = "simultaneous";

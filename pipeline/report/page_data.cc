@@ -66,26 +66,31 @@ std::vector<std::string> children_of(const ResultsReader& results, const std::st
   return results.has(group) ? results.children(group) : std::vector<std::string>{};
 }
 
-json series(const ResultsReader& results, const std::string& dataset, const std::string& name,
-            const std::string& quantity, const std::vector<double>& time, std::size_t buckets) {
-  const Array<double> values = results.read(dataset);
-  if (values.values.size() != time.size())
-    throw ResultsError("\"" + dataset + "\" has " + std::to_string(values.values.size()) +
-                       " samples, its time has " + std::to_string(time.size()));
+json packed_series(const std::string& name, const std::string& quantity, const Meaning& meaning,
+                   const std::vector<double>& time, const std::vector<double>& values,
+                   std::size_t buckets) {
   std::vector<double> kept_time;
   std::vector<double> kept_values;
-  for (const std::size_t i : indices_to_draw(values.values, buckets)) {
-    if (!std::isfinite(values.values[i])) continue;
+  for (const std::size_t i : indices_to_draw(values, buckets)) {
+    if (!std::isfinite(values[i])) continue;
     kept_time.push_back(time[i]);
-    kept_values.push_back(values.values[i]);
+    kept_values.push_back(values[i]);
   }
-  const Meaning meaning = results.read_meaning(dataset);
   return {{"name", name},
           {"quantity", quantity},
           {"units", meaning.units},
           {"description", meaning.description},
           {"time", floats(kept_time)},
           {"values", floats(kept_values)}};
+}
+
+json series(const ResultsReader& results, const std::string& dataset, const std::string& name,
+            const std::string& quantity, const std::vector<double>& time, std::size_t buckets) {
+  const Array<double> values = results.read(dataset);
+  if (values.values.size() != time.size())
+    throw ResultsError("\"" + dataset + "\" has " + std::to_string(values.values.size()) +
+                       " samples, its time has " + std::to_string(time.size()));
+  return packed_series(name, quantity, results.read_meaning(dataset), time, values.values, buckets);
 }
 
 /// All series of one kind of thing: <history>/<things>/<thing>/<quantity>.
@@ -433,6 +438,12 @@ nlohmann::ordered_json tension_series(const ResultsReader& results, std::string_
          series_of_things(results, join(group, things), {{"tension", small_history_buckets}}, time))
       list.push_back(std::move(one));
   return list;
+}
+
+nlohmann::ordered_json page_series(const std::string& name, const std::string& quantity,
+                                   const Meaning& meaning, const std::vector<double>& time,
+                                   const std::vector<double>& values) {
+  return packed_series(name, quantity, meaning, time, values, small_history_buckets);
 }
 
 std::string base64(std::span<const unsigned char> bytes) {

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -38,6 +39,13 @@ nlohmann::ordered_json make_page_data(const ResultsReader& results,
 /// units, description, time, values}. Empty if there is no such history.
 /// @param group layout::static_history or layout::dynamic_history
 nlohmann::ordered_json tension_series(const ResultsReader& results, std::string_view group);
+
+/// One series of the page, thinned: {name, quantity, units, description, time, values}.
+/// @param quantity in one word: "tension"
+/// @param time, values of one length; what is not finite is left out.
+nlohmann::ordered_json page_series(const std::string& name, const std::string& quantity,
+                                   const Meaning& meaning, const std::vector<double>& time,
+                                   const std::vector<double>& values);
 
 /// Base64 (RFC 4648) of bytes.
 std::string base64(std::span<const unsigned char> bytes);

@@ -214,6 +214,17 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
       "within a panel do not weaken it beyond their stress, and neither initial deflection nor the "
       "strength after buckling counts.",
       block.buckling.panels.size()));
+  if (!block.buckling.bars.empty())
+    list.push_back(fmt::format(
+        "Bars as columns: {} spans from joint to joint, pinned there, that no plate holds; bars "
+        "that "
+        "cross in a joint hold each other. Buckling curve c of EN 1993-1-1 about the weaker "
+        "principal axis; open sections may also twist, which is not checked.{}",
+        block.buckling.bars.size(),
+        block.buckling.unknown_rods > 0
+            ? fmt::format(" {} rods without second moments are not looked at.",
+                          block.buckling.unknown_rods)
+            : ""));
 }
 
 }  // namespace

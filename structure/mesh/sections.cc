@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -259,6 +260,12 @@ Profile walled_profile(const std::string& name, const std::vector<Vector2>& node
   return profile;
 }
 
+double foot_of(const Profile& profile) {
+  double foot = std::numeric_limits<double>::infinity();
+  for (const Vector2& point : profile.section.stress_points) foot = std::min(foot, point[0]);
+  return profile.centroid[0] + foot;
+}
+
 Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool reversed_3) {
   Profile other = profile;
   BeamSection& section = other.section;
@@ -417,6 +424,7 @@ Profile pipe(double outer_radius, double inner_radius) {
   profile.section.torsion = 2 * own;
   profile.section.shear_area_2 = profile.section.shear_area_3 =
       shear_share_of_pipe(inner_radius / outer_radius) * moments.area;
+  profile.is_round = true;
   const double r = outer_radius;
   set_points(profile, {{r, 0}, {0, r}, {-r, 0}, {0, -r}});
   return profile;

@@ -13,7 +13,12 @@ namespace blocklift::structure {
 struct Profile {
   BeamSection section;  ///< about the centroid; its material is unset
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the origin, m
+  bool is_round = false;  ///< the same seen from all sides: it stands towards none
 };
+
+/// Where the profile begins along axis 2, from its origin, m: what stands on a plate has its foot
+/// there.
+double foot_of(const Profile& profile);
 
 /// Straight wall of an open or closed profile between two of its nodes. Where walls meet, one of
 /// them ends short of the node or goes beyond it, so that areas add up without overlap.

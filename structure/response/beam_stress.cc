@@ -96,6 +96,17 @@ Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double 
   return modulus_of(space.mesh(), section) * strains_of(space, cell, xi, motions).row(0);
 }
 
+Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
+                            const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+  const BeamSection section = section_of(space, cell, xi);
+  const Material& material = space.mesh().materials[at(section.material)];
+  Eigen::MatrixXd forces =
+      beam_stiffness_law(material, section) * strains_of(space, cell, xi, motions);
+  if (!beam_of(space, cell).is_rod) return forces;
+  for (const Eigen::Index row : {1, 2, 4, 5}) forces.row(row).setZero();
+  return forces;
+}
+
 Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses) {
   Eigen::MatrixXd stresses =
       Eigen::MatrixXd::Zero(6 * normal_stresses.rows(), normal_stresses.cols());

@@ -24,6 +24,11 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
 Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,
                                            const Eigen::Ref<const Eigen::MatrixXd>& motions);
 
+/// Section forces along a beam in its axes about the centroid: rows N, Q_2, Q_3, M_1, M_2, M_3 (N,
+/// N m; beam_stiffness_law), a column a motion; of a rod all but N and M_1 are zero.
+Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
+                            const Eigen::Ref<const Eigen::MatrixXd>& motions);
+
 /// Rows 6 point + component of Stress for rows of normal stresses.
 Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses);
 

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "structure/mesh/mesh.h"
+#include "structure/mesh/sections.h"
 
 namespace blocklift::structure {
 
@@ -140,6 +141,17 @@ struct FreeLug {
   Vector3 p_BPin = Vector3::Zero();  ///< in the block's frame, m
 };
 
+/// Bar along straight lines from point to point, as a strut, a pillar or a brace is: it is joined to
+/// what it ends on, crosses or runs along in the middle planes.
+struct Bar {
+  std::string name;
+  std::vector<Vector3> points;  ///< two or more, m
+  Profile profile;              ///< as give_profile (files/surfaces/given_properties.h) takes it
+  std::optional<Vector3> towards;
+  std::string material;
+  bool is_hinged = false;  ///< bending does not pass through its two ends; torsion does
+};
+
 /// Stiffened block of plates, as a block file describes it.
 struct BlockDescription {
   std::string name;
@@ -155,6 +167,7 @@ struct BlockDescription {
   std::vector<Stiffeners> stiffeners;
   /// On plane free plates: x is u and y is v of the plate's frame, in which `first` counts.
   std::vector<Stiffeners> free_stiffeners;
+  std::vector<Bar> bars;
   /// Mass and centre of mass in the lift, outfitting included; absent: those of the plates alone.
   std::optional<double> total_mass;         ///< kg
   std::optional<Vector3> centre_of_mass_B;  ///< m

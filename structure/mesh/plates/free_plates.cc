@@ -114,8 +114,11 @@ class BlockDrawing {
       owners_[{2, Drawing::plane({drawing_.polygon(free_sheets_[i].corners)})}] =
           first_free() + static_cast<int>(i);
     // Beams have numbers of their own kind.
-    for (std::size_t b = 0; b < beams_.size(); ++b)
-      owners_[{1, drawing_.line(beams_[b].from, beams_[b].to)}] = static_cast<int>(b);
+    for (std::size_t b = 0; b < beams_.size(); ++b) {
+      const Entity line{1, drawing_.line(beams_[b].from, beams_[b].to)};
+      const auto [drawn, is_new] = owners_.try_emplace(line, static_cast<int>(b));
+      if (!is_new) refuse_two({drawn->second, static_cast<int>(b)});
+    }
     const EntityRegions regions = cut();
     SurfaceSizes sizes;
     sizes.largest = block_.largest_element;
@@ -215,12 +218,25 @@ class BlockDrawing {
     EntityRegions regions;
     for (const auto& [piece, owners] : cut_at_joints(owners_, joint_tolerance)) {
       if (piece.first == 1) {
+        refuse_two(owners);
         regions.curves[piece.second] = owners.front();
         continue;
       }
       regions.surfaces[piece.second] = owner_of_piece(owners);
     }
     return regions;
+  }
+
+  /// Where two bars, or a bar and a stiffener, lie upon one another, one of them would be lost.
+  void refuse_two(const std::vector<int>& lines) const {
+    std::set<std::string> names;
+    for (const int line : lines) names.insert(beams_[at(line)].bar);
+    if (lines.size() < 2 || (names.size() == 1 && names.begin()->empty())) return;
+    const std::string bar = *names.rbegin(), other = *names.begin();
+    throw ModelError(fmt::format("bar \"{}\" lies upon {}", bar,
+                                 other.empty()  ? "a stiffener"
+                                 : other == bar ? "itself"
+                                                : "bar \"" + other + "\""));
   }
 
   /// Of a free lug, its pad and its plate, the first that is there; nothing else lies upon another.
@@ -333,6 +349,11 @@ void require_one_part(const Mesh& mesh) {
     const int of_shell = part[at(shell.vertices[0])];
     areas[of_shell] += std::pow(longest_edge(mesh, shell), 2);
     names[of_shell].insert(mesh.regions[at(shell.region)].name);
+  }
+  for (const Beam& beam : mesh.beams) {
+    const int of_beam = part[at(beam.vertices[0])];
+    areas.try_emplace(of_beam, 0);
+    names[of_beam].insert(mesh.regions[at(beam.region)].name);
   }
   if (areas.size() < 2) return;
   const auto largest = std::max_element(

@@ -14,6 +14,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/plates/bars.h"
 #include "structure/mesh/plates/cell_maker.h"
 #include "structure/mesh/plates/free_plates.h"
 #include "structure/mesh/plates/free_sheets.h"
@@ -35,8 +36,8 @@ std::array<PanelEdge, 4> edges_of(const SheetPanel& panel) {
   return {{{panel.lower, right}, {left, panel.upper}, {panel.lower, left}, {right, panel.upper}}};
 }
 
-/// Groups: plates, pads, lugs, rows of stiffeners, then the free plates, pads, lugs and rows.
-/// Regions: the grid's sheets, then the free ones.
+/// Groups: plates, pads, lugs, rows of stiffeners, then the free plates, pads, lugs and rows; bars
+/// follow. Regions: the grid's sheets, then the free ones.
 void add_groups_and_regions(const BlockDescription& block, const std::vector<Sheet>& sheets,
                             const std::vector<FreeSheet>& free_sheets, Mesh& mesh) {
   mesh.materials = block.materials;
@@ -285,7 +286,7 @@ void add_free_stiffeners(const BlockDescription& block, const std::vector<FreeSh
   }
 }
 
-/// With plates of any orientation: cut and meshed together with the grid's panels.
+/// With plates of any orientation or bars: cut and meshed together with the grid's panels.
 Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
                                const std::vector<SheetPanel>& panels) {
   Mesh parts;
@@ -296,6 +297,7 @@ Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& g
     lines.push_back(
         {place_in(grid, beam.span.lower), place_in(grid, beam.span.upper), beam.pattern});
   add_free_stiffeners(block, free_sheets, parts, lines);
+  for (BeamLine& line : add_bars(block, parts)) lines.push_back(std::move(line));
   Mesh mesh = mesh_with_free_plates(block, grid, panels, free_sheets, lines);
   mesh.materials = std::move(parts.materials);
   mesh.groups = std::move(parts.groups);
@@ -310,6 +312,7 @@ Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& g
     const FreeSheet& sheet = free_sheets[at(shell.region - sheets)];
     shell.section = section_of(sheet.thickness, mesh.group_of_region(shell.region).material, mesh);
   }
+  finish_bars(block, mesh);
   require_one_part(mesh);
   add_lifting_points(block, grid, panels, mesh);
   add_free_lifting_points(block, free_sheets, sheets, mesh);
@@ -321,7 +324,8 @@ Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& g
 Mesh generate_shell_mesh(const BlockDescription& block) {
   const SheetGrid grid(spread_into_sheets(block));
   const std::vector<SheetPanel> panels = grid.panels();
-  if (!block.free_plates.empty()) return generate_with_free_plates(block, grid, panels);
+  if (!block.free_plates.empty() || !block.bars.empty())
+    return generate_with_free_plates(block, grid, panels);
   check_joined(grid, panels);
   Mesh mesh;
   add_groups_and_regions(block, grid.sheets(), {}, mesh);

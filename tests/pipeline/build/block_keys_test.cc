@@ -1,4 +1,5 @@
 // Stiffeners as beams and openings of any shape by the keys of a block's file.
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -79,12 +80,63 @@ TEST(BlockKeys, StiffenersWithoutAProfileAreLeftOut) {
 TEST(BlockKeys, OtherShapesOfProfiles) {
   for (const char* profile :
        {"flat_bar: [150 mm, 12 mm]", "angle_bar: [150 mm, 9 mm, 90 mm, 12 mm]",
-        "tee_bar: [300 mm, 10 mm, 120 mm, 15 mm]"})
+        "tee_bar: [300 mm, 10 mm, 120 mm, 15 mm]", "i_beam: [200 mm, 8 mm, 100 mm, 12 mm]",
+        "channel: [200 mm, 8 mm, 75 mm, 11 mm]", "box: [200 mm, 100 mm, 8 mm]",
+        "pipe: [114.3 mm, 6 mm]", "round_bar: 60 mm"})
     EXPECT_EQ(read(deck_with(std::string(", stiffeners: {along: y, spacing: 1 m, first: 0.5 m, "
                                          "material: AH36, profile: {") +
                              profile + "}}"))
                   .complaints,
               "");
+}
+
+// What has its origin in its middle stands on the plate with its edge, as other shapes do.
+TEST(BlockKeys, StiffenersOfAnyShapeStandOnTheirPlate) {
+  const structure::Mesh mesh = mesh_of(deck_with(
+      ", stiffeners: {along: x, spacing: 750 mm, profile: {box: [200 mm, 100 mm, 8 mm]}}"));
+  ASSERT_FALSE(mesh.beams.empty());
+  for (const structure::Beam& beam : mesh.beams)
+    EXPECT_NEAR(beam.offset[0].z(), 0.005 + 0.1, 1e-12);
+}
+
+/// The deck with a bar, whose keys may be replaced.
+std::string deck_with_bar(const std::string& keys) {
+  return deck_with("", "bars:\n  strut: {" + keys + "}\n");
+}
+
+TEST(BlockKeys, BarsFromPointToPoint) {
+  const std::string points = "points: [[1 m, 1 m, 1 m], [1 m, 1 m, 3 m], [3 m, 1 m, 1 m]], ";
+  const structure::Mesh mesh =
+      mesh_of(deck_with_bar(points + "section: {pipe: [114.3 mm, 6.3 mm]}, hinged: true"));
+  const double area = std::numbers::pi * 0.0063 * (0.1143 - 0.0063);
+  EXPECT_NEAR(structure::mass_properties(mesh).mass,
+              density * (12 * 0.01 + (2 + std::sqrt(8)) * area), 1e-6);
+  int hinges = 0;
+  for (const structure::Beam& beam : mesh.beams)
+    hinges += int{beam.release[0][4]} + int{beam.release[1][4]};
+  EXPECT_EQ(hinges, 2);
+}
+
+TEST(BlockKeys, SaysWhatIsWrongWithBars) {
+  const std::string points = "points: [[1 m, 1 m, 1 m], [1 m, 1 m, 3 m]], ";
+  const auto complaints = [](const std::string& keys) {
+    return read(deck_with_bar(keys)).complaints;
+  };
+  EXPECT_EQ(complaints(points + "section: {round_bar: 60 mm}"), "");
+  EXPECT_THAT(complaints(points + "section: {flat_bar: [60 mm, 10 mm]}"),
+              HasSubstr("not towards what it stands"));
+  EXPECT_THAT(complaints(points + "section: {flat_bar: [60 mm, 10 mm]}, towards: [0, 0, 1]"),
+              HasSubstr("runs along the direction"));
+  EXPECT_THAT(complaints("points: [[1 m, 1 m, 1 m], [1 m, 1 m, 1 m]], section: {round_bar: 60 mm}"),
+              HasSubstr("0 mm long from its point 1"));
+  EXPECT_THAT(complaints("points: [[1 m, 1 m, 1 m]], section: {round_bar: 60 mm}"),
+              HasSubstr("block.yaml:"));
+  EXPECT_THAT(complaints(points + "section: {pipe: [60 mm, 40 mm]}"), HasSubstr("pipe: "));
+  EXPECT_THAT(complaints(points + "section: {round_bar: 60 mm}, material: AH63"),
+              HasSubstr("names material \"AH63\""));
+  EXPECT_THAT(read(deck_with("", "bars:\n  deck: {" + points + "section: {round_bar: 60 mm}}\n"))
+                  .complaints,
+              HasSubstr("has the name of another part"));
 }
 
 TEST(BlockKeys, OpeningsOfAnyShape) {

@@ -2,6 +2,7 @@
 #include "pipeline/files/copied_parts.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -191,6 +192,23 @@ TEST(CopiedParts, SoArePlatesOfAnyOrientation) {
   expect_placed(".mirrored", mirrored);
   expect_placed(".1.mirrored",
                 [&](const Vector3& point) { return mirrored(point + Vector3(0.5, 0, 0)); });
+}
+
+// An angle is its own image only if its profile is reflected, too: the mass lies in the mirror plane.
+TEST(CopiedParts, SoAreBars) {
+  const structure::Mesh mesh =
+      mesh_of_text("plates:\n" + deck +
+                   "bars:\n  brace: {points: [[1 m, 0.5 m, 1 m], [1.5 m, 1 m, 1.8 m], [2 m, 1.8 m, "
+                   "1 m]], section: "
+                   "{angle_bar: [150 mm, 10 mm, 90 mm, 12 mm]}, towards: [0.2, 0.3, 1]}\n"
+                   "repeat:\n  - {parts: [brace], count: 1, step: [2 m, 0 m, 0 m]}\n"
+                   "mirror:\n  - {parts: [brace], normal: y, at: 0 m}\n");
+  std::set<std::string> bars;
+  for (const structure::Beam& beam : mesh.beams)
+    bars.insert(mesh.group_of_region(beam.region).name);
+  EXPECT_THAT(bars,
+              ::testing::ElementsAre("brace", "brace.1", "brace.1.mirrored", "brace.mirrored"));
+  EXPECT_NEAR(structure::mass_properties(mesh).centre.y(), 0, 1e-9);
 }
 
 /// A side girder and half a deck, which is stiffened off its middle, a girder at the centre line.

@@ -99,6 +99,11 @@ export interface Buckling {
     plate: string; centre_m?: number[]; field_m?: number[]; thickness_m?: number; s11_Pa?: number; s22_Pa?: number; s12_Pa?: number;
     utilisation?: Maybe<number>; elastic_utilisation?: Maybe<number>; state?: string; time_s?: Maybe<number>;
   }[];
+  bars_looked_at?: number; bar_factor?: Maybe<number>;
+  bars?: {
+    bar: string; from_m?: number[]; to_m?: number[]; buckling_length_m?: number; compression_N?: Maybe<number>; moments_Nm?: number[];
+    buckling_resistance_N?: Maybe<number>; utilisation?: Maybe<number>; state?: string; time_s?: Maybe<number>;
+  }[];
 }
 export interface PadeyeSummary {
   lug: string; rope?: string; padeye?: string; consequence_factor?: number; unknowns?: number; governing_state?: number; file?: string;

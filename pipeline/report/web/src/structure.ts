@@ -3,7 +3,7 @@ import { addToAnnex, folded } from "./annex";
 import { CheckedAccuracy, known, PageData, Structure, StructureWay } from "./data";
 import { Child, Column, h, table } from "./dom";
 import type { Section } from "./section";
-import { change, fixed, megapascals, millimetres, missing, point, scientific, seconds, tonnes } from "./numbers";
+import { change, fixed, kilonewtons, megapascals, millimetres, missing, point, scientific, seconds, tonnes } from "./numbers";
 
 const left = (head: string): Column => ({ head, align: "left" });
 
@@ -118,6 +118,19 @@ function bucklingTable(structure: Structure): Child {
     seconds(panel.time_s), fixed(panel.elastic_utilisation, 2), fixed(panel.utilisation, 2)]), 4);
 }
 
+/** Bars that stand free of plates as columns: what they bear over what they may, forces times a factor. */
+function barsTable(structure: Structure): Child {
+  const buckling = structure.buckling;
+  const bars = buckling?.bars ?? [];
+  if (bars.length === 0) return null;
+  return folded("Block", `Bars as columns: those that bear most of ${buckling?.bars_looked_at ?? bars.length}, over the whole lift`, [left("Bar"),
+    { head: "From x, y, z, m" }, { head: "To, m" }, { head: "Buckling length, m" }, { head: "Compression, kN" }, { head: "Moments, kNm" },
+    { head: "Buckling load, kN" }, left("State"), { head: "at, s" }, { head: `Utilisation, forces times ${fixed(buckling?.bar_factor, 2)}` }],
+  bars.map((bar) => [bar.bar, point(bar.from_m), point(bar.to_m), fixed(bar.buckling_length_m, 2), kilonewtons(bar.compression_N),
+    bar.moments_Nm?.map(kilonewtons).join(", ") ?? missing, kilonewtons(bar.buckling_resistance_N), bar.state ?? missing, seconds(bar.time_s),
+    fixed(bar.utilisation, 2)]), 4);
+}
+
 function balanceTable(structure: Structure): Child {
   const rows: Child[][] = [];
   const row = (name: string, way: StructureWay | undefined): void => {
@@ -180,6 +193,6 @@ export function structureSection(data: PageData): Section | null {
       h("p", { class: "lead" }, (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : "")
         + "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
         + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
-      waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), massTable(structure)],
+      waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), barsTable(structure), massTable(structure)],
   };
 }

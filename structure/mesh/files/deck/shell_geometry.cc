@@ -45,4 +45,32 @@ Vector3 unit_normal(const Mesh& mesh, const Shell& shell) {
   return (vertex(3) - vertex(0)).cross(vertex(2) - vertex(1)).normalized();
 }
 
+std::pair<int, int> edge_between(int vertex, int other) { return std::minmax(vertex, other); }
+
+ShellsByEdge shells_by_edge(const Mesh& mesh) {
+  ShellsByEdge shells;
+  for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
+    const auto& v = mesh.shells[s].vertices;
+    for (const auto& [from, to] : {edge_between(v[0], v[1]), edge_between(v[1], v[3]),
+                                   edge_between(v[3], v[2]), edge_between(v[2], v[0])})
+      if (from != to) shells.emplace(std::pair(from, to), static_cast<int>(s));
+  }
+  ShellsByEdge halves;
+  for (const SurfacePoint& point : mesh.surface_points) {
+    const auto& v = mesh.shells[at(point.shell)].vertices;
+    // Corners of the side on which the point lies; within a shell it lies on none.
+    std::array<int, 2> ends{-1, -1};
+    if (point.xi[0] == 0) ends = {v[0], v[2]};
+    if (point.xi[0] == 1) ends = {v[1], v[3]};
+    if (point.xi[1] == 0) ends = {v[0], v[1]};
+    if (point.xi[1] == 1) ends = {v[2], v[3]};
+    if (ends[0] == ends[1]) continue;
+    const auto [first, last] = shells.equal_range(edge_between(ends[0], ends[1]));
+    for (auto it = first; it != last; ++it)
+      for (const int end : ends) halves.emplace(edge_between(end, point.vertex), it->second);
+  }
+  shells.merge(halves);
+  return shells;
+}
+
 }  // namespace blocklift::structure

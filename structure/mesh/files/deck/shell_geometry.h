@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "structure/mesh/mesh.h"
@@ -24,5 +26,13 @@ std::array<int, 4> lexicographic(const std::vector<int>& around);
 
 /// Unit normal of a shell in its middle.
 Vector3 unit_normal(const Mesh& mesh, const Shell& shell);
+
+/// Shells by the edges between their vertices, the lower vertex first.
+using ShellsByEdge = std::multimap<std::pair<int, int>, int>;
+std::pair<int, int> edge_between(int vertex, int other);
+
+/// The halves of curved edges, on whose middle a vertex lies (SurfacePoint), are edges, too, of all
+/// shells that meet there.
+ShellsByEdge shells_by_edge(const Mesh& mesh);
 
 }  // namespace blocklift::structure

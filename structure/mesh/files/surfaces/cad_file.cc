@@ -83,7 +83,8 @@ double length_of_iges(const std::string& text) {
 /// it up.
 std::string own_name(const std::string& label) {
   const std::string name = label.substr(label.rfind('/') + 1);
-  static const std::vector<std::string> made_up{"FACE", "SHELL", "COMPOUND", "SOLID", "Shapes"};
+  static const std::vector<std::string> made_up{"FACE", "SHELL",  "COMPOUND", "SOLID", "EDGE",
+                                                "WIRE", "VERTEX", "Shapes",   "Curve", "Geometric"};
   const bool is_made_up = name.starts_with("Open CASCADE") ||
                           std::find(made_up.begin(), made_up.end(), name) != made_up.end() ||
                           std::all_of(name.begin(), name.end(), [](char c) {
@@ -92,15 +93,30 @@ std::string own_name(const std::string& label) {
   return is_made_up ? "" : name;
 }
 
-std::string group_of_surface(int surface) {
+/// The group of a surface or a curve: its label, its colour, or its number.
+std::string group_of_entity(const Entity& entity) {
+  const auto& [dimension, tag] = entity;
   std::string label;
-  gmsh::model::getEntityName(2, surface, label);
+  gmsh::model::getEntityName(dimension, tag, label);
   std::string name = own_name(label);
   if (!name.empty()) return name;
   int red = 0, green = 0, blue = 0, alpha = 0;
-  gmsh::model::getColor(2, surface, red, green, blue, alpha);
+  gmsh::model::getColor(dimension, tag, red, green, blue, alpha);
   if (alpha > 0) return fmt::format("colour #{:02x}{:02x}{:02x}", red, green, blue);
-  return fmt::format("surface {}", surface);
+  return fmt::format("{} {}", dimension == 2 ? "surface" : "curve", tag);
+}
+
+/// Curves that bound no surface, by tag, with their groups.
+std::map<int, std::string> free_curves() {
+  std::map<int, std::string> groups;
+  gmsh::vectorpair curves;
+  gmsh::model::getEntities(curves, 1);
+  for (const Entity& curve : curves) {
+    std::vector<int> surfaces, ends;
+    gmsh::model::getAdjacencies(1, curve.second, surfaces, ends);
+    if (surfaces.empty()) groups[curve.second] = group_of_entity(curve);
+  }
+  return groups;
 }
 
 int take_solids_away(bool allowed) {
@@ -152,8 +168,10 @@ CadSurfaces open_cad_file(const std::string& path, double length, bool leave_sol
   cad.solids_left_out = take_solids_away(leave_solids_out);
   gmsh::vectorpair surfaces;
   gmsh::model::getEntities(surfaces, 2);
-  if (surfaces.empty()) throw ModelError("there are no surfaces in the file, or it is damaged");
-  for (const auto& [dimension, surface] : surfaces) cad.groups[surface] = group_of_surface(surface);
+  for (const Entity& surface : surfaces) cad.groups[surface.second] = group_of_entity(surface);
+  cad.curves = free_curves();
+  if (surfaces.empty() && cad.curves.empty())
+    throw ModelError("there are neither surfaces nor curves in the file, or it is damaged");
   return cad;
 }
 

@@ -18,15 +18,17 @@ double declared_length(const std::string& path);
 struct CadSurfaces {
   double length = 1;                  ///< of the unit of the model's coordinates, m
   std::map<int, std::string> groups;  ///< of surfaces, by tag
+  std::map<int, std::string> curves;  ///< groups of curves that bound no surface, by tag
   int solids_left_out = 0;
 };
 
 /// Imports a file into Gmsh's current model. Solids are removed with their faces, or refused.
 ///
-/// The group of a surface is the last part of its label in the file, else its colour ("colour
-/// #ff0000"), else "surface 3".
+/// The group of a surface or a curve is the last part of its label in the file, else its colour
+/// ("colour #ff0000"), else "surface 3" or "curve 3".
 /// @param length of the unit that the user says the file has, m.
-/// @throws ModelError if the file declares another unit, cannot be read, or has no surfaces.
+/// @throws ModelError if the file declares another unit, cannot be read, or has neither
+///   surfaces nor curves.
 CadSurfaces open_cad_file(const std::string& path, double length, bool leave_solids_out);
 
 }  // namespace blocklift::structure

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "structure/mesh/mesh.h"
@@ -13,9 +14,10 @@ void give_thickness(Mesh& mesh, const std::string& group, double thickness, int 
 /// Gives the beams of a group that have no section a profile, which stands towards a direction.
 ///
 /// Its foot is on the faces of the plates along whose edges the beams lie and whose normal is
-/// within 45 degrees of that direction; else on the nodes.
+/// within 45 degrees of that direction; else its origin is on the nodes.
+/// @param towards none, of round profiles alone: they have their middle on the nodes.
 /// @throws ModelError naming a beam that runs along the direction.
 void give_profile(Mesh& mesh, const std::string& group, const Profile& profile,
-                  const Vector3& towards, int material);
+                  const std::optional<Vector3>& towards, int material);
 
 }  // namespace blocklift::structure

@@ -1,6 +1,8 @@
 #include "structure/mesh/files/surfaces/surface_reader.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <new>
 #include <set>
 
@@ -71,35 +73,85 @@ class SurfaceReader {
       deck_.ledger.push_back({"solids", cad.solids_left_out, 0, "they were to be left out", {}});
     std::map<Entity, int> owners;
     for (const auto& [surface, group] : cad.groups) owners[{2, surface}] = surface;
+    for (const int curve : take_bars(cad)) owners[{1, curve}] = curve;
     allow_processor_time(seconds_to_mesh);
     EntityRegions regions;
     for (const auto& [piece, of] : cut_at_joints(owners, joint_tolerance / length)) {
-      const std::string& group = cad.groups.at(of.front());
-      if (of.size() > 1) note_overlap(cad, of);
-      regions.surfaces[piece.second] = region_of(group, of.front());
+      const bool is_plate = piece.first == 2;
+      const auto& groups = is_plate ? cad.groups : cad.curves;
+      if (of.size() > 1) note_overlap(is_plate, groups, of);
+      (is_plate ? regions.surfaces : regions.curves)[piece.second] =
+          region_of(groups.at(of.front()), {piece.first, of.front()});
     }
     if (!complaints_.empty()) return regions;
     mesh_surfaces(reading_.sizes, length);
     return regions;
   }
 
-  int region_of(const std::string& group, int surface) {
-    const auto [known, is_new] = region_of_surface_.try_emplace(surface, 0);
+  /// The free curves whose groups are given a section. The others leave the model, and the list of
+  /// what is left out has their groups' names.
+  std::vector<int> take_bars(const CadSurfaces& cad) {
+    constexpr std::size_t most_names = 6;
+    std::vector<int> bars;
+    gmsh::vectorpair others;
+    std::set<std::string> without;
+    for (const auto& [curve, group] : cad.curves) {
+      if (reading_.given.has_bar(group)) {
+        bars.push_back(curve);
+        continue;
+      }
+      others.emplace_back(1, curve);
+      without.insert(group);
+    }
+    if (cad.groups.empty() && bars.empty())
+      throw ModelError(
+          fmt::format("the file has curves alone, and no section is given to their groups: {}",
+                      first_of(without, most_names)));
+    if (!others.empty()) {
+      gmsh::model::occ::remove(others, true);
+      gmsh::model::occ::synchronize();
+    }
+    if (!cad.curves.empty())
+      deck_.ledger.push_back({"curves",
+                              static_cast<int>(cad.curves.size()),
+                              static_cast<int>(bars.size()),
+                              without.empty() ? ""
+                                              : "no section is given to their groups: " +
+                                                    first_of(without, most_names),
+                              {}});
+    return bars;
+  }
+
+  static std::string first_of(const std::set<std::string>& names, std::size_t most) {
+    std::vector<std::string> shown(
+        names.begin(),
+        std::next(names.begin(), static_cast<std::ptrdiff_t>(std::min(most, names.size()))));
+    if (names.size() > most) shown.push_back(fmt::format("{} more", names.size() - most));
+    return fmt::format("{}", fmt::join(shown, ", "));
+  }
+
+  int region_of(const std::string& group, const Entity& owner) {
+    const auto [known, is_new] = region_of_entity_.try_emplace(owner, 0);
     if (is_new)
-      known->second = add_region(deck_.mesh, group, fmt::format("{}, surface {}", group, surface));
+      known->second = add_region(
+          deck_.mesh, group,
+          fmt::format("{}, {} {}", group, owner.first == 2 ? "surface" : "curve", owner.second));
     return known->second;
   }
 
-  void note_overlap(const CadSurfaces& cad, const std::vector<int>& surfaces) {
+  void note_overlap(bool are_plates, const std::map<int, std::string>& group_of,
+                    const std::vector<int>& entities) {
     std::set<std::string> groups;
-    for (const int surface : surfaces) groups.insert(cad.groups.at(surface));
+    for (const int entity : entities) groups.insert(group_of.at(entity));
     const std::string text =
-        fmt::format("surfaces {} lie upon one another", fmt::join(surfaces, " and "));
+        fmt::format("{} {} lie upon one another", are_plates ? "surfaces" : "curves",
+                    fmt::join(entities, " and "));
+    const std::string one = are_plates ? "plate" : "bar";
     if (groups.size() > 1)
-      complaints_.push_back(fmt::format("{}, in the groups {}: which plate is there?", text,
-                                        fmt::join(groups, " and ")));
+      complaints_.push_back(fmt::format("{}, in the groups {}: which {} is there?", text,
+                                        fmt::join(groups, " and "), one));
     else
-      deck_.remarks.push_back({path_, text + "; there is one plate"});
+      deck_.remarks.push_back({path_, fmt::format("{}; there is one {}", text, one)});
   }
 
   void name_groups() {
@@ -116,7 +168,7 @@ class SurfaceReader {
   SurfaceReading reading_;
   Deck deck_;
   std::vector<std::string> complaints_;
-  std::map<int, int> region_of_surface_;
+  std::map<Entity, int> region_of_entity_;
 };
 
 }  // namespace

@@ -1,14 +1,17 @@
 // Meshes of Gmsh and CAD surfaces as plates and bars.
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <numbers>
+#include <sstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -249,8 +252,8 @@ TEST_F(Surfaces, LinesOfAGroupWithASectionAreBars) {
     give_thickness(deck.mesh, "surface group 7", plate_thickness, 0);
     const Profile bar = flat_bar(0.15, 0.012);
     Mesh other = deck.mesh;
-    EXPECT_THROW(give_profile(other, "bar", bar, {0, 1, 0}, 0), ModelError);
-    give_profile(deck.mesh, "bar", bar, {0, 0, -1}, 0);
+    EXPECT_THROW(give_profile(other, "bar", bar, Vector3(0, 1, 0), 0), ModelError);
+    give_profile(deck.mesh, "bar", bar, Vector3(0, 0, -1), 0);
     check_mesh(deck.mesh);
     for (const Beam& beam : deck.mesh.beams)
       EXPECT_NEAR(beam.offset[0].z(), -plate_thickness / 2 - 0.075, 1e-12);
@@ -258,6 +261,155 @@ TEST_F(Surfaces, LinesOfAGroupWithASectionAreBars) {
                 plain_steel().density * (4 * plate_thickness + 2 * 0.15 * 0.012), 1e-6);
     EXPECT_EQ(deck.mesh.surface_points.empty(), order == 1);
   }
+}
+
+/// A deck of 4 m by 2 m, a stiffener of 4 m drawn on it, a pillar of 1 m that stands on it, and a
+/// quarter of a circle of 2 m about the pillar's foot, above the deck.
+void draw_deck_with_bars() {
+  const auto line = [](const std::array<double, 3>& from, const std::array<double, 3>& to) {
+    occ::addLine(occ::addPoint(from[0], from[1], from[2]), occ::addPoint(to[0], to[1], to[2]));
+  };
+  occ::addRectangle(0, 0, 0, 4000, 2000);
+  line({0, 800, 0}, {4000, 800, 0});
+  line({2000, 1200, 0}, {2000, 1200, 1000});
+  occ::addCircle(2000, 1200, 1000, 2000, -1, 0, std::numbers::pi / 2);
+  occ::synchronize();
+}
+
+/// Groups of a file's curves, by the list of what it leaves out.
+std::vector<std::string> groups_of_curves(const std::string& path) {
+  const Deck deck = read_surfaces(path, reading_of("mm-t-N", 0.25));
+  for (const LedgerEntry& line : deck.ledger) {
+    if (line.name != "curves") continue;
+    std::vector<std::string> groups;
+    std::istringstream names(line.left_out.substr(line.left_out.find(": ") + 2));
+    for (std::string name; std::getline(names >> std::ws, name, ',');) groups.push_back(name);
+    return groups;
+  }
+  return {};
+}
+
+// Bars that lie in a plate or stand on it share its nodes; arcs are chords of a mesh that is finer
+// there: the length of the arc is met within (angle of a chord)^2 / 24.
+TEST_F(Surfaces, CurvesOfAGeometryAreBars) {
+  for (const char* name : {"bars.step", "bars.brep"}) {
+    SCOPED_TRACE(name);
+    const std::string file = made(name, draw_deck_with_bars);
+    const std::vector<std::string> groups = groups_of_curves(file);
+    ASSERT_EQ(groups.size(), 3U);
+    SurfaceReading reading = reading_of("mm-t-N", 0.25);
+    reading.given.bars = {groups[0], groups[1]};
+    Deck deck = read_surfaces(file, reading);
+    EXPECT_THAT(deck.groups_without_section, ::testing::ElementsAre(groups[0], groups[1]));
+    EXPECT_THAT(deck.ledger.back().left_out, HasSubstr(groups[2]));
+    for (const int part : connected_parts(deck.mesh)) EXPECT_LE(part, 0);
+    deck.mesh.materials = {plain_steel()};
+    give_thickness(deck.mesh, deck.groups_without_thickness.front(), plate_thickness, 0);
+    give_profile(deck.mesh, groups[0], flat_bar(0.15, 0.012), Vector3(0, 0, -1), 0);
+    give_profile(deck.mesh, groups[1], flat_bar(0.15, 0.012), Vector3(1, 0, 0), 0);
+    check_mesh(deck.mesh);
+    EXPECT_NEAR(mass_properties(deck.mesh).mass,
+                plain_steel().density * (8 * plate_thickness + 5 * 0.15 * 0.012), 1e-6);
+    // The stiffener stands under the plate's face, wherever its elements are.
+    int on_plate = 0;
+    for (const Beam& beam : deck.mesh.beams)
+      if (std::abs(beam.offset[0].z() + plate_thickness / 2 + 0.075) < 1e-12) ++on_plate;
+    EXPECT_GE(on_plate, 16);
+    reading.given.bars = groups;
+    const Mesh mesh = read_surfaces(file, reading).mesh;
+    double length = 0;
+    for (const Beam& beam : mesh.beams)
+      length += (mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])]).norm();
+    EXPECT_NEAR(length, 5 + std::numbers::pi, std::numbers::pi * std::pow(0.0625, 2) / 24);
+  }
+}
+
+/// Writes a file of IGES 5.3 (ANS US PRO/IPO-100-1996), whose lines have their section's letter and
+/// a number behind column 72.
+class IgesText {
+ public:
+  /// @param status 10000: only there for what is made of it.
+  /// @return the number by which other entities name this one.
+  int entity(int type, const std::string& parameters, int status = 0) {
+    const int number = directory_lines_ + 1;
+    const std::string data =
+        fmt::format("{:<64}{:>8}", fmt::format("{},{};", type, parameters), number);
+    parameters_ += line(data, 'P', ++parameter_lines_);
+    directory_ += line(fmt::format("{0:>8}{1:>8}{2:>8}{2:>8}{2:>8}{2:>8}{2:>8}{2:>8}{3:08}", type,
+                                   parameter_lines_, 0, status),
+                       'D', ++directory_lines_);
+    directory_ += line(fmt::format("{0:>8}{1:>8}{1:>8}{2:>8}{1:>8}{3:>24}{1:>8}", type, 0, 1, ""),
+                       'D', ++directory_lines_);
+    return number;
+  }
+  std::string text() const {
+    const std::string globals =
+        "1H,,1H;,4Hdeck,8Hdeck.igs,4Htest,1H1,32,38,6,308,15,4Hdeck,1.,2,2HMM,1,";
+    const std::string more =
+        "0.01,15H20260101.000000,1E-6,1E5,4Htest,4Htest,11,0,15H20260101.000000;";
+    return line("", 'S', 1) + line(globals, 'G', 1) + line(more, 'G', 2) + directory_ +
+           parameters_ +
+           line(fmt::format("S{:07}G{:07}D{:07}P{:07}", 1, 2, directory_lines_, parameter_lines_),
+                'T', 1);
+  }
+
+ private:
+  static std::string line(const std::string& data, char section, int number) {
+    return fmt::format("{:<72}{}{:07}\n", data, section, number);
+  }
+  std::string directory_, parameters_;
+  int directory_lines_ = 0, parameter_lines_ = 0;
+};
+
+// A deck and a web, ruled between lines (entities 118 and 110), a quarter of a cylinder of 1 m that
+// stands on the deck, between arcs (100), and a line of 4 m along the deck that is a bar.
+TEST_F(Surfaces, AnIgesFileOfRuledSurfacesAndLines) {
+  IgesText iges;
+  constexpr int dependent = 10000, line = 110, arc = 100, ruled = 118;
+  const auto surface_between = [&](int type, const std::string& first, const std::string& second) {
+    const int a = iges.entity(type, first, dependent), b = iges.entity(type, second, dependent);
+    iges.entity(ruled, fmt::format("{},{},0,0", a, b));
+  };
+  surface_between(line, "0.,0.,0.,4000.,0.,0.", "0.,2000.,0.,4000.,2000.,0.");
+  surface_between(line, "2000.,0.,0.,2000.,2000.,0.", "2000.,0.,800.,2000.,2000.,800.");
+  surface_between(arc, "0.,3000.,1000.,4000.,1000.,3000.,2000.",
+                  "1000.,3000.,1000.,4000.,1000.,3000.,2000.");
+  iges.entity(line, "0.,800.,0.,4000.,800.,0.");
+  const std::string file = written("deck.igs", iges.text());
+  EXPECT_EQ(declared_length(file), 1e-3);
+  const std::vector<std::string> groups = groups_of_curves(file);
+  ASSERT_EQ(groups.size(), 1U);
+  SurfaceReading reading = reading_of("mm-t-N", 0.25);
+  reading.given.bars = groups;
+  Deck deck = read_surfaces(file, reading);
+  for (const int part : connected_parts(deck.mesh)) EXPECT_LE(part, 0);
+  deck.mesh.materials = {plain_steel()};
+  EXPECT_EQ(deck.groups_without_thickness.size(), 3U);
+  for (const std::string& group : deck.groups_without_thickness)
+    give_thickness(deck.mesh, group, plate_thickness, 0);
+  const Profile bar = flat_bar(0.15, 0.012);
+  give_profile(deck.mesh, groups[0], bar, Vector3(0, 0, -1), 0);
+  check_mesh(deck.mesh);
+  const double area = 8 + 1.6 + std::numbers::pi / 2;
+  const double mass = plain_steel().density * (area * plate_thickness + 4 * bar.section.area);
+  EXPECT_NEAR(mass_properties(deck.mesh).mass, mass, 1e-5 * mass);
+}
+
+TEST_F(Surfaces, AGeometryMayBeOfBarsAlone) {
+  const std::string file = made("frame.step", [] {
+    const int foot = occ::addPoint(0, 0, 0), knee = occ::addPoint(0, 0, 3000);
+    occ::addLine(foot, knee);
+    occ::addLine(knee, occ::addPoint(2000, 0, 3000));
+    occ::synchronize();
+  });
+  const std::string without = reading_error(file, reading_of("mm-t-N", 0.25));
+  EXPECT_THAT(without, HasSubstr("the file has curves alone, and no section is given to their "
+                                 "groups: curve 1, curve 2"));
+  SurfaceReading reading = reading_of("mm-t-N", 0.25);
+  reading.given.bars = {"curve 1", "curve 2"};
+  const Deck deck = read_surfaces(file, reading);
+  EXPECT_GE(deck.mesh.beams.size(), 20U);
+  EXPECT_EQ(deck.mesh.vertices.size(), deck.mesh.beams.size() + 1);
 }
 
 TEST_F(Surfaces, SaysWhatIsWrong) {
@@ -274,7 +426,7 @@ TEST_F(Surfaces, SaysWhatIsWrong) {
               HasSubstr("the file has 1 solid, and"));
   SurfaceReading without = reading_of("mm-t-N", 0.1);
   without.leave_solids_out = true;
-  EXPECT_THAT(reading_error(solid, without), HasSubstr("there are no surfaces"));
+  EXPECT_THAT(reading_error(solid, without), HasSubstr("neither surfaces nor curves"));
   std::ifstream file(plate);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const std::string cut = written("cut.step", text.substr(0, text.size() / 2));

@@ -1,0 +1,148 @@
+// Bars of a block as columns: which pieces of them stand free, and what compresses and bends them.
+#include "structure/practice/bar_buckling.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "structure/mesh/plates/shell_generator.h"
+#include "structure/mesh/sections.h"
+#include "structure/response/unit_responses.h"
+
+namespace blocklift::structure {
+namespace {
+
+constexpr double free_fall = 9.81;
+const Material column_steel{"S355", 210e9, 0.3, 7850, 355e6};
+
+/// A bar along x in four pieces, hung at its ends, where thin rods stand out to either side: a block
+/// has an extent in two directions.
+Mesh bar_between_lugs(const Profile& profile, double length) {
+  Mesh mesh;
+  mesh.materials = {column_steel};
+  mesh.groups = {{"spreader"}, {"rods"}};
+  mesh.regions = {{.name = "spreader", .group = 0}, {.name = "rods", .group = 1}};
+  mesh.beam_sections = {profile.section, solid_circle(0.002).section};
+  for (int i = 0; i <= 4; ++i) mesh.vertices.emplace_back(length * i / 4, 0, 0);
+  for (int i = 0; i < 4; ++i) {
+    Beam beam;
+    beam.vertices = {i, i + 1};
+    if (i == 2) std::swap(beam.vertices[0], beam.vertices[1]);  // whichever way they are drawn
+    mesh.beams.push_back(beam);
+  }
+  for (const int end : {0, 4})
+    for (const double side : {-0.1, 0.1}) {
+      Beam rod;
+      rod.vertices = {end, static_cast<int>(mesh.vertices.size())};
+      rod.section = rod.region = 1;
+      mesh.vertices.emplace_back(length * end / 4, side, 0);
+      mesh.beams.push_back(rod);
+    }
+  for (const int vertex : {0, 4})
+    mesh.lifting_points.push_back({.name = "L" + std::to_string(vertex),
+                                   .p_BPin = mesh.vertices[static_cast<std::size_t>(vertex)],
+                                   .radius = 0.1,
+                                   .vertex = vertex});
+  return mesh;
+}
+
+// Slings at 45 degrees press a bar of weight G by G / 2 while it bends by G L / 8: the worst place is
+// its middle, and both figures double under twice gravity.
+TEST(BarBuckling, ABarUnderSlingsIsASpreader) {
+  constexpr double length = 12;
+  const Profile tube = pipe(0.08, 0.075);
+  const ElasticModel model(bar_between_lugs(tube, length), {.degree = 2, .largest_edge = {}});
+  const UnitResponses responses(model);
+  const BlockBars bars(model, responses.displacements());
+  ASSERT_EQ(bars.spans().size(), 5U);
+  const BarSpan& span = bars.spans().front();
+  EXPECT_EQ(span.bar, "spreader");
+  EXPECT_DOUBLE_EQ(span.column.length, length);
+  EXPECT_DOUBLE_EQ(span.column.second_moments[0], tube.section.second_moment_2);
+  EXPECT_NEAR(span.column.section_moduli[1], tube.section.second_moment_3 / 0.08, 1e-12);
+
+  const double weight = column_steel.density * tube.section.area * length * free_fall;
+  const double upwards = model.mass_properties().mass * free_fall / 2;
+  LoadCase hanging{"at rest", {}, {}};
+  hanging.field.acceleration_less_gravity = Vector3(0, 0, free_fall);
+  hanging.lug_forces_B = {Vector3(weight / 2, 0, upwards), Vector3(-weight / 2, 0, upwards)};
+  Eigen::MatrixXd factors(responses.count(), 2);
+  factors.col(0) = responses.coefficients(hanging);
+  factors.col(1) = 2 * factors.col(0);
+  const BlockBars::Worst worst = bars.find_worst(factors, 1.5).front();
+  EXPECT_EQ(worst.instant, 1);
+  EXPECT_NEAR(worst.share, 0.5, 1e-12);
+  EXPECT_NEAR(worst.forces.compression, weight, 1e-6 * weight);
+  const double moment = std::hypot(worst.forces.moments[0], worst.forces.moments[1]);
+  EXPECT_NEAR(moment, weight * length / 4, 1e-6 * moment);
+  EXPECT_DOUBLE_EQ(worst.utilisation, column_utilisation(span.column, worst.forces, 1.5));
+  EXPECT_GT(worst.utilisation, bars.find_worst(factors, 1).front().utilisation);
+}
+
+// The moments about an angle's principal axes are those of the force, and its weaker axis is the
+// smaller of the principal second moments.
+TEST(BarBuckling, AnAngleBendsAboutItsPrincipalAxes) {
+  const Profile angle = angle_bar(0.1, 0.01, 0.1, 0.01);
+  const ElasticModel model(bar_between_lugs(angle, 4), {.degree = 2, .largest_edge = {}});
+  const UnitResponses responses(model);
+  const BlockBars bars(model, responses.displacements());
+  const BarSpan& span = bars.spans().front();
+  const double mean = (angle.section.second_moment_2 + angle.section.second_moment_3) / 2;
+  const double apart =
+      std::hypot((angle.section.second_moment_2 - angle.section.second_moment_3) / 2,
+                 angle.section.product_23);
+  EXPECT_NEAR(span.column.second_moments[0], mean - apart, 1e-12);
+  EXPECT_NEAR(span.column.second_moments[1], mean + apart, 1e-12);
+  const double weight = column_steel.density * angle.section.area * 4 * free_fall;
+  LoadCase hanging{"at rest", {}, {}};
+  hanging.field.acceleration_less_gravity = Vector3(0, 0, free_fall);
+  hanging.lug_forces_B.assign(2, {0, 0, model.mass_properties().mass * free_fall / 2});
+  const Eigen::MatrixXd factors = responses.coefficients(hanging);
+  const BlockBars::Worst worst = bars.find_worst(factors, 1).front();
+  const double moment = weight * 4 / 8;
+  // An equal angle's principal axes lie at 45 degrees to its legs.
+  for (const double part : worst.forces.moments)
+    EXPECT_NEAR(std::abs(part), moment * std::sqrt(0.5), 1e-4 * moment);
+}
+
+// Of a block of plates: a pillar through a deck has a span on either side of it, two braces that
+// cross hold each other, and a stiffener on a plate is none.
+TEST(BarBuckling, SpansEndAtWhatHoldsThem) {
+  BlockDescription block;
+  block.name = "decks";
+  block.materials = {column_steel};
+  block.largest_element = 0.5;
+  block.plates = {{"deck", Axis::z, {0, 1, 3}, {{{0, 4}, {0, 3}, {0, 0}}}, 0.01, "S355"},
+                  {"bulkhead", Axis::x, {4}, {{{0, 0}, {0, 3}, {0, 3}}}, 0.01, "S355"}};
+  const Profile tube = pipe(0.05, 0.045);
+  block.bars = {{"pillar", {{1, 1, 0}, {1, 1, 3}}, tube, {}, "S355"},
+                {"cross", {{2, 1, 1}, {3, 1, 3}}, tube, {}, "S355"},
+                {"other", {{2, 1, 3}, {3, 1, 1}}, tube, {}, "S355"},
+                {"joist", {{0, 2, 3}, {4, 2, 3}}, flat_bar(0.1, 0.01), Vector3(0, 0, 1), "S355"},
+                {"post", {{1, 2, 3}, {1, 2, 4.5}}, tube, {}, "S355"}};
+  Mesh mesh = generate_shell_mesh(block);
+  for (const Vector3& place : {Vector3(0, 0, 3), Vector3(4, 0, 3), Vector3(0, 3, 3)})
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      if ((mesh.vertices[v] - place).norm() < 1e-6)
+        mesh.lifting_points.push_back({.name = "L" + std::to_string(v),
+                                       .p_BPin = place,
+                                       .radius = 0.1,
+                                       .vertex = static_cast<int>(v)});
+  const ElasticModel model(std::move(mesh), {.degree = 1, .largest_edge = {}});
+  const BlockBars bars(model, Eigen::MatrixXd::Zero(model.freedoms(), 1));
+  std::multiset<std::pair<std::string, long>> found;  // and length in mm
+  for (const BarSpan& span : bars.spans())
+    found.emplace(span.bar, std::lround(1000 * span.column.length));
+  const long half = std::lround(1000 * std::sqrt(5) / 2);
+  const std::multiset<std::pair<std::string, long>> expected{
+      {"pillar", 1000}, {"pillar", 2000}, {"cross", half}, {"cross", half},
+      {"other", half},  {"other", half},  {"post", 3000}};  // its top is free: twice its length
+  EXPECT_EQ(found, expected);
+}
+
+}  // namespace
+}  // namespace blocklift::structure
