@@ -14,7 +14,7 @@ namespace blocklift::structure {
 namespace {
 
 constexpr double shortest_line = 1e-3;  // m
-constexpr double at_end = 1e-3;     // m: beyond the tolerance of joints
+constexpr double at_end = 1e-3;         // m: beyond the tolerance of joints
 
 void check_bar(const std::string& what, const Bar& bar) {
   const double area = bar.profile.section.area;
