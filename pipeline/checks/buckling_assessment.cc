@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,9 +51,10 @@ void sort_by(std::vector<T>& items, const Figure& figure) {
 }
 
 /// The worse of static and dynamic states, bar by bar.
-void find_bars(const structure::UnitResponses& responses, const States& static_states,
-               const States& dynamic_states, BucklingAssessment& result) {
-  const structure::BlockBars bars(responses.model(), responses.displacements());
+void find_bars(const structure::UnitResponses& responses, const BlockPanels& panels,
+               const States& static_states, const States& dynamic_states,
+               BucklingAssessment& result) {
+  const structure::BlockBars bars(responses.model(), responses.displacements(), panels);
   result.unknown_rods = bars.unknown_rods();
   const auto at_rest = bars.find_worst(static_states.factors, result.bar_factor);
   const auto in_motion = bars.find_worst(dynamic_states.factors, result.bar_factor);
@@ -84,7 +86,7 @@ BucklingAssessment worse_of(const LiftCase& lift_case, const structure::UnitResp
   sort_by(result.panels,
           [](const BuckledPanel& panel) { return panel.worst.utilisation.critical; });
   result.bar_factor = buckling_factor(lift_case);
-  find_bars(responses, static_states, dynamic_states, result);
+  find_bars(responses, panels, static_states, dynamic_states, result);
   result.evaluation_s = watch.lap();
   return result;
 }
@@ -98,11 +100,15 @@ std::string field_text(const structure::Panel& panel) {
 
 std::string span_text(const BuckledBar& bar) {
   const structure::BarSpan& span = bar.span;
+  const std::string rule =
+      span.plate_width > 0
+          ? fmt::format("with {:.0f} mm of plate, EN 1993-1-5, 4.5.3", 1000 * span.plate_width)
+          : "EN 1993-1-1, 6.3.1.1, curve c";
   return fmt::format(
-      "{} from ({:.2f}, {:.2f}, {:.2f}) m to ({:.2f}, {:.2f}, {:.2f}) m; EN 1993-1-1, 6.3.1.1, "
-      "curve c, moments growing by 5.2.2(5)",
+      "{} from ({:.2f}, {:.2f}, {:.2f}) m to ({:.2f}, {:.2f}, {:.2f}) m; {}, moments growing by "
+      "EN 1993-1-1, 5.2.2(5)",
       span.bar, span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z(), span.p_BTo.x(),
-      span.p_BTo.y(), span.p_BTo.z());
+      span.p_BTo.y(), span.p_BTo.z(), rule);
 }
 
 }  // namespace
@@ -139,10 +145,11 @@ std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAsses
   }
   seen.clear();
   for (const BuckledBar& bar : buckling.bars) {
-    if (!seen.insert(bar.span.group).second) continue;
+    const std::string_view kind = bar.span.plate_width > 0 ? "stiffeners" : "bars";
+    if (!seen.insert(fmt::format("{} in {}", kind, bar.span.group)).second) continue;
     Check check =
-        check_at_most(fmt::format("buckling of bars in {}: compression with bending, times {:g}",
-                                  bar.span.group, buckling.bar_factor),
+        check_at_most(fmt::format("buckling of {} in {}: compression with bending, times {:g}",
+                                  kind, bar.span.group, buckling.bar_factor),
                       bar.worst.utilisation, 1, "1");
     check.time = bar.time;
     check.note = span_text(bar);
@@ -185,6 +192,7 @@ nlohmann::ordered_json buckling_json(const BucklingAssessment& buckling) {
     Json row{{"bar", span.bar},
              {"from_m", {span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z()}},
              {"to_m", {span.p_BTo.x(), span.p_BTo.y(), span.p_BTo.z()}},
+             {"plate_width_m", span.plate_width},
              {"buckling_length_m", span.column.length},
              {"compression_N", bar.worst.forces.compression},
              {"moments_Nm", bar.worst.forces.moments},
@@ -202,7 +210,7 @@ namespace {
 void write_bars(ResultsWriter& file, const BucklingAssessment& buckling) {
   const auto rows = static_cast<Eigen::Index>(buckling.bars.size());
   if (rows == 0) return;
-  RowMajorMatrix table(rows, 14);
+  RowMajorMatrix table(rows, 15);
   std::vector<std::string> names;
   for (Eigen::Index b = 0; b < rows; ++b) {
     const BuckledBar& bar = buckling.bars[static_cast<std::size_t>(b)];
@@ -210,16 +218,17 @@ void write_bars(ResultsWriter& file, const BucklingAssessment& buckling) {
     const structure::ColumnForces& forces = bar.worst.forces;
     names.push_back(span.bar);
     table.row(b) << span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z(), span.p_BTo.x(),
-        span.p_BTo.y(), span.p_BTo.z(), span.column.length, forces.compression, forces.moments[0],
-        forces.moments[1], structure::buckling_resistance(span.column), bar.worst.utilisation,
-        bar.in_motion ? 1.0 : 0.0, bar.time.value_or(0);
+        span.p_BTo.y(), span.p_BTo.z(), span.plate_width, span.column.length, forces.compression,
+        forces.moments[0], forces.moments[1], structure::buckling_resistance(span.column),
+        bar.worst.utilisation, bar.in_motion ? 1.0 : 0.0, bar.time.value_or(0);
   }
   file.write_texts(layout::join(layout::columns_group, "bars"), names,
-                   "name of the bar of each span, the nearest to buckling first");
+                   "name of the bar or stiffener of each span, the nearest to buckling first");
   file.write_matrix(
       layout::join(layout::columns_group, "table"), table,
       {"1",
-       "SI units, a span a row: its ends x, y, z in the block frame; buckling length; compression "
+       "SI units, a span a row: its ends x, y, z in the block frame; width of the plate that "
+       "buckles with it, 0 of a free bar; buckling length; compression "
        "(negative: pulled); moments about the section's principal axes; buckling resistance; "
        "utilisation under forces times the factor; 1 in motion, 0 at rest; time"});
 }

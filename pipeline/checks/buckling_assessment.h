@@ -23,7 +23,8 @@ struct BuckledPanel {
   std::optional<double> time;  ///< s; none for a load table
 };
 
-/// A span of a bar at the instant at which it bears most as a column, of both histories.
+/// A span of a bar or stiffener at the instant at which it bears most as a column, of both
+/// histories.
 struct BuckledBar {
   structure::BarSpan span;
   structure::BlockBars::Worst worst;
@@ -31,7 +32,7 @@ struct BuckledBar {
   std::optional<double> time;  ///< s; none for a load table
 };
 
-/// Every panel and every bar that stands free of plates over the whole lift.
+/// Every panel, stiffener and bar that stands free of plates over the whole lift.
 struct BucklingAssessment {
   std::vector<BuckledPanel> panels;  ///< the nearest to buckling first
   std::vector<BuckledBar> bars;      ///< likewise, under forces times bar_factor
@@ -51,8 +52,9 @@ BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const BlockAssessment& block);
 
 /// A line for each name of plates: its panel that is nearest to buckling, critical stresses by
-/// Johnson and Ostenfeld, against 1 over the case's buckling factor. Then one for each name of bars:
-/// what its worst span bears over what it may bear as a column, forces times that factor.
+/// Johnson and Ostenfeld, against 1 over the case's buckling factor. Then one for each name of bars
+/// and of stiffeners: what its worst span bears over what it may bear as a column, forces times that
+/// factor.
 std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAssessment& buckling);
 
 /// `structure.buckling` of summary.json: the first panels and bars; all of them are in results.h5.

@@ -4,137 +4,51 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Dense>
 
 #include "structure/batches.h"
 #include "structure/index.h"
+#include "structure/practice/bar_chains.h"
+#include "structure/practice/stiffener_chains.h"
 #include "structure/response/beam_stress.h"
 
 namespace blocklift::structure {
 
 namespace {
 
-const double most_kink = std::cos(5 * std::numbers::pi / 180);
+const double parallel_cosine = std::cos(5 * std::numbers::pi / 180);
+constexpr double straight = 5 * std::numbers::pi / 180;
 constexpr std::array<double, 3> places_in_cell{0, 0.5, 1};
 
-/// Piece of a bar: beams one behind the other, each with whether it is passed from its second
-/// vertex to its first.
-struct Chain {
-  std::vector<std::pair<int, bool>> beams;
-  int from = 0, to = 0;  ///< vertices
-};
+bool are_one_bar(const Beam& a, const Beam& b) {
+  return a.section == b.section && a.end_section < 0 && b.end_section < 0 &&
+         std::abs(a.axis_2.dot(b.axis_2)) > parallel_cosine;
+}
 
-/// Finds the straight pieces of bars between what holds them.
-class ChainFinder {
- public:
-  explicit ChainFinder(const Mesh& mesh) : mesh_(mesh) {
-    for (std::size_t s = 0; s < mesh.shells.size(); ++s)
-      for (const int vertex : mesh.shells[s].vertices) add_cell(vertex, static_cast<int>(s));
-    for (const SurfacePoint& point : mesh.surface_points) add_cell(point.vertex, point.shell);
-    const auto shells = static_cast<int>(mesh.shells.size());
-    for (std::size_t s = 0; s < mesh.solids.size(); ++s)
-      for (const int vertex : mesh.solids[s].vertices)
-        add_cell(vertex, shells + static_cast<int>(s));
-    for_each_link(mesh, [&](const std::vector<int>& vertices, long) {
-      held_.insert(vertices.begin(), vertices.end());
-    });
-    for (const Spring& spring : mesh.springs)
-      held_.insert(spring.vertices.begin(), spring.vertices.end());
-    for (const LiftingPoint& point : mesh.lifting_points) held_.insert(point.vertex);
-    for (std::size_t b = 0; b < mesh.beams.size(); ++b)
-      for (const int vertex : mesh.beams[b].vertices)
-        beams_at_[vertex].push_back(static_cast<int>(b));
+bool is_held(const MeetingPoints& points, int vertex) {
+  return !points.cells(vertex).empty() || points.is_fastened(vertex);
+}
+
+bool is_free(const MeetingPoints& points, int vertex) {
+  return points.beams(vertex).size() == 1 && !is_held(points, vertex);
+}
+
+/// The straight pieces of bars that run along no plate and no solid, between what holds them.
+std::vector<BarChain> find_free_chains(const Mesh& mesh, const MeetingPoints& points) {
+  std::vector<int> beams;
+  for (std::size_t b = 0; b < mesh.beams.size(); ++b) {
+    const auto& [from, to] = mesh.beams[b].vertices;
+    if (points.common_cells(from, to).empty()) beams.push_back(static_cast<int>(b));
   }
-
-  std::vector<Chain> chains() {
-    std::vector<Chain> chains;
-    std::vector<bool> done(mesh_.beams.size(), false);
-    for (std::size_t b = 0; b < mesh_.beams.size(); ++b) {
-      if (done[b]) continue;
-      Chain chain{
-          {{static_cast<int>(b), false}}, mesh_.beams[b].vertices[0], mesh_.beams[b].vertices[1]};
-      while (extend(chain, done)) {
-      }
-      turn(chain);
-      while (extend(chain, done)) {
-      }
-      turn(chain);
-      for (const auto& [beam, reversed] : chain.beams) done[at(beam)] = true;
-      if (!lies_on_a_cell(chain)) chains.push_back(std::move(chain));
-    }
-    return chains;
-  }
-
-  bool is_free(int vertex) const { return beams_at_.at(vertex).size() == 1 && !is_held(vertex); }
-
- private:
-  void add_cell(int vertex, int cell) {
-    std::vector<int>& cells = cells_at_[vertex];
-    if (cells.empty() || cells.back() != cell) cells.push_back(cell);
-  }
-
-  bool is_held(int vertex) const { return cells_at_.contains(vertex) || held_.contains(vertex); }
-
-  static void turn(Chain& chain) {
-    std::reverse(chain.beams.begin(), chain.beams.end());
-    for (auto& [beam, reversed] : chain.beams) reversed = !reversed;
-    std::swap(chain.from, chain.to);
-  }
-
-  Vector3 direction(int beam, bool reversed) const {
-    const auto& [a, b] = mesh_.beams[at(beam)].vertices;
-    const Vector3 along = (mesh_.vertices[at(b)] - mesh_.vertices[at(a)]).normalized();
-    return reversed ? Vector3(-along) : along;
-  }
-
-  /// By the next beam, where the bar goes on straight through a vertex that nothing else holds.
-  bool extend(Chain& chain, const std::vector<bool>& done) const {
-    const std::vector<int>& meeting = beams_at_.at(chain.to);
-    if (meeting.size() != 2 || is_held(chain.to)) return false;
-    const auto [last, last_reversed] = chain.beams.back();
-    const int next = meeting[meeting[0] == last ? 1 : 0];
-    if (next == last || done[at(next)] || !are_one_bar(last, next)) return false;
-    const bool reversed = mesh_.beams[at(next)].vertices[1] == chain.to;
-    const auto [first, first_reversed] = chain.beams.front();
-    if (direction(first, first_reversed).dot(direction(next, reversed)) < most_kink) return false;
-    if (has_hinge(last, last_reversed ? 0 : 1) || has_hinge(next, reversed ? 1 : 0)) return false;
-    chain.beams.emplace_back(next, reversed);
-    chain.to = mesh_.beams[at(next)].vertices[reversed ? 0 : 1];
-    return chain.to != chain.from;
-  }
-
-  bool are_one_bar(int one, int other) const {
-    const Beam &a = mesh_.beams[at(one)], &b = mesh_.beams[at(other)];
-    return a.section == b.section && a.end_section < 0 && b.end_section < 0 &&
-           std::abs(a.axis_2.dot(b.axis_2)) > most_kink;
-  }
-
-  bool has_hinge(int beam, std::size_t end) const {
-    const BeamRelease& release = mesh_.beams[at(beam)].release[end];
-    return std::find(release.begin(), release.end(), true) != release.end();
-  }
-
-  bool lies_on_a_cell(const Chain& chain) const {
-    return std::any_of(chain.beams.begin(), chain.beams.end(), [&](const auto& beam) {
-      const auto& [a, b] = mesh_.beams[at(beam.first)].vertices;
-      const auto cells_a = cells_at_.find(a), cells_b = cells_at_.find(b);
-      if (cells_a == cells_at_.end() || cells_b == cells_at_.end()) return false;
-      return std::find_first_of(cells_a->second.begin(), cells_a->second.end(),
-                                cells_b->second.begin(),
-                                cells_b->second.end()) != cells_a->second.end();
-    });
-  }
-
-  const Mesh& mesh_;
-  std::map<int, std::vector<int>> cells_at_;  ///< shells and solids of a vertex
-  std::map<int, std::vector<int>> beams_at_;
-  std::set<int> held_;  ///< by links, springs and ropes
-};
+  return find_bar_chains(mesh, points, beams, straight, [&](int beam, int next, int vertex) {
+    return points.beams(vertex).size() == 2 && !is_held(points, vertex) &&
+           are_one_bar(mesh.beams[at(beam)], mesh.beams[at(next)]);
+  });
+}
 
 /// (M_2, M_3) = E law (k_2, k_3), m^4.
 Eigen::Matrix2d bending_law(const BeamSection& section) {
@@ -165,9 +79,8 @@ void weaken(const BeamSection& section, const Eigen::Matrix2d& axes, Column& col
   }
 }
 
-Column column_of(const Mesh& mesh, const Chain& chain, const Eigen::Matrix2d& axes) {
+Column column_of(const Mesh& mesh, const Beam& first, const Eigen::Matrix2d& axes) {
   constexpr double no_limit = std::numeric_limits<double>::infinity();
-  const Beam& first = mesh.beams[at(chain.beams.front().first)];
   const Material& material = mesh.materials[at(mesh.section_of(first).material)];
   Column column;
   column.elastic_modulus = material.youngs_modulus;
@@ -179,73 +92,240 @@ Column column_of(const Mesh& mesh, const Chain& chain, const Eigen::Matrix2d& ax
   return column;
 }
 
+/// The smaller figures of two columns.
+Column weaker_of(const Column& a, const Column& b) {
+  Column weaker = a;
+  weaker.area = std::min(a.area, b.area);
+  weaker.effective_area = std::min(a.effective_area, b.effective_area);
+  weaker.yield_stress = std::min(a.yield_stress, b.yield_stress);
+  weaker.imperfection = std::max(a.imperfection, b.imperfection);
+  for (std::size_t i = 0; i < 2; ++i) {
+    weaker.second_moments[i] = std::min(a.second_moments[i], b.second_moments[i]);
+    weaker.section_moduli[i] = std::min(a.section_moduli[i], b.section_moduli[i]);
+  }
+  return weaker;
+}
+
+/// A place on a bar, and the rows of its forces N, M_y, M_z for each motion.
+struct BarStation {
+  double share = 0;
+  Eigen::MatrixXd forces;
+};
+
+/// What happens in the bars of a block under its motions.
+class BarForces {
+ public:
+  BarForces(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+            const BlockPanels& panels)
+      : mesh_(model.mesh()),
+        space_(model.space()),
+        motions_(motions),
+        panels_(panels),
+        cells_of_beam_(mesh_.beams.size()) {
+    for (std::size_t c = 0; c < space_.beams().size(); ++c)
+      cells_of_beam_[at(space_.beams()[c].beam)].push_back(static_cast<int>(c));
+  }
+
+  /// Stations along a chain; `forces_at` gives the rows of a beam's cell at its place xi.
+  template <class ForcesAt>
+  std::vector<BarStation> along(const BarChain& chain, const ForcesAt& forces_at) const {
+    std::vector<BarStation> stations;
+    double passed = 0;
+    for (const auto& [beam, reversed] : chain.beams) {
+      const double length = reach_of(mesh_, mesh_.beams[at(beam)]).norm();
+      for (const int cell : cells_of_beam_[at(beam)])
+        for (const double xi : places_in_cell) {
+          const double share = share_at(cell, xi);
+          stations.push_back({(passed + (reversed ? 1 - share : share) * length) / chain.length,
+                              forces_at(cell, xi)});
+        }
+      passed += length;
+    }
+    return stations;
+  }
+
+  /// Of a bar alone, moments about the given axes of its section.
+  Eigen::MatrixXd of_bar(int cell, double xi, const Eigen::Matrix2d& axes) const {
+    const Eigen::MatrixXd forces = beam_forces(space_, cell, xi, motions_);
+    Eigen::MatrixXd rows(3, motions_.cols());
+    rows << forces.row(0), axes.transpose() * forces.bottomRows<2>();
+    return rows;
+  }
+
+  /// Of a bar with its plates: their force with the bar's own, and the moment of the curvature
+  /// along the plate's normal in the section of both.
+  Eigen::MatrixXd of_stiffener(int cell, double xi, const PlateAlong& plate) const {
+    const Beam& beam = mesh_.beams[at(space_.beams()[at(cell)].beam)];
+    const double share = share_at(cell, xi);
+    const Vector3 e_1 = reach_of(mesh_, beam).normalized();
+    const Vector3 e_2 = (beam.axis_2 - e_1 * e_1.dot(beam.axis_2)).normalized();
+    const BeamSection section = section_at(mesh_, beam, share);
+    const Eigen::MatrixXd forces = beam_forces(space_, cell, xi, motions_);
+    const Eigen::MatrixXd scaled_curvatures =  // times the modulus of elasticity
+        bending_law(section).inverse() * forces.bottomRows<2>();
+    const std::array<PlateStrip, 2> strips = strips_beside(beam, plate);
+    const StiffenedSection both =
+        join_sections(stiffener_section(mesh_, beam, plate.normal, share), strips);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, motions_.cols());
+    rows.row(0) = forces.row(0);
+    for (std::size_t side = 0; side < 2; ++side)
+      rows.row(0) +=
+          strips[side].width * strips[side].thickness *
+          panels_.stress_beside(panel_of(plate, side), e_1, mesh_.vertices[at(beam.vertices[0])]);
+    rows.row(1) =
+        both.second_moment * (plate.normal.dot(e_1.cross(e_2)) * scaled_curvatures.row(0) -
+                              plate.normal.dot(e_2) * scaled_curvatures.row(1));
+    return rows;
+  }
+
+  std::array<PlateStrip, 2> strips_beside(const Beam& beam, const PlateAlong& plate) const {
+    const Vector3 e_1 = reach_of(mesh_, beam).normalized();
+    std::array<PlateStrip, 2> strips;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Shell& shell = mesh_.shells[at(plate.shells[side])];
+      strips[side] = {panels_.field_width(panel_of(plate, side), e_1) / 2,
+                      mesh_.section_of(shell).thickness, plate_height(mesh_, shell, plate.normal)};
+    }
+    return strips;
+  }
+
+  bool has_panels(const PlateAlong& plate) const {
+    return panel_of(plate, 0) >= 0 && panel_of(plate, 1) >= 0;
+  }
+
+ private:
+  int panel_of(const PlateAlong& plate, std::size_t side) const {
+    return panels_.panel_of(plate.shells[side]);
+  }
+  /// Place of a point of a cell on its beam.
+  double share_at(int cell, double xi) const {
+    const BeamCell& located = space_.beams()[at(cell)];
+    return located.origin + located.size * xi;
+  }
+
+  const Mesh& mesh_;
+  const Space& space_;
+  Eigen::Ref<const Eigen::MatrixXd> motions_;
+  const BlockPanels& panels_;
+  std::vector<std::vector<int>> cells_of_beam_;
+};
+
+/// A span without its column.
+BarSpan span_of(const Mesh& mesh, const BarChain& chain) {
+  const Region& region = mesh.regions[at(mesh.beams[at(chain.beams.front().first)].region)];
+  BarSpan span;
+  span.bar = region.name;
+  span.group = mesh.groups[at(region.group)].name;
+  span.p_BFrom = mesh.vertices[at(chain.from)];
+  span.p_BTo = mesh.vertices[at(chain.to)];
+  return span;
+}
+
+/// The weakest section of a stiffener along a chain, as the columns of its beams' ends.
+Column stiffener_column_of(const Mesh& mesh, const BarChain& chain, const Stiffeners& stiffeners,
+                           const BarForces& bars) {
+  std::optional<Column> weakest;
+  for (const auto& [number, reversed] : chain.beams) {
+    const Beam& beam = mesh.beams[at(number)];
+    const PlateAlong& plate = stiffeners.plates[at(number)];
+    Material material = mesh.materials[at(mesh.section_of(beam).material)];
+    for (const int shell : plate.shells)
+      material.yield_stress = std::min(
+          material.yield_stress,
+          mesh.materials[at(mesh.section_of(mesh.shells[at(shell)]).material)].yield_stress);
+    for (const double share : {0.0, 1.0}) {
+      const Column column =
+          stiffener_column(material, stiffener_section(mesh, beam, plate.normal, share),
+                           bars.strips_beside(beam, plate), chain.length);
+      weakest = weakest ? weaker_of(*weakest, column) : column;
+    }
+  }
+  return *weakest;
+}
+
+bool resists_bending(const Mesh& mesh, const BarChain& chain) {
+  return std::all_of(chain.beams.begin(), chain.beams.end(), [&](const auto& beam) {
+    return bending_law(mesh.section_of(mesh.beams[at(beam.first)])).determinant() > 0;
+  });
+}
+
 }  // namespace
 
-BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                     const BlockPanels& panels) {
   const Mesh& mesh = model.mesh();
-  const Space& space = model.space();
-  std::map<int, std::vector<int>> cells_of_beam;
-  for (std::size_t c = 0; c < space.beams().size(); ++c)
-    cells_of_beam[space.beams()[c].beam].push_back(static_cast<int>(c));
-  std::vector<Eigen::MatrixXd> blocks;
-  Eigen::Index rows = 0;
-  ChainFinder finder(mesh);
-  for (const Chain& chain : finder.chains()) {
-    const Beam& first = mesh.beams[at(chain.beams.front().first)];
-    const Eigen::Matrix2d axes = principal_axes(mesh.section_of(first));
-    Column column = column_of(mesh, chain, axes);
-    if (!(std::min(column.second_moments[0], column.second_moments[1]) > 0)) {
+  const MeetingPoints points(mesh);
+  const BarForces bars(model, motions, panels);
+  std::vector<std::vector<BarStation>> found;
+  for (const BarChain& chain : find_free_chains(mesh, points)) {
+    if (!resists_bending(mesh, chain)) {
       ++unknown_rods_;
       continue;
     }
-    const auto length_of = [&](int beam) {
-      const auto& [a, b] = mesh.beams[at(beam)].vertices;
-      return (mesh.vertices[at(b)] - mesh.vertices[at(a)]).norm();
-    };
-    double length = 0, passed = 0;
-    for (const auto& [beam, reversed] : chain.beams) length += length_of(beam);
-    column.length = finder.is_free(chain.from) || finder.is_free(chain.to) ? 2 * length : length;
-    std::vector<Station> stations;
-    for (const auto& [beam, reversed] : chain.beams) {
-      for (const int cell : cells_of_beam[beam]) {
-        const BeamCell& located = space.beams()[at(cell)];
-        for (const double xi : places_in_cell) {
-          const Eigen::MatrixXd forces = beam_forces(space, cell, xi, motions);
-          Eigen::MatrixXd block(3, motions.cols());
-          block << forces.row(0), axes.transpose() * forces.bottomRows<2>();
-          blocks.push_back(std::move(block));
-          const double along = located.origin + located.size * xi;
-          stations.push_back(
-              {(passed + (reversed ? 1 - along : along) * length_of(beam)) / length, rows});
-          rows += 3;
-        }
-      }
-      passed += length_of(beam);
-    }
-    const Region& region = mesh.regions[at(first.region)];
-    spans_.push_back({region.name, mesh.groups[at(region.group)].name,
-                      mesh.vertices[at(chain.from)], mesh.vertices[at(chain.to)], column});
-    stations_.push_back(std::move(stations));
+    const Beam& first = mesh.beams[at(chain.beams.front().first)];
+    const Eigen::Matrix2d axes = principal_axes(mesh.section_of(first));
+    BarSpan& span = spans_.emplace_back(span_of(mesh, chain));
+    span.column = column_of(mesh, first, axes);
+    const bool has_free_end = is_free(points, chain.from) || is_free(points, chain.to);
+    span.column.length = (has_free_end ? 2 : 1) * chain.length;
+    found.push_back(
+        bars.along(chain, [&](int cell, double xi) { return bars.of_bar(cell, xi, axes); }));
   }
+  const Stiffeners stiffeners = find_stiffeners(mesh, points);
+  for (const BarChain& chain : stiffeners.chains) {
+    const auto plate_of = [&](int beam) -> const PlateAlong& {
+      return stiffeners.plates[at(beam)];
+    };
+    if (!resists_bending(mesh, chain) ||
+        !std::all_of(chain.beams.begin(), chain.beams.end(),
+                     [&](const auto& beam) { return bars.has_panels(plate_of(beam.first)); }))
+      continue;
+    BarSpan& span = spans_.emplace_back(span_of(mesh, chain));
+    span.column = stiffener_column_of(mesh, chain, stiffeners, bars);
+    const int first = chain.beams.front().first;
+    for (const PlateStrip& strip : bars.strips_beside(mesh.beams[at(first)], plate_of(first)))
+      span.plate_width += strip.width;
+    found.push_back(bars.along(chain, [&](int cell, double xi) {
+      return bars.of_stiffener(cell, xi, plate_of(model.space().beams()[at(cell)].beam));
+    }));
+  }
+  Eigen::Index rows = 0;
+  for (const std::vector<BarStation>& stations : found)
+    rows += 3 * static_cast<Eigen::Index>(stations.size());
   forces_.resize(rows, motions.cols());
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    forces_.middleRows<3>(3 * static_cast<Eigen::Index>(b)) = blocks[b];
+  for (const std::vector<BarStation>& stations : found) {
+    Stations& kept = stations_.emplace_back();
+    kept.first_row = forces_.rows() - rows;
+    for (const BarStation& station : stations) {
+      kept.shares.push_back(station.share);
+      forces_.middleRows<3>(forces_.rows() - rows) = station.forces;
+      rows -= 3;
+    }
+  }
 }
 
 std::vector<BlockBars::Worst> BlockBars::find_worst(const Eigen::MatrixXd& factors, double factor,
                                                     int threads) const {
+  constexpr Eigen::Index instants_at_once = 512;
   std::vector<Worst> result(spans_.size());
   in_batches(static_cast<int>(spans_.size()), 1, threads, [&](int first, int count) {
-    for (int s = first; s < first + count; ++s)
-      for (const Station& station : stations_[at(s)]) {
-        const Eigen::MatrixXd forces = forces_.middleRows<3>(station.row) * factors;
-        for (Eigen::Index t = 0; t < forces.cols(); ++t) {
-          const ColumnForces here{-forces(0, t), {forces(1, t), forces(2, t)}};
-          const double utilisation = column_utilisation(spans_[at(s)].column, here, factor);
-          if (utilisation > result[at(s)].utilisation)
-            result[at(s)] = {utilisation, here, station.share, static_cast<int>(t)};
-        }
+    for (int s = first; s < first + count; ++s) {
+      const Stations& of = stations_[at(s)];
+      const Eigen::MatrixXd rows =
+          forces_.middleRows(of.first_row, 3 * static_cast<Eigen::Index>(of.shares.size()));
+      for (Eigen::Index start = 0; start < factors.cols(); start += instants_at_once) {
+        const Eigen::Index instants = std::min(instants_at_once, factors.cols() - start);
+        const Eigen::MatrixXd forces = rows * factors.middleCols(start, instants);
+        for (Eigen::Index t = 0; t < instants; ++t)
+          for (std::size_t place = 0; place < of.shares.size(); ++place) {
+            const auto here = forces.block<3, 1>(3 * static_cast<Eigen::Index>(place), t);
+            const ColumnForces bears{-here[0], {here[1], here[2]}};
+            const double utilisation = column_utilisation(spans_[at(s)].column, bears, factor);
+            if (utilisation > result[at(s)].utilisation)
+              result[at(s)] = {utilisation, bears, of.shares[place], static_cast<int>(start + t)};
+          }
       }
+    }
   });
   return result;
 }

@@ -6,29 +6,41 @@
 #include <Eigen/Core>
 
 #include "structure/practice/column.h"
+#include "structure/practice/panel_buckling.h"
 #include "structure/response/elastic_model.h"
 
 namespace blocklift::structure {
 
-/// Straight piece of a bar that stands free of plates, from joint to joint: what it ends on (plates,
-/// other bars, links, springs) holds it there, nothing between.
+/// Piece of a bar that buckles as one.
+///
+/// Of a bar that stands free of plates: straight, from joint to joint; what it ends on (plates, other
+/// bars, links, springs) holds it there, nothing between. Of a stiffener along a plate: from one
+/// support of the plate to the next; other plates hold it, and what crosses it with five times its
+/// second moment about the plate.
 struct BarSpan {
   std::string bar;                                     ///< name of its region
   std::string group;                                   ///< name of that region's group
   Vector3 p_BFrom = Vector3::Zero(), p_BTo = p_BFrom;  ///< m
+  double plate_width = 0;  ///< of the plate that buckles with it, m; 0: it stands free
   /// As a column that is pinned at its joints; twice as long as it is where an end is free. Its
-  /// axes y and z are the section's principal ones, about which it bends.
+  /// axes y and z are the section's principal ones, about which it bends; of a stiffener with its
+  /// plate y is the one in the plate.
   Column column;
 };
 
 /// The bars of a block that may buckle, and their section forces for its unit loads.
 ///
-/// Stiffeners along plates are none: plates hold them. Nor are rods without second moments, which
-/// are counted. A tapered bar has the smaller figures of both of its ends.
+/// A bar is a stiffener where just two shells meet along it which go on from one another by less
+/// than 30 degrees: it buckles with half of either panel (stiffener_column); its compression is its
+/// own and that of these halves by their mean stress along it, its moment that of the curvature
+/// which it has in the mesh. Other bars along plates (faces of girders, edges of brackets) are left
+/// out, and rods without second moments, which are counted. Of a bar whose section changes along a
+/// piece the smallest figures count.
 class BlockBars {
  public:
-  /// @param motions freedoms x m, m and rad.
-  BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions);
+  /// @param motions freedoms x m, m and rad; those of the panels.
+  BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+            const BlockPanels& panels);
 
   const std::vector<BarSpan>& spans() const { return spans_; }
   /// Rods of which nothing says how they resist bending.
@@ -46,14 +58,15 @@ class BlockBars {
                                 int threads = 0) const;
 
  private:
-  struct Station {
-    double share = 0;
-    Eigen::Index row = 0;  ///< of forces_: N, M_y, M_z
+  /// Of a span: their places, and where their rows N, M_y, M_z begin in forces_.
+  struct Stations {
+    std::vector<double> shares;
+    Eigen::Index first_row = 0;
   };
 
   std::vector<BarSpan> spans_;
-  std::vector<std::vector<Station>> stations_;  ///< of each span
-  Eigen::MatrixXd forces_;                      ///< rows of stations, a column a motion
+  std::vector<Stations> stations_;
+  Eigen::MatrixXd forces_;  ///< rows of stations, a column a motion
   int unknown_rods_ = 0;
 };
 

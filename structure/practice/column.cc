@@ -34,16 +34,22 @@ double euler_load(const Column& column, int axis) {
 }
 
 double buckling_reduction(double slenderness, BucklingCurve curve) {
+  return buckling_reduction(slenderness, imperfection_factor(curve));
+}
+
+double buckling_reduction(double slenderness, double imperfection) {
   if (slenderness <= 0.2) return 1;
-  const double phi =
-      0.5 * (1 + imperfection_factor(curve) * (slenderness - 0.2) + slenderness * slenderness);
+  const double phi = 0.5 * (1 + imperfection * (slenderness - 0.2) + slenderness * slenderness);
   return std::min(1.0, 1 / (phi + std::sqrt(phi * phi - slenderness * slenderness)));
 }
 
 double buckling_resistance(const Column& column) {
-  const double squash = column.area * column.yield_stress;
+  const double area = column.effective_area > 0 ? column.effective_area : column.area;
+  const double squash = area * column.yield_stress;
   const double critical = std::min(euler_load(column, 0), euler_load(column, 1));
-  return buckling_reduction(std::sqrt(squash / critical), column.curve) * squash;
+  const double alpha =
+      column.imperfection > 0 ? column.imperfection : imperfection_factor(column.curve);
+  return buckling_reduction(std::sqrt(squash / critical), alpha) * squash;
 }
 
 double column_utilisation(const Column& column, const ColumnForces& forces, double factor) {

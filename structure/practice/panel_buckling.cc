@@ -232,6 +232,11 @@ Share share_of(double demand, double elastic, double yield) {
   return {demand / elastic, demand / johnson_ostenfeld(elastic, yield)};
 }
 
+/// Does a direction run along a panel's side a rather than b?
+bool runs_along_1(const Panel& panel, const Vector3& along) {
+  return std::abs(along.dot(panel.e_1)) >= std::abs(along.dot(panel.e_2));
+}
+
 /// The most compressed of `fields` fields that divide a side over which a stress varies linearly.
 void take_field(double& mean, double& gradient, int fields) {
   mean -= std::abs(gradient) * (1 - 1.0 / fields);
@@ -301,6 +306,7 @@ BlockPanels::BlockPanels(const ElasticModel& model,
 
 void BlockPanels::describe(const Mesh& mesh) {
   const std::set<Edge> beams = edges_with_beams(mesh);
+  panel_of_shell_.assign(mesh.shells.size(), -1);
   for (const PlateField& field : find_buckling_fields(mesh, beams).fields) {
     if (is_lug(mesh, field.shells.front())) continue;
     Panel& panel = panels_.emplace_back();
@@ -308,6 +314,8 @@ void BlockPanels::describe(const Mesh& mesh) {
     const Bounds bounds = bounds_of(mesh, field, panel);
     measure(mesh, field, bounds, panel);
     panel.free = find_free_edges(mesh, field, bounds, beams, panel);
+    for (const int shell : field.shells)
+      panel_of_shell_[at(shell)] = static_cast<int>(shells_.size());
     shells_.push_back(field.shells);
   }
 }
@@ -365,6 +373,21 @@ void BlockPanels::integrate(const ElasticModel& model,
       components_.row(rows_per_panel * p + 4) *= size.a / 2 / weights[2];
     }
   });
+}
+
+double BlockPanels::field_width(int panel, const Vector3& along) const {
+  const Panel& of = panels_[at(panel)];
+  return runs_along_1(of, along) ? of.size.b / of.fields_b : of.size.a / of.fields_a;
+}
+
+Eigen::RowVectorXd BlockPanels::stress_beside(int panel, const Vector3& along,
+                                              const Vector3& place) const {
+  const Panel& of = panels_[at(panel)];
+  const bool along_1 = runs_along_1(of, along);
+  const Eigen::Index first = rows_per_panel * panel + (along_1 ? 0 : 1);
+  const int fields = along_1 ? of.fields_b : of.fields_a;
+  const double side = (along_1 ? of.e_2 : of.e_1).dot(place - of.centre_B) < 0 ? -1 : 1;
+  return components_.row(first) + side * (1 - 0.5 / fields) * components_.row(first + 3);
 }
 
 std::vector<PanelStress> BlockPanels::stresses(const Eigen::VectorXd& factors) const {

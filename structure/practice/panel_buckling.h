@@ -99,6 +99,13 @@ class BlockPanels {
               const std::vector<PlateStiffening>& stiffening);
 
   const std::vector<Panel>& panels() const { return panels_; }
+  /// Place in panels() of a shell's panel; -1: it is a lug's.
+  int panel_of(int shell) const { return panel_of_shell_[static_cast<std::size_t>(shell)]; }
+  /// Width of a panel's fields across a direction in its plane, m.
+  double field_width(int panel, const Vector3& along) const;
+  /// Membrane stress along a direction in a panel, mean over that half of a field which lies on the
+  /// side of a place on the panel's edge, Pa; a column a motion.
+  Eigen::RowVectorXd stress_beside(int panel, const Vector3& along, const Vector3& place) const;
   /// Stresses of all panels for factors of the motions.
   std::vector<PanelStress> stresses(const Eigen::VectorXd& factors) const;
   /// Of the panel, or of that field between its stiffeners which is compressed most.
@@ -120,7 +127,8 @@ class BlockPanels {
   std::vector<Material> materials_;
   std::vector<Panel> panels_;
   std::vector<std::vector<int>> shells_;  ///< of each panel
-  Eigen::MatrixXd components_;            ///< rows 5 panel + (s11, s22, s12, gradients)
+  std::vector<int> panel_of_shell_;
+  Eigen::MatrixXd components_;  ///< rows 5 panel + (s11, s22, s12, gradients)
 };
 
 }  // namespace blocklift::structure

@@ -12,6 +12,7 @@
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/mesh/sections.h"
 #include "structure/response/unit_responses.h"
+#include "tests/structure/motions.h"
 
 namespace blocklift::structure {
 namespace {
@@ -50,6 +51,10 @@ Mesh bar_between_lugs(const Profile& profile, double length) {
   return mesh;
 }
 
+BlockBars bars_of(const ElasticModel& model, const Eigen::MatrixXd& motions) {
+  return {model, motions, BlockPanels(model, motions, {})};
+}
+
 // Slings at 45 degrees press a bar of weight G by G / 2 while it bends by G L / 8: the worst place is
 // its middle, and both figures double under twice gravity.
 TEST(BarBuckling, ABarUnderSlingsIsASpreader) {
@@ -57,7 +62,7 @@ TEST(BarBuckling, ABarUnderSlingsIsASpreader) {
   const Profile tube = pipe(0.08, 0.075);
   const ElasticModel model(bar_between_lugs(tube, length), {.degree = 2, .largest_edge = {}});
   const UnitResponses responses(model);
-  const BlockBars bars(model, responses.displacements());
+  const BlockBars bars = bars_of(model, responses.displacements());
   ASSERT_EQ(bars.spans().size(), 5U);
   const BarSpan& span = bars.spans().front();
   EXPECT_EQ(span.bar, "spreader");
@@ -89,7 +94,7 @@ TEST(BarBuckling, AnAngleBendsAboutItsPrincipalAxes) {
   const Profile angle = angle_bar(0.1, 0.01, 0.1, 0.01);
   const ElasticModel model(bar_between_lugs(angle, 4), {.degree = 2, .largest_edge = {}});
   const UnitResponses responses(model);
-  const BlockBars bars(model, responses.displacements());
+  const BlockBars bars = bars_of(model, responses.displacements());
   const BarSpan& span = bars.spans().front();
   const double mean = (angle.section.second_moment_2 + angle.section.second_moment_3) / 2;
   const double apart =
@@ -109,8 +114,111 @@ TEST(BarBuckling, AnAngleBendsAboutItsPrincipalAxes) {
     EXPECT_NEAR(std::abs(part), moment * std::sqrt(0.5), 1e-4 * moment);
 }
 
+/// A deck of 4 x 3 m with bulkheads below at x = 0, 2, 4 and flat bars beneath it at y = 1 and 2.
+Mesh stiffened_deck() {
+  BlockDescription block;
+  block.name = "deck";
+  block.materials = {column_steel};
+  block.largest_element = 0.5;
+  block.plates = {{"deck", Axis::z, {3}, {{{0, 4}, {0, 3}, {0, 0}}}, 0.01, "S355"},
+                  {"bulkheads", Axis::x, {0, 2, 4}, {{{0, 0}, {0, 3}, {2, 3}}}, 0.01, "S355"}};
+  for (const double y : {1.0, 2.0})
+    block.bars.push_back({"joists at y = " + std::to_string(static_cast<int>(y)) + " m",
+                          {{0, y, 3}, {4, y, 3}},
+                          flat_bar(0.2, 0.012),
+                          Vector3(0, 0, 1),
+                          "S355"});
+  Mesh mesh = generate_shell_mesh(block);
+  for (Beam& beam : mesh.beams) beam.offset.fill(Vector3(0, 0, -0.105));
+  return mesh;
+}
+
+/// Factors that strain a deck along x by `stretch`, without stress across, and bend it by
+/// `curvature` about its mid-surface.
+testing::MotionField deck_motion(double stretch, double curvature) {
+  return [=](const Vector3& x) {
+    const double below = x.z() - 3;
+    Eigen::Matrix<double, 6, 1> motion;
+    motion << stretch * x.x() - curvature * x.x() * below, -0.3 * stretch * x.y(),
+        curvature * x.x() * x.x() / 2, 0, -curvature * x.x(), 0;
+    return motion;
+  };
+}
+
+// A stiffener bears with half of either panel, from bulkhead to bulkhead: an even strain gives the
+// force of both areas, a curvature the force of the stiffener alone and the moment of both.
+TEST(BarBuckling, StiffenersBearWithTheirPlates) {
+  const ElasticModel model(stiffened_deck(), {.degree = 2, .largest_edge = {}});
+  Eigen::MatrixXd motions(model.freedoms(), 2);
+  motions << testing::motion_of(model.space(), deck_motion(-1e-3, 0)),
+      testing::motion_of(model.space(), deck_motion(0, 1e-3));
+  const BlockBars bars = bars_of(model, motions);
+  ASSERT_EQ(bars.spans().size(), 4U);
+  const double plate = 1.0 * 0.01, web = 0.2 * 0.012, area = plate + web;
+  const double centroid = web * 0.105 / area;
+  const double second_moment = 0.012 * std::pow(0.2, 3) / 12 + web * std::pow(0.105 - centroid, 2) +
+                               std::pow(0.01, 3) / 12 + plate * centroid * centroid;
+  for (const BarSpan& span : bars.spans()) {
+    EXPECT_EQ(span.bar.substr(0, 6), "joists");
+    EXPECT_NEAR(span.column.length, 2, 1e-12);
+    EXPECT_NEAR(span.plate_width, 1, 1e-12);
+    EXPECT_NEAR(span.column.area, area, 1e-12);
+    EXPECT_NEAR(span.column.second_moments[0], second_moment, 1e-9 * second_moment);
+  }
+  const double modulus = column_steel.youngs_modulus;
+  const auto pressed = bars.find_worst(Eigen::Vector2d(1, 0), 1);
+  for (const BlockBars::Worst& worst : pressed) {
+    EXPECT_NEAR(worst.forces.compression, 1e-3 * modulus * area, 1e-6 * modulus * area * 1e-3);
+    EXPECT_NEAR(worst.forces.moments[0], 0, 1e-6 * modulus * second_moment);
+  }
+  const auto bent = bars.find_worst(Eigen::Vector2d(0, -1), 1);
+  for (const BlockBars::Worst& worst : bent) {
+    EXPECT_NEAR(worst.forces.compression, 1e-3 * modulus * web * 0.105,
+                1e-3 * modulus * web * 1e-6);
+    EXPECT_NEAR(std::abs(worst.forces.moments[0]), 1e-3 * modulus * second_moment,
+                1e-9 * modulus * second_moment);
+  }
+}
+
+// A deep beam across holds the stiffeners, one of their own size does not.
+TEST(BarBuckling, DeepBeamsHoldStiffeners) {
+  for (const double depth : {0.2, 0.5}) {
+    Mesh mesh = stiffened_deck();
+    const Profile across = flat_bar(depth, 0.012);
+    mesh.beam_sections.push_back(across.section);
+    std::set<std::array<int, 2>> edges;  // of the deck at x = 1 m, along y
+    for (const Shell& shell : mesh.shells)
+      for (const int from : shell.vertices)
+        for (const int to : shell.vertices) {
+          const Vector3 &a = mesh.vertices[static_cast<std::size_t>(from)],
+                        &b = mesh.vertices[static_cast<std::size_t>(to)];
+          if (std::abs(a.x() - 1) < 1e-9 && std::abs(b.x() - 1) < 1e-9 && a.y() < b.y() - 1e-9)
+            edges.insert({from, to});
+        }
+    for (const std::array<int, 2>& edge : edges) {
+      Beam beam;
+      beam.vertices = edge;
+      beam.section = static_cast<int>(mesh.beam_sections.size()) - 1;
+      beam.region = mesh.beams.front().region;
+      beam.offset.fill(Vector3(0, 0, -0.005 - depth / 2));
+      beam.axis_2 = mesh.beams.front().axis_2;
+      mesh.beams.push_back(beam);
+    }
+    const ElasticModel model(std::move(mesh), {.degree = 1, .largest_edge = {}});
+    const BlockBars bars = bars_of(model, Eigen::MatrixXd::Zero(model.freedoms(), 1));
+    std::multiset<long> lengths;  // mm, of those along x
+    for (const BarSpan& span : bars.spans())
+      if (std::abs(span.p_BFrom.x() - span.p_BTo.x()) > 0.1)
+        lengths.insert(std::lround(1000 * span.column.length));
+    const std::multiset<long> expected =
+        depth > 0.3 ? std::multiset<long>{1000, 1000, 1000, 1000, 2000, 2000}
+                    : std::multiset<long>{2000, 2000, 2000, 2000};
+    EXPECT_EQ(lengths, expected) << depth;
+  }
+}
+
 // Of a block of plates: a pillar through a deck has a span on either side of it, two braces that
-// cross hold each other, and a stiffener on a plate is none.
+// cross hold each other, and a stiffener on a plate does not stand free.
 TEST(BarBuckling, SpansEndAtWhatHoldsThem) {
   BlockDescription block;
   block.name = "decks";
@@ -133,10 +241,10 @@ TEST(BarBuckling, SpansEndAtWhatHoldsThem) {
                                        .radius = 0.1,
                                        .vertex = static_cast<int>(v)});
   const ElasticModel model(std::move(mesh), {.degree = 1, .largest_edge = {}});
-  const BlockBars bars(model, Eigen::MatrixXd::Zero(model.freedoms(), 1));
+  const BlockBars bars = bars_of(model, Eigen::MatrixXd::Zero(model.freedoms(), 1));
   std::multiset<std::pair<std::string, long>> found;  // and length in mm
   for (const BarSpan& span : bars.spans())
-    found.emplace(span.bar, std::lround(1000 * span.column.length));
+    if (span.plate_width == 0) found.emplace(span.bar, std::lround(1000 * span.column.length));
   const long half = std::lround(1000 * std::sqrt(5) / 2);
   const std::multiset<std::pair<std::string, long>> expected{
       {"pillar", 1000}, {"pillar", 2000}, {"cross", half}, {"cross", half},
