@@ -222,8 +222,8 @@ void print_details(const BlockRun& block) {
   if (!block.buckling.bars.empty()) {
     const BuckledBar& worst = block.buckling.bars.front();
     print_wrapped(
-        fmt::format("bars as columns, {} spans free of plates: {:.2f} under {:g} times "
-                    "the forces in {}",
+        fmt::format("bars and stiffeners as columns, {} spans: {:.2f} under {:g} times the "
+                    "forces in {}",
                     block.buckling.bars.size(), worst.worst.utilisation, block.buckling.bar_factor,
                     worst.span.bar));
   }

@@ -160,33 +160,44 @@ void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Pa
       panel.material = mesh.section_of(mesh.shells[at(shell)]).material;
 }
 
-/// Edges of the bounding rectangle near which no other plate or beam holds the panel over half of
-/// their length.
-FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const Bounds& bounds,
-                          const std::set<Edge>& beams, const Panel& panel) {
-  constexpr double near_edge = 0.05;  // of the panel's side
-  const Eigen::Vector2d sides = bounds.upper - bounds.lower;
-  // Held lengths of the lower and upper edge, of those across e_1 and those across e_2.
-  std::array<std::array<double, 2>, 2> held{};
-  for (const auto& outline : field.outlines)
-    for (const FieldEdge& edge : outline)
-      for (const FieldEdge::Piece& piece : edge.pieces) {
-        if (edge.is_free && beams.count(std::minmax(piece.from, piece.to)) == 0) continue;
-        const Eigen::Vector2d from = in_plane(panel, mesh.vertices[at(piece.from)]),
-                              to = in_plane(panel, mesh.vertices[at(piece.to)]);
-        for (int across = 0; across < 2; ++across)
-          for (const bool is_upper : {false, true}) {
-            const double end = (is_upper ? bounds.upper : bounds.lower)[across];
-            const double farthest =
-                std::max(std::abs(from[across] - end), std::abs(to[across] - end));
-            if (farthest < near_edge * sides[across])
-              held[at(across)][is_upper ? 1 : 0] += std::abs(to[1 - across] - from[1 - across]);
-          }
-      }
+/// Twice the area that an outline encloses in a panel's plane; holes' are negative.
+double enclosed_area(const Mesh& mesh, const std::vector<FieldEdge>& outline, const Panel& panel) {
+  double area = 0;
+  for (const FieldEdge& edge : outline)
+    for (const FieldEdge::Piece& piece : edge.pieces) {
+      const Eigen::Vector2d from = in_plane(panel, mesh.vertices[at(piece.from)] - panel.centre_B),
+                            to = in_plane(panel, mesh.vertices[at(piece.to)] - panel.centre_B);
+      area += from.x() * to.y() - from.y() * to.x();
+    }
+  return area;
+}
+
+/// The sides of the bounding rectangle that lie free. Each piece of the field's outer outline counts
+/// for the sides to which it faces, as long as it is seen from there: a side is free where more than
+/// half of what faces it is held by no other plate or beam. Holes do not count.
+FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const std::set<Edge>& beams,
+                          const Panel& panel) {
+  const auto outer = std::max_element(
+      field.outlines.begin(), field.outlines.end(), [&](const auto& one, const auto& other) {
+        return enclosed_area(mesh, one, panel) < enclosed_area(mesh, other, panel);
+      });
+  if (outer == field.outlines.end()) return {};
+  // Length that is free less what is held, of the sides across e_1 and e_2, lower and upper.
+  std::array<std::array<double, 2>, 2> free{};
+  for (const FieldEdge& edge : *outer)
+    for (const FieldEdge::Piece& piece : edge.pieces) {
+      const bool is_free = edge.is_free && beams.count(std::minmax(piece.from, piece.to)) == 0;
+      const Eigen::Vector2d run = in_plane(panel, mesh.vertices[at(piece.to)]) -
+                                  in_plane(panel, mesh.vertices[at(piece.from)]);
+      const Eigen::Vector2d outward(run.y(), -run.x());  // the field is on the left
+      for (int across = 0; across < 2; ++across)
+        free[at(across)][outward[across] > 0 ? 1 : 0] +=
+            (is_free ? 1 : -1) * std::abs(outward[across]);
+    }
   FreeEdges result;
   for (std::size_t end = 0; end < 2; ++end) {
-    result.along_b += held[0][end] < sides[1] / 2 ? 1 : 0;
-    result.along_a += held[1][end] < sides[0] / 2 ? 1 : 0;
+    result.along_b += free[0][end] > 0 ? 1 : 0;
+    result.along_a += free[1][end] > 0 ? 1 : 0;
   }
   return result;
 }
@@ -313,7 +324,7 @@ void BlockPanels::describe(const Mesh& mesh) {
     find_axes(mesh, field, panel);
     const Bounds bounds = bounds_of(mesh, field, panel);
     measure(mesh, field, bounds, panel);
-    panel.free = find_free_edges(mesh, field, bounds, beams, panel);
+    panel.free = find_free_edges(mesh, field, beams, panel);
     for (const int shell : field.shells)
       panel_of_shell_[at(shell)] = static_cast<int>(shells_.size());
     shells_.push_back(field.shells);

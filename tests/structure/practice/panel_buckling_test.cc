@@ -177,6 +177,50 @@ TEST(BlockPanels, BeamsDivideAndHold) {
   }
 }
 
+// A quarter disc in a corner of a tank, its arc held by bent plating or free, with a hole: the arc
+// faces two sides of the rectangle about it, the hole none.
+TEST(BlockPanels, AnArcHoldsTheSidesThatItFaces) {
+  constexpr int rays = 8, rings = 4;
+  constexpr double radius = 1.6;
+  for (const bool has_plating : {false, true}) {
+    Mesh mesh;
+    mesh.materials = {steel};
+    mesh.groups = {{"floor"}};
+    mesh.regions = {{.name = "floor", .group = 0}};
+    mesh.shell_sections = {{.thickness = 0.012}};
+    const auto vertex = [&](int ring, int ray, double z) {
+      const double angle = std::numbers::pi / 2 * ray / rays, r = radius * (ring + 1) / (rings + 1);
+      mesh.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+      return static_cast<int>(mesh.vertices.size()) - 1;
+    };
+    std::array<std::array<int, rays + 1>, rings + 1> at{};
+    for (int ring = 0; ring <= rings; ++ring)
+      for (int ray = 0; ray <= rays; ++ray)
+        at[static_cast<std::size_t>(ring)][static_cast<std::size_t>(ray)] = vertex(ring, ray, 0);
+    for (std::size_t ring = 0; ring < rings; ++ring)
+      for (std::size_t ray = 0; ray < rays; ++ray) {
+        if (ring == 1 && ray == 3) continue;  // a hole
+        mesh.shells.push_back({.vertices = {at[ring][ray], at[ring + 1][ray], at[ring][ray + 1],
+                                            at[ring + 1][ray + 1]}});
+      }
+    if (has_plating)
+      for (std::size_t ray = 0; ray < rays; ++ray) {
+        const int one = at[rings][ray], other = at[rings][ray + 1];
+        const int above = vertex(rings, static_cast<int>(ray), 1);
+        const int above_other = vertex(rings, static_cast<int>(ray) + 1, 1);
+        mesh.shells.push_back({.vertices = {one, other, above, above_other}});
+      }
+    const ElasticModel model(std::move(mesh), {1, {}});
+    const BlockPanels panels = panels_at_rest(model);
+    const auto disc =
+        std::find_if(panels.panels().begin(), panels.panels().end(),
+                     [](const Panel& panel) { return std::abs(panel.normal.z()) > 0.9; });
+    ASSERT_NE(disc, panels.panels().end());
+    // The straight edges lie free, and so does the arc without plating.
+    EXPECT_EQ(disc->free.along_a + disc->free.along_b, has_plating ? 2 : 4);
+  }
+}
+
 /// u = (c x + d x y, -d x^2 / 2, 0): e_11 = c + d y and no other strain in planes z = const.
 Motion6 bent_in_plane(const Vector3& x) {
   const double c = 1e-4, d = 3e-5;

@@ -101,7 +101,7 @@ export interface Buckling {
   }[];
   bars_looked_at?: number; bar_factor?: Maybe<number>;
   bars?: {
-    bar: string; from_m?: number[]; to_m?: number[]; buckling_length_m?: number; compression_N?: Maybe<number>; moments_Nm?: number[];
+    bar: string; from_m?: number[]; to_m?: number[]; plate_width_m?: number; buckling_length_m?: number; compression_N?: Maybe<number>; moments_Nm?: number[];
     buckling_resistance_N?: Maybe<number>; utilisation?: Maybe<number>; state?: string; time_s?: Maybe<number>;
   }[];
 }

@@ -118,15 +118,16 @@ function bucklingTable(structure: Structure): Child {
     seconds(panel.time_s), fixed(panel.elastic_utilisation, 2), fixed(panel.utilisation, 2)]), 4);
 }
 
-/** Bars that stand free of plates as columns: what they bear over what they may, forces times a factor. */
+/** Bars, and stiffeners with their plates, as columns: what they bear over what they may, forces times a factor. */
 function barsTable(structure: Structure): Child {
   const buckling = structure.buckling;
   const bars = buckling?.bars ?? [];
   if (bars.length === 0) return null;
-  return folded("Block", `Bars as columns: those that bear most of ${buckling?.bars_looked_at ?? bars.length}, over the whole lift`, [left("Bar"),
-    { head: "From x, y, z, m" }, { head: "To, m" }, { head: "Buckling length, m" }, { head: "Compression, kN" }, { head: "Moments, kNm" },
+  return folded("Block", `Bars and stiffeners as columns: those that bear most of ${buckling?.bars_looked_at ?? bars.length}, over the whole lift`, [left("Bar"),
+    { head: "From x, y, z, m" }, { head: "To, m" }, { head: "With plate, mm" }, { head: "Buckling length, m" }, { head: "Compression, kN" }, { head: "Moments, kNm" },
     { head: "Buckling load, kN" }, left("State"), { head: "at, s" }, { head: `Utilisation, forces times ${fixed(buckling?.bar_factor, 2)}` }],
-  bars.map((bar) => [bar.bar, point(bar.from_m), point(bar.to_m), fixed(bar.buckling_length_m, 2), kilonewtons(bar.compression_N),
+  bars.map((bar) => [bar.bar, point(bar.from_m), point(bar.to_m), bar.plate_width_m ? millimetres(bar.plate_width_m) : missing,
+    fixed(bar.buckling_length_m, 2), kilonewtons(bar.compression_N),
     bar.moments_Nm?.map(kilonewtons).join(", ") ?? missing, kilonewtons(bar.buckling_resistance_N), bar.state ?? missing, seconds(bar.time_s),
     fixed(bar.utilisation, 2)]), 4);
 }

@@ -1,0 +1,79 @@
+// Buckling of a block: what the checks and the summary say of it.
+#include "pipeline/checks/buckling_assessment.h"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace blocklift::pipeline {
+namespace {
+
+BuckledBar bar_of(const std::string& name, const std::string& group, double plate_width,
+                  double utilisation) {
+  BuckledBar bar;
+  bar.span.bar = name;
+  bar.span.group = group;
+  bar.span.p_BTo = {3, 0, 0};
+  bar.span.plate_width = plate_width;
+  bar.span.column = {.area = 1e-3,
+                     .yield_stress = 355e6,
+                     .length = 3,
+                     .second_moments = {1e-6, 1e-6},
+                     .section_moduli = {1e-5, 1e-5}};
+  bar.worst.utilisation = utilisation;
+  bar.worst.forces = {2e4, {100, 0}};
+  bar.in_motion = true;
+  bar.time = 12.5;
+  return bar;
+}
+
+BucklingAssessment four_bars() {
+  BucklingAssessment buckling;
+  buckling.bar_factor = 1.5;
+  buckling.unknown_rods = 2;
+  buckling.bars = {
+      bar_of("strut at x = 1 m", "struts", 0, 1.2), bar_of("strut at x = 2 m", "struts", 0, 0.8),
+      bar_of("bulb at y = 1 m", "bulbs", 0.7, 0.6), bar_of("loose bulb", "bulbs", 0, 0.1)};
+  return buckling;
+}
+
+// A line for each name of bars and for each of stiffeners: its worst.
+TEST(BucklingAssessment, ChecksTheWorstOfEachName) {
+  const std::vector<Check> checks = check_buckling(LiftCase{}, four_bars());
+  ASSERT_EQ(checks.size(), 3U);
+  EXPECT_EQ(checks[0].name, "buckling of bars in struts: compression with bending, times 1.5");
+  EXPECT_FALSE(checks[0].pass);
+  EXPECT_DOUBLE_EQ(checks[0].demand, 1.2);
+  EXPECT_EQ(checks[0].time, 12.5);
+  EXPECT_NE(checks[0].note.find("EN 1993-1-1, 6.3.1.1"), std::string::npos) << checks[0].note;
+  EXPECT_EQ(checks[1].name, "buckling of stiffeners in bulbs: compression with bending, times 1.5");
+  EXPECT_TRUE(checks[1].pass);
+  EXPECT_NE(checks[1].note.find("with 700 mm of plate, EN 1993-1-5, 4.5.3"), std::string::npos)
+      << checks[1].note;
+  EXPECT_EQ(checks[2].name, "buckling of bars in bulbs: compression with bending, times 1.5");
+}
+
+TEST(BucklingAssessment, TheSummaryHasBarsAndRods) {
+  const nlohmann::ordered_json json = buckling_json(four_bars());
+  EXPECT_EQ(json["bars_looked_at"], 4);
+  EXPECT_EQ(json["rods_without_second_moments"], 2);
+  EXPECT_EQ(json["bar_factor"], 1.5);
+  ASSERT_EQ(json["bars"].size(), 4U);
+  EXPECT_EQ(json["bars"][2]["bar"], "bulb at y = 1 m");
+  EXPECT_EQ(json["bars"][2]["plate_width_m"], 0.7);
+  EXPECT_EQ(json["bars"][0]["compression_N"], 2e4);
+  EXPECT_EQ(json["bars"][0]["state"], "dynamic");
+  EXPECT_EQ(json["bars"][0]["time_s"], 12.5);
+}
+
+// A block of plates alone has no word of bars.
+TEST(BucklingAssessment, WithoutBarsNothingIsSaidOfThem) {
+  const nlohmann::ordered_json json = buckling_json({});
+  EXPECT_FALSE(json.contains("bars"));
+  EXPECT_TRUE(check_buckling(LiftCase{}, {}).empty());
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
