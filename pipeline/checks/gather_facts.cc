@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipeline/checks/rigging_facts.h"
+#include "pipeline/checks/structure_skew.h"
 #include "structure/response/flexibility.h"
 
 namespace blocklift::pipeline {
@@ -283,6 +284,8 @@ LiftFacts gather_facts(const Assessment& assessment) {
   for (const PadeyeAssessment& padeye : assessment.block.padeyes.padeyes)
     facts.lugs.push_back(lug_facts(padeye, facts));
   if (assessment.block.model) add_structure(assessment.block, facts);
+  if (assessment.lift_case.standard && assessment.block.responses)
+    add_structure_skew(assessment, facts);
   return facts;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -101,6 +102,19 @@ Format<ShackleRules> shackle_rules_format() {
   return table.format();
 }
 
+Format<SideLoadRow> side_load_format() {
+  Table<SideLoadRow> table("row of side loads",
+                           "What a shackle bears when it is pulled out of the plane of its bow.");
+  table
+      .required("up_to", &SideLoadRow::up_to,
+                quantity(Dimension::angle, Range::between(0, std::numbers::pi / 2)),
+                "angle between the pull and that plane; beyond the last row it bears nothing")
+      .required("factor", &SideLoadRow::factor, number(Range::between(0.01, 1)),
+                "of its working load and breaking load")
+      .required("clause", &SideLoadRow::clause, text(), clause_meaning);
+  return table.format();
+}
+
 Format<ConsequenceRules> consequence_format() {
   Table<ConsequenceRules> table("consequence rules", "Factors on the loads of the structure.");
   const auto factor = factor_format("Consequence factor.");
@@ -175,6 +189,7 @@ void for_each_section(StandardRules& rules, const StandardRules& others, const V
   visit(rules.length_tolerance, others.length_tolerance);
   visit(rules.sling, others.sling);
   visit(rules.shackle, others.shackle);
+  visit(rules.shackle_side_load, others.shackle_side_load);
   visit(rules.consequence, others.consequence);
   visit(rules.lateral, others.lateral);
   visit(rules.tandem, others.tandem);
@@ -210,6 +225,14 @@ void check_rows(const StandardRules& rules, Reading& reading, const Mark&) {
         reading.error(table.name.mark,
                       fmt::format("the rows of {} do not ascend", table.name.value));
   }
+  const auto& side_loads = rules.shackle_side_load;
+  for (std::size_t i = 1; i < side_loads.size(); ++i)
+    if (side_loads[i].up_to <= side_loads[i - 1].up_to ||
+        side_loads[i].factor > side_loads[i - 1].factor) {
+      reading.error(rules.place,
+                    "shackle_side_load: angles must ascend from row to row, and factors may not");
+      break;
+    }
   const std::vector<std::string>& families = lug_formula_families();
   for (const NamedFactor& family : rules.lug) {
     if (std::find(families.begin(), families.end(), family.name.value) != families.end()) continue;
@@ -284,6 +307,9 @@ Format<StandardRules> standard_rules_format() {
       .optional("sling", &StandardRules::sling, sling_rules_format(), "safety factor of slings")
       .optional("shackle", &StandardRules::shackle, shackle_rules_format(),
                 "what shackles may carry")
+      .optional("shackle_side_load", &StandardRules::shackle_side_load, list_of(side_load_format()),
+                "what shackles at padeyes bear of their loads, by the angle of the pull out of the "
+                "plane across their pin")
       .optional("consequence", &StandardRules::consequence, consequence_format(),
                 "factors on the structure's loads")
       .optional("lateral", &StandardRules::lateral, factor_format("Lateral load."),

@@ -75,6 +75,13 @@ struct ShackleRules {
   ClauseFactor breaking;
 };
 
+/// What shackles bear of their working load where they are pulled out of the plane of their bow.
+struct SideLoadRow {
+  double up_to = 0;   ///< angle out of the plane, rad
+  double factor = 1;  ///< on working load and breaking load
+  std::string clause;
+};
+
 /// What a crane may carry of its capacity where so many lift together.
 struct TandemRow {
   int cranes = 1;
@@ -106,6 +113,7 @@ struct StandardRules {
   std::optional<ClauseFactor> length_tolerance;  ///< of slings, over their length, either way
   std::optional<SlingRules> sling;
   std::optional<ShackleRules> shackle;
+  std::vector<SideLoadRow> shackle_side_load;  ///< the smallest angle first
   std::optional<ConsequenceRules> consequence;
   std::optional<ClauseFactor> lateral;  ///< along a lug's pin, share of the rope's force
   /// Families of formulae of lugs, and what stands before the load (or over the strength).

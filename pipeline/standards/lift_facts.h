@@ -82,6 +82,9 @@ struct StressFacts {
   bool is_at_lug = false;             ///< of members that frame into a lift point
   double at_rest = 0, in_motion = 0;  ///< Pa
   double yield = 0;                   ///< Pa
+  /// Growth when the slings of a hook with four share unevenly on either diagonal, by the rules' skew
+  /// factor and by the slings' tolerances of length; none where no hook has four slings that meet.
+  std::optional<double> skew_by_rules = {}, skew_computed = {};
 };
 
 /// What a run knows that standards ask for. SI units.

@@ -146,6 +146,18 @@ void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed)
                             : standard_.skew->value + "; no tolerance of lengths is given");
 }
 
+void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const {
+  if (!stress.skew_by_rules && !stress.skew_computed) return;
+  const NamedFactor* factor =
+      standard_.skew ? find_by_name(rules().skew, standard_.skew->value) : nullptr;
+  chain.times("skew on either diagonal", stress.skew_by_rules,
+              stress.skew_computed ? stress.skew_computed : stress.skew_by_rules,
+              factor ? factor->clause : "",
+              fmt::format("stress with the slings of a diagonal at {} of their load, over that "
+                          "without",
+                          factor ? fmt::format("{:g} times", factor->value) : "the largest"));
+}
+
 void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
                           const ComputedFactors& computed, int slings_on_hook,
                           bool in_motion) const {

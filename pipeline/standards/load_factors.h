@@ -25,6 +25,8 @@ class LoadFactors {
   void add_tilt(ChainBuilder& chain, const ComputedFactors& computed) const;
   void add_yaw(ChainBuilder& chain, int slings_on_hook) const;
   void add_skew(ChainBuilder& chain, const ComputedFactors& computed) const;
+  /// Of the structure's stress, when either diagonal of four slings bears more.
+  void add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const;
 
   /// All of them on the load of a sling, a shackle or a lug.
   /// @param in_motion false: without amplification, for what is held against the static load.

@@ -1,6 +1,8 @@
 #include "pipeline/standards/rigging_chains.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -53,6 +55,56 @@ void tell_part(ChainBuilder& chain, const std::string& name, double standard, do
   step.clause = clause;
   step.formula = std::move(formula);
   chain.tell(std::move(step));
+}
+
+/// What is left of a shackle's loads at an angle out of the plane of its bow.
+struct SideLoad {
+  double angle = 0;  ///< rad
+  double factor = 1;
+  std::string clause;
+};
+
+SideLoad side_load_at(const std::vector<SideLoadRow>& rows, double share) {
+  const double angle = std::asin(std::min(1.0, share));
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const SideLoadRow& one) { return angle <= one.up_to + 1e-9; });
+  if (row == rows.end()) return {angle, 0, rows.back().clause};
+  return {angle, row->factor, row->clause};
+}
+
+/// Side load of the shackle at a lug, at rest and at the worst instant; none where no rule has it or
+/// nothing says how the shackle's pin lies.
+struct ShackleSideLoad {
+  SideLoad standard, simulated;
+};
+
+std::optional<ShackleSideLoad> side_load_of(const LoadFactors& factors, const std::string& lug) {
+  const auto& rows = factors.rules().shackle_side_load;
+  const std::vector<LugFacts>& lugs = factors.facts().lugs;
+  const auto of =
+      std::find_if(lugs.begin(), lugs.end(), [&](const LugFacts& one) { return one.name == lug; });
+  if (rows.empty() || of == lugs.end() || !(of->at_rest.norm() > 0)) return {};
+  return ShackleSideLoad{side_load_at(rows, std::abs(of->at_rest.z()) / of->at_rest.norm()),
+                         side_load_at(rows, of->lateral)};
+}
+
+void tell_side_load(ChainBuilder& chain, const LoadFactors& factors,
+                    const std::optional<ShackleSideLoad>& side) {
+  if (factors.rules().shackle_side_load.empty()) return;
+  if (!side) {
+    ChainStep step;
+    step.kind = ChainStep::Kind::told;
+    step.name = "side load on the shackle";
+    step.clause = factors.rules().shackle_side_load.front().clause;
+    step.formula = "not looked at: the lug has no padeye, whose pin would say how the shackle lies";
+    chain.tell(std::move(step));
+    return;
+  }
+  constexpr double degree = std::numbers::pi / 180;
+  tell_part(chain, "side load: share of the working load", side->standard.factor,
+            side->simulated.factor, side->simulated.clause,
+            fmt::format("pulled {:.1f} deg out of the bow's plane at rest, {:.1f} deg at most",
+                        side->standard.angle / degree, side->simulated.angle / degree));
 }
 
 const std::string& clause_named(const std::vector<NamedFactor>& factors, const std::string& name) {
@@ -154,11 +206,19 @@ std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCas
                                   const SlingFacts& sling) {
   const ShackleRules& rules = *factors.rules().shackle;
   const std::string& lug = shackle.name.value;
+  const std::optional<ShackleSideLoad> side = side_load_of(factors, lug);
+  const double share = side ? side->standard.factor : 1;
+  const double simulated_share = side ? side->simulated.factor : 1;
+  const auto derated = [&](double load) {
+    return share < 1 ? fmt::format("{:g} x {}", share, load_text(load)) : load_text(load);
+  };
   ChainBuilder at_rest("shackle", lug + " at rest");
   factors.add_all(at_rest, sling.load, sling.computed, sling.slings_on_hook, false);
   at_rest.result("static sling load");
   const double working = shackle.working_load / rules.working.value;
-  at_rest.limit(working, "working load " + load_text(shackle.working_load), rules.working.clause);
+  tell_side_load(at_rest, factors, side);
+  at_rest.limit(share * working, "working load " + derated(shackle.working_load),
+                rules.working.clause, share * working);
 
   ChainBuilder in_motion("shackle", lug);
   factors.add_all(in_motion, sling.load, sling.computed, sling.slings_on_hook);
@@ -166,16 +226,18 @@ std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCas
   const double amplification = factors.amplification(factors.hoisting_speed());
   const double by_working = working * amplification;
   const double by_breaking = shackle.breaking_load / rules.breaking.value;
+  tell_side_load(in_motion, factors, side);
+  const double least = std::min(by_working, by_breaking);
   if (by_working < by_breaking)
     in_motion.limit(
-        by_working,
-        fmt::format("working load {} x {:.3f}", load_text(shackle.working_load), amplification),
-        rules.working.clause);
+        share * least,
+        fmt::format("working load {} x {:.3f}", derated(shackle.working_load), amplification),
+        rules.working.clause, simulated_share * least);
   else
-    in_motion.limit(by_breaking,
-                    fmt::format("breaking load {} / {:g}", load_text(shackle.breaking_load),
+    in_motion.limit(share * least,
+                    fmt::format("breaking load {} / {:g}", derated(shackle.breaking_load),
                                 rules.breaking.value),
-                    rules.breaking.clause);
+                    rules.breaking.clause, simulated_share * least);
   std::vector<Chain> chains;
   chains.push_back(at_rest.finish());
   chains.push_back(in_motion.finish());

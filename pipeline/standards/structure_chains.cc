@@ -93,6 +93,7 @@ Chain stress_chain(const LoadFactors& factors, const StressFacts& stress) {
   factors.add_amplification(
       chain, stress.at_rest > 0 ? std::optional(stress.in_motion / stress.at_rest) : std::nullopt,
       factors.hoisting_speed());
+  factors.add_structure_skew(chain, stress);
   if (const auto& consequence = factors.rules().consequence) {
     const auto& factor = stress.is_at_lug ? consequence->members : consequence->others;
     if (factor) chain.times("consequence", factor->value, factor->value, factor->clause);

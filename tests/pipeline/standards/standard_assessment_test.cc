@@ -155,6 +155,51 @@ TEST(StandardAssessment, HoldsShacklesAgainstStaticAndDynamicLoad) {
   EXPECT_NEAR(*chain_of(result, "shackle L1").limit, 682.5e3, 1e-6);
 }
 
+// Stress at rest 100 MPa, by weight class 1.1, 1.05 onshore, 1.2 on a diagonal by the rules, 1.3 as
+// computed.
+TEST(StandardAssessment, SkewsTheStructure) {
+  LiftFacts facts = two_slings();
+  StressFacts stress{"S355", false, 100e6, 110e6, 355e6};
+  stress.skew_by_rules = 1.2;
+  stress.skew_computed = 1.3;
+  facts.yield_factor = 1.5;
+  facts.stresses = {stress};
+  const StandardAssessment result = assess_standard(by_nd_0027(), facts);
+  const Chain& chain = chain_of(result, "structure S355");
+  EXPECT_NEAR(chain.standard, 100e6 * 1.1 * 1.05 * 1.2, 1);
+  EXPECT_NEAR(chain.simulated, 110e6 * 1.1 * 1.3, 1);
+}
+
+// A shackle that is pulled 3 degrees out of its plane at rest and 30 in motion bears all of its
+// working load there and 70 % here; one at a lug without a padeye is said not to be looked at.
+TEST(StandardAssessment, DeratesShacklesUnderSideLoads) {
+  StandardInCase standard = by_nd_0027();
+  standard.rules.add(shipped_rules("shackle-side-load"));
+  ShackleInCase shackle;
+  shackle.name = called("L1");
+  shackle.working_load = 650e3;
+  shackle.breaking_load = 3900e3;
+  standard.shackles.push_back(shackle);
+  LiftFacts facts = two_slings();
+  Chain chain = chain_of(assess_standard(standard, facts), "shackle L1");
+  EXPECT_NEAR(*chain.limit, 682.5e3, 1e-6);
+  EXPECT_THAT(chain.steps.back().formula, HasSubstr("the lug has no padeye"));
+
+  LugFacts lug;
+  lug.name = "L1";
+  lug.at_rest = 400e3 * structure::Vector3(0, std::cos(0.05), std::sin(0.05));
+  lug.in_motion = 460e3 * structure::Vector3(0, 1, 0);
+  lug.lateral = 0.5;  // 30 degrees
+  lug.input.geometry = {0.3, 0.08, 0.145, 0.140, 0.22, 0.035, 0.55, 0.6, 0.6};
+  lug.input.material = {"steel", 206e9, 0.3, 7850, 355e6};
+  facts.lugs.push_back(lug);
+  const StandardAssessment result = assess_standard(standard, facts);
+  chain = chain_of(result, "shackle L1");
+  EXPECT_NEAR(*chain.limit, 682.5e3, 1e-6);
+  EXPECT_NEAR(*chain.simulated_limit, 0.7 * 682.5e3, 1e-6);
+  EXPECT_NEAR(*chain_of(result, "shackle L1 at rest").limit, 650e3, 1e-6);
+}
+
 // ASME BTH-1 in US units (kip, in): N_d 2, t 1.25, a = b_e = 3, D_p 2.75, D_h 3, R 4.5, F_y 36,
 // F_u 58; C_r taken 1 there: P_t 175.2, P_b 144.1, P_v 148.0 kip.
 TEST(StandardAssessment, HoldsALugByTheFormulaeThatTheRulesName) {
