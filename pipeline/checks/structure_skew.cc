@@ -63,6 +63,19 @@ void add_skewed_cases(const LoadCase& base, const structure::Mesh& mesh, const H
   }
 }
 
+/// Tensions along four directions whose forces sum to nothing, by Cramer's rule; nil where the
+/// directions span less than space.
+Eigen::Vector4d null_vector(const Eigen::Matrix<double, 3, 4>& directions) {
+  Eigen::Vector4d tensions;
+  for (Eigen::Index left_out = 0; left_out < 4; ++left_out) {
+    Eigen::Matrix3d others;
+    for (Eigen::Index i = 0, column = 0; i < 4; ++i)
+      if (i != left_out) others.col(column++) = directions.col(i);
+    tensions[left_out] = (left_out % 2 == 0 ? 1 : -1) * others.determinant();
+  }
+  return tensions;
+}
+
 /// Largest checked stress of a material's groups, or about any lug, over load cases.
 double largest_stress(const std::vector<LoadCaseResult>& results, const StressFacts& of) {
   double largest = 0;
@@ -89,9 +102,9 @@ std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
     directions.col(static_cast<Eigen::Index>(i)) = slings[i].force.normalized();
     reach = std::max(reach, (slings[i].p_B - slings[0].p_B).norm());
   }
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 3, 4>> svd(directions, Eigen::ComputeFullV);
-  if (svd.singularValues()[2] < 1e-3) return {};
-  const Eigen::Vector4d tensions = svd.matrixV().col(3);
+  Eigen::Vector4d tensions = null_vector(directions);
+  if (tensions.norm() < 1e-3) return {};
+  tensions.normalize();
   Vector3 moment = Vector3::Zero();
   for (std::size_t i = 0; i < 4; ++i)
     moment += (slings[i].p_B - slings[0].p_B)

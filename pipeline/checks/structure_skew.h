@@ -21,8 +21,8 @@ struct DiagonalSling {
 using DiagonalChange = std::array<structure::Vector3, 4>;
 
 /// The changes of four slings whose lines meet in a point, for either diagonal: the only tensions
-/// that load nothing but what hangs on the slings, so large that the slings of one diagonal reach
-/// their skew, and no sling would push.
+/// that load nothing but what hangs on the slings, so large that each sling of one diagonal reaches
+/// its skew, but no sling would push.
 /// @returns none where the lines do not meet, or more than one such set of tensions exists.
 std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
     const std::array<DiagonalSling, 4>& slings);

@@ -86,9 +86,12 @@ Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& fo
     const MatrixXd stiffness_of_ropes = compliance_(taut, taut).inverse();
     const VectorXd e = errors(taut);
     const MatrixXd K = B.transpose() * stiffness_of_ropes * B + turning;
-    // What turns freely (a load about the plumb line of its one hook) stays where it is.
-    const VectorXd x = Eigen::CompleteOrthogonalDecomposition<MatrixXd>(K).solve(
-        slackened + B.transpose() * stiffness_of_ropes * e);
+    // What turns freely (a load about the plumb line of its one hook) stays where it is. Its
+    // stiffness is nil but for rounding, some 1e-13 of the ropes'; that of a pendulum is 1e-5 of it.
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
+    decomposition.setThreshold(1e-10);
+    decomposition.compute(K);
+    const VectorXd x = decomposition.solve(slackened + B.transpose() * stiffness_of_ropes * e);
     const VectorXd tension = tension_(taut) + stiffness_of_ropes * (B * x - e);
     Eigen::Index lowest = 0;
     if (tension.minCoeff(&lowest) >= 0) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace blocklift::pipeline {
@@ -73,6 +74,25 @@ TEST(RiggingBalance, SharesLessOnAFlexibleLoad) {
   const VectorXd tension = balance.with_length_errors(alternating(error));
   for (int i = 0; i < 4; ++i)
     EXPECT_NEAR(tension[i], slings.tension + (i % 2 == 0 ? -change : change), 1e-7 * change) << i;
+}
+
+// A load turns freely about the plumb line of its one hook; rounding makes that a stiffness of no
+// meaning, however the load lies and whichever way its moment turns.
+TEST(RiggingBalance, DoesNotTurnAboutThePlumbLine) {
+  const FourSlings straight;
+  const Vector3d moment(0.03 * weight, -0.02 * weight, 0);
+  const VectorXd expected = RiggingBalance(straight.ropes, 1).with_moment(moment);
+  for (int step = 1; step < 40; ++step) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(0.137 * step, Vector3d::UnitZ()).toRotationMatrix();
+    FourSlings turned;
+    for (RiggingRope& rope : turned.ropes) {
+      rope.lower.r_W = turn * rope.lower.r_W * (1 + 1e-10 * step);
+      rope.direction_W = turn * rope.direction_W;
+    }
+    const VectorXd tension = RiggingBalance(turned.ropes, 1).with_moment(turn * moment);
+    EXPECT_LT((tension - expected).cwiseAbs().maxCoeff(), 1e-6 * weight) << step;
+  }
 }
 
 // Errors that leave one diagonal slack (EA d / L is more than the load at rest): the other one
