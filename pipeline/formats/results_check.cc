@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <new>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -86,8 +87,17 @@ class ResultsCheck {
     return std::nullopt;
   }
 
+  /// Whether a thing is there. Where it is not, that above it must be a group that can be read:
+  /// of a damaged one everything seems to be missing.
   bool has(const std::string& path) {
-    return attempt(path, [&] { return results_.has(path); }).value_or(false);
+    if (attempt(path, [&] { return results_.has(path); }).value_or(false)) return true;
+    std::string above = path;
+    do {
+      above = above.substr(0, above.rfind('/'));
+      if (above.empty()) above = "/";
+    } while (!results_.has(above));
+    if (read_groups_.insert(above).second) attempt(above, [&] { return results_.children(above); });
+    return false;
   }
 
   /// Names in a group; none where there is no such group.
@@ -387,6 +397,7 @@ class ResultsCheck {
 
   const ResultsReader& results_;
   std::vector<std::string> complaints_;
+  std::set<std::string> read_groups_;
 };
 
 }  // namespace

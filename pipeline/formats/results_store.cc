@@ -83,6 +83,19 @@ std::string shape_text(const std::vector<std::size_t>& shape) {
   return text;
 }
 
+std::string kind_name(H5T_class_t kind) {
+  switch (kind) {
+    case H5T_INTEGER:
+      return "integers";
+    case H5T_FLOAT:
+      return "numbers";
+    case H5T_STRING:
+      return "texts";
+    default:
+      return "neither numbers nor texts";
+  }
+}
+
 std::string list_of(const std::vector<std::string>& names) {
   if (names.empty()) return "nothing";
   std::string text;
@@ -403,7 +416,9 @@ class ResultsReader::File {
     const Handle type(H5Dget_type(set.get()), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type.get());
     if (kind != H5T_INTEGER && (integers_only || kind != H5T_FLOAT))
-      fail(name_, path, integers_only ? "does not hold integers" : "does not hold numbers");
+      fail(name_, path,
+           "holds " + kind_name(kind) + "; " + (integers_only ? "integers" : "numbers") +
+               " are due");
     Array<Number> array;
     array.values.resize(extents(set, path, array.shape));
     if (!array.values.empty() &&
@@ -415,7 +430,8 @@ class ResultsReader::File {
   std::vector<std::string> texts(const std::string& path) const {
     const Handle set = open_dataset(path);
     const Handle type(H5Dget_type(set.get()), H5Tclose);
-    if (H5Tget_class(type.get()) != H5T_STRING) fail(name_, path, "does not hold text");
+    if (H5Tget_class(type.get()) != H5T_STRING)
+      fail(name_, path, "holds " + kind_name(H5Tget_class(type.get())) + "; texts are due");
     std::vector<std::size_t> shape;
     const std::size_t count = extents(set, path, shape);
     const Handle space(H5Dget_space(set.get()), H5Sclose);
