@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,10 @@ class DamagedResults : public ::testing::Test {
   DamagedResults() {
     fs::create_directory("sound");
     write_sample_result("sound", {.motion_step = 1});
-    folder_.write("record.csv", "time [s],ropes.R1 [kN]\n10,500\n30,505\n50,495\n70,500\n");
+    std::string record = "time [s],ropes.R1 [kN]\n";
+    for (int i = 1; i < 15; ++i)
+      record += std::to_string(6 * i) + (i % 2 == 0 ? ",495\n" : ",505\n");
+    folder_.write("record.csv", record);
   }
 
   /// What is said of the results after the damage; then all readers have been tried with them, if
@@ -146,9 +150,11 @@ TEST_F(DamagedResults, AreRefusedByTheKeyOfTheSummaryOrUsedWithoutIt) {
                          Json::object(),
                          Json{{"name", 3}}};
   const Json leaves = summary.flatten();
+  std::set<std::string> tried;
   for (const auto& [path, value] : leaves.items()) {
     const Json::json_pointer place(path);
-    for (Json::json_pointer at = place; !at.empty(); at = at.parent_pointer())
+    for (Json::json_pointer at = place; !at.empty() && tried.insert(at.to_string()).second;
+         at = at.parent_pointer())
       for (const Json& other : others) {
         SCOPED_TRACE(at.to_string() + " is " + other.dump());
         said_of([&](const fs::path& results) {
