@@ -18,10 +18,13 @@
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/progress_line.h"
 #include "pipeline/comparison/expected_figures.h"
+#include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/key_change.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/input_hash.h"
 #include "pipeline/formats/content_hash.h"
+#include "pipeline/formats/preparation.h"
+#include "pipeline/formats/results_folder.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/formats/summary_file.h"
@@ -345,7 +348,15 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
 }
 
 int report_results(const std::string& folder, const std::optional<int>& frames) {
+  complete_stopped_move(folder);
+  Diagnostics diagnostics;
+  for (const FileComplaint& complaint : complaints_about_folder(folder))
+    diagnostics.error({std::make_shared<const std::string>(complaint.file.string()), 0, 0},
+                      complaint.message);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
   try {
+    // Nothing is written if one of the two cannot be made.
+    if (frames) require_frames(folder);
     const std::filesystem::path report = write_report(folder);
     if (!is_quiet()) fmt::print("report: {}\n", report.string());
     if (frames) {

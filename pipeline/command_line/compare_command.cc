@@ -9,11 +9,14 @@
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/comparison/comparison.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/results_store.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {
 
-int compare(const CompareOptions& options) {
+namespace {
+
+int compare_and_show(const CompareOptions& options) {
   std::vector<Tolerance> tolerances;
   if (options.tolerance) tolerances = read_tolerances(*options.tolerance);
   const ResultComparison comparison =
@@ -26,6 +29,18 @@ int compare(const CompareOptions& options) {
     fmt::print("{}", comparison_text(comparison));
   if (options.page && !options.json && !is_quiet()) fmt::print("\npage: {}\n", *options.page);
   return comparison.moved.empty() ? exit_code::done : exit_code::lift_fails;
+}
+
+}  // namespace
+
+int compare(const CompareOptions& options) {
+  try {
+    return compare_and_show(options);
+  } catch (const ResultsError& error) {
+    // Results are only read here.
+    fmt::print(stderr, "blocklift: error: {}\n", error.what());
+    return exit_code::wrong_input;
+  }
 }
 
 }  // namespace blocklift::pipeline

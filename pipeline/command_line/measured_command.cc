@@ -10,6 +10,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/results_store.h"
 #include "pipeline/measurement/measured_lift.h"
 #include "pipeline/terminal/run_log.h"
 
@@ -29,9 +30,7 @@ double accuracy_of(const std::string& text) {
   throw InputError(diagnostics);
 }
 
-}  // namespace
-
-int show_measured(const MeasuredOptions& options) {
+int hold_and_show(const MeasuredOptions& options) {
   MeasurementSettings settings;
   settings.shifts = options.shifts;
   if (options.window) settings.window = parse_window("--window", *options.window);
@@ -47,6 +46,18 @@ int show_measured(const MeasuredOptions& options) {
     fmt::print("{}", measured_text(lift));
   if (options.page && !options.json && !is_quiet()) fmt::print("\npage: {}\n", *options.page);
   return exit_code::done;
+}
+
+}  // namespace
+
+int show_measured(const MeasuredOptions& options) {
+  try {
+    return hold_and_show(options);
+  } catch (const ResultsError& error) {
+    // Results are only read here.
+    fmt::print(stderr, "blocklift: error: {}\n", error.what());
+    return exit_code::wrong_input;
+  }
 }
 
 }  // namespace blocklift::pipeline

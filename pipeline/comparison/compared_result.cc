@@ -9,6 +9,7 @@
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/document.h"
+#include "pipeline/formats/results_folder.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/formats/run_identity.h"
@@ -43,6 +44,10 @@ std::vector<InputText> read_input(const ResultsReader& results) {
 }
 
 std::optional<ComparedResult> read_folder(const fs::path& folder, Diagnostics& diagnostics) {
+  const std::vector<FileComplaint> complaints = complaints_about_folder(folder);
+  for (const FileComplaint& complaint : complaints)
+    complain(diagnostics, complaint.file, complaint.message);
+  if (!complaints.empty()) return std::nullopt;
   try {
     ComparedResult result;
     result.folder = folder;

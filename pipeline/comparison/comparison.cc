@@ -229,8 +229,9 @@ std::string shown_value(const ComparedFigure& figure, const Json& value) {
   for (const Json& one : figure.values)
     if (one.is_number()) largest = std::max(largest, std::abs(one.get<double>()));
   largest *= figure.figure.scale;
-  const int decimals =
-      largest > 0 ? std::clamp(4 - static_cast<int>(std::floor(std::log10(largest))), 0, 6) : 0;
+  const int decimals = largest > 0 && std::isfinite(largest)
+                           ? std::clamp(4 - static_cast<int>(std::floor(std::log10(largest))), 0, 6)
+                           : 0;
   return fmt::format("{:.{}f}", value.get<double>() * figure.figure.scale, decimals);
 }
 

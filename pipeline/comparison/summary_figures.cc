@@ -220,8 +220,9 @@ std::string unit_of_figure(const Json& summary, std::string_view path) {
   if (dot == std::string_view::npos) return {};
   const Json* row = find_figure(summary, path.substr(0, dot));
   if (!row || !row->is_object()) return {};
-  const std::string unit = row->value("unit", std::string());
-  return unit == "1" ? std::string() : unit;
+  const auto found = row->find("unit");
+  if (found == row->end() || !found->is_string() || *found == "1") return {};
+  return found->get<std::string>();
 }
 
 }  // namespace blocklift::pipeline

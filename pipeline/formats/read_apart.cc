@@ -37,4 +37,28 @@ std::optional<std::string> death_of_reading(const std::filesystem::path& file,
   return std::nullopt;
 }
 
+std::vector<std::string> complaints_of_reading(
+    const std::filesystem::path& file, const std::function<std::vector<std::string>()>& read) {
+  try {
+    structure::Packet packet = structure::in_child_process(
+        [&] {
+          structure::Packet sent;
+          const std::vector<std::string> complaints = read();
+          sent.put(complaints.size());
+          for (const std::string& complaint : complaints) sent.put(complaint);
+          return sent;
+        },
+        limits_for(file));
+    std::size_t count = 0;
+    packet.take(count);
+    std::vector<std::string> complaints(count);
+    for (std::string& complaint : complaints) packet.take(complaint);
+    return complaints;
+  } catch (const structure::ChildDied& death) {
+    return {std::string("is damaged: reading it ") + death.what()};
+  } catch (const structure::ModelError& error) {
+    return {error.what()};
+  }
+}
+
 }  // namespace blocklift::pipeline

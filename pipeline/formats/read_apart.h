@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blocklift::pipeline {
 
@@ -13,5 +14,10 @@ namespace blocklift::pipeline {
 /// @returns how the reading died, "came to no end ..."; none if the file can be read here.
 std::optional<std::string> death_of_reading(const std::filesystem::path& file,
                                             const std::function<void()>& read);
+
+/// Likewise, of reading that says itself what is wrong with the file.
+/// @returns what `read` returns; how it died if it did.
+std::vector<std::string> complaints_of_reading(
+    const std::filesystem::path& file, const std::function<std::vector<std::string>()>& read);
 
 }  // namespace blocklift::pipeline

@@ -18,6 +18,7 @@ using Shape = std::vector<hsize_t>;
 constexpr std::size_t smallest_compressed_count = 1024;
 constexpr hsize_t chunk_count = 65536;
 constexpr unsigned deflate_level = 4;
+constexpr std::size_t most_numbers = std::size_t{1} << 40U;
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::string_view object,
                        const std::string& what) {
@@ -73,6 +74,26 @@ Handle dataset_creation(const Shape& shape, bool numerical) {
   H5Pset_shuffle(properties.get());
   H5Pset_deflate(properties.get(), deflate_level);
   return properties;
+}
+
+std::string shape_text(const std::vector<std::size_t>& shape) {
+  std::string text;
+  for (const std::size_t extent : shape)
+    text += (text.empty() ? "" : " x ") + std::to_string(extent);
+  return text;
+}
+
+std::string kind_name(H5T_class_t kind) {
+  switch (kind) {
+    case H5T_INTEGER:
+      return "integers";
+    case H5T_FLOAT:
+      return "numbers";
+    case H5T_STRING:
+      return "texts";
+    default:
+      return "neither numbers nor texts";
+  }
 }
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -395,9 +416,11 @@ class ResultsReader::File {
     const Handle type(H5Dget_type(set.get()), H5Tclose);
     const H5T_class_t kind = H5Tget_class(type.get());
     if (kind != H5T_INTEGER && (integers_only || kind != H5T_FLOAT))
-      fail(name_, path, integers_only ? "does not hold integers" : "does not hold numbers");
+      fail(name_, path,
+           "holds " + kind_name(kind) + "; " + (integers_only ? "integers" : "numbers") +
+               " are due");
     Array<Number> array;
-    array.values.resize(extents(set, array.shape));
+    array.values.resize(extents(set, path, array.shape));
     if (!array.values.empty() &&
         H5Dread(set.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0)
       fail(name_, path, "cannot be read");
@@ -407,9 +430,10 @@ class ResultsReader::File {
   std::vector<std::string> texts(const std::string& path) const {
     const Handle set = open_dataset(path);
     const Handle type(H5Dget_type(set.get()), H5Tclose);
-    if (H5Tget_class(type.get()) != H5T_STRING) fail(name_, path, "does not hold text");
+    if (H5Tget_class(type.get()) != H5T_STRING)
+      fail(name_, path, "holds " + kind_name(H5Tget_class(type.get())) + "; texts are due");
     std::vector<std::size_t> shape;
-    const std::size_t count = extents(set, shape);
+    const std::size_t count = extents(set, path, shape);
     const Handle space(H5Dget_space(set.get()), H5Sclose);
     auto result = read_strings(type.get(), count, space.get(), [&](hid_t memory, void* place) {
       return H5Dread(set.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, place);
@@ -418,26 +442,35 @@ class ResultsReader::File {
     return result;
   }
 
-  /// An attribute, opened; the object must exist.
+  /// An attribute of one value, opened; the object must exist.
   Handle open_attribute(const std::string& path, std::string_view name) const {
     require(path);
     const std::string name_text(name);
     Handle attribute(
         H5Aopen_by_name(id(), path.c_str(), name_text.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     if (!attribute) fail(name_, path, "has no attribute \"" + name_text + "\"");
+    const Handle space(H5Aget_space(attribute.get()), H5Sclose);
+    if (H5Sget_simple_extent_npoints(space.get()) != 1)
+      fail(name_, path, "attribute \"" + name_text + "\" is a list; one value is due");
     return attribute;
   }
 
  private:
   /// Fills `shape` and returns the number of elements.
-  static std::size_t extents(const Handle& set, std::vector<std::size_t>& shape) {
+  std::size_t extents(const Handle& set, const std::string& path,
+                      std::vector<std::size_t>& shape) const {
     const Handle space(H5Dget_space(set.get()), H5Sclose);
     const int rank = H5Sget_simple_extent_ndims(space.get());
     Shape extent(static_cast<std::size_t>(std::max(rank, 0)));
     H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
     shape.assign(extent.begin(), extent.end());
     std::size_t count = 1;
-    for (const std::size_t n : shape) count *= n;
+    for (const std::size_t n : shape) {
+      // More than any memory holds; damaged files say so.
+      if (n > 0 && count > most_numbers / n)
+        fail(name_, path, "has more values than can be read: it is of shape " + shape_text(shape));
+      count *= n;
+    }
     return count;
   }
 

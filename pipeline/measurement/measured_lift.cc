@@ -189,11 +189,13 @@ void weigh_load(const ResultsReader& results, const MeasurementSettings& setting
   const nlohmann::ordered_json& summary = lift.result.summary;
   if (summary.contains("structure") && summary["structure"].contains("mass")) {
     const auto& block = summary["structure"]["mass"];
-    if (block.contains("total_kg")) lift.weight->computed_mass = block["total_kg"].get<double>();
-    if (block.contains("centre_of_mass_m") && block["centre_of_mass_m"].size() == 3) {
+    if (block.contains("total_kg") && block["total_kg"].is_number())
+      lift.weight->computed_mass = block["total_kg"].get<double>();
+    if (block.contains("centre_of_mass_m")) {
       const auto& c = block["centre_of_mass_m"];
-      lift.weight->computed_centre_B =
-          Eigen::Vector3d(c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
+      if (std::all_of(c.begin(), c.end(), [](const auto& one) { return one.is_number(); }))
+        lift.weight->computed_centre_B =
+            Eigen::Vector3d(c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
     }
   }
 }

@@ -63,8 +63,6 @@ class Lift {
  public:
   explicit Lift(const ResultsReader& results) {
     const std::string history(layout::dynamic_history);
-    if (!results.has(layout::scene_group) || !results.has(join(history, "time")))
-      throw ResultsError("the results have nothing that moves: there are no frames of it");
     time_ = results.read(join(history, "time"));
     for (const std::string& name : results.children(join(history, "bodies")))
       poses_.emplace(name, results.read(join(history, "bodies", name, "pose")));
@@ -179,7 +177,15 @@ class Lift {
 
 }  // namespace
 
+void require_frames(const fs::path& folder) {
+  const ResultsReader results(folder / layout::results_file);
+  if (!results.has(layout::scene_group) || !results.has(join(layout::dynamic_history, "time")))
+    throw ResultsError((folder / layout::results_file).string() +
+                       ": the results have nothing that moves: there are no frames of it");
+}
+
 fs::path write_lift_frames(const fs::path& folder, int frames) {
+  require_frames(folder);
   const Lift lift{ResultsReader(folder / layout::results_file)};
   const fs::path place = folder / "lift-frames", aside = folder / ".lift-frames.part";
   fs::remove_all(aside);

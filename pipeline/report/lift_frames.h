@@ -4,6 +4,9 @@
 
 namespace blocklift::pipeline {
 
+/// @throws ResultsError if results.h5 is missing, unreadable, or has nothing that moves.
+void require_frames(const std::filesystem::path& folder);
+
 /// Writes the lift in time for ParaView from the results.h5 of a result folder: lift.pvd, which
 /// names for each of so many instants, evenly spread, two files of the folder lift-frames:
 ///   cranes-NNNN.vtu  bodies as boxes and ropes as lines; of each cell `object`, its number in the

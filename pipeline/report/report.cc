@@ -20,6 +20,14 @@
 namespace blocklift::pipeline {
 namespace {
 
+/// @throws ResultsError if the results are those of a part.
+void require_lift(const nlohmann::ordered_json& summary, const std::filesystem::path& path) {
+  if (!summary.contains("part") || summary.contains("case")) return;
+  throw ResultsError(path.string() +
+                     ": is the summary of a part, of which there is no report; its part.vtu shows "
+                     "it in ParaView");
+}
+
 /// @throws ResultsError if the file has a layout of another version.
 void require_known_layout(const ResultsReader& results, const std::filesystem::path& path) {
   if (!results.has_attribute("/", "format_version")) return;
@@ -36,6 +44,7 @@ void require_known_layout(const ResultsReader& results, const std::filesystem::p
 std::filesystem::path write_report(const std::filesystem::path& folder) {
   complete_stopped_move(folder);
   const nlohmann::ordered_json summary = read_summary(folder / layout::summary_file);
+  require_lift(summary, folder / layout::summary_file);
   const ResultsReader results(folder / layout::results_file);
   require_known_layout(results, folder / layout::results_file);
   if (const std::string complaint = mixed_runs(results, summary); !complaint.empty())

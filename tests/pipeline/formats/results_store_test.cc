@@ -155,11 +155,11 @@ TEST_F(ResultsStore, ErrorsNameFileAndDatasetAndSayWhatIsThere) {
       message_of([&] { reader.read("/static/ropes/R1"); }),
       AllOf(HasSubstr("results.h5"), HasSubstr("/static/ropes/R1"), HasSubstr("holds time")));
   EXPECT_THAT(message_of([&] { reader.read("/static"); }), HasSubstr("is not a dataset"));
-  EXPECT_THAT(message_of([&] { reader.read("/case/yaml"); }), HasSubstr("does not hold numbers"));
+  EXPECT_THAT(message_of([&] { reader.read("/case/yaml"); }),
+              HasSubstr("holds texts; numbers are due"));
   EXPECT_THAT(message_of([&] { reader.read_indices("/static/time"); }),
-              HasSubstr("does not hold integers"));
-  EXPECT_THAT(message_of([&] { reader.read_text("/static/time"); }),
-              HasSubstr("does not hold text"));
+              HasSubstr("integers are due"));
+  EXPECT_THAT(message_of([&] { reader.read_text("/static/time"); }), HasSubstr("texts are due"));
   EXPECT_THAT(message_of([&] { reader.read_text_attribute("/case", "title"); }),
               HasSubstr("no attribute \"title\""));
   EXPECT_THAT(message_of([&] { ResultsReader(folder_ / "none.h5"); }), HasSubstr("no such file"));

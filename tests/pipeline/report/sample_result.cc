@@ -226,7 +226,7 @@ void write_sample_result(const std::filesystem::path& folder, const SampleParts&
                                  {"assumptions", {"none"}}};
   if (parts.motion) {
     write_history(writer, layout::static_history, 1.0);
-    write_history(writer, layout::dynamic_history, 0.005);
+    write_history(writer, layout::dynamic_history, parts.motion_step);
     write_scene(writer);
     write_modes(writer);
     summary["natural_periods"] = natural_periods();

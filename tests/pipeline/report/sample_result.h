@@ -6,8 +6,9 @@ namespace blocklift::pipeline {
 
 /// What a sample result has.
 struct SampleParts {
-  bool motion = true;     ///< histories, stages, scene
-  bool structure = true;  ///< surface, fields, figures
+  bool motion = true;          ///< histories, stages, scene
+  bool structure = true;       ///< surface, fields, figures
+  double motion_step = 0.005;  ///< of the samples in motion, s
 };
 
 /// Writes results.h5 and summary.json of an invented small lift (one crane, two ropes, a box as
