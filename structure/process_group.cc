@@ -27,6 +27,7 @@ int from_environment(const std::vector<const char*>& names, int otherwise) {
 // Set where a process of this run may be lost without an end of all: MPI then says so.
 MPI_Comm posting = MPI_COMM_NULL;
 constexpr int tag_of_posted = 1;
+bool is_without_farewell = false;
 
 /// What MPI keeps until the end is none of ours: unseen by the sanitizers within a scope.
 struct UnseenByLeakSanitizer {
@@ -82,6 +83,7 @@ ProcessGroup::ProcessGroup() {
 }
 
 ProcessGroup::~ProcessGroup() {
+  if (is_without_farewell) return;
   [[maybe_unused]] const UnseenByLeakSanitizer unseen;
   MPI_Comm_free(&posting);
   PetscFinalize();
@@ -136,6 +138,10 @@ std::optional<ProcessGroup::Posted> ProcessGroup::take_posted() const {
     return std::nullopt;
   return Posted{status.MPI_SOURCE, Packet(std::move(bytes))};
 }
+
+void ProcessGroup::leave_without_farewell() { is_without_farewell = true; }
+
+bool ProcessGroup::leaves_without_farewell() { return is_without_farewell; }
 
 void ProcessGroup::abort() {
   MPI_Abort(PETSC_COMM_WORLD, 1);

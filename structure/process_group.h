@@ -46,6 +46,11 @@ class ProcessGroup {
   /// nothing. Returns at once.
   std::optional<Posted> take_posted() const;
 
+  /// From now on this process ends without a word to the others: one of them is lost, and MPI would
+  /// wait for it.
+  static void leave_without_farewell();
+  static bool leaves_without_farewell();
+
   /// Ends all processes at once, after an error that only this one has met.
   [[noreturn]] static void abort();
 

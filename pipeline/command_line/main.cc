@@ -176,11 +176,29 @@ void add_sweep(CLI::App& app, int& code) {
                    "lifts side by side (as many as the machine has processors if not given; on "
                    "several processes, of each of them: one)")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--part", options->part,
-                      "compute one part of the members alone, 3/10 say, on each of ten machines");
+  CLI::Option* part = command->add_option(
+      "--part", options->part,
+      "compute one part of the members alone, 3/10 say, on each of ten machines");
+  CLI::Option* join =
+      command
+          ->add_option("--join", options->join,
+                       "folder of a part that another machine computed; may be repeated")
+          ->allow_extra_args(false);
+  CLI::Option* slurm =
+      command
+          ->add_flag("--slurm{submit}", options->slurm,
+                     "run the study as jobs of Slurm: write an array of parts and a job that joins "
+                     "them, and submit both; --slurm=write only writes")
+          ->check(CLI::IsMember({"submit", "write"}))
+          ->excludes(part)
+          ->excludes(join);
+  command->add_option("--parts", options->parts, "tasks of Slurm's array (10 if not given)")
+      ->needs(slurm)
+      ->check(CLI::Range(1, 100'000));
   command
-      ->add_option("--join", options->join,
-                   "folder of a part that another machine computed; may be repeated")
+      ->add_option("--sbatch", options->sbatch,
+                   "an option of both jobs, --sbatch=--partition=long say; may be repeated")
+      ->needs(slurm)
       ->allow_extra_args(false);
   command->add_option("--worker", options->worker_of)->group("");
   command->add_option("--whole", options->whole)->group("");

@@ -15,6 +15,7 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/slurm_jobs.h"
 #include "pipeline/command_line/sweep_team.h"
 #include "pipeline/command_line/worker_process.h"
 #include "pipeline/declaration/diagnostics.h"
@@ -285,6 +286,38 @@ int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
   return results.search->is_feasible ? exit_code::done : exit_code::lift_fails;
 }
 
+void check_slurm_options(const SweepOptions& options) {
+  const auto refuse = [](const std::string& what, std::string message) {
+    Diagnostics diagnostics;
+    diagnostics.error({std::make_shared<const std::string>(what), 0, 0}, std::move(message));
+    throw InputError(diagnostics);
+  };
+  if (launched_group())
+    refuse("--slurm", "jobs are submitted by one process, and several were started");
+  for (const std::string& option : options.sbatch)
+    if (!option.starts_with('-') || option.find('\n') != std::string::npos)
+      refuse("--sbatch " + option, "an option of sbatch is due, for example --partition=long");
+}
+
+/// Hands the study to Slurm, once all its members are found possible.
+int run_as_jobs(const SweepOptions& options, const fs::path& folder, const StudyFile& study,
+                int count) {
+  constexpr int usual_parts = 10;
+  const int parts = std::min(count, options.parts > 0 ? options.parts : usual_parts);
+  const fs::path script = write_slurm_jobs(
+      {options.study, study.name, folder, parts, std::max(1, options.workers), options.sbatch});
+  const bool is_to_submit = *options.slurm == "submit";
+  if (is_to_submit && is_slurm_here()) {
+    submit_slurm_jobs(script);
+    return exit_code::done;
+  }
+  if (!is_quiet())
+    print_wrapped(fmt::format("{}\"sh {}\" submits {} parts and a job that joins them",
+                              is_to_submit ? "there is no sbatch here; " : "", script.string(),
+                              parts));
+  return exit_code::done;
+}
+
 int sweep_alone_or_first(const SweepOptions& options) {
   StudyFile study = read_study(options.study);
   const fs::path folder = folder_of(options, study);
@@ -300,7 +333,9 @@ int sweep_alone_or_first(const SweepOptions& options) {
     return exit_code::done;
   }
   const StudyPart part = part_of(options);
-  if (study.design == StudyDesign::search && (options.part || !options.join.empty()))
+  if (options.slurm) check_slurm_options(options);
+  if (study.design == StudyDesign::search &&
+      (options.part || !options.join.empty() || options.slurm))
     refuse_parts_of_search(study);
   check_figure_limits(study);
   require_writable(folder);
@@ -314,8 +349,9 @@ int sweep_alone_or_first(const SweepOptions& options) {
     check_members(study, design, [&](double fraction) { bar.show(fraction); });
   }
   if (study.design == StudyDesign::search) return search(options, folder, std::move(study), design);
-  const MemberStore store(folder, identity_of_study(study), part);
   const auto count = static_cast<int>(design.rows());
+  if (options.slurm) return run_as_jobs(options, folder, study, count);
+  const MemberStore store(folder, identity_of_study(study), part);
   take_over_parts(options, store);
   run_members(options, study, folder, store, count);
   if (options.part) {

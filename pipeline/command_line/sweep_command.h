@@ -14,6 +14,9 @@ struct SweepOptions {
                     ///< of several processes one of each
   std::optional<std::string> worker_of;  ///< answers the orders of a study of that identity
   std::optional<std::string> part;       ///< "3/10": the third of ten parts of the members, alone
+  std::optional<std::string> slurm;      ///< "submit" or "write": runs as jobs of Slurm
+  int parts = 0;                         ///< of those; 0: ten, or as many as there are members
+  std::vector<std::string> sbatch;       ///< more options of theirs
   std::vector<std::string> join;         ///< folders of parts whose members are taken over
   std::optional<int> whole;              ///< a member whose whole results are written
 };

@@ -218,6 +218,7 @@ void SweepTeam::watch_others(Run& run) {
     if (is_due) group_->post(static_cast<int>(rank), packet_of(Word::alive));
     if (!is_past(heard_[rank], silence)) continue;
     is_lost_[rank] = true;
+    ProcessGroup::leave_without_farewell();
     say_warning(
         fmt::format("process {} is lost: nothing was heard of it for {:g} s", rank, silence));
     for (Slot& slot : slots_) {
@@ -255,6 +256,7 @@ class Follower {
       workers_.clear();
       heard_.reset();
     }
+    if (word == Word::leave) leave(packet);
     return word != Word::leave;
   }
   void answer() {
@@ -287,6 +289,11 @@ class Follower {
     for (int place = 0; place < count; ++place) workers_.emplace_back(arguments);
     tasks_.assign(static_cast<std::size_t>(count), {});
     pause_ = {};
+  }
+  static void leave(Packet& packet) {
+    bool is_one_lost = false;
+    packet.take(is_one_lost);
+    if (is_one_lost) ProcessGroup::leave_without_farewell();
   }
   void take_order(Packet& packet) {
     Task task;
@@ -338,7 +345,13 @@ bool follow_sweep_teams(const ProcessGroup& group) {
 }
 
 void let_followers_leave(const ProcessGroup& group) {
-  for (int rank = 1; rank < group.size(); ++rank) group.post(rank, packet_of(Word::leave));
+  const bool is_one_lost = ProcessGroup::leaves_without_farewell();
+  Packet leave = packet_of(Word::leave);
+  leave.put(is_one_lost);
+  for (int rank = 1; rank < group.size(); ++rank) group.post(rank, leave);
+  if (!is_one_lost) return;
+  // Time for the words to arrive: nobody waits for anybody then.
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
 }
 
 }  // namespace blocklift::pipeline

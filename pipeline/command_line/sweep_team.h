@@ -62,7 +62,7 @@ class SweepTeam {
 /// another.
 /// @returns false if the first falls silent.
 bool follow_sweep_teams(const structure::ProcessGroup& group);
-/// Ends what the others do.
+/// Ends what the others do. Where one was lost, nobody waits for the others at the program's end.
 void let_followers_leave(const structure::ProcessGroup& group);
 
 }  // namespace blocklift::pipeline
