@@ -24,6 +24,11 @@ int from_environment(const std::vector<const char*>& names, int otherwise) {
   return otherwise;
 }
 
+// Set where a process of this run may be lost without an end of all: MPI then says so.
+MPI_Comm posting = MPI_COMM_NULL;
+constexpr int tag_of_posted = 1;
+bool is_without_farewell = false;
+
 /// What MPI keeps until the end is none of ours: unseen by the sanitizers within a scope.
 struct UnseenByLeakSanitizer {
 #ifdef __SANITIZE_ADDRESS__
@@ -43,11 +48,14 @@ void in_pieces(std::size_t size, const Transfer& transfer) {
 }  // namespace
 
 int ProcessGroup::launched() {
+  // Slurm's srun tells PMIx' processes their place, and their number only in its own words.
+  if (std::getenv("PMIX_RANK"))
+    return std::max(1, from_environment({"OMPI_COMM_WORLD_SIZE", "SLURM_STEP_NUM_TASKS"}, 1));
   return std::max(1, from_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1));
 }
 
 int ProcessGroup::place_among_launched() {
-  return from_environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}, 0);
+  return from_environment({"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"}, 0);
 }
 
 const ProcessGroup& ProcessGroup::of_this_run() {
@@ -70,10 +78,14 @@ ProcessGroup::ProcessGroup() {
   MPI_Comm_split_type(PETSC_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   MPI_Comm_size(machine, &on_this_machine_);
   MPI_Comm_free(&machine);
+  MPI_Comm_dup(PETSC_COMM_WORLD, &posting);
+  MPI_Comm_set_errhandler(posting, MPI_ERRORS_RETURN);
 }
 
 ProcessGroup::~ProcessGroup() {
+  if (is_without_farewell) return;
   [[maybe_unused]] const UnseenByLeakSanitizer unseen;
+  MPI_Comm_free(&posting);
   PetscFinalize();
 }
 
@@ -105,6 +117,31 @@ Packet ProcessGroup::broadcast(const Packet& packet) const {
   });
   return Packet(std::move(bytes));
 }
+
+bool ProcessGroup::post(int rank, const Packet& packet) const {
+  const std::size_t size = packet.bytes().size();
+  if (size > longest_piece) throw ModelError("a packet is too long to be posted");
+  return MPI_Send(packet.bytes().data(), static_cast<int>(size), MPI_BYTE, rank, tag_of_posted,
+                  posting) == MPI_SUCCESS;
+}
+
+std::optional<ProcessGroup::Posted> ProcessGroup::take_posted() const {
+  int is_there = 0, size = 0;
+  MPI_Status status;
+  if (MPI_Iprobe(MPI_ANY_SOURCE, tag_of_posted, posting, &is_there, &status) != MPI_SUCCESS ||
+      !is_there)
+    return std::nullopt;
+  MPI_Get_count(&status, MPI_BYTE, &size);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  if (MPI_Recv(bytes.data(), size, MPI_BYTE, status.MPI_SOURCE, tag_of_posted, posting,
+               MPI_STATUS_IGNORE) != MPI_SUCCESS)
+    return std::nullopt;
+  return Posted{status.MPI_SOURCE, Packet(std::move(bytes))};
+}
+
+void ProcessGroup::leave_without_farewell() { is_without_farewell = true; }
+
+bool ProcessGroup::leaves_without_farewell() { return is_without_farewell; }
 
 void ProcessGroup::abort() {
   MPI_Abort(PETSC_COMM_WORLD, 1);

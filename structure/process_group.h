@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "structure/packet.h"
 
 namespace blocklift::structure {
@@ -31,6 +33,24 @@ class ProcessGroup {
   Packet receive(int rank) const;
   /// Hands the leader's packet to all others; returns it everywhere.
   Packet broadcast(const Packet& packet) const;
+
+  /// A packet that a process posted, and which.
+  struct Posted {
+    int rank = 0;
+    Packet packet;
+  };
+  /// Posts a packet of less than a gigabyte to a process that looks for it when it likes, with
+  /// `take_posted`. False where the process is known to be lost.
+  bool post(int rank, const Packet& packet) const;
+  /// The next packet that was posted here, of those of one process in their order; none has come:
+  /// nothing. Returns at once.
+  std::optional<Posted> take_posted() const;
+
+  /// From now on this process ends without a word to the others: one of them is lost, and MPI would
+  /// wait for it.
+  static void leave_without_farewell();
+  static bool leaves_without_farewell();
+
   /// Ends all processes at once, after an error that only this one has met.
   [[noreturn]] static void abort();
 

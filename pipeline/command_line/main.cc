@@ -38,6 +38,7 @@
 namespace {
 
 using namespace blocklift::pipeline;
+using blocklift::structure::ProcessGroup;
 
 /// Of each command that reads input which may come from others.
 void add_allow_outside(CLI::App& command) {
@@ -172,16 +173,34 @@ void add_sweep(CLI::App& app, int& code) {
                       "that was stopped goes on there");
   command
       ->add_option("--workers", options->workers,
-                   "lifts side by side (as many as the machine has processors if not given)")
+                   "lifts side by side (as many as the machine has processors if not given; on "
+                   "several processes, of each of them: one)")
       ->check(CLI::Range(1, 4096));
-  command->add_option("--part", options->part,
-                      "compute one part of the members alone, 3/10 say, on each of ten machines");
+  CLI::Option* part = command->add_option(
+      "--part", options->part,
+      "compute one part of the members alone, 3/10 say, on each of ten machines");
+  CLI::Option* join =
+      command
+          ->add_option("--join", options->join,
+                       "folder of a part that another machine computed; may be repeated")
+          ->allow_extra_args(false);
+  CLI::Option* slurm =
+      command
+          ->add_flag("--slurm{submit}", options->slurm,
+                     "run the study as jobs of Slurm: write an array of parts and a job that joins "
+                     "them, and submit both; --slurm=write only writes")
+          ->check(CLI::IsMember({"submit", "write"}))
+          ->excludes(part)
+          ->excludes(join);
+  command->add_option("--parts", options->parts, "tasks of Slurm's array (10 if not given)")
+      ->needs(slurm)
+      ->check(CLI::Range(1, 100'000));
   command
-      ->add_option("--join", options->join,
-                   "folder of a part that another machine computed; may be repeated")
+      ->add_option("--sbatch", options->sbatch,
+                   "an option of both jobs, --sbatch=--partition=long say; may be repeated")
+      ->needs(slurm)
       ->allow_extra_args(false);
-  command->add_flag("--worker", options->is_worker)->group("");
-  command->add_option("--blocks", options->blocks)->group("");
+  command->add_option("--worker", options->worker_of)->group("");
   command->add_option("--whole", options->whole)->group("");
   add_limits(*command);
   add_allow_outside(*command);
@@ -294,7 +313,9 @@ void add_verify(CLI::App& app, int& code) {
 
 /// How much is said, of each command that runs or reads something; the log begins before the
 /// command does.
-void add_log_options(CLI::App& app, LogChoice& choice, const std::vector<std::string>& arguments) {
+/// @param is_silent another process has the log.
+void add_log_options(CLI::App& app, LogChoice& choice, const std::vector<std::string>& arguments,
+                     bool is_silent) {
   for (CLI::App* command : app.get_subcommands({})) {
     if (command->get_name() == "schema") continue;
     CLI::Option* quiet = command->add_flag(
@@ -305,7 +326,7 @@ void add_log_options(CLI::App& app, LogChoice& choice, const std::vector<std::st
         ->excludes(quiet);
     command->add_option("--log", choice.file,
                         "file to which the run's steps, times, warnings and errors are appended");
-    command->parse_complete_callback([&] { begin_log(choice, arguments); });
+    if (!is_silent) command->parse_complete_callback([&] { begin_log(choice, arguments); });
   }
 }
 
@@ -374,12 +395,25 @@ void add_measured(CLI::App& app, int& code) {
 
 /// Says so if several processes were started for a command that runs in one.
 bool is_launched_in_vain(int argc, char** argv) {
-  using blocklift::structure::ProcessGroup;
-  if (ProcessGroup::launched() == 1 || (argc > 1 && argv[1] == std::string("stress"))) return false;
+  if (ProcessGroup::launched() == 1) return false;
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (command == "stress" || command == "sweep") return false;
   if (ProcessGroup::place_among_launched() == 0)
-    std::cerr << "blocklift: error: only \"blocklift stress\" runs on several processes; "
+    std::cerr << "blocklift: error: only \"blocklift stress\" and \"blocklift sweep\" run on "
+                 "several processes; "
               << ProcessGroup::launched() << " were started\n";
   return true;
+}
+
+/// Of several processes with a study the first alone says something; what others meet they tell it.
+bool is_silent_follower(int argc, char** argv) {
+  return argc > 1 && argv[1] == std::string("sweep") && ProcessGroup::launched() > 1 &&
+         ProcessGroup::place_among_launched() > 0;
+}
+
+void fall_silent() {
+  for (FILE* stream : {stdout, stderr})
+    if (!std::freopen("/dev/null", "w", stream)) std::fclose(stream);
 }
 
 int run(int argc, char** argv) {
@@ -404,8 +438,10 @@ int run(int argc, char** argv) {
   add_schema(app);
   add_verify(app, code);
   LogChoice log;
+  const bool is_silent = is_silent_follower(argc, argv);
+  if (is_silent) fall_silent();
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  add_log_options(app, log, arguments);
+  add_log_options(app, log, arguments, is_silent);
   add_pages(app);
   if (is_unknown_command(app, argc, argv)) return exit_code::wrong_input;
   try {

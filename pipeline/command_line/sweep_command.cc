@@ -1,16 +1,10 @@
 #include "pipeline/command_line/sweep_command.h"
 
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -21,6 +15,9 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/slurm_jobs.h"
+#include "pipeline/command_line/sweep_team.h"
+#include "pipeline/command_line/worker_process.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/study/figure_limit.h"
@@ -31,6 +28,7 @@
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
+#include "structure/process_group.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -79,100 +77,81 @@ Eigen::MatrixXd rows_of_part(const Eigen::MatrixXd& design, const StudyPart& par
   return rows;
 }
 
-/// Computes members until none is left.
-void work(const StudyFile& study, const fs::path& folder, const StudyPart& part) {
-  const MemberStore store(folder, identity_of_study(study), part);
-  StudyBlocks blocks(study, folder / "members");
+/// Answers orders until there are no more. Where study, case or program are not those of the process
+/// that gives them, every order is refused.
+void work(const SweepOptions& options, const StudyFile& study, const fs::path& folder) {
+  const bool is_the_study = identity_of_study(study) == *options.worker_of;
   const Eigen::MatrixXd design = make_design(study);
-  const auto count = static_cast<int>(design.rows());
-  for (int number = store.take_next(count); number >= 0; number = store.take_next(count)) {
-    const Member member = run_member(study, design.row(number), number, blocks);
-    const HeldSignals until_it_is_written;
-    store.write(member);
-  }
+  fs::create_directories(folder / "members");
+  StudyBlocks blocks(study, folder / "members");
+  answer_orders([&](const WorkOrder& order) -> std::string {
+    if (!is_the_study)
+      throw std::invalid_argument(
+          "its study, case or version of the program is another than that of the first process");
+    if (order.kind == WorkOrder::Kind::member)
+      return text_of_member(run_member(study, design.row(order.number), order.number, blocks));
+    blocks.prepare(rows_of_part(design, part_of(options)), order.number, order.of);
+    return {};
+  });
 }
 
-/// Starts this program again, with one thread of its own: members run side by side.
-pid_t start(std::vector<std::string> arguments) {
-  std::vector<char*> pointers;
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  pid_t process = 0;
-  const int error =
-      ::posix_spawn(&process, "/proc/self/exe", nullptr, nullptr, pointers.data(), environ);
-  if (error != 0)
-    throw std::runtime_error("a worker cannot be started: " +
-                             std::generic_category().message(error));
-  return process;
-}
-
-/// Waits for workers; true if each ended as it should.
-bool wait_for(std::vector<pid_t> processes, const std::function<void()>& meanwhile) {
-  bool well = true;
-  while (!processes.empty()) {
-    int status = 0;
-    const pid_t ended = ::waitpid(-1, &status, WNOHANG);
-    if (ended > 0) {
-      std::erase(processes, ended);
-      well = well && WIFEXITED(status) && WEXITSTATUS(status) == exit_code::done;
-      continue;
-    }
-    if (ended < 0 && errno != EINTR) return false;
-    meanwhile();
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  return well;
-}
-
-std::vector<std::string> worker_arguments(const SweepOptions& options, const fs::path& folder) {
-  std::vector<std::string> arguments{"blocklift",     "sweep",    options.study, "--output",
-                                     folder.string(), "--worker", "--threads",   "1",
-                                     "--quiet"};
+std::vector<std::string> arguments_of_process(const SweepOptions& options, const fs::path& folder) {
+  std::vector<std::string> arguments{"blocklift",     "sweep",     options.study, "--output",
+                                     folder.string(), "--threads", "1",           "--quiet"};
   if (options.part) arguments.insert(arguments.end(), {"--part", *options.part});
   return arguments;
 }
 
-int workers_of(const SweepOptions& options) {
-  return options.workers > 0 ? options.workers
-                             : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+/// The other processes that a launcher has started with this one; null: there are none.
+const structure::ProcessGroup* launched_group() {
+  return structure::ProcessGroup::launched() > 1 ? &structure::ProcessGroup::of_this_run()
+                                                 : nullptr;
 }
 
-/// Finds the unit stresses of the members' blocks, which take much memory: processes of their own
-/// give it back.
-void prepare_blocks(const SweepOptions& options, const fs::path& folder) {
+/// Workers of this process: one on each processor, or one of each process of several.
+int workers_of(const SweepOptions& options) {
+  if (options.workers > 0) return options.workers;
+  if (structure::ProcessGroup::launched() > 1) return 1;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+/// Finds the unit stresses of the members' blocks.
+void prepare_blocks(SweepTeam& team) {
   ProgressBar bar("unit stresses of the block");
-  std::vector<pid_t> processes;
-  for (int process = 0; process < workers_of(options); ++process) {
-    std::vector<std::string> arguments = worker_arguments(options, folder);
-    for (std::string argument : {std::string("--workers"), std::to_string(workers_of(options)),
-                                 std::string("--blocks"), std::to_string(process)})
-      arguments.push_back(std::move(argument));
-    processes.push_back(start(std::move(arguments)));
-  }
-  if (!wait_for(std::move(processes), [&] { bar.show(0); }))
+  std::vector<WorkOrder> orders;
+  for (int first = 0; first < team.size(); ++first)
+    orders.push_back({WorkOrder::Kind::blocks, first, team.size()});
+  const auto nothing_to_take = [](int, const std::string&) {};
+  if (!team.run(orders, nothing_to_take, [&] { bar.show(0); }))
     throw std::runtime_error("the stress of the case as it is written could not be found");
 }
 
-/// Runs what is missing. A worker that is lost leaves its member to the next round.
-void run_members(const SweepOptions& options, const fs::path& folder, const MemberStore& store,
-                 int count) {
-  constexpr int most_rounds = 3;
-  const int asked = workers_of(options);
+/// Runs what is missing.
+void run_members(const SweepOptions& options, const StudyFile& study, const fs::path& folder,
+                 const MemberStore& store, int count) {
+  const std::vector<int> missing = store.find_missing(count);
+  if (missing.empty()) return;
+  std::vector<std::string> arguments = arguments_of_process(options, folder);
+  arguments.insert(arguments.end(), {"--worker", identity_of_study(study)});
+  const structure::ProcessGroup* group = launched_group();
+  const int workers = workers_of(options);
+  SweepTeam team(group, std::move(arguments),
+                 group ? workers : std::min(workers, static_cast<int>(missing.size())));
+  if (study.run == StudyRun::stress) prepare_blocks(team);
   ProgressBar bar("members");
-  for (int round = 0; round < most_rounds; ++round) {
-    const int missing = store.count_all(count) - store.count_done(count);
-    if (missing == 0) return;
-    store.begin();
-    std::vector<pid_t> workers;
-    for (int w = 0; w < std::min(asked, missing); ++w)
-      workers.push_back(start(worker_arguments(options, folder)));
-    wait_for(std::move(workers), [&] {
-      const int done = store.count_done(count);
-      const int all = store.count_all(count);
-      bar.show(static_cast<double>(done) / all, fmt::format("{} of {}", done, all));
-    });
-  }
-  if (store.count_done(count) < store.count_all(count))
+  std::vector<WorkOrder> orders;
+  for (const int number : missing) orders.push_back({WorkOrder::Kind::member, number, 1});
+  const int all = store.count_all(count);
+  int done = all - static_cast<int>(missing.size());
+  const auto take = [&](int order, const std::string& text) {
+    const Member member = member_of_text(missing[static_cast<std::size_t>(order)], text);
+    const HeldSignals until_it_is_written;
+    store.write(member);
+    ++done;
+  };
+  if (!team.run(orders, take, [&] {
+        bar.show(static_cast<double>(done) / all, fmt::format("{} of {}", done, all));
+      }))
     throw std::runtime_error("workers of the study ended before their members were done");
 }
 
@@ -188,11 +167,10 @@ std::optional<int> write_worst(const SweepOptions& options, const fs::path& fold
                                const StudyResults& results) {
   if (results.leading.empty()) return std::nullopt;
   const int worst = results.spreads[results.leading.front()].member_of_worst();
-  std::vector<std::string> arguments = worker_arguments(options, folder);
-  arguments.push_back("--whole");
-  arguments.push_back(std::to_string(worst));
+  std::vector<std::string> arguments = arguments_of_process(options, folder);
+  arguments.insert(arguments.end(), {"--whole", std::to_string(worst)});
   ProgressBar bar("the worst member's report");
-  const bool well = wait_for({start(std::move(arguments))}, [&] { bar.show(0); });
+  const bool well = run_this_program(std::move(arguments), [&] { bar.show(0); });
   return well ? std::optional<int>(worst) : std::nullopt;
 }
 
@@ -271,7 +249,7 @@ SearchResults run_search(const SweepOptions& options, const fs::path& folder,
     throw;
   }
   const auto count = static_cast<int>(sample.rows());
-  run_members(options, folder, store, count);
+  run_members(options, study, folder, store, count);
   ProgressBar bar("search");
   return search_members(study, sample, read_members(store, count),
                         [&](const Eigen::VectorXd& values, int number) {
@@ -308,9 +286,39 @@ int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
   return results.search->is_feasible ? exit_code::done : exit_code::lift_fails;
 }
 
-}  // namespace
+void check_slurm_options(const SweepOptions& options) {
+  const auto refuse = [](const std::string& what, std::string message) {
+    Diagnostics diagnostics;
+    diagnostics.error({std::make_shared<const std::string>(what), 0, 0}, std::move(message));
+    throw InputError(diagnostics);
+  };
+  if (launched_group())
+    refuse("--slurm", "jobs are submitted by one process, and several were started");
+  for (const std::string& option : options.sbatch)
+    if (!option.starts_with('-') || option.find('\n') != std::string::npos)
+      refuse("--sbatch " + option, "an option of sbatch is due, for example --partition=long");
+}
 
-int sweep(const SweepOptions& options) {
+/// Hands the study to Slurm, once all its members are found possible.
+int run_as_jobs(const SweepOptions& options, const fs::path& folder, const StudyFile& study,
+                int count) {
+  constexpr int usual_parts = 10;
+  const int parts = std::min(count, options.parts > 0 ? options.parts : usual_parts);
+  const fs::path script = write_slurm_jobs(
+      {options.study, study.name, folder, parts, std::max(1, options.workers), options.sbatch});
+  const bool is_to_submit = *options.slurm == "submit";
+  if (is_to_submit && is_slurm_here()) {
+    submit_slurm_jobs(script);
+    return exit_code::done;
+  }
+  if (!is_quiet())
+    print_wrapped(fmt::format("{}\"sh {}\" submits {} parts and a job that joins them",
+                              is_to_submit ? "there is no sbatch here; " : "", script.string(),
+                              parts));
+  return exit_code::done;
+}
+
+int sweep_alone_or_first(const SweepOptions& options) {
   StudyFile study = read_study(options.study);
   const fs::path folder = folder_of(options, study);
   if (options.whole) {
@@ -320,18 +328,14 @@ int sweep(const SweepOptions& options) {
         run_member(study, design.row(*options.whole), *options.whole, blocks, folder / "worst");
     return member.failure.empty() ? exit_code::done : exit_code::run_failed;
   }
-  if (options.blocks) {
-    StudyBlocks(study, folder / "members")
-        .prepare(rows_of_part(make_design(study), part_of(options)), *options.blocks,
-                 std::max(1, options.workers));
-    return exit_code::done;
-  }
-  if (options.is_worker) {
-    work(study, folder, part_of(options));
+  if (options.worker_of) {
+    work(options, study, folder);
     return exit_code::done;
   }
   const StudyPart part = part_of(options);
-  if (study.design == StudyDesign::search && (options.part || !options.join.empty()))
+  if (options.slurm) check_slurm_options(options);
+  if (study.design == StudyDesign::search &&
+      (options.part || !options.join.empty() || options.slurm))
     refuse_parts_of_search(study);
   check_figure_limits(study);
   require_writable(folder);
@@ -345,12 +349,11 @@ int sweep(const SweepOptions& options) {
     check_members(study, design, [&](double fraction) { bar.show(fraction); });
   }
   if (study.design == StudyDesign::search) return search(options, folder, std::move(study), design);
-  const MemberStore store(folder, identity_of_study(study), part);
   const auto count = static_cast<int>(design.rows());
+  if (options.slurm) return run_as_jobs(options, folder, study, count);
+  const MemberStore store(folder, identity_of_study(study), part);
   take_over_parts(options, store);
-  if (study.run == StudyRun::stress && store.count_done(count) < store.count_all(count))
-    prepare_blocks(options, folder);
-  run_members(options, folder, store, count);
+  run_members(options, study, folder, store, count);
   if (options.part) {
     print_part(options, folder, store, count);
     return exit_code::done;
@@ -367,6 +370,23 @@ int sweep(const SweepOptions& options) {
   throw std::runtime_error(fmt::format(
       "the report of member {}, the worst, could not be written; all else of the study is",
       results.spreads[results.leading.front()].member_of_worst()));
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& options) {
+  const structure::ProcessGroup* group = launched_group();
+  if (!group) return sweep_alone_or_first(options);
+  if (!group->leads()) {
+    if (follow_sweep_teams(*group)) return exit_code::done;
+    structure::ProcessGroup::abort();
+  }
+  struct OthersLeave {
+    const structure::ProcessGroup& group;
+    ~OthersLeave() { let_followers_leave(group); }
+  };
+  const OthersLeave whatever_happens{*group};
+  return sweep_alone_or_first(options);
 }
 
 }  // namespace blocklift::pipeline

@@ -1,6 +1,8 @@
 #include "pipeline/files/study_file.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <system_error>
 #include <utility>
 
@@ -227,20 +229,51 @@ void check_search(const StudyFile& study, Reading& reading, const Mark& mark) {
 void check_correlation(const StudyCorrelation& correlation, Reading& reading, const Mark& mark) {
   if (correlation.of.size() == 2 && correlation.of[0].value == correlation.of[1].value)
     reading.error(mark, "a value is not correlated with itself");
+  const CopulaKind kind = correlation.copula;
+  const bool is_elliptical = kind == CopulaKind::normal || kind == CopulaKind::student;
+  if (is_elliptical && correlation.is.has_value() == correlation.kendall.has_value())
+    reading.error(mark, "either is or kendall is due");
+  if (!is_elliptical && (correlation.is || !correlation.kendall))
+    reading.error(mark, "this copula takes kendall, and no is");
+  if ((kind == CopulaKind::student) != correlation.degrees.has_value())
+    reading.error(mark, kind == CopulaKind::student ? "Student's copula lacks its degrees"
+                                                    : "degrees go with copula: student");
+  const double kendall = correlation.kendall.value_or(0.5);
+  if ((kind == CopulaKind::clayton || kind == CopulaKind::gumbel) && !(kendall > 0))
+    reading.error(mark,
+                  "Clayton's and Gumbel's copulas join values that are large together: kendall is "
+                  "above zero",
+                  {"frank, student and normal take values below zero, too"});
+  if (kind == CopulaKind::frank && kendall == 0)
+    reading.error(mark, "values that have nothing to do with each other need no correlation");
 }
 
 Format<StudyCorrelation> correlation_format() {
   Table<StudyCorrelation> table(
       "correlation",
       "Two values that are not independent of each other. The spread of each stays what it is: a "
-      "normal copula joins them.");
+      "copula joins them.");
   table
       .required("of", &StudyCorrelation::of, list_of(located(text()), 2, 2),
                 "names of two variables that have a spread")
-      .required(
-          "is", &StudyCorrelation::is, number(Range::between(-0.999, 0.999)),
-          "correlation of the standard normal values behind the two; of normal laws, which are "
-          "not cut off, that of the values themselves")
+      .by_default("copula", &StudyCorrelation::copula,
+                  choice<CopulaKind>({{"normal", CopulaKind::normal},
+                                      {"student", CopulaKind::student},
+                                      {"clayton", CopulaKind::clayton},
+                                      {"gumbel", CopulaKind::gumbel},
+                                      {"frank", CopulaKind::frank}}),
+                  "normal",
+                  "what joins them: extremes that come alone; together, of both ends; the small "
+                  "together; the large together; alone, more so than normal. All but normal ones "
+                  "join two values that have no other correlation")
+      .optional("is", &StudyCorrelation::is, number(Range::between(-0.999, 0.999)),
+                "of normal and student: correlation of the standard values behind the two; of "
+                "normal laws, which are not cut off, that of the values themselves")
+      .optional("kendall", &StudyCorrelation::kendall, number(Range::between(-0.99, 0.99)),
+                "instead of it, and of the others: Kendall's tau, the probability that of two "
+                "members one has more of both values, less that it has more of one alone")
+      .optional("degrees", &StudyCorrelation::degrees, number(Range::between(1, 1000)),
+                "of freedom, of student: the fewer, the more extremes come together")
       .rule(check_correlation)
       .place(&StudyCorrelation::place);
   return table.format();
@@ -260,8 +293,19 @@ void check_correlated_variables(const StudyFile& study, Reading& reading) {
     for (std::size_t k = 0; k < i; ++k) {
       const auto& other = study.correlations[k].of;
       if ((pair[0].value == other[0].value && pair[1].value == other[1].value) ||
-          (pair[0].value == other[1].value && pair[1].value == other[0].value))
+          (pair[0].value == other[1].value && pair[1].value == other[0].value)) {
         reading.error(study.correlations[i].place, "these two have a correlation already");
+        continue;
+      }
+      if (study.correlations[i].copula == CopulaKind::normal &&
+          study.correlations[k].copula == CopulaKind::normal)
+        continue;
+      for (const Located<std::string>& name : pair)
+        if (name.value == other[0].value || name.value == other[1].value)
+          reading.error(name.mark,
+                        fmt::format("{} has another correlation: only normal copulas join more "
+                                    "than two values",
+                                    name.value));
     }
   }
 }
@@ -352,6 +396,11 @@ Format<StudyFile> study_file_format() {
   return table.format();
 }
 
+double StudyCorrelation::coefficient() const {
+  // Of any elliptical law (Lindskog, McNeil and Schmock 2003).
+  return is ? *is : std::sin(std::numbers::pi / 2 * kendall.value_or(0));
+}
+
 Eigen::MatrixXd StudyFile::correlation_matrix() const {
   const auto size = static_cast<Eigen::Index>(variables.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
@@ -362,8 +411,8 @@ Eigen::MatrixXd StudyFile::correlation_matrix() const {
   };
   for (const StudyCorrelation& correlation : correlations) {
     const Eigen::Index a = place_of(correlation.of[0]), b = place_of(correlation.of[1]);
-    if (a >= size || b >= size) continue;
-    matrix(a, b) = matrix(b, a) = correlation.is;
+    if (a >= size || b >= size || correlation.copula != CopulaKind::normal) continue;
+    matrix(a, b) = matrix(b, a) = correlation.coefficient();
   }
   return matrix;
 }

@@ -57,11 +57,20 @@ struct FigureBound {
   std::optional<Located<Measure>> at_most, at_least;  ///< one of them, in the summary's unit
 };
 
+/// How two values are joined.
+enum class CopulaKind { normal, student, clayton, gumbel, frank };
+
 /// Two values that are not drawn independently of each other.
 struct StudyCorrelation {
   std::vector<Located<std::string>> of;  ///< names of two variables with laws
-  double is = 0;                         ///< of the standard normal values behind them
+  CopulaKind copula = CopulaKind::normal;
+  std::optional<double> is;       ///< of the standard normal, or Student's, values behind them
+  std::optional<double> kendall;  ///< or their rank correlation of Kendall
+  std::optional<double> degrees;  ///< of freedom, of Student's copula
   Mark place;
+
+  /// What `is` says, or what follows from Kendall's: of an elliptical copula.
+  double coefficient() const;
 };
 
 /// A study: many lifts of one case whose keys vary.
@@ -85,7 +94,7 @@ struct StudyFile {
 
   /// The case's file or folder: beside the study, or in the working folder.
   std::filesystem::path case_path() const;
-  /// Correlations of all variables with one another: a normal copula's matrix.
+  /// Correlations of all variables with one another that a normal copula joins: its matrix.
   Eigen::MatrixXd correlation_matrix() const;
   /// A file that the study names, beside it.
   std::filesystem::path beside(const std::string& name) const { return file.parent_path() / name; }

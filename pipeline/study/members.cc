@@ -1,12 +1,6 @@
 #include "pipeline/study/members.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -34,7 +28,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* identity_file = "identity";
-constexpr const char* queue_file = "next";
 
 std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd& values,
                                   const std::vector<int>* only, Diagnostics& diagnostics) {
@@ -150,31 +143,6 @@ Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBloc
   return summary;
 }
 
-/// A file that one process at a time may hold.
-class LockedFile {
- public:
-  explicit LockedFile(const fs::path& path)
-      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX) != 0)
-      throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno));
-  }
-  ~LockedFile() { ::close(descriptor_); }
-  LockedFile(const LockedFile&) = delete;
-  LockedFile& operator=(const LockedFile&) = delete;
-
-  int number() const {
-    int value = 0;
-    return ::pread(descriptor_, &value, sizeof value, 0) == sizeof value ? value : 0;
-  }
-  void set_number(int value) const {
-    if (::pwrite(descriptor_, &value, sizeof value, 0) != sizeof value)
-      throw std::runtime_error("the list of members: " + std::generic_category().message(errno));
-  }
-
- private:
-  int descriptor_;
-};
-
 }  // namespace
 
 double Member::figure(const std::string& path) const {
@@ -187,6 +155,28 @@ std::string Member::unit(const std::string& path) const {
   for (const auto& [name, unit] : units)
     if (name == path) return unit;
   return std::string(unit_of_path(path));
+}
+
+std::string text_of_member(const Member& member) {
+  Json figures = Json::object();
+  for (const auto& [path, value] : member.figures) figures[path] = value;
+  Json json{{"member", member.number}, {"figures", std::move(figures)}};
+  if (!member.worse_when_smaller.empty()) json["worse_when_smaller"] = member.worse_when_smaller;
+  if (!member.failure.empty()) json["failure"] = member.failure;
+  for (const auto& [path, unit] : member.units) json["units"][path] = unit;
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+Member member_of_text(int number, const std::string& text) {
+  const Json json = Json::parse(text);
+  Member member{number, json.value("failure", std::string()), {}, {}};
+  member.worse_when_smaller = json.value("worse_when_smaller", std::vector<std::string>());
+  for (const auto& [path, value] : json.at("figures").items())
+    if (value.is_number()) member.figures.emplace_back(path, value.get<double>());
+  const Json units = json.value("units", Json::object());
+  for (const auto& [path, unit] : units.items())
+    member.units.emplace_back(path, unit.get<std::string>());
+  return member;
 }
 
 LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
@@ -317,47 +307,22 @@ fs::path MemberStore::file_of(int number) const {
   return folder_ / fmt::format("{:06}.json", number);
 }
 
-void MemberStore::begin() const { LockedFile(folder_ / queue_file).set_number(0); }
-
-int MemberStore::take_next(int members) const {
-  const LockedFile queue(folder_ / queue_file);
-  int next = queue.number();
-  std::error_code ignored;
-  while (next < members && (!part_.has(next) || fs::exists(file_of(next), ignored))) ++next;
-  queue.set_number(next + 1);
-  return next < members ? next : -1;
-}
-
 void MemberStore::write(const Member& member) const {
-  Json figures = Json::object();
-  for (const auto& [path, value] : member.figures) figures[path] = value;
-  Json json{{"member", member.number}, {"figures", std::move(figures)}};
-  if (!member.worse_when_smaller.empty()) json["worse_when_smaller"] = member.worse_when_smaller;
-  if (!member.failure.empty()) json["failure"] = member.failure;
-  for (const auto& [path, unit] : member.units) json["units"][path] = unit;
-  write_file(file_of(member.number), json.dump(1));
+  write_file(file_of(member.number), text_of_member(member));
 }
 
 std::optional<Member> MemberStore::read(int number) const {
   std::error_code ignored;
   if (!fs::exists(file_of(number), ignored)) return std::nullopt;
-  const Json json = Json::parse(read_file(file_of(number)));
-  Member member{number, json.value("failure", std::string()), {}, {}};
-  member.worse_when_smaller = json.value("worse_when_smaller", std::vector<std::string>());
-  for (const auto& [path, value] : json.at("figures").items())
-    if (value.is_number()) member.figures.emplace_back(path, value.get<double>());
-  const Json units = json.value("units", Json::object());
-  for (const auto& [path, unit] : units.items())
-    member.units.emplace_back(path, unit.get<std::string>());
-  return member;
+  return member_of_text(number, read_file(file_of(number)));
 }
 
-int MemberStore::count_done(int members) const {
-  int done = 0;
+std::vector<int> MemberStore::find_missing(int members) const {
+  std::vector<int> missing;
   std::error_code ignored;
-  for (int number = 0; number < members; ++number)
-    if (part_.has(number) && fs::exists(file_of(number), ignored)) ++done;
-  return done;
+  for (int number = part_.index; number < members; number += part_.of)
+    if (!fs::exists(file_of(number), ignored)) missing.push_back(number);
+  return missing;
 }
 
 std::string identity_of_study(const StudyFile& study) {

@@ -42,6 +42,10 @@ struct Member {
   std::string unit(const std::string& path) const;
 };
 
+/// A member as text, and back: what its file holds, and what a worker hands over.
+std::string text_of_member(const Member& member);
+Member member_of_text(int number, const std::string& text);
+
 /// Computes a member: its motion, or stress and checks as well. What fails is told in it.
 /// @param blocks of the study, which members of one process hand to one another.
 /// @param full if given, all results are written into this folder, too; of stress those of an
@@ -73,15 +77,13 @@ class MemberStore {
   MemberStore(const std::filesystem::path& folder, const std::string& identity,
               StudyPart part = {});
 
-  /// The next member that nobody has begun, of this run's workers, or done before; -1: none is
-  /// left. Several processes may ask at once.
-  int take_next(int members) const;
-  /// Lets take_next begin anew; to be called before the workers start.
-  void begin() const;
-
   void write(const Member& member) const;
   std::optional<Member> read(int number) const;
-  int count_done(int members) const;
+  /// Of the first `members` those that are still to be computed, in order.
+  std::vector<int> find_missing(int members) const;
+  int count_done(int members) const {
+    return count_all(members) - static_cast<int>(find_missing(members).size());
+  }
   int count_all(int members) const { return part_.size(members); }
   /// Takes the members that another folder of the same study has and this one has not.
   /// @returns how many. @throws InputError if that folder has none, or those of another study.

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
 #include <openturns/OT.hxx>
 
 #include "pipeline/declaration/reading.h"
+#include "pipeline/study/copulas.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -90,62 +90,6 @@ int sample_of_search(const StudyFile& study) {
   return std::min(study.members / 2, 4 * (static_cast<int>(study.variables.size()) + 1));
 }
 
-/// Values that are joined by a normal copula, made of independent ones: to normal scores, mixed by
-/// the root of the correlations, and back (Nataf's transformation).
-void join_by_copula(const OT::ComposedDistribution::DistributionCollection& laws,
-                    const Eigen::MatrixXd& root, OT::Sample& sample) {
-  constexpr double least = 1e-15;
-  for (OT::UnsignedInteger i = 0; i < sample.getSize(); ++i) {
-    Eigen::VectorXd scores(root.rows());
-    for (Eigen::Index v = 0; v < scores.size(); ++v) {
-      const auto column = static_cast<OT::UnsignedInteger>(v);
-      const double share = laws[column].computeCDF(sample(i, column));
-      scores[v] = OT::DistFunc::qNormal(std::clamp(share, least, 1 - least));
-    }
-    const Eigen::VectorXd joined = root * scores;
-    for (Eigen::Index v = 1; v < scores.size(); ++v) {
-      const auto column = static_cast<OT::UnsignedInteger>(v);
-      sample(i, column) = laws[column].computeQuantile(OT::DistFunc::pNormal(joined[v]))[0];
-    }
-  }
-}
-
-/// The same for a Latin hypercube, whose strata are kept: columns are put into the order of the
-/// mixed scores, after the correlation that the sample has by chance is taken out (Iman and Conover
-/// 1982).
-void order_by_copula(const OT::ComposedDistribution::DistributionCollection& laws,
-                     const Eigen::MatrixXd& root, OT::Sample& sample) {
-  const auto size = static_cast<Eigen::Index>(sample.getSize());
-  if (size <= root.rows()) return join_by_copula(laws, root, sample);
-  Eigen::MatrixXd scores(size, root.rows());
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index v = 0; v < root.rows(); ++v) {
-      const auto column = static_cast<OT::UnsignedInteger>(v);
-      scores(i, v) = OT::DistFunc::qNormal(
-          laws[column].computeCDF(sample(static_cast<OT::UnsignedInteger>(i), column)));
-    }
-  scores.rowwise() -= scores.colwise().mean().eval();
-  for (Eigen::Index v = 0; v < scores.cols(); ++v) scores.col(v).normalize();
-  const Eigen::MatrixXd chance = (scores.transpose() * scores).llt().matrixL();
-  const Eigen::MatrixXd joined =
-      chance.triangularView<Eigen::Lower>().solve(scores.transpose()).transpose() *
-      root.transpose();
-  for (Eigen::Index v = 0; v < scores.cols(); ++v) {
-    const auto column = static_cast<OT::UnsignedInteger>(v);
-    std::vector<double> values;
-    std::vector<Eigen::Index> order;
-    for (Eigen::Index i = 0; i < size; ++i) {
-      values.push_back(sample(static_cast<OT::UnsignedInteger>(i), column));
-      order.push_back(i);
-    }
-    std::sort(values.begin(), values.end());
-    std::sort(order.begin(), order.end(),
-              [&](Eigen::Index a, Eigen::Index b) { return joined(a, v) < joined(b, v); });
-    for (std::size_t rank = 0; rank < values.size(); ++rank)
-      sample(static_cast<OT::UnsignedInteger>(order[rank]), column) = values[rank];
-  }
-}
-
 OT::Sample sample_of(const StudyFile& study, const OT::Distribution& joint) {
   const auto size = static_cast<OT::UnsignedInteger>(
       study.design == StudyDesign::search ? sample_of_search(study) : study.members);
@@ -191,13 +135,7 @@ Eigen::MatrixXd make_design(const StudyFile& study) {
   for (const StudyVariable& variable : study.variables) laws.add(distribution_of(variable));
   OT::RandomGenerator::SetSeed(static_cast<OT::UnsignedInteger>(study.seed));
   OT::Sample sample = sample_of(study, OT::ComposedDistribution(laws));
-  if (!study.correlations.empty()) {
-    const Eigen::MatrixXd root = study.correlation_matrix().llt().matrixL();
-    if (study.design == StudyDesign::latin_hypercube)
-      order_by_copula(laws, root, sample);
-    else
-      join_by_copula(laws, root, sample);
-  }
+  join_values(study, laws, sample);
   Eigen::MatrixXd design(static_cast<Eigen::Index>(sample.getSize()),
                          static_cast<Eigen::Index>(sample.getDimension()));
   for (Eigen::Index member = 0; member < design.rows(); ++member) {

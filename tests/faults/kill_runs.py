@@ -116,7 +116,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     choice = parser.parse_args()
     moment = random.Random(choice.seed)
-    # Workers of a killed study finish their members, so that its folder may still be written to.
+    # A worker of a killed study may end a moment after it, while it still writes.
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as place:
         killing = Killing(choice.program, choice.command, choice.case,
                           pathlib.Path(place) / "results")

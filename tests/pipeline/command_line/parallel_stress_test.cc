@@ -112,7 +112,8 @@ TEST_F(ParallelStress, ErrorsEndAllProcesses) {
 TEST_F(ParallelStress, OtherCommandsAreRefused) {
   const Outcome outcome = on_processes(2, "validate ring");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("only \"blocklift stress\" runs on several processes"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("only \"blocklift stress\" and \"blocklift sweep\" run on several"));
 }
 
 }  // namespace

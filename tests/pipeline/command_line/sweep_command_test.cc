@@ -79,9 +79,9 @@ TEST_F(SweepCommand, GivesTheSameWithAnyNumberOfWorkersAndAfterAKill) {
   EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("three/study.csv"));
   EXPECT_EQ(text_of_file("one/study.json"), text_of_file("three/study.json"));
 
-  // What a killed study leaves: some members, and a list that says that more were begun.
+  // What a killed study leaves: some members.
   fs::create_directories("killed/members");
-  for (const char* file : {"identity", "next", "000000.json", "000007.json", "000023.json"})
+  for (const char* file : {"identity", "000000.json", "000007.json", "000023.json"})
     fs::copy_file(fs::path("one/members") / file, fs::path("killed/members") / file);
   ASSERT_EQ(run("sweep study.yaml -o killed -q").exit_code, 0);
   EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("killed/study.csv"));
@@ -124,7 +124,7 @@ TEST_F(SweepCommand, GoesOnAfterKillsInTheMiddle) {
   ASSERT_EQ(run("sweep study.yaml -o whole -q").exit_code, 0);
   for (int kill = 0; kill < 3; ++kill)
     test::run_command("timeout -s KILL 0.9 '" BLOCKLIFT_EXECUTABLE "' sweep study.yaml -o out -q");
-  // Workers of a killed study finish their members: none is left beside the next run.
+  // Workers of a killed study end with it.
   ASSERT_EQ(run("sweep study.yaml -o out -q").exit_code, 0);
   EXPECT_EQ(text_of_file("whole/study.csv"), text_of_file("out/study.csv"));
 }

@@ -90,5 +90,35 @@ TEST(StudyFile, RefusesCorrelationsThatMakeNoSense) {
               HasSubstr("correlations go with design: random"));
 }
 
+TEST(StudyFile, RefusesCopulasThatMakeNoSense) {
+  const std::string laws =
+      "members: 9\nvary:\n"
+      "  a: {keys: [x], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  b: {keys: [y], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  c: {keys: [z], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "correlations:\n";
+  EXPECT_EQ(complaints(laws + "  - {of: [a, b], copula: student, kendall: -0.5, degrees: 4}\n"),
+            "");
+  EXPECT_EQ(complaints(laws + "  - {of: [a, b], copula: gumbel, kendall: 0.5}\n"), "");
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b]}\n"), HasSubstr("either is or kendall is due"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.5, kendall: 0.5}\n"),
+              HasSubstr("either is or kendall is due"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: clayton, is: 0.5}\n"),
+              HasSubstr("this copula takes kendall, and no is"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: gumbel, kendall: -0.5}\n"),
+              HasSubstr("kendall is above zero"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: frank, kendall: 0}\n"),
+              HasSubstr("need no correlation"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: student, is: 0.5}\n"),
+              HasSubstr("Student's copula lacks its degrees"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.5, degrees: 4}\n"),
+              HasSubstr("degrees go with copula: student"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: joe, kendall: 0.5}\n"),
+              HasSubstr("error"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: frank, kendall: 0.5}\n"
+                                "  - {of: [c, b], is: 0.5}\n"),
+              HasSubstr("b has another correlation: only normal copulas join more than two"));
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

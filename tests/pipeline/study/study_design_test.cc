@@ -154,13 +154,22 @@ TEST(StudyDesign, SobolIndicesOfIshigami) {
   }
 }
 
+StudyCorrelation correlation_of(const char* a, const char* b, CopulaKind copula) {
+  StudyCorrelation correlation;
+  correlation.of = {{a, {}}, {b, {}}};
+  correlation.copula = copula;
+  return correlation;
+}
+
 StudyFile correlated_study(StudyDesign design, int members) {
   StudyFile study = study_of(design, members, {normal_length(10, 2), uniform_length(0, 1)});
   study.variables.push_back(normal_length(-5, 0.5));
   study.variables[1].name = {"y", {}};
   study.variables[2].name = {"z", {}};
-  study.correlations.push_back({{{"x", {}}, {"y", {}}}, 0.8, {}});
-  study.correlations.push_back({{{"z", {}}, {"x", {}}}, -0.5, {}});
+  study.correlations.push_back(correlation_of("x", "y", CopulaKind::normal));
+  study.correlations.back().is = 0.8;
+  study.correlations.push_back(correlation_of("z", "x", CopulaKind::normal));
+  study.correlations.back().is = -0.5;
   return study;
 }
 
@@ -193,6 +202,122 @@ TEST(StudyDesign, KeepsTheStrataOfACorrelatedLatinHypercube) {
   std::sort(values.begin(), values.end());
   for (int stratum = 0; stratum < 50; ++stratum)
     EXPECT_EQ(static_cast<int>(std::floor(50 * values[static_cast<std::size_t>(stratum)])),
+              stratum);
+}
+
+constexpr StudyDesign joined_designs[] = {StudyDesign::random, StudyDesign::low_discrepancy,
+                                          StudyDesign::latin_hypercube};
+
+/// x, normal, and y, uniform, joined by a copula.
+Eigen::MatrixXd joined_pair(StudyDesign design, int members, const StudyCorrelation& correlation) {
+  StudyFile study = study_of(design, members, {normal_length(10, 2), uniform_length(0, 1)});
+  study.variables[1].name = {"y", {}};
+  study.correlations.push_back(correlation);
+  return make_design(study);
+}
+
+StudyCorrelation joined_by(CopulaKind copula, double kendall) {
+  StudyCorrelation correlation = correlation_of("x", "y", copula);
+  correlation.kendall = kendall;
+  if (copula == CopulaKind::student) correlation.degrees = 3;
+  return correlation;
+}
+
+/// Kendall's tau of a sample, from all pairs.
+double kendall_of(const Eigen::MatrixXd& design) {
+  double more = 0;
+  const Eigen::Index count = design.rows();
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index k = 0; k < i; ++k)
+      more += (design(i, 0) - design(k, 0)) * (design(i, 1) - design(k, 1)) > 0 ? 1 : -1;
+  return 2 * more / (static_cast<double>(count) * static_cast<double>(count - 1));
+}
+
+/// Share of the members whose values are both below the share q of their laws: the copula's value
+/// at (q, q). Above 1 - q for q below zero.
+double share_of_corner(const Eigen::MatrixXd& design, double q) {
+  int inside = 0;
+  for (Eigen::Index i = 0; i < design.rows(); ++i) {
+    const double x = 0.5 * std::erfc(-(design(i, 0) - 10) / 2 / std::numbers::sqrt2);
+    const double y = design(i, 1);
+    inside += q > 0 ? x < q && y < q : x > 1 + q && y > 1 + q;
+  }
+  return inside / static_cast<double>(design.rows());
+}
+
+// A sample of n members has a tau with a deviation of 2 / 3 / sqrt(n) at most where it is random.
+TEST(StudyDesign, CopulasHaveTheirKendallsTau) {
+  for (const StudyDesign design : joined_designs)
+    for (const auto& [copula, kendall] :
+         {std::pair{CopulaKind::clayton, 0.6}, std::pair{CopulaKind::gumbel, 0.4},
+          std::pair{CopulaKind::frank, 0.5}, std::pair{CopulaKind::frank, -0.7},
+          std::pair{CopulaKind::student, 0.5}, std::pair{CopulaKind::student, -0.3},
+          std::pair{CopulaKind::normal, 0.5}}) {
+      const Eigen::MatrixXd values = joined_pair(design, 3000, joined_by(copula, kendall));
+      EXPECT_NEAR(kendall_of(values), kendall,
+                  design == StudyDesign::low_discrepancy ? 0.004 : 0.03)
+          << static_cast<int>(copula);
+      EXPECT_NEAR(values.col(1).mean(), 0.5, 0.02);
+    }
+}
+
+// The copulas' own closed forms (Nelsen 2006, table 4.1), their parameters being 2, 2 and 5.7363 at a
+// tau of one half.
+TEST(StudyDesign, CopulasHaveTheirCorners) {
+  constexpr double q = 0.1;
+  constexpr int members = 1 << 14;
+  const auto joined = [](CopulaKind copula) {
+    return joined_pair(StudyDesign::low_discrepancy, members, joined_by(copula, 0.5));
+  };
+  const auto clayton = [](double u) { return 1 / std::sqrt(2 / (u * u) - 1); };
+  const auto gumbel = [](double u) { return std::pow(u, std::numbers::sqrt2); };
+  const auto frank = [](double u) {
+    constexpr double t = 5.7363;
+    return -std::log1p(std::pow(std::expm1(-t * u), 2) / std::expm1(-t)) / t;
+  };
+  const auto upper = [](const auto& copula) { return 2 * q - 1 + copula(1 - q); };
+  const Eigen::MatrixXd of_clayton = joined(CopulaKind::clayton);
+  const Eigen::MatrixXd of_gumbel = joined(CopulaKind::gumbel);
+  const Eigen::MatrixXd of_frank = joined(CopulaKind::frank);
+  EXPECT_NEAR(share_of_corner(of_clayton, q), clayton(q), 0.002);
+  EXPECT_NEAR(share_of_corner(of_clayton, -q), upper(clayton), 0.002);
+  EXPECT_NEAR(share_of_corner(of_gumbel, q), gumbel(q), 0.002);
+  EXPECT_NEAR(share_of_corner(of_gumbel, -q), upper(gumbel), 0.002);
+  EXPECT_NEAR(share_of_corner(of_frank, q), frank(q), 0.002);
+  EXPECT_NEAR(share_of_corner(of_frank, -q), frank(q), 0.002);  // it has both ends alike
+}
+
+// Of Student's copula extremes come together with a probability that does not vanish (Embrechts,
+// McNeil and Straumann 2002, equation 16): 2 t_4(-sqrt(4 (1 - r) / (1 + r))) with three degrees and
+// r = sin(pi / 4) is 0.4540. Of a normal one it does.
+TEST(StudyDesign, ExtremesOfStudentsCopulaComeTogether) {
+  constexpr double q = 0.005;
+  const auto share = [](CopulaKind copula, double corner) {
+    return share_of_corner(
+               joined_pair(StudyDesign::low_discrepancy, 1 << 15, joined_by(copula, 0.5)), corner) /
+           q;
+  };
+  EXPECT_NEAR(share(CopulaKind::student, q), 0.4540, 0.05);
+  EXPECT_NEAR(share(CopulaKind::student, -q), 0.4540, 0.05);
+  EXPECT_LT(share(CopulaKind::normal, q), 0.35);
+}
+
+TEST(StudyDesign, JoinsPairsBesideValuesThatNormalCopulasJoin) {
+  StudyFile study = correlated_study(StudyDesign::latin_hypercube, 2000);
+  for (const char* name : {"p", "q"}) {
+    study.variables.push_back(uniform_length(0, 1));
+    study.variables.back().name = {name, {}};
+  }
+  study.correlations.push_back(correlation_of("q", "p", CopulaKind::clayton));
+  study.correlations.back().kendall = 0.5;
+  const Eigen::MatrixXd design = make_design(study);
+  EXPECT_NEAR(correlation_of_columns(design.col(0), design.col(2)), -0.5, 0.02);
+  EXPECT_NEAR(kendall_of(design.rightCols(2)), 0.5, 0.03);
+  EXPECT_NEAR(correlation_of_columns(design.col(0), design.col(3)), 0, 0.05);
+  std::vector<double> values(design.col(3).begin(), design.col(3).end());
+  std::sort(values.begin(), values.end());
+  for (int stratum = 0; stratum < 2000; ++stratum)
+    EXPECT_EQ(static_cast<int>(std::floor(2000 * values[static_cast<std::size_t>(stratum)])),
               stratum);
 }
 
