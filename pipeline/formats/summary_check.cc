@@ -216,8 +216,8 @@ Rule buckling() {
                                {"to_m", point()},
                                {"moments_Nm", list(number())},
                                {"state", text()}}),
-                        numbers({"buckling_length_m", "compression_N", "buckling_resistance_N",
-                                 "utilisation", "time_s"}));
+                        numbers({"plate_width_m", "buckling_length_m", "compression_N",
+                                 "buckling_resistance_N", "utilisation", "time_s"}));
   return with(table({{"panels", list(panel)}, {"bars", list(bar)}}),
               numbers({"panels_looked_at", "bars_looked_at", "bar_factor"}));
 }
