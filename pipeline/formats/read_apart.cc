@@ -1,5 +1,9 @@
 #include "pipeline/formats/read_apart.h"
 
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstring>
 #include <system_error>
 
 #include "structure/child_process.h"
@@ -17,6 +21,32 @@ structure::ChildLimits limits_for(const std::filesystem::path& file) {
   // compressed becomes ten times as much at most.
   return {2 + bytes / 10e6, 1e9 + 20 * bytes};
 }
+
+/// A text that a child process leaves to its parent, however it ends.
+class SharedText {
+ public:
+  SharedText()
+      : place_(mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {}
+  ~SharedText() {
+    if (place_ != MAP_FAILED) munmap(place_, size);
+  }
+  SharedText(const SharedText&) = delete;
+  SharedText& operator=(const SharedText&) = delete;
+
+  void set(const std::string& text) {
+    if (place_ == MAP_FAILED) return;
+    const std::size_t length = std::min(text.size(), size - 1);
+    std::memcpy(place_, text.data(), length);
+    static_cast<char*>(place_)[length] = '\0';
+  }
+  std::string get() const {
+    return place_ == MAP_FAILED ? std::string() : static_cast<const char*>(place_);
+  }
+
+ private:
+  static constexpr std::size_t size = 4096;
+  void* place_;  ///< zeros at first
+};
 
 }  // namespace
 
@@ -38,12 +68,15 @@ std::optional<std::string> death_of_reading(const std::filesystem::path& file,
 }
 
 std::vector<std::string> complaints_of_reading(
-    const std::filesystem::path& file, const std::function<std::vector<std::string>()>& read) {
+    const std::filesystem::path& file,
+    const std::function<std::vector<std::string>(const PlaceOfReading&)>& read) {
+  SharedText place;
   try {
     structure::Packet packet = structure::in_child_process(
         [&] {
           structure::Packet sent;
-          const std::vector<std::string> complaints = read();
+          const std::vector<std::string> complaints =
+              read([&](const std::string& next) { place.set(next); });
           sent.put(complaints.size());
           for (const std::string& complaint : complaints) sent.put(complaint);
           return sent;
@@ -55,7 +88,8 @@ std::vector<std::string> complaints_of_reading(
     for (std::string& complaint : complaints) packet.take(complaint);
     return complaints;
   } catch (const structure::ChildDied& death) {
-    return {std::string("is damaged: reading it ") + death.what()};
+    const std::string what = place.get().empty() ? "it" : "\"" + place.get() + "\" of it";
+    return {"is damaged: reading " + what + " " + death.what()};
   } catch (const structure::ModelError& error) {
     return {error.what()};
   }

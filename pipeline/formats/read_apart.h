@@ -15,9 +15,13 @@ namespace blocklift::pipeline {
 std::optional<std::string> death_of_reading(const std::filesystem::path& file,
                                             const std::function<void()>& read);
 
+/// Told what is read next, so that it can be named if reading dies there.
+using PlaceOfReading = std::function<void(const std::string& place)>;
+
 /// Likewise, of reading that says itself what is wrong with the file.
-/// @returns what `read` returns; how it died if it did.
+/// @returns what `read` returns; how it died, and at which place, if it did.
 std::vector<std::string> complaints_of_reading(
-    const std::filesystem::path& file, const std::function<std::vector<std::string>()>& read);
+    const std::filesystem::path& file,
+    const std::function<std::vector<std::string>(const PlaceOfReading&)>& read);
 
 }  // namespace blocklift::pipeline

@@ -46,7 +46,8 @@ std::string shown_shape(const Extents& shape) {
 
 class ResultsCheck {
  public:
-  explicit ResultsCheck(const ResultsReader& results) : results_(results) {}
+  ResultsCheck(const ResultsReader& results, const PlaceOfReading& next)
+      : results_(results), next_(next) {}
   std::vector<std::string> take() { return std::move(complaints_); }
 
   void look() {
@@ -75,6 +76,7 @@ class ResultsCheck {
   template <class Read>
   auto attempt(const std::string& path, const Read& read) -> std::optional<decltype(read())> {
     if (is_full()) return std::nullopt;
+    next_(path);
     try {
       return read();
     } catch (const ResultsError& error) {
@@ -396,14 +398,16 @@ class ResultsCheck {
   }
 
   const ResultsReader& results_;
+  const PlaceOfReading& next_;
   std::vector<std::string> complaints_;
   std::set<std::string> read_groups_;
 };
 
 }  // namespace
 
-std::vector<std::string> complaints_about_results(const ResultsReader& results) {
-  ResultsCheck check(results);
+std::vector<std::string> complaints_about_results(const ResultsReader& results,
+                                                  const PlaceOfReading& next) {
+  ResultsCheck check(results, next);
   check.look();
   return check.take();
 }

@@ -28,9 +28,9 @@ std::vector<std::string> read_and_check_summary(const fs::path& file) {
   }
 }
 
-std::vector<std::string> read_and_check_results(const fs::path& file) {
+std::vector<std::string> read_and_check_results(const fs::path& file, const PlaceOfReading& next) {
   try {
-    return complaints_about_results(ResultsReader(file));
+    return complaints_about_results(ResultsReader(file), next);
   } catch (const ResultsError& error) {
     return {error.what()};
   }
@@ -43,8 +43,9 @@ std::vector<FileComplaint> complaints_about_folder(const fs::path& folder) {
   const fs::path summary = folder / layout::summary_file, results = folder / layout::results_file;
   for (const std::string& message : read_and_check_summary(summary))
     complaints.push_back({summary, without_name(message, summary)});
-  for (const std::string& message :
-       complaints_of_reading(results, [&] { return read_and_check_results(results); }))
+  for (const std::string& message : complaints_of_reading(results, [&](const PlaceOfReading& next) {
+         return read_and_check_results(results, next);
+       }))
     complaints.push_back({results, without_name(message, results)});
   return complaints;
 }

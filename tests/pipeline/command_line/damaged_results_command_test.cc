@@ -93,13 +93,15 @@ TEST_F(DamagedResultsCommand, EndsWithAMessageOrResultsWhereBytesWereFlipped) {
 }
 
 TEST_F(DamagedResultsCommand, NamesTheDatasetThatWasChanged) {
-  std::size_t way = 0;
-  for (const std::string& dataset : test::datasets_of("sound/results.h5")) {
-    const Damage chosen = test::all_damage[way++ % std::size(test::all_damage)];
+  // Every third is tried: the unit tests try all, each in all ways.
+  const std::vector<std::string> datasets = test::datasets_of("sound/results.h5");
+  for (std::size_t i = 0; i < datasets.size(); i += 3) {
+    const std::string& dataset = datasets[i];
+    const Damage chosen = test::all_damage[i % std::size(test::all_damage)];
     SCOPED_TRACE(dataset + " damaged in way " + std::to_string(static_cast<int>(chosen)));
     damage([&] { test::damage("tried/results.h5", dataset, chosen); });
   }
-  EXPECT_GT(refused_, 20);
+  EXPECT_GT(refused_, 5);
   damage([] { test::damage("tried/results.h5", "/dynamic/ropes/R1/tension", Damage::text); });
   const Outcome outcome = run("report tried");
   EXPECT_EQ(outcome.exit_code, 2);

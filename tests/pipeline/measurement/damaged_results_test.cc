@@ -1,6 +1,7 @@
 // Results that were cut, garbled or changed by hand: each is refused with its name or can be used,
 // by everything that reads results. What a check lets through and a reader then throws at fails.
 
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -13,6 +14,7 @@
 
 #include "pipeline/comparison/comparison.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/read_apart.h"
 #include "pipeline/formats/results_folder.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
@@ -31,6 +33,7 @@ using Json = nlohmann::ordered_json;
 using test::Damage;
 using ::testing::AllOf;
 using ::testing::AnyOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class DamagedResults : public ::testing::Test {
@@ -174,6 +177,16 @@ TEST_F(DamagedResults, AreRefusedByTheKeyOfTheSummaryOrUsedWithoutIt) {
     });
   }
   EXPECT_LT(passed_, tried_);
+}
+
+TEST(ReadingApart, NamesThePlaceWhereItDied) {
+  const auto read = [](const PlaceOfReading& next) -> std::vector<std::string> {
+    next("/case");
+    next("/static/time");
+    std::abort();
+  };
+  EXPECT_THAT(complaints_of_reading("results.h5", read),
+              ElementsAre("is damaged: reading \"/static/time\" of it crashed (Aborted)"));
 }
 
 TEST_F(DamagedResults, SayWhatWasFoundAndWhatIsDue) {
