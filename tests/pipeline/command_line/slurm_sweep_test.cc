@@ -34,6 +34,7 @@ echo "$((40 + $(wc -l < "$CALLS")));north"
 class SlurmSweep : public ::testing::Test {
  protected:
   SlurmSweep() {
+    fs::create_directory("it's here");
     fs::copy(BLOCKLIFT_SMALL_LIFT, "it's here/lift", fs::copy_options::recursive);
     folder_.write("it's here/study.yaml",
                   "study: spread\ncase: lift\nmembers: 7\nvary:\n  weight: {keys: ['block:mass'], "
@@ -95,7 +96,7 @@ TEST_F(SlurmSweep, SaysWhatIsWrong) {
     EXPECT_FALSE(fs::exists("it's here/out/slurm")) << arguments;
   };
   refused("--slurm=later", "later not in {submit,write}");
-  refused("--slurm --part 1/3", "--slurm excludes --part");
+  refused("--slurm --part 1/3", "--part excludes --slurm");
   refused("--parts 3", "--parts requires --slurm");
   refused("--slurm --parts 0", "0 not in range");
   refused("--slurm --sbatch long", "an option of sbatch is due, for example --partition=long");
