@@ -77,8 +77,8 @@ Eigen::MatrixXd rows_of_part(const Eigen::MatrixXd& design, const StudyPart& par
   return rows;
 }
 
-/// Answers orders until there are no more. Where study, case or program are not those of the process
-/// that gives them, every order is refused.
+/// Answers orders until there are no more. Where study, case or program are not those of the
+/// process that gives them, every order is refused.
 void work(const SweepOptions& options, const StudyFile& study, const fs::path& folder) {
   const bool is_the_study = identity_of_study(study) == *options.worker_of;
   const Eigen::MatrixXd design = make_design(study);

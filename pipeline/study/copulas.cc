@@ -44,8 +44,8 @@ Eigen::MatrixXd joined_scores(const Eigen::MatrixXd& shares, const Eigen::Matrix
          root.transpose();
 }
 
-/// Parameter of Frank's copula: tau = 1 - 4 (1 - D1(t)) / t, D1 being Debye's function (Nelsen 2006,
-/// section 5.1). It is odd in t, and rises.
+/// Parameter of Frank's copula: tau = 1 - 4 (1 - D1(t)) / t, D1 being Debye's function (Nelsen
+/// 2006, section 5.1). It is odd in t, and rises.
 double frank_parameter(double kendall) {
   const auto kendall_of = [](double t) {
     return t < 1e-6 ? t / 9 : 1 - 4 * (1 - OT::SpecFunc::Debye(t, 1)) / t;

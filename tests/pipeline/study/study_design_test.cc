@@ -261,8 +261,8 @@ TEST(StudyDesign, CopulasHaveTheirKendallsTau) {
     }
 }
 
-// The copulas' own closed forms (Nelsen 2006, table 4.1), their parameters being 2, 2 and 5.7363 at a
-// tau of one half.
+// The copulas' own closed forms (Nelsen 2006, table 4.1), their parameters being 2, 2 and 5.7363 at
+// a tau of one half.
 TEST(StudyDesign, CopulasHaveTheirCorners) {
   constexpr double q = 0.1;
   constexpr int members = 1 << 14;
