@@ -154,16 +154,18 @@ TEST_F(DamagedResults, AreRefusedByTheKeyOfTheSummaryOrUsedWithoutIt) {
                          Json{{"name", 3}}};
   const Json leaves = summary.flatten();
   std::set<std::string> tried;
+  std::size_t next = 0;
   for (const auto& [path, value] : leaves.items()) {
     const Json::json_pointer place(path);
     for (Json::json_pointer at = place; !at.empty() && tried.insert(at.to_string()).second;
          at = at.parent_pointer())
-      for (const Json& other : others) {
+      // By turns, two at each place: rows are alike.
+      for (int turn = 0; turn < 2; ++turn) {
+        const Json& other = others[next++ % std::size(others)];
         SCOPED_TRACE(at.to_string() + " is " + other.dump());
         said_of([&](const fs::path& results) {
           change_summary(results, [&](Json& changed) { changed[at] = other; });
         });
-        if (::testing::Test::HasFailure()) return;
       }
     SCOPED_TRACE(path + " is missing");
     said_of([&](const fs::path& results) {
