@@ -17,10 +17,10 @@ struct Rule {
   enum class Kind { text, number, flag, scalar, list, table, rows };
   struct Key;
   Kind kind = Kind::text;
-  std::vector<Key> keys = {};           ///< of a table: those that are known
-  std::vector<Rule> entry = {};         ///< of a list or of rows by name: the rule of each, one
-  std::size_t length = 0;               ///< of a list; 0: any
-  std::vector<std::string> words = {};  ///< of a text; empty: any
+  std::vector<Key> keys;           ///< of a table: those that are known
+  std::vector<Rule> entry;         ///< of a list or of rows by name: the rule of each, one
+  std::size_t length = 0;          ///< of a list; 0: any
+  std::vector<std::string> words;  ///< of a text; empty: any
 };
 
 struct Rule::Key {
@@ -31,20 +31,39 @@ struct Rule::Key {
 
 using Keys = std::vector<Rule::Key>;
 
-Rule text() { return {}; }
+Rule of_kind(Rule::Kind kind) {
+  Rule rule;
+  rule.kind = kind;
+  return rule;
+}
+Rule of_entries(Rule::Kind kind, Rule entry) {
+  Rule rule = of_kind(kind);
+  rule.entry.push_back(std::move(entry));
+  return rule;
+}
+
+Rule text() { return of_kind(Rule::Kind::text); }
 Rule one_of(std::vector<std::string> words) {
-  return {Rule::Kind::text, {}, {}, 0, std::move(words)};
+  Rule rule = text();
+  rule.words = std::move(words);
+  return rule;
 }
 /// Null stands for a number that is not known.
-Rule number() { return {Rule::Kind::number}; }
-Rule flag() { return {Rule::Kind::flag}; }
-Rule scalar() { return {Rule::Kind::scalar}; }
+Rule number() { return of_kind(Rule::Kind::number); }
+Rule flag() { return of_kind(Rule::Kind::flag); }
+Rule scalar() { return of_kind(Rule::Kind::scalar); }
 Rule list(Rule entry, std::size_t length = 0) {
-  return {Rule::Kind::list, {}, {std::move(entry)}, length};
+  Rule rule = of_entries(Rule::Kind::list, std::move(entry));
+  rule.length = length;
+  return rule;
 }
-Rule table(Keys keys) { return {Rule::Kind::table, std::move(keys)}; }
+Rule table(Keys keys) {
+  Rule rule = of_kind(Rule::Kind::table);
+  rule.keys = std::move(keys);
+  return rule;
+}
 /// A table whose keys are names.
-Rule by_name(Rule entry) { return {Rule::Kind::rows, {}, {std::move(entry)}}; }
+Rule by_name(Rule entry) { return of_entries(Rule::Kind::rows, std::move(entry)); }
 Rule point() { return list(number(), 3); }
 
 /// A table with further keys.
