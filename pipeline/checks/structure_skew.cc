@@ -32,9 +32,10 @@ std::vector<HookOfFour> find_hooks_of_four(const structure::Mesh& mesh, const Li
     HookOfFour hook;
     bool is_complete = true;
     for (std::size_t i = 0; i < 4; ++i) {
+      const std::string& name_of_lug = slings[i]->lug;
       const auto lug = std::find_if(
           mesh.lifting_points.begin(), mesh.lifting_points.end(),
-          [&](const structure::LiftingPoint& point) { return point.name == slings[i]->lug; });
+          [&](const structure::LiftingPoint& point) { return point.name == name_of_lug; });
       is_complete = is_complete && lug != mesh.lifting_points.end();
       hook.lugs[i] = static_cast<std::size_t>(lug - mesh.lifting_points.begin());
       hook.slings[i] = slings[i];

@@ -252,7 +252,8 @@ TEST_F(AssessCommand, ReportIsMadeFromTheResultsAlone) {
 TEST_F(AssessCommand, ReportOfNothingSaysWhatIsMissing) {
   const Outcome outcome = run("report lift");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("lift/summary.json: there is no such file"));
+  EXPECT_THAT(outcome.err, HasSubstr("lift/summary.json: error: there is no such file"));
+  EXPECT_THAT(outcome.err, HasSubstr("lift/results.h5: error: there is no such file"));
   EXPECT_FALSE(fs::exists("lift/report.html"));
 }
 
