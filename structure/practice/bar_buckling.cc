@@ -222,8 +222,8 @@ BarSpan span_of(const Mesh& mesh, const BarChain& chain) {
 }
 
 /// The weakest section of a stiffener along a chain, as the columns of its beams' ends.
-Column stiffener_column_of(const Mesh& mesh, const BarChain& chain, const Stiffeners& stiffeners,
-                           const BarForces& bars) {
+Column stiffener_column_of(const Mesh& mesh, const BarChain& chain,
+                           const StiffenerChains& stiffeners, const BarForces& bars) {
   std::optional<Column> weakest;
   for (const auto& [number, reversed] : chain.beams) {
     const Beam& beam = mesh.beams[at(number)];
@@ -271,7 +271,7 @@ BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::Ma
     found.push_back(
         bars.along(chain, [&](int cell, double xi) { return bars.of_bar(cell, xi, axes); }));
   }
-  const Stiffeners stiffeners = find_stiffeners(mesh, points);
+  const StiffenerChains stiffeners = find_stiffeners(mesh, points);
   for (const BarChain& chain : stiffeners.chains) {
     const auto plate_of = [&](int beam) -> const PlateAlong& {
       return stiffeners.plates[at(beam)];

@@ -88,9 +88,9 @@ class StiffenerFinder {
 
 }  // namespace
 
-Stiffeners find_stiffeners(const Mesh& mesh, const MeetingPoints& points) {
+StiffenerChains find_stiffeners(const Mesh& mesh, const MeetingPoints& points) {
   const StiffenerFinder finder(mesh, points);
-  Stiffeners stiffeners;
+  StiffenerChains stiffeners;
   std::vector<int> beams;
   for (std::size_t b = 0; b < mesh.beams.size(); ++b) {
     stiffeners.plates.push_back(finder.plate_along(mesh.beams[b]));

@@ -16,14 +16,14 @@ struct PlateAlong {
 
 /// The stiffeners of a mesh: beams along which just two shells meet that go on from one another by
 /// less than 30 degrees.
-struct Stiffeners {
+struct StiffenerChains {
   std::vector<PlateAlong> plates;  ///< of each beam of the mesh
   /// From support to support: a plate that stands off by more than 30 degrees, a solid, a beam out
   /// of the plate, or one in it with five times the second moment about the plate.
   std::vector<BarChain> chains;
 };
 
-Stiffeners find_stiffeners(const Mesh& mesh, const MeetingPoints& points);
+StiffenerChains find_stiffeners(const Mesh& mesh, const MeetingPoints& points);
 
 /// A beam's section, seen along the normal of its plate, heights from the line of its vertices.
 /// @param share place on the beam from its first vertex, 0 to 1.
