@@ -3,7 +3,8 @@
 A file may include headers of its own folder and of the rooms that the list grants to its folder; a room
 may be granted only rooms that stand above it in the list. Tests may include everything, but nothing in
 the rooms may include a test. Libraries: only structure/ may include deal.II, only the rooms named in
-LIBRARIES may include Gmsh, HDF5 and the others.
+LIBRARIES may include Gmsh, HDF5 and the others. Two types of one name in one namespace are found, too: no
+compiler sees both, and the linker silently gives one the functions of the other.
 
 Usage: check_rooms.py FOLDER; exit code 1 if a wall is crossed.
 """
@@ -14,6 +15,11 @@ import sys
 
 HOUSES = ("dynamics", "structure", "pipeline")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+# What opens and closes scopes, once comments and texts are left out.
+SCOPE = re.compile(r"namespace\s*(?P<space>[\w:]*)\s*\{|"
+                   r"(?:struct|class)\s+(?P<type>\w+)\s*(?:final\s*)?(?::(?!:)[^;{]*)?\{|"
+                   r"enum\s+class\s+(?P<list>\w+)[^;{]*\{|\{|\}")
+NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 # Libraries that stay behind walls of their own: beginning of the header's name, and where it may be included.
 LIBRARIES = {
     "deal.II/": ("structure",),
@@ -80,6 +86,33 @@ def check_file(path, root, rooms):
     return complaints
 
 
+def types_of(path):
+    """Full names and lines of the types that a file defines in named namespaces."""
+    text = NOT_CODE.sub(lambda match: "\n" * match[0].count("\n"), path.read_text())
+    scopes = []  # what each open brace belongs to; None where no type of others can stand
+    for match in SCOPE.finditer(text):
+        if match[0] == "}":
+            if scopes:
+                scopes.pop()
+            continue
+        name = match["type"] or match["list"]
+        if name and None not in scopes:
+            yield "::".join([*scopes, name]), text.count("\n", 0, match.start()) + 1
+        scopes.append(match["space"] or None)
+
+
+def check_types(paths, root):
+    """Complaints about types that have the name of another one."""
+    homes, complaints = {}, []
+    for path in paths:
+        for name, line in types_of(path):
+            shown = path.relative_to(root)
+            home = homes.setdefault(name, f"{shown}:{line}")
+            if home != f"{shown}:{line}":
+                complaints.append(f"{shown}:{line}: error: a second {name}; the first is in {home}")
+    return complaints
+
+
 def check_tree(root):
     """All complaints about a tree."""
     rooms, complaints = read_rooms(root / ".ci" / "rooms.txt")
@@ -87,6 +120,7 @@ def check_tree(root):
              if path.suffix in (".h", ".cc", ".inc") and "node_modules" not in path.parts]
     for path in files:
         complaints += check_file(path, root, rooms)
+    complaints += check_types(files, root)
     inhabited = {str(path.parent.relative_to(root)) for path in files}
     complaints += [f".ci/rooms.txt: error: the room {room} is empty" for room in rooms if room not in inhabited]
     return complaints
@@ -94,5 +128,5 @@ def check_tree(root):
 
 if __name__ == "__main__":
     found = check_tree(pathlib.Path(sys.argv[1]).resolve())
-    print("\n".join(found) or "no include crosses a wall")
+    print("\n".join(found) or "no include crosses a wall, no type has the name of another")
     sys.exit(1 if found else 0)

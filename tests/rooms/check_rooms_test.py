@@ -44,4 +44,12 @@ expect(complaints_of({"dynamics/attic/thing.h": "#pragma once\n"}),
 expect(complaints_of({}, ROOMS.replace("dynamics:", "dynamics: pipeline/build")),
        ".ci/rooms.txt:1: error: dynamics may not use pipeline/build", )
 expect(complaints_of({}, ROOMS + "pipeline/cellar:\n"), "the room pipeline/cellar is empty")
+ROPE = "#pragma once\nnamespace lift {\nstruct Rope {\n  int strands;\n};\n}\n"
+expect(complaints_of({"dynamics/rope/rope.h": ROPE, "pipeline/version.h": ROPE}),
+       "pipeline/version.h:3: error: a second lift::Rope; the first is in dynamics/rope/rope.h:3")
+expect(complaints_of({"dynamics/rope/rope.h": ROPE, "pipeline/version.h": ROPE.replace("lift", "report")}))
+expect(complaints_of({"dynamics/rope/rope.h": ROPE,
+                      "pipeline/build/build.cc": ROPE.replace("struct", "namespace {\nstruct") + "}\n"}))
+expect(complaints_of({"dynamics/rope/rope.h": ROPE.replace("  int strands;", "  struct Wire;"),
+                      "dynamics/rope/rope.cc": "namespace lift {\nstruct Rope::Wire {\n};\n}\n"}))
 print("every breach is seen")
