@@ -3,20 +3,13 @@
 //   node document_test.mjs WRITE_SAMPLE_REPORTS FOLDER_OF_AXE
 // Exit code 77 (skipped) where there is no Chromium.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { inflateSync } from "node:zlib";
 
-import { Browser, browserName } from "./browser.mjs";
+import { testInBrowser } from "./browser.mjs";
 
-if (!browserName) {
-  console.log("skipped: no Chromium on the PATH");
-  process.exit(77);
-}
-
-const failures = [];
-const expect = (holds, text) => { if (!holds) failures.push(text); };
+let expect;  // (holds, text): complains of what does not hold
 
 /** What is drawn on the pages of a PDF, page by page: its content streams, which name fonts and pictures by number. */
 function pagesOf(pdf) {
@@ -159,9 +152,8 @@ async function testFiles(browser, address) {
   await page.close();
 }
 
-const folder = mkdtempSync(join(tmpdir(), "blocklift-document-"));
-const browser = new Browser(join(folder, "profile"));
-try {
+await testInBrowser(async (browser, folder, complain) => {
+  expect = (holds, text) => { if (!holds) complain(text); };
   execFileSync(process.argv[2], [folder]);
   const address = `file://${join(folder, "whole", "report.html")}`;
   await testPrint(browser, address);
@@ -172,13 +164,4 @@ try {
   await testReading(browser, address, readFileSync(join(process.argv[3], "axe.min.js"), "utf8"));
   await testWheel(browser, address);
   await testFiles(browser, address);
-} catch (error) {
-  failures.push(String(error.stack ?? error));
-} finally {
-  browser.close();
-  await new Promise((resolve) => browser.process.on("exit", resolve));
-  rmSync(folder, { recursive: true, force: true });
-}
-for (const failure of failures) console.log(failure);
-if (failures.length === 0) console.log("the sample report is a document");
-process.exit(failures.length === 0 ? 0 : 1);
+}, "the sample report is a document");

@@ -2,16 +2,9 @@
 //   node page_test.mjs WRITE_SAMPLE_REPORTS
 // Exit code 77 (skipped) where there is no Chromium.
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
 import { join } from "node:path";
 
-const browser = ["chromium", "chromium-browser", "google-chrome"]
-  .find((name) => spawnSync(name, ["--version"], { stdio: "ignore" }).status === 0);
-if (!browser) {
-  console.log("skipped: no Chromium on the PATH");
-  process.exit(77);
-}
+import { browserName, testInFolder } from "./browser.mjs";
 
 const sections = {
   whole: ["checks", "lift", "periods", "histories", "loads", "slings", "stress", "structure", "standard", "accuracy", "method", "annex"],
@@ -20,37 +13,30 @@ const sections = {
 };
 const expected = [">988<", "Governing: ", "A sample &amp; nothing else"];
 
-const folder = mkdtempSync(join(tmpdir(), "blocklift-page-"));
-const failures = [];
-try {
+await testInFolder((folder, complain) => {
   execFileSync(process.argv[2], [folder]);
   for (const [name, ids] of Object.entries(sections)) {
-    const run = spawnSync(browser, [
+    const run = spawnSync(browserName, [
       "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1300,3000",
       "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", `--user-data-dir=${join(folder, "profile")}`,
       "--virtual-time-budget=5000", "--dump-dom", `file://${join(folder, name, "report.html")}`,
     ], { encoding: "utf8", timeout: 120000, maxBuffer: 1 << 28 });
     const dom = run.stdout ?? "";
-    const complain = (text) => failures.push(`${name}: ${text}`);
-    if (!/<body[^>]*class="ready"/.test(dom)) complain("the page did not finish drawing itself");
+    const complainOf = (text) => complain(`${name}: ${text}`);
+    if (!/<body[^>]*class="ready"/.test(dom)) complainOf("the page did not finish drawing itself");
     const found = [...dom.matchAll(/<section id="([^"]*)"/g)].map((match) => match[1]);
-    if (found.join() !== ids.join()) complain(`sections are ${found.join(", ")}; ${ids.join(", ")} are due`);
+    if (found.join() !== ids.join()) complainOf(`sections are ${found.join(", ")}; ${ids.join(", ")} are due`);
     if (ids.includes("periods"))
       for (const text of ["block: pendulum along x", ">14.6<", "neutral: nothing brings it back"])
-        if (!dom.includes(text)) complain(`"${text}" is not among the natural periods`);
+        if (!dom.includes(text)) complainOf(`"${text}" is not among the natural periods`);
     if (ids.includes("slings"))
       for (const text of ["longer", ">1.43", ">1.240<", ">9.876<"])
-        if (!dom.includes(text)) complain(`"${text}" is not among the lengths of slings`);
+        if (!dom.includes(text)) complainOf(`"${text}" is not among the lengths of slings`);
     if (ids.includes("standard"))
       for (const text of ["Motion asks for more.", ">1.234<", "Rules 5.5", "0.987"])
-        if (!dom.includes(text)) complain(`"${text}" is not in the chain of the standard`);
-    for (const text of expected) if (!dom.includes(text)) complain(`"${text}" is not on the page`);
+        if (!dom.includes(text)) complainOf(`"${text}" is not in the chain of the standard`);
+    for (const text of expected) if (!dom.includes(text)) complainOf(`"${text}" is not on the page`);
     for (const line of (run.stderr ?? "").split("\n"))
-      if (/CONSOLE/.test(line) && !/GPU stall|GL Driver Message/.test(line)) complain(line);
+      if (/CONSOLE/.test(line) && !/GPU stall|GL Driver Message/.test(line)) complainOf(line);
   }
-} finally {
-  rmSync(folder, { recursive: true, force: true });
-}
-for (const failure of failures) console.log(failure);
-if (failures.length === 0) console.log("the sample reports draw themselves without a complaint");
-process.exit(failures.length === 0 ? 0 : 1);
+}, "the sample reports draw themselves without a complaint");
