@@ -13,6 +13,7 @@
 
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/report/decimation.h"
+#include "structure/output/base64.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -34,7 +35,7 @@ json packed(const std::vector<Number>& numbers, const char* type, double scale =
   static_assert(std::endian::native == std::endian::little,
                 "the page expects little-endian numbers");
   const auto* bytes = reinterpret_cast<const unsigned char*>(numbers.data());
-  json array{{"type", type}, {"data", base64({bytes, numbers.size() * sizeof(Number)})}};
+  json array{{"type", type}, {"data", structure::base64({bytes, numbers.size() * sizeof(Number)})}};
   if (scale != 1.0) array["scale"] = scale;
   return array;
 }
@@ -444,21 +445,6 @@ nlohmann::ordered_json page_series(const std::string& name, const std::string& q
                                    const Meaning& meaning, const std::vector<double>& time,
                                    const std::vector<double>& values) {
   return packed_series(name, quantity, meaning, time, values, small_history_buckets);
-}
-
-std::string base64(std::span<const unsigned char> bytes) {
-  static constexpr char digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < count ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? digits[group >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
 }
 
 nlohmann::ordered_json make_page_data(const ResultsReader& results, const json& summary) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,8 +45,5 @@ nlohmann::ordered_json tension_series(const ResultsReader& results, std::string_
 nlohmann::ordered_json page_series(const std::string& name, const std::string& quantity,
                                    const Meaning& meaning, const std::vector<double>& time,
                                    const std::vector<double>& values);
-
-/// Base64 (RFC 4648) of bytes.
-std::string base64(std::span<const unsigned char> bytes);
 
 }  // namespace blocklift::pipeline

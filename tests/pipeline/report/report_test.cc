@@ -59,17 +59,6 @@ TEST(Decimation, SpreadsIndicesEvenlyWithBothEnds) {
   EXPECT_THAT(evenly_spread_indices(3, 5), ElementsAre(0, 1, 2));
 }
 
-TEST(Base64, AgreesWithTheExamplesOfRfc4648) {
-  const auto encode = [](const std::string& text) {
-    return base64({reinterpret_cast<const unsigned char*>(text.data()), text.size()});
-  };
-  EXPECT_EQ(encode(""), "");
-  EXPECT_EQ(encode("f"), "Zg==");
-  EXPECT_EQ(encode("fo"), "Zm8=");
-  EXPECT_EQ(encode("foo"), "Zm9v");
-  EXPECT_EQ(encode("foobar"), "Zm9vYmFy");
-}
-
 class Report : public ::testing::Test {
  protected:
   void SetUp() override {
