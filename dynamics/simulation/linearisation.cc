@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
 #include "dynamics/simulation/mode_shape.h"
 
@@ -54,13 +56,13 @@ ModeKind kind_of(const std::complex<double>& lambda) {
 // Directions that nothing brings back: the null space of the stiffness.
 void add_neutral_modes(const Normalised& equations, const Eigen::MatrixXd& to_v,
                        std::vector<Mode>& modes) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(equations.stiffness, Eigen::ComputeFullV);
+  const RightSingularVectors svd = decompose_singular(equations.stiffness);
   const double limit = neutral_limit * neutral_limit;
-  for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i) {
-    if (svd.singularValues()[i] > limit) continue;
+  for (Eigen::Index i = 0; i < svd.values.size(); ++i) {
+    if (svd.values[i] > limit) continue;
     Mode& mode = modes.emplace_back();
     mode.kind = ModeKind::neutral;
-    mode.shape = to_v * svd.matrixV().col(i);
+    mode.shape = to_v * svd.vectors.col(i);
   }
 }
 
@@ -73,13 +75,8 @@ std::vector<Mode> solve_modes(const Normalised& equations, const Eigen::MatrixXd
   A.topRightCorner(n, n).setIdentity();
   A.bottomLeftCorner(n, n) = -equations.stiffness;
   A.bottomRightCorner(n, n) = -equations.damping;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
-  if (solver.info() != Eigen::Success) {
-    throw SimulationError(
-        "the natural frequencies could not be computed: the eigenvalue "
-        "iteration did not converge");
-  }
-  const Eigen::VectorXcd& values = solver.eigenvalues();
+  const Eigensystem system = decompose_general(std::move(A));
+  const Eigen::VectorXcd& values = system.values;
   const double limit = neutral_limit * values.cwiseAbs().maxCoeff();
   add_neutral_modes(equations, to_v, modes);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -92,7 +89,7 @@ std::vector<Mode> solve_modes(const Normalised& equations, const Eigen::MatrixXd
     Mode& mode = modes.emplace_back();
     mode.eigenvalue = equations.scale * value;
     mode.kind = kind_of(value);
-    mode.shape = to_v * solver.eigenvectors().col(i).head(n);
+    mode.shape = to_v * system.vectors.col(i).head(n);
   }
   return modes;
 }
@@ -117,12 +114,10 @@ Eigen::MatrixXd motions_of_loops(const Mechanism& mechanism, const LiftWorkspace
     const double length = jacobian.row(i).norm();
     if (length > 0.0) jacobian.row(i) /= length;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
+  const RightSingularVectors svd = decompose_singular(std::move(jacobian));
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > redundancy_threshold) {
-    ++rank;
-  }
-  return svd.matrixV().rightCols(n - rank);
+  while (rank < svd.values.size() && svd.values[rank] > redundancy_threshold) ++rank;
+  return svd.vectors.rightCols(n - rank);
 }
 
 int rank(const Mode& mode) {
@@ -171,14 +166,14 @@ void align(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& form, std::vector
   }
   // An orthonormal basis by the mass first; shapes that coincide (a defective group) stay as they
   // are.
-  const Eigen::MatrixXcd product = shapes.adjoint() * mass * shapes;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> norm(product);
-  if (norm.eigenvalues()[0] < 1e-9 * norm.eigenvalues()[count - 1]) return;
-  const Eigen::VectorXd inverse_root = norm.eigenvalues().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXcd orthonormal = shapes * norm.eigenvectors() * inverse_root.asDiagonal();
-  const Eigen::MatrixXcd directions = orthonormal.adjoint() * form * orthonormal;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> axes(directions);
-  shapes = orthonormal * axes.eigenvectors();
+  Eigen::MatrixXcd product = shapes.adjoint() * mass * shapes;
+  const Eigen::VectorXd squares = decompose_hermitian(product);
+  if (squares[0] < 1e-9 * squares[count - 1]) return;
+  const Eigen::VectorXd inverse_root = squares.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXcd orthonormal = shapes * product * inverse_root.asDiagonal();
+  Eigen::MatrixXcd directions = orthonormal.adjoint() * form * orthonormal;
+  decompose_hermitian(directions);
+  shapes = orthonormal * directions;
   for (Eigen::Index i = 0; i < count; ++i) {
     modes[first + static_cast<std::size_t>(i)].shape = shapes.col(i);
   }

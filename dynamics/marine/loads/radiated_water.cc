@@ -6,8 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
-#include "dynamics/marine/panels/dense_algebra.h"
 
 namespace blocklift::dynamics {
 namespace {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
@@ -17,6 +18,9 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr const char* bad_panels =
+    "two panels lie on each other, or a panel lies in the free surface";
 
 std::atomic<double> memory_limit{std::numeric_limits<double>::infinity()};
 
@@ -217,7 +221,8 @@ void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_fact
   MatrixXd body_matrix = std::move(influence.D_BB);
   body_matrix *= -1.0;
   body_matrix.diagonal().array() += 2.0 * std::numbers::pi;
-  factors->body = LuFactorisation(std::move(body_matrix), "the matrix of the bodies' panels");
+  factors->body =
+      LuFactorisation(std::move(body_matrix), "the matrix of the bodies' panels", bad_panels);
   MatrixXd& P = influence.D_BF;
   factors->body.solve_in_place(P);
   body_columns_ = -(influence.S_BB * n);
@@ -233,8 +238,8 @@ void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_fact
   reduced *= -1.0;
   if (deep) reduced.setZero(root_area.size(), root_area.size());
   reduced.diagonal().array() += 2.0 * std::numbers::pi;
-  factors->surface =
-      LuFactorisation(std::move(influence.S_FF), "the matrix of the free surface's panels");
+  factors->surface = LuFactorisation(std::move(influence.S_FF),
+                                     "the matrix of the free surface's panels", bad_panels);
   timing_.factorisation_s = seconds_since(start);
   start = std::chrono::steady_clock::now();
   multiply(-1.0, influence.D_FB, P, 1.0, reduced);

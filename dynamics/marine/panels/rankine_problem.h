@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "dynamics/marine/panels/dense_algebra.h"
+#include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/marine/panels/panel_clusters.h"
 #include "dynamics/marine/panels/panel_model.h"
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/frequency_domain.h"
 #include "dynamics/marine/radiation/impulse_run.h"

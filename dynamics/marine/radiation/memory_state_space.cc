@@ -7,8 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "dynamics/algebra/dense_algebra.h"
+#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
-#include "dynamics/marine/panels/dense_algebra.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -248,14 +249,19 @@ System take_modal_form(const Realisation& realisation, Eigen::Index states) {
   const MatrixXd output = first * root.asDiagonal();
   const MatrixXd input = (sign.array() * root.array()).matrix().asDiagonal() * first.transpose();
 
-  const Eigen::EigenSolver<MatrixXd> eigen(discrete);
-  const MatrixXcd vectors = eigen.eigenvectors();
-  const MatrixXcd modal_input = vectors.partialPivLu().solve(input.cast<Complex>());
-  const MatrixXcd modal_output = output.cast<Complex>() * vectors;
+  Eigensystem eigen = decompose_general(discrete);
+  const MatrixXcd modal_output = output.cast<Complex>() * eigen.vectors;
+  MatrixXcd modal_input = input.cast<Complex>();
+  try {
+    solve_in_place(eigen.vectors, modal_input, "the matrix of the modes");
+  } catch (const SimulationError&) {
+    // Modes that coincide: another number of states has modes of its own.
+    return {{}, MatrixXd::Zero(0, modes), MatrixXd::Zero(modes, 0)};
+  }
   std::vector<Eigen::Index> kept;
   Eigen::Index size = 0;
   for (Eigen::Index k = 0; k < states; ++k) {
-    const Complex pole = eigen.eigenvalues()[k];
+    const Complex pole = eigen.values[k];
     // One of each pair; poles that grow, or on the negative axis, belong to noise.
     if (pole.imag() < 0.0 || std::abs(pole) >= 1.0 || std::abs(pole) < 1e-8) continue;
     if (pole.imag() == 0.0 && pole.real() <= 0.0) continue;
@@ -266,7 +272,7 @@ System take_modal_form(const Realisation& realisation, Eigen::Index states) {
                 MatrixXd::Zero(modes, size)};
   Eigen::Index row = 0;
   for (const Eigen::Index k : kept) {
-    const Complex rate = std::log(eigen.eigenvalues()[k]) / realisation.step;
+    const Complex rate = std::log(eigen.values[k]) / realisation.step;
     if (rate.imag() == 0.0) {
       system.A(row, row) = rate.real();
       system.B.row(row) = modal_input.row(k).real();
@@ -285,6 +291,16 @@ System take_modal_form(const Realisation& realisation, Eigen::Index states) {
   return system;
 }
 
+/// Moore and Penrose's inverse of a symmetric matrix without negative eigenvalues.
+MatrixXd symmetric_pseudo_inverse(MatrixXd matrix) {
+  matrix = 0.5 * (matrix + matrix.transpose()).eval();
+  VectorXd values = decompose_symmetric(matrix);
+  const double limit = std::numeric_limits<double>::epsilon() * static_cast<double>(values.size()) *
+                       values.cwiseAbs().maxCoeff();
+  for (double& value : values) value = value > limit ? 1.0 / value : 0.0;
+  return matrix * values.asDiagonal() * matrix.transpose();
+}
+
 /// The system with its output changed as little as can be, by the square of what K changes over the
 /// samples, so that the integral of K is that of the samples: the damping of a steady velocity,
 /// which drifts rest on, and which is nothing for bodies in open water. With G = (-A)^-1 B and P
@@ -296,18 +312,21 @@ System with_steady_state(const ScaledSamples& samples, System system) {
   MatrixXd integral = -0.5 * (samples.K.front() + samples.K.back());
   for (const MatrixXd& K : samples.K) integral += K;
   integral *= samples.step;
-  const MatrixXd steady = (-system.A).partialPivLu().solve(system.B);
+  MatrixXd steady = system.B;
+  LuFactorisation(-system.A, "the matrix of the states", "one of them neither grows nor decays")
+      .solve_in_place(steady);
   Stepping stepping(system.A, samples.step);
   MatrixXd response = system.B, gramian = MatrixXd::Zero(states, states);
   for (std::size_t n = 0; n < samples.K.size(); ++n) {
-    gramian.selfadjointView<Eigen::Lower>().rankUpdate(response);
+    multiply(1.0, response, response.transpose(), 1.0, gramian);
     stepping.advance(response);
   }
   gramian.diagonal().array() += 1e-12 * gramian.trace() / static_cast<double>(states);
-  const MatrixXd weighted = gramian.selfadjointView<Eigen::Lower>().ldlt().solve(steady);
-  const MatrixXd square = steady.transpose() * weighted;
+  MatrixXd weighted = steady;
+  LuFactorisation(std::move(gramian), "the sum of the responses", "its diagonal is positive")
+      .solve_in_place(weighted);
   system.C += (integral - system.C * steady) *
-              square.completeOrthogonalDecomposition().pseudoInverse() * weighted.transpose();
+              symmetric_pseudo_inverse(steady.transpose() * weighted) * weighted.transpose();
   return system;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <functional>
+#include <complex>
 #include <vector>
 
 #include <Eigen/Dense>
 
+// Dense decompositions by LAPACK, compiled once: Eigen's own would be instantiated in each source
+// that uses them, the general eigenvalues alone at half a minute of the compiler.
 namespace blocklift::dynamics {
 
 /// LU factorisation with partial pivoting of a large dense matrix, by LAPACK.
@@ -12,8 +14,9 @@ class LuFactorisation {
  public:
   LuFactorisation() = default;
   /// Takes the matrix and factorises it in place.
-  /// @throws SimulationError if the matrix is singular; `what` says which matrix it is.
-  LuFactorisation(Eigen::MatrixXd matrix, const char* what);
+  /// @throws SimulationError if the matrix is singular; `what` says which matrix it is, `cause`
+  ///   what that comes from.
+  LuFactorisation(Eigen::MatrixXd matrix, const char* what, const char* cause);
 
   Eigen::Index size() const { return factors_.rows(); }
   /// Replaces the right-hand sides by the solutions.
@@ -34,6 +37,27 @@ void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, con
 /// @throws SimulationError if the iteration does not converge.
 Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix);
 
+/// The same of a Hermitian matrix.
+Eigen::VectorXd decompose_hermitian(Eigen::MatrixXcd& matrix);
+
+/// A V = V diag(values): eigenvalues of a square real matrix, pairs that are conjugate one behind
+/// the other, and its right eigenvectors of length 1, one a column.
+struct Eigensystem {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+};
+/// By LAPACK, the matrix balanced first.
+/// @throws SimulationError if the iteration does not converge.
+Eigensystem decompose_general(Eigen::MatrixXd matrix);
+
+/// A = U diag(values) V^T of an m x n matrix, without U.
+struct RightSingularVectors {
+  Eigen::VectorXd values;   ///< min(m, n), descending
+  Eigen::MatrixXd vectors;  ///< V, n x n: its last columns span the null space
+};
+/// @throws SimulationError if the iteration does not converge.
+RightSingularVectors decompose_singular(Eigen::MatrixXd matrix);
+
 /// C = alpha A B + beta C, by BLAS.
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
               Eigen::MatrixXd& C);
@@ -41,9 +65,5 @@ void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, 
 /// Y = A X for a symmetric A of which both halves are stored, in single precision, by BLAS: one
 /// column reads only half of A.
 void multiply_symmetric(const Eigen::MatrixXf& A, const Eigen::MatrixXf& X, Eigen::MatrixXf& Y);
-
-/// Calls work(i) for 0 <= i < count, shared out among threads (0: one a core). The first exception
-/// thrown by any of them is thrown on.
-void parallel_for(int count, int threads, const std::function<void(int)>& work);
 
 }  // namespace blocklift::dynamics

@@ -1,0 +1,199 @@
+#include "dynamics/algebra/dense_algebra.h"
+
+#include <algorithm>
+#include <complex>
+#include <string>
+#include <utility>
+
+#include "dynamics/errors.h"
+
+// The Fortran routines of BLAS and LAPACK that are used, by their fixed interfaces.
+extern "C" {
+void dgetrf_(const int* rows, const int* columns, double* a, const int* lda, int* pivots,
+             int* info);
+void dgetrs_(const char* transposed, const int* n, const int* right_sides, const double* a,
+             const int* lda, const int* pivots, double* b, const int* ldb, int* info);
+void zgesv_(const int* n, const int* right_sides, std::complex<double>* a, const int* lda,
+            int* pivots, std::complex<double>* b, const int* ldb, int* info);
+void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
+             double* values, double* work, const int* work_size, int* integers,
+             const int* integer_count, int* info);
+void zheevd_(const char* vectors, const char* half, const int* n, std::complex<double>* a,
+             const int* lda, double* values, std::complex<double>* work, const int* work_size,
+             double* reals, const int* real_count, int* integers, const int* integer_count,
+             int* info);
+void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda,
+            double* real_parts, double* imaginary_parts, double* left_vectors, const int* ldl,
+            double* right_vectors, const int* ldr, double* work, const int* work_size, int* info);
+void dgesvd_(const char* left, const char* right, const int* m, const int* n, double* a,
+             const int* lda, double* values, double* left_vectors, const int* ldu,
+             double* right_vectors, const int* ldv, double* work, const int* work_size, int* info);
+void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
+            const int* k, const double* alpha, const double* a, const int* lda, const double* b,
+            const int* ldb, const double* beta, double* c, const int* ldc);
+void sgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
+            const int* k, const float* alpha, const float* a, const int* lda, const float* b,
+            const int* ldb, const float* beta, float* c, const int* ldc);
+void ssymv_(const char* half, const int* n, const float* alpha, const float* a, const int* lda,
+            const float* x, const int* incx, const float* beta, float* y, const int* incy);
+}
+
+namespace blocklift::dynamics {
+namespace {
+
+int to_int(Eigen::Index value) { return static_cast<int>(value); }
+
+[[noreturn]] void throw_no_convergence(const std::string& what, int columns) {
+  throw SimulationError("the " + what + " of " + std::to_string(columns) +
+                        " columns do not converge");
+}
+
+}  // namespace
+
+LuFactorisation::LuFactorisation(Eigen::MatrixXd matrix, const char* what, const char* cause)
+    : factors_(std::move(matrix)), pivots_(static_cast<std::size_t>(factors_.rows())) {
+  const int n = to_int(factors_.rows());
+  if (n == 0) return;
+  int info = 0;
+  dgetrf_(&n, &n, factors_.data(), &n, pivots_.data(), &info);
+  if (info != 0) {
+    throw SimulationError(std::string(what) + " is singular at row " + std::to_string(info) + ": " +
+                          cause);
+  }
+}
+
+void LuFactorisation::solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const {
+  const int n = to_int(size()), columns = to_int(right_sides.cols());
+  if (n == 0 || columns == 0) return;
+  const int stride = to_int(right_sides.outerStride());
+  int info = 0;
+  dgetrs_("N", &n, &columns, factors_.data(), &n, pivots_.data(), right_sides.data(), &stride,
+          &info);
+}
+
+void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, const char* what) {
+  const int n = to_int(matrix.rows()), columns = to_int(right_sides.cols());
+  if (n == 0 || columns == 0) return;
+  std::vector<int> pivots(static_cast<std::size_t>(n));
+  int info = 0;
+  zgesv_(&n, &columns, matrix.data(), &n, pivots.data(), right_sides.data(), &n, &info);
+  if (info != 0) {
+    throw SimulationError(std::string(what) + " is singular at row " + std::to_string(info));
+  }
+}
+
+Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix) {
+  const int n = to_int(matrix.rows());
+  Eigen::VectorXd values(n);
+  if (n == 0) return values;
+  double work_size = 0.0;
+  int integer_count = 0, info = 0;
+  const int ask = -1;
+  dsyevd_("V", "L", &n, matrix.data(), &n, values.data(), &work_size, &ask, &integer_count, &ask,
+          &info);
+  std::vector<double> work(static_cast<std::size_t>(work_size));
+  std::vector<int> integers(static_cast<std::size_t>(integer_count));
+  const int size = static_cast<int>(work.size());
+  dsyevd_("V", "L", &n, matrix.data(), &n, values.data(), work.data(), &size, integers.data(),
+          &integer_count, &info);
+  if (info != 0) throw_no_convergence("eigenvalues of a symmetric matrix", n);
+  return values;
+}
+
+Eigen::VectorXd decompose_hermitian(Eigen::MatrixXcd& matrix) {
+  const int n = to_int(matrix.rows());
+  Eigen::VectorXd values(n);
+  if (n == 0) return values;
+  std::complex<double> work_size;
+  double real_count = 0.0;
+  int integer_count = 0, info = 0;
+  const int ask = -1;
+  zheevd_("V", "L", &n, matrix.data(), &n, values.data(), &work_size, &ask, &real_count, &ask,
+          &integer_count, &ask, &info);
+  std::vector<std::complex<double>> work(static_cast<std::size_t>(work_size.real()));
+  std::vector<double> reals(static_cast<std::size_t>(real_count));
+  std::vector<int> integers(static_cast<std::size_t>(integer_count));
+  const int size = static_cast<int>(work.size()), real_size = static_cast<int>(reals.size());
+  zheevd_("V", "L", &n, matrix.data(), &n, values.data(), work.data(), &size, reals.data(),
+          &real_size, integers.data(), &integer_count, &info);
+  if (info != 0) throw_no_convergence("eigenvalues of a Hermitian matrix", n);
+  return values;
+}
+
+Eigensystem decompose_general(Eigen::MatrixXd matrix) {
+  const int n = to_int(matrix.rows());
+  Eigensystem system{Eigen::VectorXcd(n), Eigen::MatrixXcd(n, n)};
+  if (n == 0) return system;
+  Eigen::VectorXd real(n), imaginary(n);
+  Eigen::MatrixXd columns(n, n);
+  double work_size = 0.0;
+  int info = 0;
+  const int ask = -1, one = 1;
+  const auto call = [&](double* work, const int* size) {
+    dgeev_("N", "V", &n, matrix.data(), &n, real.data(), imaginary.data(), nullptr, &one,
+           columns.data(), &n, work, size, &info);
+  };
+  call(&work_size, &ask);
+  std::vector<double> work(static_cast<std::size_t>(work_size));
+  const int size = static_cast<int>(work.size());
+  call(work.data(), &size);
+  if (info != 0) throw_no_convergence("eigenvalues of a matrix", n);
+  system.values.real() = real;
+  system.values.imag() = imaginary;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    system.vectors.col(k).real() = columns.col(k);
+    if (imaginary[k] == 0.0) {
+      system.vectors.col(k).imag().setZero();
+      continue;
+    }
+    // Of a pair the real part stands in the first column, the imaginary one in the second.
+    system.vectors.col(k).imag() = columns.col(k + 1);
+    system.vectors.col(k + 1) = system.vectors.col(k).conjugate();
+    ++k;
+  }
+  return system;
+}
+
+RightSingularVectors decompose_singular(Eigen::MatrixXd matrix) {
+  const int m = to_int(matrix.rows()), n = to_int(matrix.cols()), least = std::min(m, n);
+  RightSingularVectors result{Eigen::VectorXd(least), Eigen::MatrixXd::Identity(n, n)};
+  if (least == 0) return result;
+  double work_size = 0.0;
+  int info = 0;
+  const int ask = -1, one = 1;
+  const auto call = [&](double* work, const int* size) {
+    dgesvd_("N", "A", &m, &n, matrix.data(), &m, result.values.data(), nullptr, &one,
+            result.vectors.data(), &n, work, size, &info);
+  };
+  call(&work_size, &ask);
+  std::vector<double> work(static_cast<std::size_t>(work_size));
+  const int size = static_cast<int>(work.size());
+  call(work.data(), &size);
+  if (info != 0) throw_no_convergence("singular values of a matrix", n);
+  result.vectors.transposeInPlace();
+  return result;
+}
+
+void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
+              Eigen::MatrixXd& C) {
+  const int m = to_int(A.rows()), n = to_int(B.cols()), k = to_int(A.cols());
+  if (m == 0 || n == 0) return;
+  if (k == 0) {
+    C *= beta;
+    return;
+  }
+  dgemm_("N", "N", &m, &n, &k, &alpha, A.data(), &m, B.data(), &k, &beta, C.data(), &m);
+}
+
+void multiply_symmetric(const Eigen::MatrixXf& A, const Eigen::MatrixXf& X, Eigen::MatrixXf& Y) {
+  const int n = to_int(A.rows()), columns = to_int(X.cols()), one = 1;
+  if (n == 0 || columns == 0) return;
+  const float alpha = 1.0F, beta = 0.0F;
+  if (columns == 1) {
+    ssymv_("L", &n, &alpha, A.data(), &n, X.data(), &one, &beta, Y.data(), &one);
+  } else {
+    sgemm_("N", "N", &n, &columns, &n, &alpha, A.data(), &n, X.data(), &n, &beta, Y.data(), &n);
+  }
+}
+
+}  // namespace blocklift::dynamics
