@@ -21,6 +21,7 @@ namespace {
 
 constexpr double largest_spacing = 0.5;  // m, between squares
 constexpr double corner_reach = 3;       // squares from a singular vertex
+constexpr double beside_weld = 0.75;     // squares from a centre: those that touch it
 constexpr int contiguous = 4;            // squares one behind the other from a corner
 
 /// Gauss points on [0, 1].
@@ -203,7 +204,56 @@ class SquarePlacer {
     for (const int vertex : fields_.singular_vertices)
       for (Square& square : squares_)
         if ((square.centre_B - mesh_.vertices[at(vertex)]).norm() <= corner_reach * size_)
-          square.at_corner = true;
+          square.site = SquareSite::corner;
+    const std::vector<Weld> welds = find_welds();
+    for (Square& square : squares_)
+      if (square.at_corner() && std::any_of(welds.begin(), welds.end(), [&](const Weld& weld) {
+            return weld.distance(square.centre_B) < beside_weld * square.size;
+          }))
+        square.site = SquareSite::welded_corner;
+  }
+
+  /// Stretch of a joint between plates or of a stiffener on one, straight.
+  struct Weld {
+    Vector3 begin, end;
+
+    double distance(const Vector3& place) const {
+      const Vector3 way = end - begin;
+      const double share = std::clamp((place - begin).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      return (place - begin - share * way).norm();
+    }
+  };
+
+  /// Those near corners: no others are asked for.
+  std::vector<Weld> find_welds() const {
+    std::vector<Weld> welds;
+    const auto add = [&](const Vector3& begin, const Vector3& end) {
+      const Weld weld{begin, end};
+      const auto is_near = [&](int vertex) {
+        return weld.distance(mesh_.vertices[at(vertex)]) <= (corner_reach + 1) * size_;
+      };
+      if (std::any_of(fields_.singular_vertices.begin(), fields_.singular_vertices.end(), is_near))
+        welds.push_back(weld);
+    };
+    for (const PlateField& field : fields_.fields)
+      for (const auto& outline : field.outlines)
+        for (const FieldEdge& edge : outline) {
+          if (edge.is_free) continue;
+          for (const FieldEdge::Piece& piece : edge.pieces) {
+            constexpr int steps = 4;  // of a curved one
+            const Shell& shell = mesh_.shells[at(piece.shell)];
+            const int parts = shell.curvature < 0 ? 1 : steps;
+            for (int i = 0; i < parts; ++i) {
+              const auto on = [&](double t) {
+                return position(mesh_, shell, piece.begin + t * (piece.end - piece.begin));
+              };
+              add(on(static_cast<double>(i) / parts), on((i + 1.0) / parts));
+            }
+          }
+        }
+    for (const Beam& beam : mesh_.beams)
+      add(mesh_.vertices[at(beam.vertices[0])], mesh_.vertices[at(beam.vertices[1])]);
+    return welds;
   }
 
   const Mesh& mesh_;
