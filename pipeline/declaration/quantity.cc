@@ -66,6 +66,8 @@ const DimensionEntry& entry_of(Dimension dimension) {
       {Dimension::quadratic_rotational_damping,
        {{2, 1, 0, -2}, {"a quadratic rotational damping", "N m s^2/rad^2", "5 MN m s^2/rad^2"}}},
       {Dimension::impulse, {{1, 1, -1, 0}, {"an impulse", "N s", "20 kN s"}}},
+      {Dimension::second_moment_of_area,
+       {{4, 0, 0, 0}, {"a second moment of area", "m^4", "8000 cm^4"}}},
   };
   return entries.at(dimension);
 }
