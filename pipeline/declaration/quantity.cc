@@ -75,7 +75,7 @@ const DimensionEntry& entry_of(Dimension dimension) {
 /// The noun for exponents that a file has where others are due; empty if nobody has a name for
 /// them.
 std::string noun_of(const Exponents& exponents) {
-  for (int i = 0; i <= static_cast<int>(Dimension::impulse); ++i) {
+  for (int i = 0; i <= static_cast<int>(Dimension::second_moment_of_area); ++i) {
     const DimensionEntry& entry = entry_of(static_cast<Dimension>(i));
     if (entry.exponents == exponents) return entry.text.noun;
   }
