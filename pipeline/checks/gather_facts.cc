@@ -4,6 +4,9 @@
 #include <map>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/rigging_facts.h"
 #include "pipeline/checks/structure_skew.h"
 #include "structure/response/flexibility.h"
@@ -204,29 +207,41 @@ LugFacts lug_facts(const PadeyeAssessment& padeye, const LiftFacts& facts) {
   return lug;
 }
 
-/// A place with its stress at rest and in motion.
+/// A group or the surroundings of a lug, with its stress at rest and in motion.
 struct StressOfPlace {
-  std::string name, part;
+  std::string name, material, part;
   double at_rest = 0, in_motion = 0, yield = 0;
 };
 
 /// The most used group of each material, and the most used surroundings of a lug.
-void add_stresses(const std::vector<std::pair<std::string, StressOfPlace>>& groups,
-                  const std::vector<StressOfPlace>& lugs, LiftFacts& facts) {
+void add_stresses(const std::vector<StressOfPlace>& groups, const std::vector<StressOfPlace>& lugs,
+                  const std::optional<structure::SquareSite>& site, LiftFacts& facts) {
+  const std::string where = site ? fmt::format(", {}", structure::words_of(*site)) : std::string();
+  const auto facts_of = [&](const StressOfPlace& place, bool is_at_lug) {
+    StressFacts one;
+    one.name = (is_at_lug ? "about lug " + place.name : place.material) + where;
+    if (!is_at_lug) one.material = place.material;
+    one.is_at_lug = is_at_lug;
+    one.at_rest = place.at_rest;
+    one.in_motion = place.in_motion;
+    one.yield = place.yield;
+    one.site = site;
+    return one;
+  };
   const auto use = [](const StressFacts& s) { return std::max(s.at_rest, s.in_motion) / s.yield; };
   std::map<std::string, StressFacts> by_material;
-  for (const auto& [material, place] : groups) {
-    const StressFacts one{material, false, place.at_rest, place.in_motion, place.yield};
-    const auto [known, is_new] = by_material.emplace(material, one);
+  for (const StressOfPlace& place : groups) {
+    const StressFacts one = facts_of(place, false);
+    const auto [known, is_new] = by_material.emplace(place.material, one);
     if (!is_new && use(one) > use(known->second)) known->second = one;
   }
   for (auto& [material, stress] : by_material) facts.stresses.push_back(stress);
   std::optional<StressFacts> worst;
   for (const StressOfPlace& lug : lugs) {
-    StressFacts one{"about lug " + lug.name, true, lug.at_rest, lug.in_motion, 0};
+    StressFacts one = facts_of(lug, true);
     // The part about the lug is one of a group's plates: "web_frames at x = 4 m".
     std::size_t longest = 0;
-    for (const auto& [material, group] : groups) {
+    for (const StressOfPlace& group : groups) {
       if (one.yield > 0 && (!lug.part.starts_with(group.name) || group.name.size() < longest))
         continue;
       one.yield = group.yield;
@@ -237,38 +252,70 @@ void add_stresses(const std::vector<std::pair<std::string, StressOfPlace>>& grou
   if (worst) facts.stresses.push_back(*worst);
 }
 
-void add_structure(const BlockRun& block, LiftFacts& facts) {
-  std::vector<std::pair<std::string, StressOfPlace>> groups;
-  std::vector<StressOfPlace> lugs;
+const HistoryExtreme& extreme_of(const HistoryGroup& place,
+                                 const std::optional<structure::SquareSite>& site) {
+  return site ? place.at_site[*site] : place.checked_von_mises;
+}
+
+template <class Place>
+const structure::Extreme& extreme_of(const Place& place,
+                                     const std::optional<structure::SquareSite>& site) {
+  return site ? place.at_site[*site] : place.checked_von_mises;
+}
+
+/// @param site of the squares that are looked at; none: all.
+void add_structure(const BlockRun& block, const std::optional<structure::SquareSite>& site,
+                   LiftFacts& facts) {
+  std::vector<StressOfPlace> groups, lugs;
   if (block.history) {
     const HistoryState &still = block.history->static_state, &moving = block.history->dynamic_state;
-    for (std::size_t i = 0; i < moving.groups.size(); ++i)
-      groups.push_back({moving.groups[i].material,
-                        {moving.groups[i].name,
-                         {},
-                         still.groups[i].checked_von_mises.at.value,
-                         moving.groups[i].checked_von_mises.at.value,
-                         moving.groups[i].yield_stress}});
-    for (std::size_t i = 0; i < moving.lugs.size(); ++i)
-      lugs.push_back({moving.lugs[i].name, moving.lugs[i].checked_von_mises.at.part,
-                      still.lugs[i].checked_von_mises.at.value,
-                      moving.lugs[i].checked_von_mises.at.value, 0});
+    for (std::size_t i = 0; i < moving.groups.size(); ++i) {
+      const HistoryGroup& group = moving.groups[i];
+      const HistoryExtreme& found = extreme_of(group, site);
+      if (found.at.instant >= 0)
+        groups.push_back({group.name,
+                          group.material,
+                          {},
+                          extreme_of(still.groups[i], site).at.value,
+                          found.at.value,
+                          group.yield_stress});
+    }
+    for (std::size_t i = 0; i < moving.lugs.size(); ++i) {
+      const HistoryExtreme& found = extreme_of(moving.lugs[i], site);
+      if (found.at.instant >= 0)
+        lugs.push_back({moving.lugs[i].name,
+                        {},
+                        found.at.part,
+                        extreme_of(still.lugs[i], site).at.value,
+                        found.at.value,
+                        0});
+    }
   } else {
     const auto &still = block.assessment.simultaneous.static_state.result,
                &moving = block.assessment.simultaneous.dynamic_state.result;
-    for (std::size_t i = 0; i < moving.groups.size(); ++i)
-      groups.push_back({moving.groups[i].material,
-                        {moving.groups[i].group,
-                         {},
-                         still.groups[i].checked_von_mises.value,
-                         moving.groups[i].checked_von_mises.value,
-                         moving.groups[i].yield_stress}});
-    for (std::size_t i = 0; i < moving.lugs.size(); ++i)
-      lugs.push_back({moving.lugs[i].lug, moving.lugs[i].checked_von_mises.part,
-                      still.lugs[i].checked_von_mises.value, moving.lugs[i].checked_von_mises.value,
-                      0});
+    for (std::size_t i = 0; i < moving.groups.size(); ++i) {
+      const structure::GroupStress& group = moving.groups[i];
+      const structure::Extreme& found = extreme_of(group, site);
+      if (!found.part.empty())
+        groups.push_back({group.group,
+                          group.material,
+                          {},
+                          extreme_of(still.groups[i], site).value,
+                          found.value,
+                          group.yield_stress});
+    }
+    for (std::size_t i = 0; i < moving.lugs.size(); ++i) {
+      const structure::Extreme& found = extreme_of(moving.lugs[i], site);
+      if (!found.part.empty())
+        lugs.push_back({moving.lugs[i].lug,
+                        {},
+                        found.part,
+                        extreme_of(still.lugs[i], site).value,
+                        found.value,
+                        0});
+    }
   }
-  add_stresses(groups, lugs, facts);
+  add_stresses(groups, lugs, site, facts);
 }
 
 }  // namespace
@@ -283,7 +330,14 @@ LiftFacts gather_facts(const Assessment& assessment) {
     add_table(assessment, facts);
   for (const PadeyeAssessment& padeye : assessment.block.padeyes.padeyes)
     facts.lugs.push_back(lug_facts(padeye, facts));
-  if (assessment.block.model) add_structure(assessment.block, facts);
+  if (assessment.block.model) {
+    if (tells_sites_apart(assessment.lift_case)) {
+      for (const structure::SquareSite site : structure::square_sites)
+        add_structure(assessment.block, site, facts);
+    } else {
+      add_structure(assessment.block, {}, facts);
+    }
+  }
   if (assessment.lift_case.standard && assessment.block.responses)
     add_structure_skew(assessment, facts);
   return facts;

@@ -192,35 +192,58 @@ std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
   return checks;
 }
 
+bool tells_sites_apart(const LiftCase& lift_case) {
+  return lift_case.standard && lift_case.standard->rules.fine_mesh;
+}
+
 std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block,
                                const HistoryAssessment* history) {
-  std::map<std::string, Check> worst;  // by material
+  using Site = std::optional<structure::SquareSite>;
+  std::map<std::pair<std::string, int>, Check> worst;  // by material and site
   const auto consider = [&](const std::string& material, double yield_stress, double stress,
-                            std::optional<double> time, const std::string& place) {
-    Check check = check_at_most(fmt::format("stress in {}: checked von Mises against yield / {:g}",
-                                            material, lift_case.checks.yield_factor),
-                                stress, yield_stress / lift_case.checks.yield_factor, "Pa");
+                            std::optional<double> time, const std::string& place,
+                            const Site& site) {
+    const ClauseFactor* local = site ? lift_case.standard->rules.fine_mesh->of(*site) : nullptr;
+    const double factor = local ? local->value : 1;
+    Check check = check_at_most(
+        fmt::format("stress in {}{}: checked von Mises against {}yield / {:g}", material,
+                    site ? fmt::format(" {}", structure::words_of(*site)) : std::string(),
+                    local ? fmt::format("{:g} x ", factor) : std::string(),
+                    lift_case.checks.yield_factor),
+        stress, factor * yield_stress / lift_case.checks.yield_factor, "Pa");
     check.time = time;
-    check.note = place;
+    check.note = local ? fmt::format("{}; {}", place, local->clause) : place;
     check.is_by_mesh = true;
-    const auto found = worst.find(material);
+    const std::pair key{material, site ? static_cast<int>(*site) : -1};
+    const auto found = worst.find(key);
     if (found == worst.end() || !(check.utilisation <= found->second.utilisation))
-      worst[material] = check;
+      worst[key] = check;
   };
-  if (history) {
-    for (const HistoryState* state : {&history->static_state, &history->dynamic_state})
-      for (const HistoryGroup& group : state->groups)
-        consider(group.material, group.yield_stress, group.checked_von_mises.at.value,
-                 group.checked_von_mises.time, group.checked_von_mises.at.part);
-  } else {
-    const LoadComparison& way = block.simultaneous;
-    for (const BlockState* state : {&way.static_state, &way.dynamic_state})
-      for (const structure::GroupStress& group : state->result.groups)
-        consider(group.material, group.yield_stress, group.checked_von_mises.value, state->time,
-                 group.checked_von_mises.part);
+  std::vector<Site> sites{Site{}};
+  if (tells_sites_apart(lift_case))
+    sites.assign(structure::square_sites.begin(), structure::square_sites.end());
+  for (const Site& site : sites) {
+    if (history) {
+      for (const HistoryState* state : {&history->static_state, &history->dynamic_state})
+        for (const HistoryGroup& group : state->groups) {
+          const HistoryExtreme& found = site ? group.at_site[*site] : group.checked_von_mises;
+          if (!site || found.at.instant >= 0)
+            consider(group.material, group.yield_stress, found.at.value, found.time, found.at.part,
+                     site);
+        }
+    } else {
+      const LoadComparison& way = block.simultaneous;
+      for (const BlockState* state : {&way.static_state, &way.dynamic_state})
+        for (const structure::GroupStress& group : state->result.groups) {
+          const structure::Extreme& found = site ? group.at_site[*site] : group.checked_von_mises;
+          if (!site || !found.part.empty())
+            consider(group.material, group.yield_stress, found.value, state->time, found.part,
+                     site);
+        }
+    }
   }
   std::vector<Check> checks;
-  for (auto& [material, check] : worst) checks.push_back(check);
+  for (auto& [key, check] : worst) checks.push_back(check);
   return checks;
 }
 

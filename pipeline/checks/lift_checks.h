@@ -13,9 +13,14 @@ namespace blocklift::pipeline {
 /// by the larger of the static and the dynamic history.
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift);
 
+/// Do the case's rules allow more near corners of the structure than in fields?
+bool tells_sites_apart(const LiftCase& lift_case);
+
 /// Checked von Mises stress against yield with the case's factor, a line a material: the plate with
 /// the highest utilisation at any instant of the lift, or in the load table's states where there is
-/// no history (null).
+/// no history (null). Where the case's rules tell what is allowed near corners (a `fine_mesh`
+/// section), a line for each site: the field by the case's factor, corners by the rules' factor on
+/// that.
 std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment& block,
                                const HistoryAssessment* history = nullptr);
 

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "pipeline/lift/stopwatch.h"
+#include "structure/error.h"
+#include "structure/mesh/plate_finder.h"
 #include "structure/response/block_field.h"
 
 namespace blocklift::pipeline {
@@ -45,8 +47,8 @@ class PadeyeRun {
     const structure::Mesh& mesh = responses.model().mesh();
     const int region = mesh.lifting_points[static_cast<std::size_t>(lug_index)].region;
     input.geometry = result_.placed.geometry;
-    input.material =
-        mesh.materials[static_cast<std::size_t>(mesh.group_of_region(region).material)];
+    input.material = mesh.materials[static_cast<std::size_t>(
+        lug.on_mesh ? find_ground(mesh) : mesh.group_of_region(region).material)];
     input.cheek_weld = design.cheek_weld;
     input.jaw = design.jaw;
     input.tensile_strength = design.tensile_strength;
@@ -109,8 +111,33 @@ class PadeyeRun {
           result_.placed.p_BP +
           result_.placed.R_BP * result_.model->part().mesh.nodes.col(nodes[i]);
     // Across the lug's own thickness: the pad or a deck may meet it there.
-    base_ = structure::displacements_at(responses_.model(), responses_.displacements(), places,
-                                        result_.placed.R_BP.col(2));
+    Vector3 across = result_.placed.R_BP.col(2);
+    if (is_on_mesh_ && !goes_on_below(places)) across = result_.placed.R_BP.col(1);
+    base_ =
+        structure::displacements_at(responses_.model(), responses_.displacements(), places, across);
+  }
+
+  // The material of the plate below the pin, as a place in Mesh::materials.
+  int find_ground(const structure::Mesh& mesh) {
+    is_on_mesh_ = true;
+    const Vector3 below =
+        result_.placed.p_BP - result_.placed.geometry.height * result_.placed.R_BP.col(1);
+    const auto plate = structure::PlateFinder(mesh).find(below);
+    if (!plate)
+      throw structure::ModelError("the padeye of lug " + result_.lug + " stands on no plate");
+    return mesh.section_of(mesh.shells[static_cast<std::size_t>(plate->shell)]).material;
+  }
+
+  // Does a plate in the padeye's own plane hold the whole base? Else it stands on a deck.
+  bool goes_on_below(const Eigen::Matrix3Xd& places) const {
+    constexpr double in_plane = 0.99;
+    const structure::PlateFinder plates(responses_.model().mesh());
+    const Vector3 axis = result_.placed.R_BP.col(2);
+    for (Eigen::Index i = 0; i < places.cols(); ++i) {
+      const auto plate = plates.find(places.col(i), axis);
+      if (!plate || std::abs(plate->normal.dot(axis)) < in_plane) return false;
+    }
+    return true;
   }
 
   structure::PadeyeLoad load_of(const LoadCase& load_case, const Vector3& force) const {
@@ -127,6 +154,7 @@ class PadeyeRun {
 
   const UnitResponses& responses_;
   int lug_;
+  bool is_on_mesh_ = false;
   Eigen::MatrixXd base_;
   PadeyeAssessment result_;
 };

@@ -77,16 +77,20 @@ Eigen::Vector4d null_vector(const Eigen::Matrix<double, 3, 4>& directions) {
   return tensions;
 }
 
-/// Largest checked stress of a material's groups, or about any lug, over load cases.
+/// Largest checked stress of a material's groups, or about any lug, over load cases, of one site
+/// where the facts are of one.
 double largest_stress(const std::vector<LoadCaseResult>& results, const StressFacts& of) {
   double largest = 0;
+  const auto take = [&](const auto& place) {
+    const structure::Extreme& there = of.site ? place.at_site[*of.site] : place.checked_von_mises;
+    largest = std::max(largest, there.value);
+  };
   for (const LoadCaseResult& result : results) {
     if (of.is_at_lug)
-      for (const structure::LugNeighbourhood& lug : result.lugs)
-        largest = std::max(largest, lug.checked_von_mises.value);
+      for (const structure::LugNeighbourhood& lug : result.lugs) take(lug);
     else
       for (const structure::GroupStress& group : result.groups)
-        if (group.material == of.name) largest = std::max(largest, group.checked_von_mises.value);
+        if (group.material == of.material) take(group);
   }
   return largest;
 }

@@ -66,6 +66,8 @@ const DimensionEntry& entry_of(Dimension dimension) {
       {Dimension::quadratic_rotational_damping,
        {{2, 1, 0, -2}, {"a quadratic rotational damping", "N m s^2/rad^2", "5 MN m s^2/rad^2"}}},
       {Dimension::impulse, {{1, 1, -1, 0}, {"an impulse", "N s", "20 kN s"}}},
+      {Dimension::second_moment_of_area,
+       {{4, 0, 0, 0}, {"a second moment of area", "m^4", "8000 cm^4"}}},
   };
   return entries.at(dimension);
 }
@@ -73,7 +75,7 @@ const DimensionEntry& entry_of(Dimension dimension) {
 /// The noun for exponents that a file has where others are due; empty if nobody has a name for
 /// them.
 std::string noun_of(const Exponents& exponents) {
-  for (int i = 0; i <= static_cast<int>(Dimension::impulse); ++i) {
+  for (int i = 0; i <= static_cast<int>(Dimension::second_moment_of_area); ++i) {
     const DimensionEntry& entry = entry_of(static_cast<Dimension>(i));
     if (entry.exponents == exponents) return entry.text.noun;
   }

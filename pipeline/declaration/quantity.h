@@ -47,6 +47,7 @@ enum class Dimension {
   wave_spectrum,
   quadratic_rotational_damping,
   impulse,
+  second_moment_of_area,
 };
 
 /// Exponents of metre, kilogram, second and radian: what a unit or the result of an expression

@@ -462,17 +462,14 @@ void check_mesh_block(const BlockModel& block, Reading& reading) {
   refuse(block.bars, "bar");
   refuse(block.openings, "opening");
   refuse(block.pads, "pad");
-  for (const PadeyeDesign& padeye : block.padeyes)
-    reading.error(padeye.name.mark,
-                  fmt::format("padeye {}: a lug of a mesh is not checked as a padeye by formulae "
-                              "and fine mesh",
-                              padeye.name.value),
-                  {"check it as a part of its own: kind: part with padeye"});
-  for (const LugModel& lug : block.lugs)
-    if (!lug.is_place)
+  for (const LugModel& lug : block.lugs) {
+    if (lug.is_place)
+      check_padeye(block, lug, reading);
+    else
       reading.error(lug.name.mark,
                     fmt::format("lug {} stands on a pad, and {}", lug.name.value, why),
                     {"give its pin, a node, or a set of the deck"});
+  }
   if (!block.materials.empty() && block.mesh->thicknesses.empty() && block.mesh->groups.empty() &&
       !is_bare(*block.mesh))
     reading.error(

@@ -18,6 +18,7 @@
 #include "structure/mesh/files/surfaces/cad_file.h"
 #include "structure/mesh/files/surfaces/surface_reader.h"
 #include "structure/mesh/lug_on_mesh.h"
+#include "structure/mesh/plate_finder.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -390,9 +391,34 @@ class MeshReader {
     try {
       structure::add_lug(deck.mesh, placed);
       lug.pin.value = deck.mesh.lifting_points.back().p_BPin;
+      check_base(lug, deck.mesh);
     } catch (const structure::ModelError& wrong) {
       diagnostics_.error(lug.name.mark, wrong.what());
     }
+  }
+
+  /// A padeye's base lies within plates: what drives its fine mesh.
+  void check_base(const LugModel& lug, const Mesh& mesh) {
+    const PadeyeDesign* design = block_.find_padeye(lug);
+    std::vector<std::string> faults;
+    const auto placed = design ? place_padeye(*design, block_, lug, faults) : std::nullopt;
+    if (!placed || !faults.empty()) return;  // complained about elsewhere
+    const structure::PlateFinder plates(mesh);
+    const structure::PadeyeGeometry& g = placed->geometry;
+    constexpr int steps = 16;
+    for (int i = 0; i <= steps; ++i)
+      for (const double z : {-g.thickness / 2, g.thickness / 2}) {
+        const double x = -g.base_left + (g.base_left + g.base_right) * i / steps;
+        const Vector3 place = placed->p_BP + placed->R_BP * Vector3(x, -g.height, z);
+        if (plates.find(place)) continue;
+        diagnostics_.error(
+            lug.padeye->mark,
+            fmt::format("the base of lug {}'s padeye is at ({:.6g}, {:.6g}, {:.6g}) m, where the "
+                        "block has no plate",
+                        lug.name.value, place.x(), place.y(), place.z()),
+            {"it lies on a deck or along a plate's edge: look at pin, axis, up, height and base"});
+        return;
+      }
   }
 
   BlockModel& block_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -362,6 +363,34 @@ Format<PadModel> pad_format() {
       [](const YAML::Node& node) { return has_plate_axes(node) ? 1 : 0; });
 }
 
+Format<PadeyeOnMesh> padeye_on_mesh_format() {
+  const auto length = quantity(Dimension::length, Range::positive());
+  Table<PadeyeOnMesh> table(
+      "padeye on a mesh",
+      "How a padeye stands on the plates of a mesh. It is checked by hand formulae and by a fine "
+      "mesh of its own, which the block drives along the base; its steel is that of the plate "
+      "there. Its base lies within a plate: on a deck, or along the edge of a plate that goes on "
+      "below it.");
+  table
+      .required("design", &PadeyeOnMesh::design, reference(),
+                "one of the block's padeyes: what the lug is made as")
+      .required("axis", &PadeyeOnMesh::axis, direction_format(), "direction of the pin")
+      .required("up", &PadeyeOnMesh::up, direction_format(), "from the base to the pin, across it")
+      .required("height", &PadeyeOnMesh::height, length, "of the pin's centre above the base")
+      .required("base", &PadeyeOnMesh::base, array_of<double, 2>(length),
+                "how far it runs from below the pin, against the direction up x axis and along it")
+      .rule([](const PadeyeOnMesh& padeye, Reading& reading, const Mark& mark) {
+        const double cosine = std::abs(padeye.axis.dot(padeye.up));
+        if (cosine > 1e-3)
+          reading.error(mark,
+                        fmt::format("the pin's axis stands at {:.4g} degrees on the padeye's "
+                                    "upward direction",
+                                    std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi),
+                        {"give axis and up at a right angle"});
+      });
+  return table.format();
+}
+
 /// A lug on a mesh.
 Format<LugModel> place_format() {
   Table<LugModel> table(
@@ -379,6 +408,9 @@ Format<LugModel> place_format() {
                 "a set, or group of a property, whose plates, bars or nodes carry it")
       .optional("radius", &LugModel::radius, quantity(Dimension::length, Range::positive()),
                 "of the sphere about the pin in which plates carry it")
+      .optional("padeye", &LugModel::on_mesh, padeye_on_mesh_format(),
+                "how it stands as one of the block's padeyes; without, what carries it is checked "
+                "alone")
       .rule([](const LugModel& lug, Reading& reading, const Mark& mark) {
         const bool has_place = lug.node || lug.set || lug.pin.mark.line > 0;
         if (!has_place)
@@ -444,6 +476,7 @@ Format<LugModel> lug_format() {
   };
   const auto place = converted<LugModel, LugModel>(place_format(), [](LugModel lug) {
     lug.is_place = true;
+    if (lug.on_mesh) lug.padeye = lug.on_mesh->design;
     return lug;
   });
   return one_of_tables<LugModel>({plate_lug_format(), free_lug_format(), place},

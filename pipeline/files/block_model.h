@@ -92,6 +92,16 @@ struct PadModel : Rectangle {
   Located<std::string> material;                                ///< empty: that of the plate
 };
 
+/// How a padeye stands on a mesh, which has no pad and no lug plate that would say so. Its frame P
+/// (structure::PadeyeGeometry) has z along `axis` and y along `up`.
+struct PadeyeOnMesh {
+  Located<std::string> design;      ///< name of the block's padeye
+  Vector3 axis = Vector3::UnitY();  ///< of the pin, a unit vector
+  Vector3 up = Vector3::UnitZ();    ///< from the base to the pin, a unit vector across the axis
+  double height = std::numeric_limits<double>::quiet_NaN();  ///< of the pin above the base, m
+  std::array<double, 2> base = {};  ///< how far it runs from below the pin to -x and +x of P, m
+};
+
 /// Lug plate with the pin at which a rope pulls; on a mesh, a place of it and what carries the
 /// rope.
 struct LugModel : Rectangle {
@@ -109,6 +119,7 @@ struct LugModel : Rectangle {
   std::optional<Located<int>> node;         ///< the number of the node that it stands at
   std::optional<Located<std::string>> set;  ///< of plates, bars or nodes that carry it
   std::optional<double> radius;             ///< within which plates carry it, m
+  std::optional<PadeyeOnMesh> on_mesh;      ///< of a lug that is made as a padeye
 
   bool is_place = false;  ///< on a mesh, by these keys, rather than a plate of its own
 };

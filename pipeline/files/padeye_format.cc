@@ -106,8 +106,28 @@ structure::PadeyeGeometry PadeyePart::geometry() const {
   return {radius, thickness, hole, pin, cheek_radius, cheek_thickness, height, base[0], base[1]};
 }
 
+namespace {
+
+PlacedPadeye place_on_mesh(const PadeyeDesign& design, const LugModel& lug,
+                           std::vector<std::string>& faults) {
+  const PadeyeOnMesh& stand = *lug.on_mesh;
+  PlacedPadeye placed;
+  placed.p_BP = lug.pin.value;
+  placed.R_BP.col(1) = stand.up;
+  placed.R_BP.col(2) = (stand.axis - stand.axis.dot(stand.up) * stand.up).normalized();
+  placed.R_BP.col(0) = placed.R_BP.col(1).cross(placed.R_BP.col(2));
+  placed.geometry = {design.radius, design.thickness,    design.hole,
+                     design.pin,    design.cheek_radius, design.cheek_thickness,
+                     stand.height,  stand.base[0],       stand.base[1]};
+  faults = structure::padeye_faults(placed.geometry);
+  return placed;
+}
+
+}  // namespace
+
 std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const BlockModel& block,
                                          const LugModel& lug, std::vector<std::string>& faults) {
+  if (lug.on_mesh) return place_on_mesh(design, lug, faults);
   const PadModel* pad = find_by_name(block.pads, lug.pad.value);
   if (!pad || !lug.pin.value.allFinite()) return std::nullopt;  // complained about elsewhere
   const std::vector<Outwards> ways = find_outwards(*pad, lug);

@@ -54,7 +54,8 @@ Format<PadeyeDesign> padeye_format();
 Format<PadeyePart> padeye_part_format();
 
 /// Places a padeye where its lug is: the base is the edge of the pad that the lug juts out from, as
-/// wide as the lug; the hole is about the pin.
+/// wide as the lug; the hole is about the pin. On a mesh the lug says how it stands
+/// (PadeyeOnMesh).
 /// @param faults what does not fit, a sentence each; empty: nothing.
 /// @returns none where even the base is unknown: the lug lies within its pad, or juts out on two
 /// sides.

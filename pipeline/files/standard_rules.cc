@@ -126,6 +126,23 @@ Format<ConsequenceRules> consequence_format() {
   return table.format();
 }
 
+Format<FineMeshRules> fine_mesh_format() {
+  Table<FineMeshRules> table("fine mesh",
+                             "What is allowed in a small square near a corner of the structure, "
+                             "where the stress has no limit, over what is allowed in a plate's "
+                             "field.");
+  table
+      .required("square", &FineMeshRules::square,
+                quantity(Dimension::length, Range::at_least(0.05)),
+                "side of the squares that the factors are for: 50 mm, of which the checked stress "
+                "is the mean, or more")
+      .required("plate", &FineMeshRules::plate, factor_format("In the plate's own material."),
+                "at corners of openings and free edges")
+      .required("beside_weld", &FineMeshRules::beside_weld, factor_format("Beside a weld."),
+                "at roots of lugs and toes: squares with a side on a joint or a stiffener");
+  return table.format();
+}
+
 Format<TandemRow> tandem_format() {
   Table<TandemRow> table("row of cranes", "What a crane may carry where several lift together.");
   table.required("cranes", &TandemRow::cranes, integer(Range::at_least(2)), "so many or more")
@@ -166,6 +183,10 @@ class Quoting {
     one(shackle.working);
     one(shackle.breaking);
   }
+  void one(FineMeshRules& rules) const {
+    one(rules.plate);
+    one(rules.beside_weld);
+  }
   void one(ConsequenceRules& rules) const {
     one(rules.lift_point);
     one(rules.members);
@@ -191,6 +212,7 @@ void for_each_section(StandardRules& rules, const StandardRules& others, const V
   visit(rules.shackle, others.shackle);
   visit(rules.shackle_side_load, others.shackle_side_load);
   visit(rules.consequence, others.consequence);
+  visit(rules.fine_mesh, others.fine_mesh);
   visit(rules.lateral, others.lateral);
   visit(rules.tandem, others.tandem);
 }
@@ -256,6 +278,18 @@ const AmplificationRow& AmplificationTable::row_of(double static_hook_load) cons
   return found == rows.end() ? rows.back() : *found;
 }
 
+const ClauseFactor* FineMeshRules::of(structure::SquareSite site) const {
+  switch (site) {
+    case structure::SquareSite::field:
+      return nullptr;
+    case structure::SquareSite::corner:
+      return &plate;
+    case structure::SquareSite::welded_corner:
+      return &beside_weld;
+  }
+  return nullptr;
+}
+
 const std::vector<std::string>& lug_formula_families() {
   static const std::vector<std::string> families{"working_stress", "dnv_2_7_3", "asme_bth_1",
                                                  "en_1993_1_8"};
@@ -312,6 +346,8 @@ Format<StandardRules> standard_rules_format() {
                 "plane across their pin")
       .optional("consequence", &StandardRules::consequence, consequence_format(),
                 "factors on the structure's loads")
+      .optional("fine_mesh", &StandardRules::fine_mesh, fine_mesh_format(),
+                "what is allowed near corners of the structure, over what is allowed in fields")
       .optional("lateral", &StandardRules::lateral, factor_format("Lateral load."),
                 "force along a lug's pin at least, share of the rope's force")
       .optional("lug", &StandardRules::lug, lug_factors_format(),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/declaration/format.h"
+#include "structure/square_site.h"
 
 namespace blocklift::pipeline {
 
@@ -95,6 +96,17 @@ struct ConsequenceRules {
   std::optional<ClauseFactor> members, others;
 };
 
+/// What class rules allow in a small square by finite elements of its size, over what they allow in
+/// a field of plating.
+struct FineMeshRules {
+  double square = 0.05;      ///< side that the factors are for, m
+  ClauseFactor plate;        ///< in the plate's own material, corners of openings
+  ClauseFactor beside_weld;  ///< with a side on a weld: roots of lugs, toes
+
+  /// None in a field.
+  const ClauseFactor* of(structure::SquareSite site) const;
+};
+
 /// Rules of one or several standards: each section is there or not. Clauses are complete ("0027/ND
 /// 5.4.7") once a file has been read.
 struct StandardRules {
@@ -115,6 +127,7 @@ struct StandardRules {
   std::optional<ShackleRules> shackle;
   std::vector<SideLoadRow> shackle_side_load;  ///< the smallest angle first
   std::optional<ConsequenceRules> consequence;
+  std::optional<FineMeshRules> fine_mesh;
   std::optional<ClauseFactor> lateral;  ///< along a lug's pin, share of the rope's force
   /// Families of formulae of lugs, and what stands before the load (or over the strength).
   std::vector<NamedFactor> lug;

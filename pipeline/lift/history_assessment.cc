@@ -48,10 +48,10 @@ class StateMaker {
     state_.smallest_principal = named(envelope.smallest_principal);
     state_.displacement = named(envelope.displacement);
     for (const structure::GroupEnvelope& group : envelope.groups)
-      state_.groups.push_back(
-          {group.group, group.material, group.yield_stress, named(group.checked_von_mises)});
+      state_.groups.push_back({group.group, group.material, group.yield_stress,
+                               named(group.checked_von_mises), named(group.at_site)});
     for (const structure::LugEnvelope& lug : envelope.lugs)
-      state_.lugs.push_back({lug.lug, {}, 0, named(lug.checked_von_mises)});
+      state_.lugs.push_back({lug.lug, {}, 0, named(lug.checked_von_mises), named(lug.at_site)});
     take_squares(recovery.checked(), envelope.squares);
     state_.governing =
         map_instant(history_, state_.checked_von_mises.at.instant, attachment_, mass_);
@@ -111,6 +111,13 @@ class StateMaker {
     if (rope < 0) return result;
     result.rope = rope_name(history_.motion, attachment_.ropes[static_cast<std::size_t>(rope)]);
     result.share = share;
+    return result;
+  }
+
+  structure::BySite<HistoryExtreme> named(const structure::BySite<TimedExtreme>& extremes) const {
+    structure::BySite<HistoryExtreme> result;
+    for (const structure::SquareSite site : structure::square_sites)
+      result[site] = named(extremes[site]);
     return result;
   }
 

@@ -27,6 +27,8 @@ struct HistoryGroup {
   std::string material;     ///< of a group
   double yield_stress = 0;  ///< of a group, Pa
   HistoryExtreme checked_von_mises;
+  structure::BySite<HistoryExtreme> at_site;  ///< likewise, of the squares of each site; instant
+                                              ///< -1: none
 };
 
 /// What one history of the lift, every sample of it, does to the block.

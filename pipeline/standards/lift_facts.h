@@ -6,6 +6,7 @@
 
 #include "pipeline/standards/two_hooks.h"
 #include "structure/practice/padeye_formulas.h"
+#include "structure/square_site.h"
 
 namespace blocklift::pipeline {
 
@@ -78,10 +79,12 @@ struct LugFacts {
 
 /// Checked stress of the structure.
 struct StressFacts {
-  std::string name;                   ///< material, or lug
-  bool is_at_lug = false;             ///< of members that frame into a lift point
-  double at_rest = 0, in_motion = 0;  ///< Pa
-  double yield = 0;                   ///< Pa
+  std::string name;        ///< material, or lug; with the site where the rules tell sites apart
+  std::string material;    ///< empty about a lug
+  bool is_at_lug = false;  ///< of members that frame into a lift point
+  double at_rest = 0, in_motion = 0;               ///< Pa
+  double yield = 0;                                ///< Pa
+  std::optional<structure::SquareSite> site = {};  ///< none: all places together
   /// Growth when the slings of a hook with four share unevenly on either diagonal, by the rules' skew
   /// factor and by the slings' tolerances of length; none where no hook has four slings that meet.
   std::optional<double> skew_by_rules = {}, skew_computed = {};

@@ -99,10 +99,16 @@ Chain stress_chain(const LoadFactors& factors, const StressFacts& stress) {
     if (factor) chain.times("consequence", factor->value, factor->value, factor->clause);
   }
   chain.result("stress");
-  chain.limit(
-      stress.yield / factors.facts().yield_factor,
-      fmt::format("yield {:.0f} MPa / {:g}", stress.yield / 1e6, factors.facts().yield_factor),
-      "checks.yield_factor");
+  const double allowed = stress.yield / factors.facts().yield_factor;
+  const std::string yield =
+      fmt::format("yield {:.0f} MPa / {:g}", stress.yield / 1e6, factors.facts().yield_factor);
+  const auto& fine = factors.rules().fine_mesh;
+  const ClauseFactor* local = fine && stress.site ? fine->of(*stress.site) : nullptr;
+  if (local)
+    chain.limit(local->value * allowed, fmt::format("{:g} x {}", local->value, yield),
+                local->clause);
+  else
+    chain.limit(allowed, yield, "checks.yield_factor");
   return chain.finish();
 }
 

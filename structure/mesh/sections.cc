@@ -285,6 +285,39 @@ Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool rever
   return other;
 }
 
+Profile profile_of_figures(const SectionFigures& f) {
+  const char* const shape = "section by figures";
+  require_positive(shape, {{"height", f.height}, {"width", f.width}});
+  for (const double figure :
+       {f.area, f.second_moment_3, f.second_moment_2, f.torsion, f.shear_area_2, f.shear_area_3})
+    require(figure > 0, shape, "each of its figures must be positive");
+  constexpr double rounding = 1 + 1e-6;
+  require(f.area <= rounding * f.height * f.width, shape, "its area is more than height x width");
+  // All of the area in the outermost fibres.
+  require(f.second_moment_3 <= rounding * f.area * f.height * f.height / 4 &&
+              f.second_moment_2 <= rounding * f.area * f.width * f.width / 4,
+          shape, "its second moments are more than its area has within height and width");
+  // Saint-Venant: no section is stiffer in torsion than its polar second moment.
+  require(f.torsion <= rounding * (f.second_moment_2 + f.second_moment_3), shape,
+          "its torsion constant is more than both second moments together");
+  for (const double shear : {f.shear_area_2, f.shear_area_3})
+    require(std::isinf(shear) || shear <= rounding * f.area, shape,
+            "a shear area is more than its area");
+  Profile profile;
+  profile.section.name = shape;
+  profile.section.area = f.area;
+  profile.section.second_moment_2 = f.second_moment_2;
+  profile.section.second_moment_3 = f.second_moment_3;
+  profile.section.torsion = f.torsion;
+  profile.section.shear_area_2 = f.shear_area_2;
+  profile.section.shear_area_3 = f.shear_area_3;
+  profile.section.stress_points = {{-f.height / 2, -f.width / 2},
+                                   {f.height / 2, -f.width / 2},
+                                   {f.height / 2, f.width / 2},
+                                   {-f.height / 2, f.width / 2}};
+  return profile;
+}
+
 Profile solid_rectangle(double height, double width) {
   require_positive("rectangle", {{"height", height}, {"width", width}});
   Moments moments;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,22 @@ Profile bulb_flat(double height, double thickness, double bulb, double radius);
 Profile bulb_flat(double height, double thickness);
 
 // Other shapes: the origin is the middle of the rectangle about them.
+
+/// Figures of a section whose outline is not known, within a rectangle about its centroid.
+struct SectionFigures {
+  double height = 0, width = 0;  ///< of the rectangle along axis 2 and 3, m
+  double area = 0;               ///< m^2
+  double second_moment_3 = 0;    ///< bending along axis 2, m^4
+  double second_moment_2 = 0;    ///< bending along axis 3, m^4
+  double torsion = 0;            ///< J, m^4
+  /// Along axis 2 and 3, m^2; infinite: no shear deformation.
+  double shear_area_2 = std::numeric_limits<double>::infinity();
+  double shear_area_3 = std::numeric_limits<double>::infinity();
+};
+/// Stress is looked at in the rectangle's corners: exact where the section reaches them, else more
+/// than there is. @throws ModelError if a figure is not positive or no section within the rectangle
+/// could have it.
+Profile profile_of_figures(const SectionFigures& figures);
 
 /// Rectangle of `height` along axis 2 and `width` along axis 3.
 Profile solid_rectangle(double height, double width);

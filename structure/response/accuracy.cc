@@ -73,7 +73,7 @@ std::vector<Square> candidates(const RefinementState& found) {
   std::vector<Square> result;
   for (std::size_t s = 0; s < found.squares.size(); ++s)
     if (share[static_cast<Eigen::Index>(s)] >=
-        (found.squares[s].at_corner ? looked_at_in_corners : looked_at))
+        (found.squares[s].at_corner() ? looked_at_in_corners : looked_at))
       result.push_back(found.squares[s]);
   return result;
 }
@@ -91,7 +91,7 @@ std::vector<Vector3> centres_of(const RefinementState& found, double corners) {
   for (const int s : order) {
     if (share[s] < corners || centres.size() >= most_centres) break;
     const Square& square = found.squares[at(s)];
-    if (share[s] < refined_at && !square.at_corner) continue;
+    if (share[s] < refined_at && !square.at_corner()) continue;
     const auto is_near = [&](const Vector3& centre) {
       return (centre - square.centre_B).norm() < 2 * square.size;
     };

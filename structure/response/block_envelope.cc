@@ -22,31 +22,40 @@ struct Running {
   }
 };
 
-// Largest membrane stresses: of all squares, away from corners, of each group and lug's
-// neighbourhood.
+// Largest membrane stresses of some squares: of all, and of each site's.
+struct MaximaBySite {
+  Running all;
+  BySite<Running> at_site;
+
+  void take(double value, int square, SquareSite site) {
+    all.take(value, square);
+    at_site[site].take(value, square);
+  }
+};
+
+// Likewise of the whole block, of each group and of each lug's neighbourhood.
 struct SquareMaxima {
-  Running all, field;
-  std::vector<Running> groups, lugs;
+  MaximaBySite block;
+  std::vector<MaximaBySite> groups, lugs;
 };
 
 SquareMaxima square_maxima(const Mesh& mesh, const StressRecovery& recovery,
                            const PointExtremes& von_mises) {
   SquareMaxima maxima{{},
-                      {},
-                      std::vector<Running>(mesh.groups.size()),
-                      std::vector<Running>(mesh.lifting_points.size())};
+                      std::vector<MaximaBySite>(mesh.groups.size()),
+                      std::vector<MaximaBySite>(mesh.lifting_points.size())};
   const std::vector<Square>& squares = recovery.checked().squares();
   for (std::size_t s = 0; s < squares.size(); ++s) {
     const double value = von_mises.value[static_cast<Eigen::Index>(s)];
     const int point = static_cast<int>(s);
-    maxima.all.take(value, point);
-    if (!squares[s].at_corner) maxima.field.take(value, point);
-    maxima.groups[at(mesh.regions[at(squares[s].region)].group)].take(value, point);
+    const SquareSite site = squares[s].site;
+    maxima.block.take(value, point, site);
+    maxima.groups[at(mesh.regions[at(squares[s].region)].group)].take(value, point, site);
     for (std::size_t lug = 0; lug < mesh.lifting_points.size(); ++lug)
-      if (value > maxima.lugs[lug].value &&
+      if (value > maxima.lugs[lug].at_site[site].value &&
           (squares[s].centre_B - mesh.lifting_points[lug].p_BPin).norm() <=
               recovery.lug_radius(mesh.lifting_points[lug]))
-        maxima.lugs[lug].take(value, point);
+        maxima.lugs[lug].take(value, point, site);
   }
   return maxima;
 }
@@ -166,10 +175,16 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
   const auto named = [&](const Running& found) {
     return of_square(mesh, checked, envelope.squares, found);
   };
-  envelope.checked_von_mises = named(maxima.all);
-  envelope.field_von_mises = named(maxima.field);
+  const auto named_by_site = [&](const MaximaBySite& found) {
+    BySite<TimedExtreme> result;
+    for (const SquareSite site : square_sites) result[site] = named(found.at_site[site]);
+    return result;
+  };
+  envelope.checked_von_mises = named(maxima.block.all);
+  envelope.field_von_mises = named(maxima.block.at_site[SquareSite::field]);
   for (std::size_t lug = 0; lug < mesh.lifting_points.size(); ++lug)
-    envelope.lugs.push_back({mesh.lifting_points[lug].name, named(maxima.lugs[lug])});
+    envelope.lugs.push_back({mesh.lifting_points[lug].name, named(maxima.lugs[lug].all),
+                             named_by_site(maxima.lugs[lug])});
 
   const int groups = static_cast<int>(mesh.groups.size());
   const LargestStresses peaks = find_largest_stresses(
@@ -192,9 +207,16 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[at(mesh.groups[g].material)];
     const TimedExtreme peak_of_group = at_point(peaks.von_mises[g]);
-    envelope.groups.push_back(
-        {mesh.groups[g].name, material.name, material.yield_stress,
-         maxima.groups[g].point >= 0 ? named(maxima.groups[g]) : peak_of_group, peak_of_group});
+    GroupEnvelope group{
+        mesh.groups[g].name, material.name, material.yield_stress, peak_of_group, {},
+        peak_of_group};
+    if (maxima.groups[g].all.point >= 0) {
+      group.checked_von_mises = named(maxima.groups[g].all);
+      group.at_site = named_by_site(maxima.groups[g]);
+    } else {
+      group.at_site[SquareSite::field] = peak_of_group;
+    }
+    envelope.groups.push_back(std::move(group));
   }
   envelope.displacement = largest_displacement(responses, history, threads);
   return envelope;

@@ -24,6 +24,9 @@ struct GroupEnvelope {
   double yield_stress = 0;  ///< Pa
   /// Over squares of plating; of a group that has none (beams, solids) the peak.
   TimedExtreme checked_von_mises;
+  /// Likewise, of the squares of each site; without squares the peak as a field's. Instant -1:
+  /// none.
+  BySite<TimedExtreme> at_site;
   TimedExtreme peak_von_mises;
 };
 
@@ -31,6 +34,7 @@ struct GroupEnvelope {
 struct LugEnvelope {
   std::string lug;
   TimedExtreme checked_von_mises;
+  BySite<TimedExtreme> at_site;  ///< see GroupEnvelope
 };
 
 /// What a whole history of loads does to a block, every instant taken.

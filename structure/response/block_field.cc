@@ -1,9 +1,5 @@
 #include "structure/response/block_field.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 #include <optional>
 
 #include <Eigen/Dense>
@@ -15,92 +11,15 @@
 
 namespace blocklift::structure {
 
-namespace {
-
-constexpr double slack = 1e-6;               // of the unit coordinates
-constexpr double slack_of_thickness = 1e-3;  // places are stated to tenths of a millimetre
-
-std::vector<int> all_shells(const Mesh& mesh) {
-  std::vector<int> shells(mesh.shells.size());
-  std::iota(shells.begin(), shells.end(), 0);
-  return shells;
-}
-
-/// The point of a shell's vertices' surface below a place, and the place's height above it.
-struct Foot {
-  Eigen::Vector2d xi = Eigen::Vector2d::Zero();
-  Vector3 normal = Vector3::Zero();
-  double height = 0;
-};
-
-std::optional<Foot> find_foot(const Mesh& mesh, const Shell& shell, const Vector3& place) {
-  Foot foot;
-  // Within a triangle's edge that is a point the tangent along it is none.
-  foot.xi.setConstant(0.4);
-  const double step = 1e-4;
-  Vector3 miss = Vector3::Zero();
-  Eigen::Matrix<double, 3, 2> tangents;
-  constexpr int most = 30;
-  for (int i = 0; i < most; ++i) {
-    for (int a = 0; a < 2; ++a) {
-      const Eigen::Vector2d along = step * Eigen::Vector2d::Unit(a);
-      tangents.col(a) =
-          (position(mesh, shell, foot.xi + along) - position(mesh, shell, foot.xi - along)) /
-          (2 * step);
-    }
-    miss = place - position(mesh, shell, foot.xi);
-    const Eigen::Vector2d change =
-        (tangents.transpose() * tangents).ldlt().solve(tangents.transpose() * miss);
-    if (!change.allFinite()) break;
-    foot.xi = (foot.xi + change).cwiseMax(-1.0).cwiseMin(2.0);
-    if (change.cwiseAbs().maxCoeff() < 1e-12) break;
-  }
-  if (foot.xi.minCoeff() < -slack || foot.xi.maxCoeff() > 1 + slack) return {};
-  foot.xi = foot.xi.cwiseMax(0.0).cwiseMin(1.0);
-  const Eigen::Vector2d inward = foot.xi + 1e-3 * (Eigen::Vector2d(0.5, 0.5) - foot.xi);
-  for (int a = 0; a < 2; ++a) {
-    const Eigen::Vector2d along = step * Eigen::Vector2d::Unit(a);
-    tangents.col(a) = position(mesh, shell, inward + along) - position(mesh, shell, inward - along);
-  }
-  foot.normal = Vector3(tangents.col(0)).cross(Vector3(tangents.col(1))).normalized();
-  miss = place - position(mesh, shell, foot.xi);
-  foot.height = miss.dot(foot.normal);
-  const double beside = (miss - foot.height * foot.normal).norm();
-  if (beside > 1e-5 * longest_edge(mesh, shell)) return {};
-  return foot;
-}
-
-}  // namespace
-
-SteelFinder::SteelFinder(const Space& space)
-    : space_(space), tree_(space.mesh(), all_shells(space.mesh())), cells_(space) {
-  for (const ShellSection& section : space.mesh().shell_sections)
-    reach_ = std::max(reach_, 0.51 * section.thickness + std::abs(section.offset));
-}
+SteelFinder::SteelFinder(const Space& space) : plates_(space.mesh()), cells_(space) {}
 
 SteelPlace SteelFinder::find(const Vector3& place, const Vector3& normal) const {
-  const Mesh& mesh = space_.mesh();
-  SteelPlace best;
-  double least = std::numeric_limits<double>::infinity();
-  tree_.for_each_near(place, 2 * reach_, [&](int number) {
-    const Shell& shell = mesh.shells[at(number)];
-    const ShellSection& section = mesh.section_of(shell);
-    const auto foot = find_foot(mesh, shell, place);
-    if (!foot) return;
-    const double height = foot->height - section.offset,
-                 share = std::abs(height) / (section.thickness / 2);
-    if (share > 1 + 2 * slack_of_thickness) return;
-    // The share breaks ties between shells of plates that look the same way.
-    const double rank =
-        normal.isZero(0) ? share : 1 - std::abs(normal.dot(foot->normal)) + 1e-6 * share;
-    if (rank >= least) return;
-    const CellPlace cell = cells_.find({number, foot->xi});
-    if (cell.cell < 0) return;
-    least = rank;
-    static_cast<CellPlace&>(best) = cell;
-    best.height = std::clamp(height, -section.thickness / 2, section.thickness / 2);
-  });
-  return best;
+  SteelPlace found;
+  const std::optional<PlatePlace> plate = plates_.find(place, normal);
+  if (!plate) return found;
+  static_cast<CellPlace&>(found) = cells_.find(*plate);
+  found.height = plate->height;
+  return found;
 }
 
 SteelPlace find_cell(const Space& space, const Vector3& place) {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/shell_tree.h"
+#include "structure/mesh/plate_finder.h"
 #include "structure/response/cell_finder.h"
 #include "structure/response/elastic_model.h"
 
@@ -19,17 +19,12 @@ class SteelFinder {
   /// The space must outlive this object.
   explicit SteelFinder(const Space& space);
 
-  /// The place within a plate, to a thousandth of its thickness and 1e-6 of its shells' sizes.
-  /// @param normal where several plates meet, the one whose normal is nearest to this direction or
-  /// its
-  ///   opposite; zero: the one whose mid-surface is nearest, counted in thicknesses.
+  /// As PlateFinder::find; cell -1 where there is no plate.
   SteelPlace find(const Vector3& place, const Vector3& normal = Vector3::Zero()) const;
 
  private:
-  const Space& space_;
-  ShellTree tree_;
+  PlateFinder plates_;
   CellFinder cells_;
-  double reach_ = 0;  ///< how far a plate's steel lies from its vertices' surface at most, m
 };
 
 /// SteelFinder for one place: cell -1 if it lies in no plate.

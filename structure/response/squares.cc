@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double largest_spacing = 0.5;  // m, between squares
 constexpr double corner_reach = 3;       // squares from a singular vertex
+constexpr double beside_weld = 0.75;     // squares from a centre: those that touch it
 constexpr int contiguous = 4;            // squares one behind the other from a corner
 
 /// Gauss points on [0, 1].
@@ -88,6 +90,43 @@ std::vector<double> starts_along(double length, double size) {
   starts.erase(last, starts.end());
   return starts;
 }
+
+/// Numbered places in cubes, found by the box that holds them.
+class PlaceGrid {
+ public:
+  explicit PlaceGrid(double cube) : cube_(cube) {}
+
+  void add(const Vector3& place, int number) { cubes_[cube_of(place)].push_back(number); }
+  /// Visits all places in the box, and more about it.
+  template <typename Visit>
+  void visit(const Vector3& lower, const Vector3& upper, const Visit& visit_one) const {
+    const Cube first = cube_of(lower), last = cube_of(upper);
+    for (long x = first[0]; x <= last[0]; ++x)
+      for (long y = first[1]; y <= last[1]; ++y)
+        for (long z = first[2]; z <= last[2]; ++z) {
+          const auto found = cubes_.find({x, y, z});
+          if (found == cubes_.end()) continue;
+          for (const int number : found->second) visit_one(number);
+        }
+  }
+
+ private:
+  using Cube = std::array<long, 3>;
+  struct Hash {
+    std::size_t operator()(const Cube& cube) const {
+      std::size_t hash = 0;
+      for (const long i : cube) hash = hash * 1000003 + static_cast<std::size_t>(i);
+      return hash;
+    }
+  };
+  Cube cube_of(const Vector3& place) const {
+    return {std::lround(std::floor(place.x() / cube_)), std::lround(std::floor(place.y() / cube_)),
+            std::lround(std::floor(place.z() / cube_))};
+  }
+
+  double cube_;
+  std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
+};
 
 class SquarePlacer {
  public:
@@ -200,10 +239,57 @@ class SquarePlacer {
   }
 
   void mark_corners() {
+    const double reach = corner_reach * size_;
+    PlaceGrid corners(reach);
     for (const int vertex : fields_.singular_vertices)
-      for (Square& square : squares_)
-        if ((square.centre_B - mesh_.vertices[at(vertex)]).norm() <= corner_reach * size_)
-          square.at_corner = true;
+      corners.add(mesh_.vertices[at(vertex)], vertex);
+    PlaceGrid at_corners(reach);
+    for (std::size_t s = 0; s < squares_.size(); ++s) {
+      Square& square = squares_[s];
+      const Vector3 around = Vector3::Constant(reach);
+      corners.visit(square.centre_B - around, square.centre_B + around, [&](int vertex) {
+        if ((square.centre_B - mesh_.vertices[at(vertex)]).norm() <= reach)
+          square.site = SquareSite::corner;
+      });
+      if (square.at_corner()) at_corners.add(square.centre_B, static_cast<int>(s));
+    }
+    mark_welds(at_corners);
+  }
+
+  /// Squares near corners that touch a joint between plates or a stiffener.
+  void mark_welds(const PlaceGrid& at_corners) {
+    const auto mark = [&](const Vector3& begin, const Vector3& end) {
+      const Vector3 way = end - begin, around = Vector3::Constant(beside_weld * size_);
+      if (!(way.squaredNorm() > 0)) return;
+      at_corners.visit(begin.cwiseMin(end) - around, begin.cwiseMax(end) + around, [&](int s) {
+        Square& square = squares_[at(s)];
+        const Vector3 off = square.centre_B - begin;
+        const double share = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
+        if ((off - share * way).norm() < beside_weld * square.size)
+          square.site = SquareSite::welded_corner;
+      });
+    };
+    for (const PlateField& field : fields_.fields)
+      for (const auto& outline : field.outlines)
+        for (const FieldEdge& edge : outline)
+          if (!edge.is_free) for_each_stretch(edge, mark);
+    for (const Beam& beam : mesh_.beams)
+      mark(mesh_.vertices[at(beam.vertices[0])], mesh_.vertices[at(beam.vertices[1])]);
+  }
+
+  /// Calls visit(begin, end) for straight stretches of an edge.
+  template <typename Visit>
+  void for_each_stretch(const FieldEdge& edge, const Visit& visit) const {
+    constexpr int of_curved = 4;
+    for (const FieldEdge::Piece& piece : edge.pieces) {
+      const Shell& shell = mesh_.shells[at(piece.shell)];
+      const int parts = shell.curvature < 0 ? 1 : of_curved;
+      const auto place_at = [&](int i) {
+        const double share = static_cast<double>(i) / parts;
+        return position(mesh_, shell, piece.begin + share * (piece.end - piece.begin));
+      };
+      for (int i = 0; i < parts; ++i) visit(place_at(i), place_at(i + 1));
+    }
   }
 
   const Mesh& mesh_;

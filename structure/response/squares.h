@@ -6,6 +6,7 @@
 
 #include "structure/mesh/fields.h"
 #include "structure/response/elastic_model.h"
+#include "structure/square_site.h"
 
 namespace blocklift::structure {
 
@@ -16,7 +17,9 @@ struct Square {
   double size = 0;                                       ///< of a side, m
   int region = 0;                                        ///< place in Mesh::regions
   int shell = 0;                                         ///< place in Mesh::shells
-  bool at_corner = false;  ///< near a place where linear elasticity knows no limit of the stress
+  SquareSite site = SquareSite::field;
+
+  bool at_corner() const { return site != SquareSite::field; }
 };
 
 /// Checked stress of a block's plates for a set of motions: means over squares of a fixed size.

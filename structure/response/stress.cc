@@ -33,6 +33,7 @@ struct RunningExtreme {
 // One quantity over the whole block, each group and each lug's neighbourhood.
 class Maxima {
  public:
+  Maxima() = default;
   explicit Maxima(const StressRecovery& recovery, const Mesh& mesh)
       : recovery_(&recovery),
         mesh_(&mesh),
@@ -64,8 +65,8 @@ class Maxima {
   Extreme lug(std::size_t lug) const { return lugs_[lug].named(*mesh_); }
 
  private:
-  const StressRecovery* recovery_;
-  const Mesh* mesh_;
+  const StressRecovery* recovery_ = nullptr;
+  const Mesh* mesh_ = nullptr;
   RunningExtreme all_;
   std::vector<RunningExtreme> groups_, lugs_;
 };
@@ -121,22 +122,33 @@ Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::Vect
 }
 
 void fill_in(const StressRecovery& recovery, const Mesh& mesh, const Maxima& checked,
-             const Maxima& peak, const Maxima& moved, LoadCaseResult& result) {
+             const BySite<Maxima>& at_site, const Maxima& peak, const Maxima& moved,
+             LoadCaseResult& result) {
+  // Beams and solids have no squares: their peak counts as a field's.
+  const auto by_site = [&](const Extreme& instead, const auto& extreme_of) {
+    BySite<Extreme> extremes;
+    for (const SquareSite site : square_sites) extremes[site] = extreme_of(at_site[site]);
+    if (!instead.part.empty()) extremes[SquareSite::field] = instead;
+    return extremes;
+  };
   result.checked_von_mises = checked.is_empty() ? peak.all() : checked.all();
   result.peak_von_mises = peak.all();
   result.displacement = moved.all();
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[at(mesh.groups[g].material)];
-    // Beams and solids have no squares.
     result.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
                              checked.is_empty(g) ? peak.group(g) : checked.group(g),
+                             by_site(checked.is_empty(g) ? peak.group(g) : Extreme(),
+                                     [&](const Maxima& of) { return of.group(g); }),
                              peak.group(g)});
   }
   for (std::size_t i = 0; i < mesh.lifting_points.size(); ++i) {
     const LiftingPoint& lug = mesh.lifting_points[i];
     result.lugs.push_back({lug.name, recovery.lug_radius(lug),
-                           checked.is_empty() ? peak.lug(i) : checked.lug(i), peak.lug(i),
-                           moved.lug(i)});
+                           checked.is_empty() ? peak.lug(i) : checked.lug(i),
+                           by_site(checked.is_empty() ? peak.lug(i) : Extreme(),
+                                   [&](const Maxima& of) { return of.lug(i); }),
+                           peak.lug(i), moved.lug(i)});
   }
 }
 
@@ -169,18 +181,19 @@ std::vector<LoadCaseResult> StressRecovery::evaluate(
     result.name = load_cases[c].name;
     result.balance = responses_.balance(load_cases[c]);
     Maxima checked = none;
-    RunningExtreme field;
+    BySite<Maxima> at_site;
+    for (const SquareSite site : square_sites) at_site[site] = none;
     const Eigen::VectorXd membrane = checked_.von_mises(responses_.coefficients(load_cases[c]));
     for (std::size_t s = 0; s < checked_.squares().size(); ++s) {
       const Square& square = checked_.squares()[s];
       const double value = membrane[static_cast<Eigen::Index>(s)];
       checked.take(value, square.centre_B, square.region);
-      if (!square.at_corner) field.take(value, square.centre_B, square.region);
+      at_site[square.site].take(value, square.centre_B, square.region);
     }
     const Maxima moved =
         find_displacements(model.space(), relative.col(static_cast<Eigen::Index>(c)), none);
-    fill_in(*this, model.mesh(), checked, peaks[c], moved, result);
-    result.field_von_mises = field.named(model.mesh());
+    fill_in(*this, model.mesh(), checked, at_site, peaks[c], moved, result);
+    result.field_von_mises = at_site[SquareSite::field].all();
     results.push_back(std::move(result));
   }
   return results;

@@ -24,7 +24,9 @@ struct GroupStress {
   std::string material;
   double yield_stress = 0;    ///< Pa
   Extreme checked_von_mises;  ///< Pa
-  Extreme peak_von_mises;     ///< Pa
+  /// Likewise, of the squares of each site; without squares the peak as a field's. No part: none.
+  BySite<Extreme> at_site;
+  Extreme peak_von_mises;  ///< Pa
 };
 
 /// What happens within a sphere about a lug's pin.
@@ -32,6 +34,7 @@ struct LugNeighbourhood {
   std::string lug;
   double radius = 0;  ///< m
   Extreme checked_von_mises;
+  BySite<Extreme> at_site;  ///< see GroupStress
   Extreme peak_von_mises;
   Extreme displacement;  ///< relative to the block's mean rigid motion, m
 };

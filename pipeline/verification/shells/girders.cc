@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -196,6 +197,121 @@ VerificationCase eccentric_stiffener() {
           }};
 }
 
+// --- The same two structures of solids, under their own weight, which a shell's web counts twice
+// within half of the plate: 0.5 % of the tee's second moment, 1 % of its weight.
+std::vector<double> planes(double from, double to, int cells) {
+  std::vector<double> result;
+  for (int i = 0; i <= cells; ++i) result.push_back(from + (to - from) * i / cells);
+  return result;
+}
+
+// Planes on either side of a web of some thickness, finer towards it.
+std::vector<double> planes_about_web(double half_width, double web, int cells) {
+  std::vector<double> result;
+  for (int i = -cells; i <= cells; ++i) {
+    if (i == 0) continue;
+    const double share = (std::abs(i) - 1.0) / (cells - 1);
+    result.push_back((i < 0 ? -1 : 1) * (web / 2 + (half_width - web / 2) * share));
+  }
+  return result;
+}
+
+std::vector<double> planes_below_plate(double height, double thickness, int cells) {
+  std::vector<double> result = planes(-height, -thickness / 2, cells);
+  result.push_back(thickness / 2);
+  return result;
+}
+
+struct Stiffened {
+  double length, half_width, t, height, web;
+  bool is_cantilever;  ///< clamped at x = 0; else simply supported all around
+};
+
+constexpr double weight_gravity = 9.81;
+
+double sag(const Stiffened& of, const Mesh& mesh, int degree) {
+  const Space space(mesh, {degree, {}});
+  std::vector<FixedUnknown> fixed;
+  if (of.is_cantilever) {
+    clamp_root(space, fixed);
+  } else {
+    // Deflection through the plate's thickness leaves its edge free to turn.
+    testing::hold(
+        space,
+        [&](const Vector3& p) {
+          return p.z() > -of.t / 2 - 1e-9 && (p.x() < 1e-9 || p.x() > of.length - 1e-9 ||
+                                              std::abs(p.y()) > of.half_width - 1e-9);
+        },
+        {2}, fixed);
+    const auto near = [&](double x) {
+      const Vector3 at = space.nodes().col(testing::nearest_node(space, {x, of.web / 2, 0}));
+      return [at](const Vector3& p) { return (p - at).norm() < 1e-9; };
+    };
+    testing::hold(space, near(0), {0, 1}, fixed);
+    testing::hold(space, near(of.length), {1}, fixed);
+  }
+  const Vector3 place(of.is_cantilever ? of.length : of.length / 2, 0, 0);
+  return -testing::displacement_at(
+              space, testing::solve(space, testing::weight_load(space, weight_gravity), fixed),
+              place)
+              .z();
+}
+
+double sag_of_solids(const Stiffened& of, int along, int across) {
+  Mesh mesh = testing::empty_mesh(testing::plain_steel(), of.t);
+  testing::add_hexahedra(mesh, planes(0, of.length, along),
+                         planes_about_web(of.half_width, of.web, across),
+                         planes_below_plate(of.height, of.t, 2), [&](const Vector3& middle) {
+                           return middle.z() > -of.t / 2 || std::abs(middle.y()) < of.web / 2;
+                         });
+  return sag(of, mesh, 2);
+}
+
+double sag_of_shells(const Stiffened& of, bool as_beam, int degree, int along, int across) {
+  Mesh mesh = testing::empty_mesh(testing::plain_steel(), of.t);
+  mesh.shell_sections.push_back({of.web, 0, 0});
+  add_flat(mesh, of.length, {0, -of.half_width, 0}, {0, of.half_width, 0}, along, across);
+  if (as_beam) {
+    mesh.beam_sections = {flat_bar(of.height, of.web)};
+    testing::add_beams(mesh, {0, 0, 0}, {of.length, 0, 0}, 0, Vector3::UnitY(),
+                       {0, 0, -of.height / 2});
+  } else {
+    add_flat(mesh, of.length, {0, 0, -of.height}, {0, 0, 0}, along, 2, 1);
+  }
+  return sag(of, mesh, degree);
+}
+
+VerificationCase against_solids() {
+  return {
+      .name = "stiffener-against-solids",
+      .stage = "structure",
+      .source = "the same structure of quadratic hexahedra of this program",
+      .compute = [] {
+        std::vector<VerificationRow> rows;
+        struct Figure {
+          const char* name;
+          Stiffened of;
+          int along, across;        // of the solids
+          int cells, cells_across;  // of the shells
+        };
+        for (const Figure& figure :
+             {Figure{"tee as a cantilever", {3, 0.15, 0.01, 0.2, 0.012, true}, 24, 4, 6, 2},
+              Figure{"stiffened plate", {2, 1, 0.01, 0.1, 0.01, false}, 16, 10, 8, 8}}) {
+          const double coarse = sag_of_solids(figure.of, figure.along / 2, figure.across / 2 + 1),
+                       solids = sag_of_solids(figure.of, figure.along, figure.across);
+          rows.push_back(compare(fmt::format("{}, solids on twice as large cells", figure.name),
+                                 "m", solids, coarse, 0.01 * solids));
+          for (const bool as_beam : {false, true})
+            rows.push_back(compare(
+                fmt::format("{}, web as a {}, degree 3", figure.name, as_beam ? "beam" : "sheet"),
+                "m", solids,
+                sag_of_shells(figure.of, as_beam, 3, figure.cells, figure.cells_across),
+                0.015 * solids));
+        }
+        return rows;
+      }};
+}
+
 // --- Shear lag: a stiffener under a wide plate, q sin(pi x / L) on it, diaphragms at x = 0 and L.
 // The plate's effective breadth under a sinusoidal moment is 4 L / (pi (3 + 2 nu - nu^2))
 // (Timoshenko and Goodier, Theory of elasticity, article 29, by von Karman 1924); its bending adds
@@ -376,7 +492,7 @@ VerificationCase drilling_stiffness() {
 }  // namespace
 
 std::vector<VerificationCase> girder_cases() {
-  return {tee_beam(),       eccentric_stiffener(), shear_lag(),
+  return {tee_beam(),       eccentric_stiffener(), against_solids(),    shear_lag(),
           box_in_torsion(), i_beam_sideways(),     drilling_stiffness()};
 }
 

@@ -9,6 +9,8 @@ namespace blocklift::pipeline {
 /// Cases of shells and beams.
 std::vector<VerificationCase> shell_cases();
 
+/// MacNeal and Harder's patch: membrane, bending, twist, shear.
+std::vector<VerificationCase> patch_cases();
 /// Clamped and simply supported square plates of any thickness, skew plates.
 std::vector<VerificationCase> plate_cases();
 /// Curved shells: roof, cylinder, hemispheres, hook.
@@ -21,6 +23,8 @@ std::vector<VerificationCase> membrane_cases();
 std::vector<VerificationCase> vibration_cases();
 /// Girders: stiffened plates, box and I sections, and what drilling stiffness does to them.
 std::vector<VerificationCase> girder_cases();
+/// A box girder in bending.
+std::vector<VerificationCase> box_girder_cases();
 /// Beams, rods, links, springs and masses.
 std::vector<VerificationCase> frame_cases();
 

@@ -82,7 +82,9 @@ TEST(BlockKeys, OtherShapesOfProfiles) {
        {"flat_bar: [150 mm, 12 mm]", "angle_bar: [150 mm, 9 mm, 90 mm, 12 mm]",
         "tee_bar: [300 mm, 10 mm, 120 mm, 15 mm]", "i_beam: [200 mm, 8 mm, 100 mm, 12 mm]",
         "channel: [200 mm, 8 mm, 75 mm, 11 mm]", "box: [200 mm, 100 mm, 8 mm]",
-        "pipe: [114.3 mm, 6 mm]", "round_bar: 60 mm"})
+        "pipe: [114.3 mm, 6 mm]", "round_bar: 60 mm",
+        "figures: {size: [400 mm, 200 mm], area: 84 cm^2, second_moments: [23100 cm^4, 1320 cm^4], "
+        "torsion: 51 cm^4}"})
     EXPECT_EQ(read(deck_with(std::string(", stiffeners: {along: y, spacing: 1 m, first: 0.5 m, "
                                          "material: AH36, profile: {") +
                              profile + "}}"))
@@ -115,6 +117,31 @@ TEST(BlockKeys, BarsFromPointToPoint) {
   for (const structure::Beam& beam : mesh.beams)
     hinges += int{beam.release[0][4]} + int{beam.release[1][4]};
   EXPECT_EQ(hinges, 2);
+}
+
+// A rectangle by its figures is that rectangle.
+TEST(BlockKeys, ASectionByItsFigures) {
+  const std::string points = "points: [[1 m, 1 m, 1 m], [1 m, 1 m, 3 m]], towards: [1, 0, 0], ";
+  const structure::Mesh mesh = mesh_of(deck_with_bar(
+      points +
+      "section: {figures: {size: [300 mm, 200 mm], area: 600 cm^2, second_moments: [45000 cm^4, "
+      "20000 cm^4], torsion: 46960 cm^4, shear_areas: [500 cm^2, 500 cm^2]}}"));
+  const structure::BeamSection expected = structure::solid_rectangle(0.3, 0.2).section;
+  ASSERT_EQ(mesh.beam_sections.size(), 1u);
+  const structure::BeamSection& found = mesh.beam_sections[0];
+  EXPECT_NEAR(found.area, expected.area, 1e-9);
+  EXPECT_NEAR(found.second_moment_2, expected.second_moment_2, 1e-9);
+  EXPECT_NEAR(found.second_moment_3, expected.second_moment_3, 1e-9);
+  EXPECT_NEAR(found.torsion, expected.torsion, 1e-3 * expected.torsion);
+  EXPECT_NEAR(found.shear_area_2, expected.shear_area_2, 1e-9);
+  ASSERT_EQ(found.stress_points.size(), 4u);
+  EXPECT_NEAR(std::abs(found.stress_points[0].x()), 0.15, 1e-12);
+  EXPECT_NEAR(std::abs(found.stress_points[0].y()), 0.1, 1e-12);
+  EXPECT_THAT(read(deck_with_bar(points + "section: {figures: {size: [300 mm, 200 mm], area: 600 "
+                                          "cm^2, second_moments: [450000 cm^4, 20000 cm^4], "
+                                          "torsion: 46960 cm^4}}"))
+                  .complaints,
+              HasSubstr("its second moments are more than its area has within height and width"));
 }
 
 TEST(BlockKeys, SaysWhatIsWrongWithBars) {

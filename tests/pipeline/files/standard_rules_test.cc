@@ -56,6 +56,17 @@ TEST(StandardRulesTest, RefusesAFigureWithoutItsClause) {
               HasSubstr("lacks the key \"clause\""));
 }
 
+// The checked stress is the mean over 50 mm: factors for smaller squares would allow too much.
+TEST(StandardRulesTest, TakesFactorsOfSmallElements) {
+  const auto rules = [](const std::string& square) {
+    return sample_rules + "fine_mesh:\n  square: " + square +
+           "\n  plate: {factor: 1.7, clause: \"5.1\"}\n"
+           "  beside_weld: {factor: 1.5, clause: \"5.2\"}\n";
+  };
+  EXPECT_EQ(complaints_about_rules(rules("50 mm")), "");
+  EXPECT_THAT(complaints_about_rules(rules("30 mm")), HasSubstr("yard.yaml:12:11: error: "));
+}
+
 TEST(StandardRulesTest, RefusesRowsThatLeaveWeightsOut) {
   EXPECT_THAT(complaints_about_rules(with(sample_rules, ", {factor: 1.05, clause: \"3.1\"}]", "]")),
               HasSubstr("the last row of quay, and it alone, has no up_to"));

@@ -8,6 +8,7 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/build/describe_block.h"
+#include "pipeline/checks/padeye_assessment.h"
 #include "pipeline/files/model_library.h"
 #include "pipeline/lift/block_preparation.h"
 #include "structure/index.h"
@@ -33,22 +34,16 @@ std::shared_ptr<const BlockModel> read_block(const fs::path& file, std::string& 
   return block;
 }
 
-// The box of the small lift by its plates, and as a deck of their shells: eleven digits of each
-// coordinate go through the file.
-TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
-  const test::TemporaryFolder folder;
-  const LiftCase lift_case = test::read_small_lift();
-  const BlockModel& plates = *lift_case.load.model;
-  Diagnostics diagnostics;
-  const auto of_plates = make_block_model(plates, "box", lift_case.structure, diagnostics);
-  ASSERT_TRUE(of_plates) << diagnostics.to_text();
-
+/// Writes shells as box.bdf, each lug a property of its own, and block.yaml beside it.
+/// @param of_first what the first lug has besides its set and pin.
+void write_as_deck(const test::TemporaryFolder& folder, const structure::Mesh& mesh,
+                   const std::string& of_first = {}, const std::string& more = {}) {
   structure::Deck deck;
   deck.units = structure::unit_system("mm-t-N");
-  deck.mesh = of_plates->mesh();
+  deck.mesh = mesh;
   std::string lugs;
   long label = 100;
-  for (const structure::LiftingPoint& lug : of_plates->mesh().lifting_points) {
+  for (const structure::LiftingPoint& lug : mesh.lifting_points) {
     // Each lug a property, so that it is a group.
     for (structure::Shell& shell : deck.mesh.shells) {
       if (shell.region != lug.region) continue;
@@ -60,14 +55,27 @@ TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
       shell.section = static_cast<int>(deck.mesh.shell_sections.size()) - 1;
     }
     ++label;
-    lugs += fmt::format("  {}: {{set: {}, pin: [{} m, {} m, {} m]}}\n", lug.name, lug.name,
-                        lug.p_BPin.x(), lug.p_BPin.y(), lug.p_BPin.z());
+    lugs +=
+        fmt::format("  {}: {{set: {}, pin: [{} m, {} m, {} m]{}}}\n", lug.name, lug.name,
+                    lug.p_BPin.x(), lug.p_BPin.y(), lug.p_BPin.z(), label == 101 ? of_first : "");
   }
   structure::write_nastran(deck, "box.bdf");
   folder.write("block.yaml",
                "kind: block\nmesh: {file: box.bdf, units: mm-t-N}\nmass: 8 t\n"
                "centre_of_mass: [2.05 m, 1.48 m, 0.75 m]\nlugs:\n" +
-                   lugs);
+                   lugs + more);
+}
+
+// The box of the small lift by its plates, and as a deck of their shells: eleven digits of each
+// coordinate go through the file.
+TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
+  const test::TemporaryFolder folder;
+  const LiftCase lift_case = test::read_small_lift();
+  const BlockModel& plates = *lift_case.load.model;
+  Diagnostics diagnostics;
+  const auto of_plates = make_block_model(plates, "box", lift_case.structure, diagnostics);
+  ASSERT_TRUE(of_plates) << diagnostics.to_text();
+  write_as_deck(folder, of_plates->mesh());
   std::string complaints;
   const auto block = read_block("block.yaml", complaints);
   ASSERT_EQ(complaints, "");
@@ -82,6 +90,58 @@ TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
                         found = test::lug_stresses(*of_deck);
   ASSERT_EQ(found.rows(), expected.rows());
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
+}
+
+const char* const small_padeye =
+    "padeyes:\n  small: {radius: 120 mm, thickness: 30 mm, hole: 60 mm, pin: 57 mm, cheek_radius: "
+    "90 mm, cheek_thickness: 10 mm, cheek_weld: 8 mm, tensile_strength: 490 MPa, divisions: 16}\n";
+
+/// All padeyes of a case under vertical forces at its lugs.
+PadeyesAssessment padeyes_under_a_table(const LiftCase& lift_case,
+                                        const structure::ElasticModel& model) {
+  const structure::UnitResponses responses(model);
+  const structure::StressRecovery recovery(responses);
+  const std::vector<Vector3> at_rest(4, Vector3(500, 300, 20e3));
+  std::vector<Vector3> in_motion;
+  for (const Vector3& force : at_rest) in_motion.push_back(1.1 * force);
+  return assess_padeyes(lift_case, responses,
+                        assess_load_table(responses, recovery, at_rest, in_motion));
+}
+
+// A padeye on a deck has the formulae and the fine mesh that the same one has on plates.
+TEST(BlockMesh, APadeyeOnADeckIsThatOnPlates) {
+  const test::TemporaryFolder folder;
+  LiftCase lift_case = test::read_small_lift();
+  Diagnostics diagnostics;
+  const auto of_plates =
+      make_block_model(*lift_case.load.model, "box", lift_case.structure, diagnostics);
+  ASSERT_TRUE(of_plates) << diagnostics.to_text();
+  const PadeyesAssessment expected = padeyes_under_a_table(lift_case, *of_plates);
+  write_as_deck(folder, of_plates->mesh(),
+                ", padeye: {design: small, axis: [0, 1, 0], up: [0, 0, 1], height: 250 mm, base: "
+                "[400 mm, 400 mm]}",
+                small_padeye);
+  std::string complaints;
+  lift_case.load.model = read_block("block.yaml", complaints);
+  ASSERT_EQ(complaints, "");
+  const auto of_deck =
+      make_block_model(*lift_case.load.model, "box", lift_case.structure, diagnostics);
+  ASSERT_TRUE(of_deck) << diagnostics.to_text();
+  const PadeyesAssessment found = padeyes_under_a_table(lift_case, *of_deck);
+  ASSERT_EQ(expected.padeyes.size(), 1u);
+  ASSERT_EQ(found.padeyes.size(), 1u);
+  const PadeyeAssessment &one = found.padeyes[0], &other = expected.padeyes[0];
+  EXPECT_EQ(one.lug, "L1");
+  EXPECT_EQ(one.input.material.yield_stress, other.input.material.yield_stress);
+  ASSERT_EQ(one.formulas.size(), other.formulas.size());
+  for (std::size_t i = 0; i < one.formulas.size(); ++i)
+    EXPECT_NEAR(one.formulas[i].formula.utilisation, other.formulas[i].formula.utilisation, 1e-6);
+  ASSERT_EQ(one.states.size(), other.states.size());
+  for (std::size_t i = 0; i < one.states.size(); ++i) {
+    const double stress = other.states[i].result.main_plate.checked_von_mises.value;
+    EXPECT_NEAR(one.states[i].result.main_plate.checked_von_mises.value, stress, 1e-5 * stress);
+    EXPECT_LT(one.states[i].result.force_residual, 1e-8);
+  }
 }
 
 TEST(BlockMesh, ALiftOfADeck) {
@@ -162,6 +222,17 @@ TEST(BlockMesh, WhatIsWrongIsSaidWithFileAndLine) {
       "GRID,8001,,9000.,0.,0.\nGRID,8002,,9500.,0.,0.\nGRID,8003,,9500.,500.,0.\n"
       "CTRIA3,8000,1,8001,8002,8003",
       "hang together with nothing else");
+  const auto padeye = [&](const std::string& stand) {
+    return mesh + "lugs: {L1: {node: 9001, padeye: " + stand + "}}\n" + small_padeye;
+  };
+  say(padeye("{design: big, axis: [1, 0, 0], up: [0, 0, 1], height: 1 m, base: [1 m, 1 m]}"), "",
+      "", "lug L1 names padeye \"big\", which the block does not have");
+  say(padeye("{design: small, axis: [1, 0, 1], up: [0, 0, 1], height: 1 m, base: [1 m, 1 m]}"), "",
+      "", "the pin's axis stands at 45 degrees on the padeye's upward direction");
+  say(padeye("{design: small, axis: [1, 0, 0], up: [0, 0, 1], height: 1 m, base: [1 cm, 1 m]}"), "",
+      "", "lug L1 cannot be made as padeye small: ");
+  say(padeye("{design: small, axis: [1, 0, 0], up: [0, 0, -1], height: 1 m, base: [1 m, 1 m]}"), "",
+      "", "where the block has no plate");
   // A mass whose link holds another node: it is left out, and the lift goes on.
   EXPECT_EQ(complaints_after(mesh, "RBE3,9102,,9002", "RBE3,9102,,9001"), "");
 }

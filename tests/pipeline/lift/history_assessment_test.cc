@@ -100,6 +100,38 @@ TEST_F(SmallLiftHistory, ChecksTakeTheEnvelope) {
   EXPECT_TRUE(checks[0].time.has_value());
 }
 
+// Rules for small elements: a line for the field by yield / 1.5, lines for corners by their factors
+// on that, and the largest of all three is the stress that is checked without them.
+TEST_F(SmallLiftHistory, RulesForCornersHaveLinesOfTheirOwn) {
+  const HistoryAssessment history = assess(small_lift().run.dynamic_history());
+  LiftCase lift_case = small_lift().lift_case;
+  lift_case.standard.emplace();
+  lift_case.standard->rules.fine_mesh = FineMeshRules{0.05, {1.7, "6.2.1 a"}, {1.5, "6.2.1 b"}};
+  for (const bool is_table : {false, true}) {
+    const std::vector<Check> checks =
+        check_block(lift_case, *block_, is_table ? nullptr : &history);
+    ASSERT_GE(checks.size(), 2u);
+    double largest = 0;
+    for (const Check& check : checks) {
+      largest = std::max(largest, check.demand);
+      const bool in_field = check.name.find("away from corners") != std::string::npos;
+      const bool beside_weld = check.name.find("at corners beside welds") != std::string::npos;
+      EXPECT_NEAR(check.limit,
+                  (in_field      ? 1
+                   : beside_weld ? 1.5
+                                 : 1.7) *
+                      355e6 / 1.5,
+                  1e-3)
+          << check.name;
+      EXPECT_EQ(check.note.find("6.2.1") == std::string::npos, in_field) << check.note;
+      EXPECT_TRUE(check.is_by_mesh);
+    }
+    EXPECT_EQ(
+        largest,
+        check_block(small_lift().lift_case, *block_, is_table ? nullptr : &history).front().demand);
+  }
+}
+
 TEST_F(SmallLiftHistory, FollowsTheHotSpotAndEachLugUnlessPointsAreChosen) {
   const HistoryAssessment history = assess(small_lift().run.dynamic_history());
   ASSERT_EQ(history.points.size(), 5u);

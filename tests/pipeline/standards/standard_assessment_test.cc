@@ -159,7 +159,11 @@ TEST(StandardAssessment, HoldsShacklesAgainstStaticAndDynamicLoad) {
 // computed.
 TEST(StandardAssessment, SkewsTheStructure) {
   LiftFacts facts = two_slings();
-  StressFacts stress{"S355", false, 100e6, 110e6, 355e6};
+  StressFacts stress;
+  stress.name = stress.material = "S355";
+  stress.at_rest = 100e6;
+  stress.in_motion = 110e6;
+  stress.yield = 355e6;
   stress.skew_by_rules = 1.2;
   stress.skew_computed = 1.3;
   facts.yield_factor = 1.5;
@@ -168,6 +172,31 @@ TEST(StandardAssessment, SkewsTheStructure) {
   const Chain& chain = chain_of(result, "structure S355");
   EXPECT_NEAR(chain.standard, 100e6 * 1.1 * 1.05 * 1.2, 1);
   EXPECT_NEAR(chain.simulated, 110e6 * 1.1 * 1.3, 1);
+}
+
+// Class rules: 1.70 of the field's allowable in squares of 50 mm near corners, 1.50 beside welds.
+TEST(StandardAssessment, AllowsMoreNearCorners) {
+  StandardInCase standard = by_nd_0027();
+  standard.rules.add(shipped_rules("iacs-csr"));
+  LiftFacts facts = two_slings();
+  facts.yield_factor = 1.5;
+  for (const structure::SquareSite site : structure::square_sites) {
+    StressFacts stress;
+    stress.name = structure::words_of(site);
+    stress.at_rest = stress.in_motion = 100e6;
+    stress.yield = 355e6;
+    stress.site = site;
+    facts.stresses.push_back(stress);
+  }
+  const StandardAssessment result = assess_standard(standard, facts);
+  const auto chain = [&](const char* site) {
+    return chain_of(result, std::string("structure ") + site);
+  };
+  EXPECT_NEAR(*chain("away from corners").limit, 355e6 / 1.5, 1);
+  EXPECT_EQ(chain("away from corners").limit_clause, "checks.yield_factor");
+  EXPECT_NEAR(*chain("at corners").limit, 1.7 * 355e6 / 1.5, 1);
+  EXPECT_NEAR(*chain("at corners beside welds").limit, 1.5 * 355e6 / 1.5, 1);
+  EXPECT_THAT(chain("at corners beside welds").limit_clause, HasSubstr("IACS CSR part 1"));
 }
 
 // A shackle that is pulled 3 degrees out of its plane at rest and 30 in motion bears all of its

@@ -15,23 +15,6 @@ namespace {
 using Motion6 = Eigen::Matrix<double, 6, 1>;
 using Strains = Eigen::Matrix<double, shell_strains, 1>;
 
-// MacNeal and Harder (1985), Finite Elem. Anal. Des. 1, 3-20, figure 2: a rectangle of 0.24 x 0.12
-// in five distorted elements.
-Mesh macneal_patch(double thickness, const Material& material) {
-  Mesh mesh = testing::empty_mesh(material, thickness);
-  mesh.vertices = {{0, 0, 0},       {0.24, 0, 0},    {0.24, 0.12, 0}, {0, 0.12, 0},
-                   {0.04, 0.02, 0}, {0.18, 0.03, 0}, {0.16, 0.08, 0}, {0.08, 0.08, 0}};
-  const std::vector<std::array<int, 4>> quads = {
-      {0, 1, 4, 5}, {5, 1, 6, 2}, {7, 6, 3, 2}, {0, 4, 3, 7}, {4, 5, 7, 6}};
-  for (const auto& vertices : quads) {
-    Shell shell;
-    shell.vertices = vertices;
-    shell.label = static_cast<long>(mesh.shells.size()) + 1;
-    mesh.shells.push_back(shell);
-  }
-  return mesh;
-}
-
 // What is moved and turned: nothing may depend on the world's axes.
 const Eigen::Matrix3d turned =
     Eigen::AngleAxisd(0.7, Vector3(1, 2, -0.5).normalized()).toRotationMatrix();
@@ -150,7 +133,7 @@ Eigen::VectorXd move_rim(const Space& space, const testing::Motion& motion) {
 std::vector<Mesh> patches() {
   std::vector<Mesh> meshes;
   for (const int kind : {0, 1, 2}) {
-    meshes.push_back(macneal_patch(0.01, {"patch", 1e6, 0.25, 0, 1}));
+    meshes.push_back(testing::macneal_patch(0.01, {"patch", 1e6, 0.25, 0, 1}));
     if (kind > 0) testing::divide_into_triangles(meshes.back(), kind == 2);
     meshes.back() = turn(meshes.back());
   }
@@ -189,7 +172,7 @@ TEST(ShellPatch, MembraneAndBendingPatchesAreExact) {
 // w = 1e-3 (x^2 + x y + y^2) / 2 gives moments of 1.111e-7, 1.111e-7 and 3.333e-8, that is 0.667,
 // 0.667, 0.2 at the surfaces.
 TEST(ShellPatch, PublishedStressesOfMacNealAndHarder) {
-  const Mesh mesh = macneal_patch(0.001, {"patch", 1e6, 0.25, 0, 1});
+  const Mesh mesh = testing::macneal_patch(0.001, {"patch", 1e6, 0.25, 0, 1});
   for (int degree = 1; degree <= 4; ++degree) {
     const Space space(mesh, {degree, {}});
     const auto rim = [](const Vector3& x) {

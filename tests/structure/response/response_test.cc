@@ -139,6 +139,17 @@ TEST_F(SmallBlock, ElasticMotionHasNoRigidPart) {
   EXPECT_LT((responses_->without_rigid_motion(moved) - u).norm(), 1e-12 * moved.norm());
 }
 
+// Sites are parts of the whole: the largest of any group at any site is that of the block.
+double once_by_site(const LoadCaseResult& result) {
+  double largest = 0;
+  for (const GroupStress& group : result.groups)
+    for (const SquareSite site : square_sites) {
+      EXPECT_LE(group.at_site[site].value, group.checked_von_mises.value);
+      largest = std::max(largest, group.at_site[site].value);
+    }
+  return largest;
+}
+
 TEST_F(SmallBlock, StressesScaleWithTheLoads) {
   const StressRecovery recovery(*responses_);
   LoadCase once = lift(), twice = once;
@@ -152,6 +163,7 @@ TEST_F(SmallBlock, StressesScaleWithTheLoads) {
   EXPECT_NEAR(b.displacement.value, 2 * a.displacement.value, 1e-6 * b.displacement.value);
   EXPECT_GT(a.peak_von_mises.value, a.checked_von_mises.value);
   EXPECT_GE(a.checked_von_mises.value, a.field_von_mises.value);
+  EXPECT_EQ(once_by_site(a), a.checked_von_mises.value);
   // The whole is the largest of its groups, and no neighbourhood exceeds it.
   double largest = 0;
   for (const GroupStress& group : a.groups)
@@ -321,6 +333,49 @@ TEST_F(SmallBlock, AddedLoadsAreSuperposedLikeAllOthers) {
   EXPECT_LT(responses.balance(load_case).reaction_over_weight, 1e-6);
   load_case.added = Eigen::Vector3d::Zero();
   EXPECT_THROW(responses.coefficients(load_case), ModelError);
+}
+
+// An L of three panels in the plane z = 0 with its inner corner at (1, 1), and a web below its edge
+// y = 1: squares that touch the web are beside a weld, those along the free edge x = 1 are not.
+TEST(SquareSites, AreToldApartAtAnInnerCorner) {
+  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  const auto panel = [&](double x, double y) {
+    testing::add_sheet(
+        mesh, [=](double s, double t) { return Vector3(x + s, y + t, 0); }, 2, 2);
+  };
+  panel(0, 0);
+  panel(1, 0);
+  panel(0, 1);
+  const auto squares_of = [](const Mesh& of) {
+    const PlateFields fields = find_fields(of);
+    return place_squares(of, fields, FieldWalker(of, fields), 0.05);
+  };
+  const Vector3 corner(1, 1, 0);
+  int bare = 0;
+  for (const Square& square : squares_of(mesh)) {
+    EXPECT_EQ(square.at_corner(), (square.centre_B - corner).norm() <= 0.15);
+    EXPECT_NE(square.site, SquareSite::welded_corner);
+    if (square.at_corner()) ++bare;
+  }
+  EXPECT_GE(bare, 4);
+
+  Mesh stiffened = mesh;
+  testing::add_beams(stiffened, {1, 1, 0}, {2, 1, 0}, 0, Vector3::UnitY());
+  testing::add_sheet(
+      mesh, [](double s, double t) { return Vector3(1 + s, 1, -0.3 * t); }, 2, 1);
+  for (const Mesh& welded : {mesh, stiffened}) {
+    int beside = 0, apart = 0;
+    for (const Square& square : squares_of(welded)) {
+      if (!square.at_corner() || std::abs(square.centre_B.z()) > 1e-9) continue;
+      const Vector3 off = square.centre_B - corner;
+      const bool touches = std::hypot(std::min(off.x(), 0.0), off.y()) < 0.0375;
+      EXPECT_EQ(square.site, touches ? SquareSite::welded_corner : SquareSite::corner)
+          << square.centre_B.transpose();
+      ++(touches ? beside : apart);
+    }
+    EXPECT_GE(beside, 2);
+    EXPECT_GE(apart, 1);
+  }
 }
 
 }  // namespace

@@ -1,14 +1,17 @@
 #include "pipeline/verification/models/shells/shell_models.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/Dense>
 
 #include "structure/formulation/shell.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/system/assembly.h"
 #include "structure/system/matter.h"
@@ -65,6 +68,38 @@ Mesh sheet_mesh(const Chart& chart, int m, int n, double thickness, const Materi
   Mesh mesh = empty_mesh(material, thickness);
   add_sheet(mesh, chart, m, n, order);
   return mesh;
+}
+
+Mesh macneal_patch(double thickness, const Material& material) {
+  Mesh mesh = empty_mesh(material, thickness);
+  mesh.vertices = {{0, 0, 0},       {0.24, 0, 0},    {0.24, 0.12, 0}, {0, 0.12, 0},
+                   {0.04, 0.02, 0}, {0.18, 0.03, 0}, {0.16, 0.08, 0}, {0.08, 0.08, 0}};
+  const std::vector<std::array<int, 4>> quads = {
+      {0, 1, 4, 5}, {5, 1, 6, 2}, {7, 6, 3, 2}, {0, 4, 3, 7}, {4, 5, 7, 6}};
+  for (const auto& vertices : quads) {
+    Shell shell;
+    shell.vertices = vertices;
+    shell.label = static_cast<long>(mesh.shells.size()) + 1;
+    mesh.shells.push_back(shell);
+  }
+  return mesh;
+}
+
+void add_hexahedra(Mesh& mesh, const std::vector<double>& x, const std::vector<double>& y,
+                   const std::vector<double>& z, const Selects& fills) {
+  SolidEdgeMiddles middles(mesh);
+  for (std::size_t k = 0; k + 1 < z.size(); ++k)
+    for (std::size_t j = 0; j + 1 < y.size(); ++j)
+      for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+        if (!fills(0.5 * Vector3(x[i] + x[i + 1], y[j] + y[j + 1], z[k] + z[k + 1]))) continue;
+        Solid solid;
+        for (const std::size_t up : {k, k + 1})
+          for (const auto& [a, b] : {std::pair{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}})
+            solid.vertices.push_back(vertex_at(mesh, {x[a], y[b], z[up]}));
+        solid.label = static_cast<long>(mesh.solids.size()) + 1;
+        complete_solid(mesh, solid, middles);
+        mesh.solids.push_back(std::move(solid));
+      }
 }
 
 void divide_into_triangles(Mesh& mesh, bool all) {
@@ -151,6 +186,11 @@ Eigen::VectorXd area_load(const Space& space, const ForceField& force_per_area) 
     });
   }
   return load.col(0);
+}
+
+Eigen::VectorXd weight_load(const Space& space, double gravity) {
+  // The body force of a field is -rho a.
+  return inertia_loads(space, find_mass_properties(space, nullptr, nullptr)).col(2) * gravity;
 }
 
 namespace {

@@ -29,6 +29,14 @@ void add_sheet(Mesh& mesh, const Chart& chart, int m, int n, int order = 1, int 
 Mesh sheet_mesh(const Chart& chart, int m, int n, double thickness, const Material& material,
                 int order = 1);
 
+/// MacNeal and Harder's patch (1985, figure 2): 0.24 x 0.12 m in five distorted quadrangles.
+Mesh macneal_patch(double thickness, const Material& material);
+
+/// Adds hexahedra, quadratic, between the planes of a grid wherever `fills` a cell by its middle.
+/// Each list of planes ascends, m.
+void add_hexahedra(Mesh& mesh, const std::vector<double>& x, const std::vector<double>& y,
+                   const std::vector<double>& z, const Selects& fills);
+
 /// Every second shell, or all, as two triangles (flat meshes).
 void divide_into_triangles(Mesh& mesh, bool all);
 
@@ -56,6 +64,9 @@ Eigen::VectorXd solve(const Space& space, const Eigen::VectorXd& load,
 /// Load vector of a force per area of the plates' mid-surfaces.
 using ForceField = std::function<Vector3(const Vector3&)>;
 Eigen::VectorXd area_load(const Space& space, const ForceField& force_per_area);
+
+/// Load vector of the weight of shells, beams and solids in a gravity along -z, m/s^2.
+Eigen::VectorXd weight_load(const Space& space, double gravity);
 
 /// Load vector of a force per length on the cells' edges all of whose nodes are selected.
 Eigen::VectorXd edge_load(const Space& space, const Selects& selects,
