@@ -74,21 +74,21 @@ std::vector<ValueAtPanel> calc_potentials(const PanelModel& model, double w) {
 
 /// The side of the column as rings from the water line down, each as its harmonics round the axis:
 /// phi = sum a_m cos(m t), even in the wave's direction.
-struct Ring {
+struct SideRing {
   double z;
   Eigen::VectorXcd harmonics;
 };
 
-std::vector<Ring> rings_of_side(std::vector<ValueAtPanel> values, int meridians) {
+std::vector<SideRing> rings_of_side(std::vector<ValueAtPanel> values, int meridians) {
   // The sides of the polygon lie within the circle, the bottom's panels further in.
   std::erase_if(values, [](const ValueAtPanel& v) { return v.centroid.z() < -1.0 + 1e-9; });
   std::sort(values.begin(), values.end(), [](const ValueAtPanel& a, const ValueAtPanel& b) {
     return a.centroid.z() > b.centroid.z();
   });
-  std::vector<Ring> rings;
+  std::vector<SideRing> rings;
   const int highest = meridians / 4;
   for (std::size_t first = 0; first < values.size(); first += static_cast<std::size_t>(meridians)) {
-    Ring ring{values[first].centroid.z(), Eigen::VectorXcd::Zero(highest + 1)};
+    SideRing ring{values[first].centroid.z(), Eigen::VectorXcd::Zero(highest + 1)};
     for (std::size_t k = first; k < first + static_cast<std::size_t>(meridians); ++k) {
       const double t = std::atan2(values[k].centroid.y(), values[k].centroid.x());
       for (int m = 0; m <= highest; ++m) {
@@ -116,7 +116,7 @@ double mean_along_x(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b, bool s
 struct AtHeight {
   Eigen::VectorXcd value, slope;
 };
-AtHeight interpolate(const std::vector<Ring>& rings, std::size_t middle, double z) {
+AtHeight interpolate(const std::vector<SideRing>& rings, std::size_t middle, double z) {
   AtHeight at{Eigen::VectorXcd::Zero(rings[0].harmonics.size()),
               Eigen::VectorXcd::Zero(rings[0].harmonics.size())};
   for (std::size_t i = middle - 1; i <= middle + 1; ++i) {
@@ -137,7 +137,7 @@ AtHeight interpolate(const std::vector<Ring>& rings, std::size_t middle, double 
 // water:
 //   F = rho/2 int mean |grad phi|^2 n dS - rho g/2 line integral of mean eta^2 n dl.
 double calc_near_field_force(const PanelModel& model, int meridians, double w) {
-  const std::vector<Ring> rings = rings_of_side(calc_potentials(model, w), meridians);
+  const std::vector<SideRing> rings = rings_of_side(calc_potentials(model, w), meridians);
   double force = 0.0;
   double top = 0.0;
   for (std::size_t k = 0; k < rings.size(); ++k) {
