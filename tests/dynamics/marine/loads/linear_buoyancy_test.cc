@@ -21,8 +21,8 @@ using testing::Random;
 using ::testing::ThrowsMessage;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-const Water water = {.density = 1025, .gravity = 9.81};
-constexpr double rho_g = 1025 * 9.81;
+const Water sea_water = {.density = 1025, .gravity = 9.81};
+constexpr double weight_of_water = 1025 * 9.81;
 
 // A box that lies off its body's origin, and so has all of the stiffness's entries.
 std::shared_ptr<const HullClusters> lopsided_box() {
@@ -39,12 +39,12 @@ LinearBuoyancy::Definition buoyancy_of(const HullClusters& hull, const Vector3& 
   const Hydrostatics rest = calc_hydrostatics(hull, X_WB);
   // Moved from Bo to R: as of a body whose centre of mass is there and has no weight's moment.
   const Vector3 p_BoR_W = X_WB.R * p_BoR_B;
-  const Matrix6 C = rho_g * calc_floating_stiffness_over_rho_g(rest, p_BoR_W);
+  const Matrix6 C = weight_of_water * calc_floating_stiffness_over_rho_g(rest, p_BoR_W);
   LinearBuoyancy::Definition d;
   d.name = "b";
   d.frame = {1, {X_WB.R.transpose(), p_BoR_B}};
   d.rest_height = X_WB.apply(p_BoR_B).z();
-  d.buoyancy = rho_g * rest.volume;
+  d.buoyancy = weight_of_water * rest.volume;
   d.centre = (rest.p_BoC_W() - p_BoR_W).head<2>();
   d.stiffness = C.block<3, 3>(2, 2);
   return d;
@@ -67,7 +67,8 @@ void move(OneBody& body, const Eigen::Matrix<double, 6, 1>& by) {
 
 TEST(LinearBuoyancy, IsThatOfTheHullAtSmallMotions) {
   const auto hull = lopsided_box();
-  const HullForce exact({"hull", 1, hull, std::make_shared<const Sea>(Sea{WaveField(water), {}})});
+  const HullForce exact(
+      {"hull", 1, hull, std::make_shared<const Sea>(Sea{WaveField(sea_water), {}})});
   OneBody body;
   Random random(21);
   for (const Vector3& point : {Vector3(0, 0, 0), Vector3(2, -1, 0.7)}) {
@@ -127,9 +128,10 @@ TEST(LinearBuoyancy, WeightTakesStiffnessAwayAboveThePoint) {
   EXPECT_EQ(K(0, 0), 0.0);
   const HullClusters box(make_box({12, 6, 3}, {6, 3, 2, 1}));
   const Hydrostatics rest = calc_hydrostatics(box, Pose::translation({0, 0, 0}));
-  const double floating = rho_g * rest.volume, KG = 0.4;
-  const Matrix6 about_keel = rho_g * calc_stiffness_over_rho_g(rest);
-  const Matrix6 about_centre = rho_g * calc_floating_stiffness_over_rho_g(rest, Vector3(0, 0, KG));
+  const double floating = weight_of_water * rest.volume, KG = 0.4;
+  const Matrix6 about_keel = weight_of_water * calc_stiffness_over_rho_g(rest);
+  const Matrix6 about_centre =
+      weight_of_water * calc_floating_stiffness_over_rho_g(rest, Vector3(0, 0, KG));
   const Matrix3 of_weight = calc_stiffness_of_weight(floating, {0, 0, KG});
   EXPECT_NEAR(about_keel(0, 0) + of_weight(1, 1), about_centre(3, 3), 1e-6 * about_centre(3, 3));
   EXPECT_NEAR(about_keel(1, 1) + of_weight(2, 2), about_centre(4, 4), 1e-6 * about_centre(4, 4));
