@@ -331,8 +331,8 @@ void SurfaceMesher::add_outer_rings() {
 
 /// Bodies nearer than a wave's length are coupled by the water between them.
 void SurfaceMesher::refine_between() {
-  // Eight of their diagonals (find_coupling_reach) need twelve of their edges.
-  constexpr double panels_in_a_wave = 12.0;
+  // Eight of their diagonals (find_coupling_reach), which are longer than those of squares.
+  constexpr double panels_in_a_wave = 13.0;
   if (!(settings_.carried_wave > 0.0) || widest_gap_ <= settings_.carried_wave) return;
   const double area = std::numbers::pi * inner_radius_ * inner_radius_;
   SurfaceFineness fineness;

@@ -16,7 +16,7 @@ struct SurfaceMeshSettings {
   double edge_share = 0.0;
   double edge_growth = 1.4;
   /// Shortest wave (m) that bodies further apart than its length send to each other: panels between
-  /// them are at most a twelfth of it wide, unless that takes more than most_between of them; 0: as
+  /// them are at most a thirteenth of it wide, unless that takes more than most_between of them; 0: as
   /// the rings have it.
   double carried_wave = 0.0;
   int most_between = 8000;
