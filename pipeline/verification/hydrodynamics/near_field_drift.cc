@@ -26,8 +26,9 @@ PanelModel make_held_column(int meridians) {
   const int parallels = 3 * meridians / 8;
   const std::vector<WettedBody> bodies{
       {"column",
-       make_vertical_cylinder(1.0, 1.0, true,
-                              {.meridians = meridians, .parallels = parallels, .grading = 4.0}),
+       make_vertical_cylinder(
+           1.0, 1.0, true,
+           {.meridians = meridians, .parallels = parallels, .grading = 4.0, .graded_edge = true}),
        Vector3::Zero()}};
   const SurfaceMesh surface = make_surface_mesh(
       find_water_lines(bodies), {.first_ring = 1.92 / meridians, .growth = 1.08, .radius = 40.0});
