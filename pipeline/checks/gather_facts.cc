@@ -83,17 +83,13 @@ class LiftedFacts {
   void add_slings() {
     std::map<std::string, int> on_hook;
     for (const LiftRope& sling : rigging_.slings()) ++on_hook[sling.hoist];
-    for (std::size_t i = 0; i < rigging_.slings().size(); ++i) {
-      Index sample = 0;
-      SlingFacts sling = sling_facts(rigging_.slings()[i], on_hook, sample);
-      sling.computed = rigging_.of_sling(i, sample);
-      facts_.slings.push_back(std::move(sling));
-    }
-    for (const LiftRope& rope : lift_.model.ropes) {
-      if (!rope.lug.empty() || !case_.find_rope(rope.name)->is_sling()) continue;
-      Index sample = 0;
-      facts_.slings.push_back(sling_facts(rope, on_hook, sample));
-    }
+    for (const auto* slings : {&rigging_.slings(), &rigging_.slings_to_bars()})
+      for (const LiftRope& rope : *slings) {
+        Index sample = 0;
+        SlingFacts sling = sling_facts(rope, on_hook, sample);
+        sling.computed = rigging_.of_sling(rope, sample);
+        facts_.slings.push_back(std::move(sling));
+      }
     // The motion has their weight in the loads of hooks, and not in those of the lugs.
     for (const SpreaderInCase& bar : case_.spreaders) facts_.rigging += bar.mass() * case_.gravity;
   }
