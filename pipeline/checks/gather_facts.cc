@@ -1,6 +1,7 @@
 #include "pipeline/checks/gather_facts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -92,6 +93,11 @@ class LiftedFacts {
       }
     // The motion has their weight in the loads of hooks, and not in those of the lugs.
     for (const SpreaderInCase& bar : case_.spreaders) facts_.rigging += bar.mass() * case_.gravity;
+    if (!case_.standard) return;
+    for (const MasterLinkInCase& link : case_.standard->master_links) {
+      facts_.rigging += link.mass * case_.gravity;
+      rigging_at_[link.name.value] += link.mass * case_.gravity;
+    }
   }
 
   SlingFacts sling_facts(const LiftRope& rope, const std::map<std::string, int>& on_hook,
@@ -106,6 +112,11 @@ class LiftedFacts {
     if (model.material) sling.material = model.material->value;
     if (model.termination) sling.termination = model.termination->value;
     sling.diameter = model.diameter;
+    const RopeInCase& in_case = *case_.find_rope(rope.name);
+    sling.is_at_hook = in_case.path.front().kind == ResolvedPoint::Kind::hook;
+    const Eigen::Vector3d pull =
+        lift_.static_history.ropes[static_cast<std::size_t>(rope.rope)].first_force.row(sample);
+    if (pull.norm() > 0) sling.angle = std::acos(std::min(1.0, std::abs(pull.z()) / pull.norm()));
     const auto count = on_hook.find(rope.hoist);
     sling.slings_on_hook = count == on_hook.end() ? 1 : count->second;
     const auto weight = rigging_.weight_of(rope);

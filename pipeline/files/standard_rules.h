@@ -68,8 +68,8 @@ struct SlingRules {
   std::vector<NamedFactor> material, wear, termination;
 };
 
-/// Shackles: static load <= working load; dynamic load <= working load x DAF, <= breaking load /
-/// breaking.
+/// Shackles, and what rules say alike of other accessories: static load <= working load; dynamic load
+/// <= working load x DAF, <= breaking load / breaking.
 struct ShackleRules {
   ClauseFactor working;  ///< on the static load
   ClauseFactor breaking;
@@ -113,6 +113,7 @@ struct StandardRules {
   std::optional<ClauseFactor> length_tolerance;  ///< of slings, over their length, either way
   std::optional<SlingRules> sling;
   std::optional<ShackleRules> shackle;
+  std::optional<ShackleRules> accessory;       ///< master links and sheaves
   std::vector<SideLoadRow> shackle_side_load;  ///< the smallest angle first
   std::optional<ConsequenceRules> consequence;
   std::optional<ClauseFactor> lateral;  ///< along a lug's pin, share of the rope's force

@@ -40,6 +40,8 @@ struct SlingFacts {
   std::optional<std::string> material, termination;
   std::optional<double> diameter;  ///< m
   int slings_on_hook = 1;
+  bool is_at_hook = false;  ///< it begins at the hook, not below a spreader
+  double angle = 0;         ///< at its upper end to the plumb, at the largest load at rest, rad
 };
 
 /// Hoist with its hook block.
@@ -47,8 +49,8 @@ struct HookFacts {
   std::string name, crane;
   LoadFacts load;  ///< of the tackle: hook block and what hangs on it
   ComputedFactors computed;
-  double hook_block = 0;      ///< weight, N
-  double rigging = 0;         ///< weight of its slings, which the motion leaves out, N
+  double hook_block = 0;  ///< weight, N
+  double rigging = 0;  ///< weight of its slings and its master link, which the motion leaves out, N
   double hoisting_speed = 0;  ///< that the winch may have, m/s
   double capacity = 0;        ///< N
 };
@@ -91,11 +93,11 @@ struct StressFacts {
 struct LiftFacts {
   std::string rest_is_from = "equilibria of the operation";  ///< where loads at rest come from
   double net_weight = 0;                                     ///< N
-  double rigging = 0;                                        ///< of all slings and spreaders, N
-  bool has_rigging_weight = true;                            ///< every sling's model gives its mass
-  double at_rest = 0;            ///< largest load on all hooks together, hook blocks apart, N
-  double in_motion = 0;          ///< likewise
-  bool has_environment = false;  ///< waves or gusts, whose share of loads may reduce factors
+  double rigging = 0;              ///< of all slings, spreaders and master links, N
+  bool has_rigging_weight = true;  ///< every sling's model gives its mass
+  double at_rest = 0;              ///< largest load on all hooks together, hook blocks apart, N
+  double in_motion = 0;            ///< likewise
+  bool has_environment = false;    ///< waves or gusts, whose share of loads may reduce factors
   double yield_factor = 1;
   double lateral = 0;  ///< that the case takes along a lug's pin, share of the force
   std::vector<SlingFacts> slings;
