@@ -86,6 +86,20 @@ void print_master_links(const RiggedLift& rigged) {
   fmt::print("\n{}", table.text());
 }
 
+void print_sheaves(const RiggedLift& rigged) {
+  if (rigged.sheaves.empty()) return;
+  TextTable table(
+      {{"sling"}, {"sheave"}, {"WLL t", 4}, {"tread mm", 4}, {"use", 3}, {"governing check"}});
+  for (const ChosenSheave& chosen : rigged.sheaves) {
+    if (!chosen.index) continue;
+    const SheaveInStock& sheave = rigged.stock.sheaves[*chosen.index];
+    const Check& governing = *governing_check(chosen.checks);
+    table.add_row({chosen.rope, sheave.name(), sheave.sheave.working_load / newton_per_tonne,
+                   sheave.sheave.tread * 1e3, use_text(governing), governing.name});
+  }
+  if (!table.empty()) fmt::print("\n{}", table.text());
+}
+
 void print_spreaders(const RiggedLift& rigged) {
   if (!rigged.spreaders.empty()) {
     TextTable table(
@@ -121,6 +135,8 @@ void print_governing(const RiggedLift& rigged) {
     consider(shackle.checks, "shackle at " + shackle.lug);
   for (const ChosenMasterLink& link : rigged.master_links)
     consider(link.checks, "master link at " + link.demand.hook);
+  for (const ChosenSheave& sheave : rigged.sheaves)
+    consider(sheave.checks, "sheave of " + sheave.rope);
   for (const ChosenSpreader& spreader : rigged.spreaders)
     consider(spreader.checks, "spreader " + spreader.name);
   fmt::print("\n");
@@ -168,6 +184,13 @@ void print_failures(const RiggedLift& rigged) {
     if (!link.pass())
       say("master link of the stock passes at " + link.demand.hook,
           rigged.stock.master_links[link.index].name(), link.checks);
+  for (const ChosenSheave& sheave : rigged.sheaves) {
+    if (!sheave.index)
+      say_warning("no sheave of the stock takes the sling " + sheave.rope);
+    else if (!sheave.pass())
+      say("sheave of the stock passes for " + sheave.rope,
+          rigged.stock.sheaves[*sheave.index].name(), sheave.checks);
+  }
   for (const ChosenSpreader& spreader : rigged.spreaders)
     if (!spreader.pass())
       say("spreader bar of the stock passes for " + spreader.name,
@@ -198,6 +221,7 @@ int rig(const RigOptions& options) {
     print_slings(rigged);
     print_shackles(rigged);
     print_master_links(rigged);
+    print_sheaves(rigged);
     print_spreaders(rigged);
     print_governing(rigged);
     print_settling(rigged.settled);

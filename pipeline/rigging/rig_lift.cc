@@ -124,6 +124,8 @@ bool RiggedLift::pass() const {
              [](const ChosenShackle& shackle) { return !shackle.index || shackle.pass(); }) &&
          std::all_of(master_links.begin(), master_links.end(),
                      [](const ChosenMasterLink& link) { return link.pass(); }) &&
+         std::all_of(sheaves.begin(), sheaves.end(),
+                     [](const ChosenSheave& sheave) { return sheave.pass(); }) &&
          std::all_of(spreaders.begin(), spreaders.end(),
                      [](const ChosenSpreader& spreader) { return spreader.pass(); });
 }
@@ -166,6 +168,11 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
     const std::size_t index = rigged.settled.choice[i];
     rigged.slings.push_back(
         {loads.demands[i], {index, checks.of(rigged.stock.slings[index], loads.demands[i])}});
+    const RopeInCase& rope = *runner.the_case().find_rope(loads.demands[i].rope);
+    if (is_led_over_sheaves(rope) && !rigged.stock.sheaves.empty())
+      rigged.sheaves.push_back(choose_sheave(rigged.stock, runner.the_case(), loads.facts,
+                                             loads.demands[i],
+                                             rigged.stock.slings[index].sling.rope));
     // Those at the eyes of a spreader are its own.
     if (!loads.demands[i].lug.empty())
       add_shackle(choose_shackle(rigged.stock, runner.the_case(), loads.facts, loads.demands[i]),

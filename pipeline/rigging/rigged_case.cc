@@ -102,6 +102,21 @@ YAML::Node rigged_master_links(const RiggedLift& rigged, const YAML::Node& links
   return with_entries(links, chosen);
 }
 
+YAML::Node rigged_sheaves(const RiggedLift& rigged, const YAML::Node& sheaves) {
+  std::vector<std::pair<std::string, YAML::Node>> chosen;
+  for (const ChosenSheave& one : rigged.sheaves) {
+    if (!one.index) continue;
+    const StockSheave& sheave = rigged.stock.sheaves[*one.index].sheave;
+    YAML::Node node;
+    node["working_load"] = load_node(sheave.working_load);
+    node["breaking_load"] = load_node(sheave.breaking_load);
+    node["tread"] = fmt::format("{:.10g} mm", 1e3 * sheave.tread);
+    node.SetStyle(YAML::EmitterStyle::Flow);
+    chosen.emplace_back(one.rope, node);
+  }
+  return with_entries(sheaves, chosen);
+}
+
 std::string millimetres(double length) { return fmt::format("{:.10g} mm", 1e3 * length); }
 
 YAML::Node section_node(const BarSection& section) {

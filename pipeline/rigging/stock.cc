@@ -60,7 +60,10 @@ class StockGatherer {
       is_new(link.name);
       stock_.master_links.push_back({link, file.rule.name});
     }
-    for (const StockSheave& sheave : file.sheaves) is_new(sheave.name);
+    for (const StockSheave& sheave : file.sheaves) {
+      is_new(sheave.name);
+      stock_.sheaves.push_back({sheave, file.rule.name});
+    }
     for (const StockSpreader& spreader : file.spreaders) {
       is_new(spreader.name);
       stock_.spreaders.push_back({spreader, file.rule.name});
@@ -79,6 +82,10 @@ class StockGatherer {
     std::stable_sort(stock_.master_links.begin(), stock_.master_links.end(),
                      [](const MasterLinkInStock& a, const MasterLinkInStock& b) {
                        return a.link.working_load < b.link.working_load;
+                     });
+    std::stable_sort(stock_.sheaves.begin(), stock_.sheaves.end(),
+                     [](const SheaveInStock& a, const SheaveInStock& b) {
+                       return a.sheave.working_load < b.sheave.working_load;
                      });
     std::stable_sort(stock_.spreaders.begin(), stock_.spreaders.end(),
                      [](const SpreaderInStock& a, const SpreaderInStock& b) {

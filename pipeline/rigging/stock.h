@@ -35,6 +35,14 @@ struct MasterLinkInStock {
   const std::string& name() const { return link.name.value; }
 };
 
+/// A sheave that may be chosen, with the rule of its stock.
+struct SheaveInStock {
+  StockSheave sheave;
+  std::string rule;
+
+  const std::string& name() const { return sheave.name.value; }
+};
+
 /// A spreader bar that may be chosen, with the rule of its stock.
 struct SpreaderInStock {
   StockSpreader spreader;
@@ -48,6 +56,7 @@ struct Stock {
   std::vector<SlingInStock> slings;             ///< by breaking load
   std::vector<ShackleInStock> shackles;         ///< by working load
   std::vector<MasterLinkInStock> master_links;  ///< likewise
+  std::vector<SheaveInStock> sheaves;           ///< likewise
   std::vector<SpreaderInStock> spreaders;       ///< by mass
 };
 
