@@ -26,8 +26,8 @@ struct RiggedLift {
   std::vector<RiggedSling> slings;
   std::vector<ChosenShackle> shackles;  ///< one a lug
   std::vector<ChosenMasterLink>
-      master_links;                       ///< of hooks with several slings; of a stock with links
-  std::vector<ChosenSheave> sheaves;      ///< of slings that are led over some; of a stock with sheaves
+      master_links;                   ///< of hooks with several slings; of a stock with links
+  std::vector<ChosenSheave> sheaves;  ///< of slings that are led over some; of a stock with sheaves
   std::vector<ChosenSpreader> spreaders;  ///< of bars whose length the stock has
   Settled settled;
 
