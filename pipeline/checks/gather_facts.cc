@@ -4,9 +4,12 @@
 #include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include "pipeline/checks/rigging_facts.h"
 #include "pipeline/checks/structure_skew.h"
+#include "pipeline/measures/chart_derating.h"
+#include "pipeline/measures/crane_measures.h"
 #include "structure/response/flexibility.h"
 
 namespace blocklift::pipeline {
@@ -53,6 +56,7 @@ class LiftedFacts {
     facts_.at_rest = total_at_rest_.maxCoeff();
     facts_.in_motion = total_in_motion_.maxCoeff();
     facts_.has_environment = lift_.model.calm.has_value();
+    add_crane_measures(case_, lift_, crane_measures_);
     add_slings();
     for (std::size_t h = 0; h < lift_.model.hoists.size(); ++h) add_hook(h);
     for (std::size_t c = 0; c < case_.cranes.size(); ++c) add_crane(c);
@@ -126,6 +130,26 @@ class LiftedFacts {
     return sling;
   }
 
+  /// The largest shares of a hoist's load chart. Beyond the chart it may carry nothing: a share of
+  /// 1,000 stands for that, so that all figures stay finite.
+  std::optional<ChartFacts> chart_of(const LiftHoist& hoist) const {
+    constexpr double most = 1000;
+    const auto find = [&](const char* kind) {
+      return std::find_if(
+          crane_measures_.begin(), crane_measures_.end(),
+          [&](const LiftMeasure& one) { return one.subject == hoist.name && one.kind == kind; });
+    };
+    const auto share = find("share of the chart"), radius = find("radius");
+    if (share == crane_measures_.end() || radius == crane_measures_.end()) return {};
+    Index still = 0;
+    ChartFacts chart;
+    chart.at_rest = std::min(most, share->at_rest.maxCoeff(&still));
+    chart.in_motion = std::min(most, share->in_motion.maxCoeff());
+    chart.radius = radius->at_rest[still];
+    chart.derating = find_chart_factor(*case_.cranes[hoist.crane].model, case_).text;
+    return chart;
+  }
+
   void add_hook(std::size_t index) {
     const LiftHoist& hoist = lift_.model.hoists[index];
     const CraneInCase& crane = case_.cranes[hoist.crane];
@@ -140,6 +164,7 @@ class LiftedFacts {
     hook.rigging = rigging_at_[hoist.name];
     hook.hoisting_speed = model.winch.speed.value.value;
     hook.capacity = hoist.capacity;
+    hook.chart = chart_of(hoist);
     facts_.hooks.push_back(std::move(hook));
   }
 
@@ -157,6 +182,9 @@ class LiftedFacts {
       crane.hoisting_speed = std::max(crane.hoisting_speed, hook.hoisting_speed);
     }
     crane.capacity = case_.cranes[index].model->capacity;
+    const auto is_of_crane = [&](const HookFacts& hook) { return hook.crane == crane.name; };
+    if (std::count_if(facts_.hooks.begin(), facts_.hooks.end(), is_of_crane) == 1)
+      crane.chart = std::find_if(facts_.hooks.begin(), facts_.hooks.end(), is_of_crane)->chart;
     facts_.cranes.push_back(std::move(crane));
   }
 
@@ -166,6 +194,7 @@ class LiftedFacts {
   RiggingFacts rigging_;
   VectorXd total_at_rest_, total_in_motion_;
   std::map<std::string, double> rigging_at_;  ///< by hook, N
+  std::vector<LiftMeasure> crane_measures_;
 };
 
 /// Sums of a load table.

@@ -44,6 +44,17 @@ struct SlingFacts {
   double angle = 0;         ///< at its upper end to the plumb, at the largest load at rest, rad
 };
 
+/// Load of a hook over what its load chart allows, derating included, where it is largest.
+struct ChartFacts {
+  double at_rest = 0, in_motion = 0;  ///< the largest shares
+  double radius = 0;                  ///< where that of rest is, m
+  std::string derating;               ///< "x 0.8 for wind of 12 m/s (source)"; empty: none
+
+  /// What the chart makes of a capacity for the largest load, where the load is another than at the
+  /// instant of the largest share: that load over that share, N.
+  static double capacity(double load, double share) { return load / share; }
+};
+
 /// Hoist with its hook block.
 struct HookFacts {
   std::string name, crane;
@@ -53,6 +64,7 @@ struct HookFacts {
   double rigging = 0;  ///< weight of its slings and its master link, which the motion leaves out, N
   double hoisting_speed = 0;  ///< that the winch may have, m/s
   double capacity = 0;        ///< N
+  std::optional<ChartFacts> chart;
 };
 
 /// Crane: all its hoists together.
@@ -63,6 +75,7 @@ struct CraneFacts {
   double hook_blocks = 0, rigging = 0;  ///< weights, N
   double hoisting_speed = 0;            ///< of its fastest hoist, m/s
   std::optional<double> capacity;       ///< N
+  std::optional<ChartFacts> chart;      ///< of a crane with one hoist
 };
 
 /// Lug that is made as a padeye.

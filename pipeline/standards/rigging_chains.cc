@@ -37,6 +37,31 @@ void add_hook_load(ChainBuilder& chain, const LoadFactors& factors, const LoadFa
   chain.result("dynamic hook load");
 }
 
+/// What a hook or a crane may carry, by its capacity and by its load chart, in both columns.
+struct Capacity {
+  double standard = 0, simulated = 0;  ///< N
+  std::string text;
+};
+
+std::optional<Capacity> capacity_of(const std::optional<double>& rated,
+                                    const std::optional<ChartFacts>& chart, const LoadFacts& load,
+                                    const std::string& text) {
+  std::optional<Capacity> capacity;
+  if (rated) capacity = Capacity{*rated, *rated, text};
+  if (!chart || !(chart->at_rest > 0) || !(chart->in_motion > 0)) return capacity;
+  const double still = ChartFacts::capacity(load.at_rest, chart->at_rest);
+  const double moving = ChartFacts::capacity(load.in_motion, chart->in_motion);
+  if (!capacity) capacity = Capacity{still, moving, {}};
+  constexpr double rounding = 1 - 1e-9;  // a chart that repeats the capacity does not count
+  if (still < rounding * capacity->standard || moving < rounding * capacity->simulated ||
+      capacity->text.empty())
+    capacity->text = fmt::format("load chart at {:.2f} m{}", chart->radius,
+                                 chart->derating.empty() ? "" : ", " + chart->derating);
+  capacity->standard = std::min(capacity->standard, still);
+  capacity->simulated = std::min(capacity->simulated, moving);
+  return capacity;
+}
+
 /// The hoisting factor where the amplification is another's.
 void tell_hoisting(ChainBuilder& chain, const LoadFactors& factors, double speed,
                    const LoadFacts& load) {
@@ -242,7 +267,9 @@ Chain hook_chain(const LoadFactors& factors, const HookFacts& hook) {
   add_hook_load(chain, factors, hook.load, hook.computed, hook.hook_block, hook.rigging,
                 hook.hoisting_speed);
   tell_hoisting(chain, factors, hook.hoisting_speed, hook.load);
-  chain.limit(hook.capacity, "capacity of the hoist", "crane's model");
+  const Capacity capacity =
+      *capacity_of(hook.capacity, hook.chart, hook.load, "capacity of the hoist");
+  chain.limit(capacity.standard, capacity.text, "crane's model", capacity.simulated);
   return chain.finish();
 }
 
@@ -250,18 +277,20 @@ Chain crane_chain(const LoadFactors& factors, const CraneFacts& crane) {
   ChainBuilder chain("crane", crane.name);
   add_hook_load(chain, factors, crane.load, crane.computed, crane.hook_blocks, crane.rigging,
                 crane.hoisting_speed);
-  if (!crane.capacity) return chain.finish();
+  const auto capacity =
+      capacity_of(crane.capacity, crane.chart, crane.load, "capacity of the crane");
+  if (!capacity) return chain.finish();
   const auto cranes = static_cast<int>(factors.facts().cranes.size());
   const TandemRow* row = nullptr;
   for (const TandemRow& one : factors.rules().tandem)
     if (one.cranes <= cranes && (!row || one.cranes > row->cranes)) row = &one;
   if (row)
-    chain.limit(*crane.capacity * row->factor,
-                fmt::format("capacity {} x {:g} of {} cranes", load_text(*crane.capacity),
-                            row->factor, cranes),
-                row->clause);
+    chain.limit(capacity->standard * row->factor,
+                fmt::format("{} {} x {:g} of {} cranes", capacity->text,
+                            load_text(capacity->standard), row->factor, cranes),
+                row->clause, capacity->simulated * row->factor);
   else
-    chain.limit(*crane.capacity, "capacity of the crane", "crane's model");
+    chain.limit(capacity->standard, capacity->text, "crane's model", capacity->simulated);
   return chain.finish();
 }
 

@@ -239,6 +239,35 @@ TEST(StandardAssessment, BendsASlingOverItsSheave) {
               1e-6);
 }
 
+// A chart that allows 1,287.5 kN where its share is largest at rest (1,030 kN x 0.8) and 1,190.2 in
+// motion takes the place of the hoist's 1,500; of the crane, with its reserve of a fifth, too.
+TEST(StandardAssessment, TakesTheLoadChartAtTheRadius) {
+  StandardInCase standard = by_nd_0027();
+  standard.rules.add(shipped_rules("queensland-tandem"));
+  LiftFacts facts = two_slings();
+  facts.hooks[0].chart = ChartFacts{0.8, 0.9, 22.5, "x 0.9 for wind of 12 m/s (maker)"};
+  CraneFacts crane;
+  crane.name = "C1";
+  crane.load = facts.hooks[0].load;
+  crane.hook_blocks = 30e3;
+  crane.chart = facts.hooks[0].chart;
+  facts.cranes = {crane, crane};
+  facts.cranes[1].name = "C2";
+  facts.cranes[1].chart.reset();
+  facts.cranes[1].capacity = 1500e3;
+  const StandardAssessment result = assess_standard(standard, facts);
+  const Chain& hook = chain_of(result, "hook C1.main");
+  EXPECT_NEAR(*hook.limit, 1287.5e3, 1e-6);
+  EXPECT_NEAR(*hook.simulated_limit, 1071.2e3 / 0.9, 1e-6);
+  EXPECT_EQ(hook.limit_text, "load chart at 22.50 m, x 0.9 for wind of 12 m/s (maker)");
+  EXPECT_NEAR(*chain_of(result, "crane C1").limit, 0.8 * 1287.5e3, 1e-6);
+  EXPECT_NEAR(*chain_of(result, "crane C2").limit, 1200e3, 1e-6);
+  EXPECT_THAT(chain_of(result, "crane C2").limit_text, HasSubstr("capacity of the crane"));
+  // A chart that allows more than the hoist does not count.
+  facts.hooks[0].chart = ChartFacts{0.5, 0.5, 22.5, {}};
+  EXPECT_NEAR(*chain_of(assess_standard(standard, facts), "hook C1.main").limit, 1500e3, 1e-6);
+}
+
 // A box that could not be worked does not take the rules' factor away.
 TEST(StandardAssessment, TakesTheRulesFactorWhereTheBoxIsNotWorked) {
   StandardInCase standard = by_nd_0027();
