@@ -1,14 +1,18 @@
 #include "pipeline/checks/gather_facts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/rigging_facts.h"
 #include "pipeline/checks/structure_skew.h"
+#include "pipeline/measures/chart_derating.h"
+#include "pipeline/measures/crane_measures.h"
 #include "structure/response/flexibility.h"
 
 namespace blocklift::pipeline {
@@ -55,6 +59,7 @@ class LiftedFacts {
     facts_.at_rest = total_at_rest_.maxCoeff();
     facts_.in_motion = total_in_motion_.maxCoeff();
     facts_.has_environment = lift_.model.calm.has_value();
+    add_crane_measures(case_, lift_, crane_measures_);
     add_slings();
     for (std::size_t h = 0; h < lift_.model.hoists.size(); ++h) add_hook(h);
     for (std::size_t c = 0; c < case_.cranes.size(); ++c) add_crane(c);
@@ -86,19 +91,20 @@ class LiftedFacts {
   void add_slings() {
     std::map<std::string, int> on_hook;
     for (const LiftRope& sling : rigging_.slings()) ++on_hook[sling.hoist];
-    for (std::size_t i = 0; i < rigging_.slings().size(); ++i) {
-      Index sample = 0;
-      SlingFacts sling = sling_facts(rigging_.slings()[i], on_hook, sample);
-      sling.computed = rigging_.of_sling(i, sample);
-      facts_.slings.push_back(std::move(sling));
-    }
-    for (const LiftRope& rope : lift_.model.ropes) {
-      if (!rope.lug.empty() || !case_.find_rope(rope.name)->is_sling()) continue;
-      Index sample = 0;
-      facts_.slings.push_back(sling_facts(rope, on_hook, sample));
-    }
+    for (const auto* slings : {&rigging_.slings(), &rigging_.slings_to_bars()})
+      for (const LiftRope& rope : *slings) {
+        Index sample = 0;
+        SlingFacts sling = sling_facts(rope, on_hook, sample);
+        sling.computed = rigging_.of_sling(rope, sample);
+        facts_.slings.push_back(std::move(sling));
+      }
     // The motion has their weight in the loads of hooks, and not in those of the lugs.
     for (const SpreaderInCase& bar : case_.spreaders) facts_.rigging += bar.mass() * case_.gravity;
+    if (!case_.standard) return;
+    for (const MasterLinkInCase& link : case_.standard->master_links) {
+      facts_.rigging += link.mass * case_.gravity;
+      rigging_at_[link.name.value] += link.mass * case_.gravity;
+    }
   }
 
   SlingFacts sling_facts(const LiftRope& rope, const std::map<std::string, int>& on_hook,
@@ -113,6 +119,11 @@ class LiftedFacts {
     if (model.material) sling.material = model.material->value;
     if (model.termination) sling.termination = model.termination->value;
     sling.diameter = model.diameter;
+    const RopeInCase& in_case = *case_.find_rope(rope.name);
+    sling.is_at_hook = in_case.path.front().kind == ResolvedPoint::Kind::hook;
+    const Eigen::Vector3d pull =
+        lift_.static_history.ropes[static_cast<std::size_t>(rope.rope)].first_force.row(sample);
+    if (pull.norm() > 0) sling.angle = std::acos(std::min(1.0, std::abs(pull.z()) / pull.norm()));
     const auto count = on_hook.find(rope.hoist);
     sling.slings_on_hook = count == on_hook.end() ? 1 : count->second;
     const auto weight = rigging_.weight_of(rope);
@@ -120,6 +131,26 @@ class LiftedFacts {
     facts_.rigging += weight.value_or(0);
     rigging_at_[rope.hoist] += weight.value_or(0);
     return sling;
+  }
+
+  /// The largest shares of a hoist's load chart. Beyond the chart it may carry nothing: a share of
+  /// 1,000 stands for that, so that all figures stay finite.
+  std::optional<ChartFacts> chart_of(const LiftHoist& hoist) const {
+    constexpr double most = 1000;
+    const auto find = [&](const char* kind) {
+      return std::find_if(
+          crane_measures_.begin(), crane_measures_.end(),
+          [&](const LiftMeasure& one) { return one.subject == hoist.name && one.kind == kind; });
+    };
+    const auto share = find("share of the chart"), radius = find("radius");
+    if (share == crane_measures_.end() || radius == crane_measures_.end()) return {};
+    Index still = 0;
+    ChartFacts chart;
+    chart.at_rest = std::min(most, share->at_rest.maxCoeff(&still));
+    chart.in_motion = std::min(most, share->in_motion.maxCoeff());
+    chart.radius = radius->at_rest[still];
+    chart.derating = find_chart_factor(*case_.cranes[hoist.crane].model, case_).text;
+    return chart;
   }
 
   void add_hook(std::size_t index) {
@@ -136,6 +167,7 @@ class LiftedFacts {
     hook.rigging = rigging_at_[hoist.name];
     hook.hoisting_speed = model.winch.speed.value.value;
     hook.capacity = hoist.capacity;
+    hook.chart = chart_of(hoist);
     facts_.hooks.push_back(std::move(hook));
   }
 
@@ -153,6 +185,9 @@ class LiftedFacts {
       crane.hoisting_speed = std::max(crane.hoisting_speed, hook.hoisting_speed);
     }
     crane.capacity = case_.cranes[index].model->capacity;
+    const auto is_of_crane = [&](const HookFacts& hook) { return hook.crane == crane.name; };
+    if (std::count_if(facts_.hooks.begin(), facts_.hooks.end(), is_of_crane) == 1)
+      crane.chart = std::find_if(facts_.hooks.begin(), facts_.hooks.end(), is_of_crane)->chart;
     facts_.cranes.push_back(std::move(crane));
   }
 
@@ -162,6 +197,7 @@ class LiftedFacts {
   RiggingFacts rigging_;
   VectorXd total_at_rest_, total_in_motion_;
   std::map<std::string, double> rigging_at_;  ///< by hook, N
+  std::vector<LiftMeasure> crane_measures_;
 };
 
 /// Sums of a load table.

@@ -50,6 +50,8 @@ class PadeyeRun {
     input.material = mesh.materials[static_cast<std::size_t>(
         lug.on_mesh ? find_ground(mesh) : mesh.group_of_region(region).material)];
     input.cheek_weld = design.cheek_weld;
+    input.base_weld = design.base_weld;
+    input.doubler = design.doubler;
     input.jaw = design.jaw;
     input.tensile_strength = design.tensile_strength;
     input.design_factor = design.design_factor;

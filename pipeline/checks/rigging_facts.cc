@@ -24,7 +24,8 @@ const dynamics::RopeHistory& history_of(const dynamics::History& history, int ro
 
 }  // namespace
 
-/// The rigging at one sample: slings first, then tackles in the order of the hoists.
+/// The rigging at one sample: slings at lugs first, those to bars, then tackles in the order of the
+/// hoists.
 struct RiggingFacts::State {
   VectorXd at_rest;                         ///< tensions, N
   VectorXd largest_by_tolerance;            ///< empty: no tolerance of lengths
@@ -38,7 +39,10 @@ RiggingFacts::RiggingFacts(const LiftCase& lift_case, const LiftRun& lift, Matri
   p_BoBcm_ = inertia.p_BoBcm;
   weight_ = inertia.mass * lift_case.gravity;
   for (const LiftRope& rope : lift.model.ropes)
-    if (!rope.lug.empty()) slings_.push_back(rope);
+    if (!rope.lug.empty())
+      slings_.push_back(rope);
+    else if (lift_case.find_rope(rope.name)->is_sling())
+      to_bars_.push_back(rope);
 }
 
 VectorXd RiggingFacts::hook_load(const dynamics::History& history) const {
@@ -53,97 +57,138 @@ std::optional<double> RiggingFacts::weight_of(const LiftRope& sling) const {
   return *rope.rope.mass_per_length * rope.length.value * case_.gravity;
 }
 
+dynamics::Pose RiggingFacts::pose_of(dynamics::BodyIndex body, Index sample) const {
+  return lift_.static_history.bodies[static_cast<std::size_t>(body - 1)].X_WB(sample);
+}
+
+RiggingEnd RiggingFacts::end_at(const ResolvedPoint& point, Index sample) const {
+  const auto place_of = [](const auto& all, const std::string& name) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+    return static_cast<int>(found - all.begin());
+  };
+  switch (point.kind) {
+    case ResolvedPoint::Kind::hook:
+      return {RiggingEnd::Kind::hook, place_of(lift_.model.hoists, point.body_name(case_.cranes)),
+              Vector3d::Zero()};
+    case ResolvedPoint::Kind::spreader: {
+      const int bar = place_of(lift_.model.spreaders, point.part);
+      const auto body = lift_.model.spreaders[static_cast<std::size_t>(bar)].body;
+      return {RiggingEnd::Kind::bar, bar, pose_of(body, sample).R * point.point};
+    }
+    case ResolvedPoint::Kind::load:
+      return {RiggingEnd::Kind::load, -1,
+              pose_of(lift_.model.load, sample).R * (point.point - p_BoBcm_)};
+    case ResolvedPoint::Kind::world:
+    case ResolvedPoint::Kind::crane_body:
+    case ResolvedPoint::Kind::vessel:
+      break;
+  }
+  return {};
+}
+
+/// A rope as it hangs at a sample, without its ends.
+RiggingRope RiggingFacts::rigging_rope(int rope, const Vector3d& pull_up, Index sample) const {
+  const dynamics::RopeHistory& r = history_of(lift_.static_history, rope);
+  RiggingRope result;
+  result.tension = r.tension[sample];
+  result.direction_W = pull_up.norm() > 0 ? Vector3d(pull_up.normalized()) : Vector3d::UnitZ();
+  result.length = r.unstretched_length[sample] + r.elongation[sample];
+  result.compliance = 1 / lift_.model.system.ropes()[static_cast<std::size_t>(rope)].stiffness(
+                              r.unstretched_length[sample]);
+  return result;
+}
+
+/// Compliance of the block at the lugs along the ropes, ropes x ropes; empty: it is rigid.
+MatrixXd RiggingFacts::compliance_of(const std::vector<RiggingRope>& ropes, Index sample) const {
+  if (compliance_.size() == 0) return {};
+  const Eigen::Matrix3d R_BW = pose_of(lift_.model.load, sample).R.transpose();
+  MatrixXd pull = MatrixXd::Zero(compliance_.rows(), index(ropes.size()));  // on the lugs, in B
+  for (std::size_t i = 0; i < slings_.size(); ++i) {
+    const auto lug = std::find(lugs_.begin(), lugs_.end(), slings_[i].lug);
+    if (lug != lugs_.end())
+      pull.block<3, 1>(3 * (lug - lugs_.begin()), index(i)) = R_BW * ropes[i].direction_W;
+  }
+  return pull.transpose() * compliance_ * pull;
+}
+
 const RiggingFacts::State& RiggingFacts::at(Index sample) const {
   for (const auto& [known, state] : states_)
     if (known == sample) return *state;
   const dynamics::History& history = lift_.static_history;
-  const dynamics::Pose X_WB =
-      history.bodies[static_cast<std::size_t>(lift_.model.load - 1)].X_WB(sample);
   const auto& hoists = lift_.model.hoists;
-  const std::size_t count = slings_.size() + hoists.size();
-  std::vector<RiggingRope> ropes(count);
-  MatrixXd at_lugs = MatrixXd::Zero(index(count), index(count));
-  MatrixXd pull = MatrixXd::Zero(compliance_.rows(), index(count));  // on the lugs, in B
-  VectorXd tolerance = VectorXd::Zero(index(count));
   const StandardInCase& standard = *case_.standard;
   std::optional<double> share = standard.length_tolerance;
   if (!share && standard.rules.length_tolerance) share = standard.rules.length_tolerance->value;
 
-  const auto fill = [&](RiggingRope& rope, int of, const Vector3d& pull_up) {
-    const dynamics::RopeHistory& r = history_of(history, of);
-    rope.tension = r.tension[sample];
-    rope.direction_W = pull_up.norm() > 0 ? Vector3d(pull_up.normalized()) : Vector3d::UnitZ();
-    rope.length = r.unstretched_length[sample] + r.elongation[sample];
-    rope.compliance = 1 / lift_.model.system.ropes()[static_cast<std::size_t>(of)].stiffness(
-                              r.unstretched_length[sample]);
-  };
-  const auto hook_index = [&](const std::string& name) {
-    const auto found = std::find_if(hoists.begin(), hoists.end(),
-                                    [&](const LiftHoist& hoist) { return hoist.name == name; });
-    return found == hoists.end() ? -1 : static_cast<int>(found - hoists.begin());
-  };
-  for (std::size_t i = 0; i < slings_.size(); ++i) {
-    const LiftRope& sling = slings_[i];
-    const RopeInCase& in_case = *case_.find_rope(sling.name);
-    fill(ropes[i], sling.rope, history_of(history, sling.rope).last_force.row(sample));
-    const Vector3d r_B = in_case.path.back().point - p_BoBcm_;
-    ropes[i].lower = {RiggingEnd::Kind::load, -1, X_WB.R * r_B};
-    const int hook = hook_index(sling.hoist);
-    if (hook >= 0) ropes[i].upper = {RiggingEnd::Kind::hook, hook, Vector3d::Zero()};
-    if (share) tolerance[index(i)] = *share * in_case.length.value;
-    const auto lug = std::find(lugs_.begin(), lugs_.end(), sling.lug);
-    if (compliance_.size() > 0 && lug != lugs_.end())
-      pull.block<3, 1>(3 * (lug - lugs_.begin()), index(i)) =
-          X_WB.R.transpose() * ropes[i].direction_W;
-  }
+  std::vector<RiggingRope> ropes;
+  std::vector<double> tolerances;
+  for (const auto* slings : {&slings_, &to_bars_})
+    for (const LiftRope& sling : *slings) {
+      const RopeInCase& in_case = *case_.find_rope(sling.name);
+      RiggingRope& rope = ropes.emplace_back(
+          rigging_rope(sling.rope, history_of(history, sling.rope).last_force.row(sample), sample));
+      rope.lower = end_at(in_case.path.back(), sample);
+      rope.upper = end_at(in_case.path.front(), sample);
+      tolerances.push_back(share ? *share * in_case.length.value : 0);
+    }
+  const std::size_t toleranced = ropes.size();
   for (std::size_t h = 0; h < hoists.size(); ++h) {
-    RiggingRope& tackle = ropes[slings_.size() + h];
-    fill(tackle, hoists[h].rope,
-         hook_pull(history_of(history, hoists[h].rope), hoists[h].hook_is_first).row(sample));
+    const Vector3d pull =
+        hook_pull(history_of(history, hoists[h].rope), hoists[h].hook_is_first).row(sample);
+    RiggingRope& tackle = ropes.emplace_back(rigging_rope(hoists[h].rope, pull, sample));
     tackle.lower = {RiggingEnd::Kind::hook, static_cast<int>(h), Vector3d::Zero()};
+    tolerances.push_back(0);
   }
-  if (compliance_.size() > 0) at_lugs = pull.transpose() * compliance_ * pull;
-  const RiggingBalance balance(ropes, static_cast<int>(hoists.size()), at_lugs);
+  const RiggingBalance balance(ropes, static_cast<int>(hoists.size()), compliance_of(ropes, sample),
+                               static_cast<int>(lift_.model.spreaders.size()));
 
   auto state = std::make_shared<State>();
-  state->at_rest.resize(index(count));
-  for (std::size_t i = 0; i < count; ++i) state->at_rest[index(i)] = ropes[i].tension;
-  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say; nor
-  // has one that knows of no bars between ropes.
-  const bool is_balanced = lift_.model.spreaders.empty() &&
-                           std::none_of(hoists.begin(), hoists.end(),
+  state->at_rest.resize(index(ropes.size()));
+  for (std::size_t i = 0; i < ropes.size(); ++i) state->at_rest[index(i)] = ropes[i].tension;
+  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say.
+  const bool is_balanced = std::none_of(hoists.begin(), hoists.end(),
                                         [](const LiftHoist& hoist) { return hoist.hook_is_first; });
-  if (share && is_balanced && slings_.size() <= RiggingBalance::most_toleranced)
-    state->largest_by_tolerance = balance.largest_by_tolerance(tolerance);
+  if (share && is_balanced && toleranced <= RiggingBalance::most_toleranced)
+    state->largest_by_tolerance = balance.largest_by_tolerance(
+        Eigen::Map<const VectorXd>(tolerances.data(), index(tolerances.size())));
   if (const auto& box = standard.centre_box; box && is_balanced)
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d shift((corner & 1) != 0 ? box->x() : -box->x(),
                            (corner & 2) != 0 ? box->y() : -box->y(),
                            (corner & 4) != 0 ? box->z() : -box->z());
+      const Vector3d shift_W = pose_of(lift_.model.load, sample).R * shift;
       state->at_corners_of_box.push_back(
-          balance.with_moment((X_WB.R * shift).cross(Vector3d(0, 0, -weight_))));
+          balance.with_moment(shift_W.cross(Vector3d(0, 0, -weight_))));
     }
   states_.emplace_back(sample, std::move(state));
   return *states_.back().second;
 }
 
-ComputedFactors RiggingFacts::of_sling(std::size_t sling, Index sample) const {
+ComputedFactors RiggingFacts::of_sling(const LiftRope& sling, Index sample) const {
   const State& state = at(sample);
-  const double at_rest = state.at_rest[index(sling)];
+  const auto find_in = [&](const std::vector<LiftRope>& slings) {
+    return std::find_if(slings.begin(), slings.end(),
+                        [&](const LiftRope& one) { return one.rope == sling.rope; });
+  };
+  const auto at_lug = find_in(slings_);
+  const Index row = at_lug != slings_.end()
+                        ? at_lug - slings_.begin()
+                        : index(slings_.size()) + (find_in(to_bars_) - to_bars_.begin());
+  const double at_rest = state.at_rest[row];
   ComputedFactors computed;
   if (!(at_rest > 0)) return computed;
   if (state.largest_by_tolerance.size() > 0)
-    computed.skew = state.largest_by_tolerance[index(sling)] / at_rest;
+    computed.skew = state.largest_by_tolerance[row] / at_rest;
   for (const VectorXd& tension : state.at_corners_of_box)
-    computed.centre_box =
-        std::max(computed.centre_box.value_or(1), tension[index(sling)] / at_rest);
-  computed.two_hooks = two_hooks(slings_[sling].hoist, sample);
+    computed.centre_box = std::max(computed.centre_box.value_or(1), tension[row] / at_rest);
+  computed.two_hooks = two_hooks(sling.hoist, sample);
   return computed;
 }
 
 ComputedFactors RiggingFacts::of_hook(std::size_t hoist, Index sample) const {
   const State& state = at(sample);
-  const Index tackle = index(slings_.size() + hoist);
+  const Index tackle = index(first_tackle() + hoist);
   const double at_rest = state.at_rest[tackle];
   ComputedFactors computed;
   if (!(at_rest > 0)) return computed;
@@ -159,7 +204,7 @@ ComputedFactors RiggingFacts::of_crane(std::size_t crane, Index sample) const {
   const auto sum = [&](const VectorXd& tension) {
     double total = 0;
     for (std::size_t h = 0; h < hoists.size(); ++h)
-      if (hoists[h].crane == crane) total += tension[index(slings_.size() + h)];
+      if (hoists[h].crane == crane) total += tension[index(first_tackle() + h)];
     return total;
   };
   ComputedFactors computed;

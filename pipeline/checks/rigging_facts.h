@@ -23,6 +23,8 @@ class RiggingFacts {
 
   /// Ropes of the case that end at a lug.
   const std::vector<LiftRope>& slings() const { return slings_; }
+  /// Slings to spreaders.
+  const std::vector<LiftRope>& slings_to_bars() const { return to_bars_; }
   /// The name of a sling's hook; empty if it begins elsewhere.
   const std::string& hook_of(std::size_t sling) const { return slings_[sling].hoist; }
   /// Vertical part of all slings' forces on the load, at each sample, N.
@@ -31,13 +33,19 @@ class RiggingFacts {
   std::optional<double> weight_of(const LiftRope& sling) const;
 
   /// Factors at a sample at rest, for slings and for hooks.
-  ComputedFactors of_sling(std::size_t sling, Eigen::Index sample) const;
+  /// @param sling one of slings() or slings_to_bars().
+  ComputedFactors of_sling(const LiftRope& sling, Eigen::Index sample) const;
   ComputedFactors of_hook(std::size_t hoist, Eigen::Index sample) const;
   ComputedFactors of_crane(std::size_t crane, Eigen::Index sample) const;
 
  private:
   struct State;
   const State& at(Eigen::Index sample) const;
+  RiggingRope rigging_rope(int rope, const Eigen::Vector3d& pull_up, Eigen::Index sample) const;
+  RiggingEnd end_at(const ResolvedPoint& point, Eigen::Index sample) const;
+  Eigen::MatrixXd compliance_of(const std::vector<RiggingRope>& ropes, Eigen::Index sample) const;
+  dynamics::Pose pose_of(dynamics::BodyIndex body, Eigen::Index sample) const;
+  std::size_t first_tackle() const { return slings_.size() + to_bars_.size(); }
   std::optional<TwoHooks> two_hooks(const std::string& hook, Eigen::Index sample) const;
   std::string crane_of(const std::string& hook) const { return hook.substr(0, hook.find('.')); }
 
@@ -45,7 +53,7 @@ class RiggingFacts {
   const LiftRun& lift_;
   Eigen::MatrixXd compliance_;
   std::vector<std::string> lugs_;
-  std::vector<LiftRope> slings_;
+  std::vector<LiftRope> slings_, to_bars_;
   Eigen::Vector3d p_BoBcm_;
   double weight_ = 0;  ///< of the load, N
   mutable std::vector<std::pair<Eigen::Index, std::shared_ptr<const State>>> states_;

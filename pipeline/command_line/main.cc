@@ -209,7 +209,9 @@ void add_sweep(CLI::App& app, int& code) {
 
 void add_rig(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
-      "rig", "Choose slings and shackles from stock for a case, by its checks and its own loads");
+      "rig",
+      "Choose slings, shackles, master links and spreader bars from stock for a case, by its "
+      "checks and its own loads");
   auto options = std::make_shared<RigOptions>();
   command->add_option("CASE", options->path, "case file, or folder with a case.yaml")->required();
   command->add_option("--stock", options->stock,
@@ -220,8 +222,7 @@ void add_rig(CLI::App& app, int& code) {
                    "of another all, if not given)")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(construction_names()));
-  command->add_option("--write", options->output,
-                      "file for the case with the chosen slings and shackles");
+  command->add_option("--write", options->output, "file for the case with the chosen rigging");
   add_limits(*command);
   command->callback([options, &code] { code = rig(*options); });
 }

@@ -67,6 +67,58 @@ void print_shackles(const RiggedLift& rigged) {
     fmt::print("\n{}", table.text());
 }
 
+void print_master_links(const RiggedLift& rigged) {
+  if (rigged.master_links.empty()) return;
+  TextTable table({{"hook"},
+                   {"legs", 4},
+                   {"rest t", 4},
+                   {"master link"},
+                   {"WLL t", 4},
+                   {"use", 3},
+                   {"governing check"}});
+  for (const ChosenMasterLink& chosen : rigged.master_links) {
+    const MasterLinkInStock& link = rigged.stock.master_links[chosen.index];
+    const Check& governing = *governing_check(chosen.checks);
+    table.add_row({chosen.demand.hook, std::to_string(chosen.demand.legs),
+                   chosen.demand.at_rest / newton_per_tonne, link.name(),
+                   link.link.working_load / newton_per_tonne, use_text(governing), governing.name});
+  }
+  fmt::print("\n{}", table.text());
+}
+
+void print_sheaves(const RiggedLift& rigged) {
+  if (rigged.sheaves.empty()) return;
+  TextTable table(
+      {{"sling"}, {"sheave"}, {"WLL t", 4}, {"tread mm", 4}, {"use", 3}, {"governing check"}});
+  for (const ChosenSheave& chosen : rigged.sheaves) {
+    if (!chosen.index) continue;
+    const SheaveInStock& sheave = rigged.stock.sheaves[*chosen.index];
+    const Check& governing = *governing_check(chosen.checks);
+    table.add_row({chosen.rope, sheave.name(), sheave.sheave.working_load / newton_per_tonne,
+                   sheave.sheave.tread * 1e3, use_text(governing), governing.name});
+  }
+  if (!table.empty()) fmt::print("\n{}", table.text());
+}
+
+void print_spreaders(const RiggedLift& rigged) {
+  if (!rigged.spreaders.empty()) {
+    TextTable table(
+        {{"spreader"}, {"bar"}, {"WLL t", 4}, {"mass kg", 4}, {"use", 3}, {"governing check"}});
+    for (const ChosenSpreader& chosen : rigged.spreaders) {
+      const SpreaderInStock& bar = rigged.stock.spreaders[chosen.index];
+      const Check& governing = *governing_check(chosen.checks);
+      table.add_row({chosen.name, bar.name(), bar.spreader.working_load / newton_per_tonne,
+                     bar.spreader.bar.mass(), use_text(governing), governing.name});
+    }
+    fmt::print("\n{}", table.text());
+  }
+  for (const SpreaderInCase& bar : rigged.lift_case.spreaders)
+    if (!has_bars_of_length(rigged.stock, bar.length.value))
+      print_wrapped(fmt::format("the stock has no bar of {}: {} stays as it is",
+                                format_quantity(bar.length.value, Dimension::length),
+                                bar.name.value));
+}
+
 /// What was used most of all that was chosen.
 void print_governing(const RiggedLift& rigged) {
   const Check* worst = nullptr;
@@ -81,6 +133,12 @@ void print_governing(const RiggedLift& rigged) {
     consider(sling.chosen.checks, "sling " + sling.demand.rope);
   for (const ChosenShackle& shackle : rigged.shackles)
     consider(shackle.checks, "shackle at " + shackle.lug);
+  for (const ChosenMasterLink& link : rigged.master_links)
+    consider(link.checks, "master link at " + link.demand.hook);
+  for (const ChosenSheave& sheave : rigged.sheaves)
+    consider(sheave.checks, "sheave of " + sheave.rope);
+  for (const ChosenSpreader& spreader : rigged.spreaders)
+    consider(spreader.checks, "spreader " + spreader.name);
   fmt::print("\n");
   print_wrapped(fmt::format("{} governs: {:.3f} by {}", what, worst->utilisation, worst->name));
 }
@@ -116,6 +174,27 @@ void print_failures(const RiggedLift& rigged) {
                             shackle.lug, rigged.stock.shackles[*shackle.index].name(),
                             check.utilisation, check.name));
   }
+  const auto say = [](const std::string& what, const std::string& name,
+                      const std::vector<Check>& checks) {
+    const Check& check = *governing_check(checks);
+    say_warning(
+        fmt::format("no {}: {} has {:.3f} by {}", what, name, check.utilisation, check.name));
+  };
+  for (const ChosenMasterLink& link : rigged.master_links)
+    if (!link.pass())
+      say("master link of the stock passes at " + link.demand.hook,
+          rigged.stock.master_links[link.index].name(), link.checks);
+  for (const ChosenSheave& sheave : rigged.sheaves) {
+    if (!sheave.index)
+      say_warning("no sheave of the stock takes the sling " + sheave.rope);
+    else if (!sheave.pass())
+      say("sheave of the stock passes for " + sheave.rope,
+          rigged.stock.sheaves[*sheave.index].name(), sheave.checks);
+  }
+  for (const ChosenSpreader& spreader : rigged.spreaders)
+    if (!spreader.pass())
+      say("spreader bar of the stock passes for " + spreader.name,
+          rigged.stock.spreaders[spreader.index].name(), spreader.checks);
 }
 
 }  // namespace
@@ -141,6 +220,9 @@ int rig(const RigOptions& options) {
     fmt::print("{}\n\n", rigged.lift_case.title);
     print_slings(rigged);
     print_shackles(rigged);
+    print_master_links(rigged);
+    print_sheaves(rigged);
+    print_spreaders(rigged);
     print_governing(rigged);
     print_settling(rigged.settled);
   }

@@ -100,9 +100,16 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   if (kind == FileKind::rigging) {
     const auto stock = library.read_rigging(path, diagnostics);
     if (!stock) return std::nullopt;
-    return if_sound(fmt::format("rigging with {} and {}, by {}",
-                                count(stock->slings.size(), "sling"),
-                                count(stock->shackles.size(), "shackle"), stock->rule.name));
+    std::string items;
+    const auto add = [&](std::size_t size, const char* noun) {
+      if (size > 0) items += (items.empty() ? "" : ", ") + count(size, noun);
+    };
+    add(stock->slings.size(), "sling");
+    add(stock->shackles.size(), "shackle");
+    add(stock->master_links.size(), "master link");
+    add(stock->sheaves.size(), "sheave");
+    add(stock->spreaders.size(), "spreader");
+    return if_sound(fmt::format("rigging with {}, by {}", items, stock->rule.name));
   }
   if (kind == FileKind::study) {
     const std::optional<StudyFile> study = read_study_file(path, diagnostics);

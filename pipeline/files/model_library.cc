@@ -72,6 +72,8 @@ void forget_columns(RiggingStock& stock) {
   for (StockSling& sling : stock.slings) sling.name.mark = without_column(sling.name.mark);
   for (StockShackle& shackle : stock.shackles)
     shackle.name.mark = without_column(shackle.name.mark);
+  for (StockMasterLink& link : stock.master_links) link.name.mark = without_column(link.name.mark);
+  for (StockSheave& sheave : stock.sheaves) sheave.name.mark = without_column(sheave.name.mark);
 }
 
 /// The models of a kind in a folder of models: folders that hold `crane.yaml`, and YAML files below

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,22 @@ std::vector<Outwards> find_outwards(const PadModel& pad, const LugModel& lug) {
   return ways;
 }
 
+Format<structure::PadeyeDoubler> doubler_format() {
+  using structure::PadeyeDoubler;
+  const auto length = quantity(Dimension::length, Range::positive());
+  Table<PadeyeDoubler> table(
+      "doubler",
+      "A plate between the base of a padeye and the plating that it stands on, in the middle under "
+      "the base. Hand formulae check its weld, its bending and the pressure of the base on it; the "
+      "meshes of block and padeye leave it out.");
+  table.required("length", &PadeyeDoubler::length, length, "along the base")
+      .required("width", &PadeyeDoubler::width, length, "across it")
+      .required("thickness", &PadeyeDoubler::thickness, length, "of the plate")
+      .required("weld", &PadeyeDoubler::weld, length,
+                "leg of the fillet that holds it to the plating, all around");
+  return table.format();
+}
+
 /// Keys of a padeye wherever it is.
 template <class T>
 void add_padeye_keys(Table<T>& table) {
@@ -47,6 +64,11 @@ void add_padeye_keys(Table<T>& table) {
                   "of each cheek plate; none without them")
       .by_default("cheek_weld", &PadeyeDesign::cheek_weld, length_or_none, "0 mm",
                   "leg of the fillet weld around each cheek plate")
+      .by_default("base_weld", &PadeyeDesign::base_weld, length_or_none, "0 mm",
+                  "leg of the fillet welds on both sides of the base; it is welded through if left "
+                  "out")
+      .optional("doubler", &PadeyeDesign::doubler, doubler_format(),
+                "between the base and the plating; none if left out")
       .optional("jaw", &PadeyeDesign::jaw, length,
                 "inside width of the shackle, which the plates must fill to 75 %; not checked if "
                 "left out")
@@ -98,8 +120,24 @@ Format<PadeyePart> padeye_part_format() {
     if (reading.diagnostics().has_errors()) return;
     for (const std::string& fault : structure::padeye_faults(padeye.geometry()))
       reading.error(mark, fault);
+    for (const std::string& fault : doubler_faults(padeye, padeye.base[0] + padeye.base[1]))
+      reading.error(mark, fault);
   });
   return table.format();
+}
+
+std::vector<std::string> doubler_faults(const PadeyeDesign& design, double base) {
+  std::vector<std::string> faults;
+  if (!design.doubler) return faults;
+  const auto short_of = [&](const char* what, double is, double due, const char* of) {
+    if (is >= due - same_place) return;
+    faults.push_back(fmt::format("its doubler is {:.6g} mm {}; {} asks for {:.6g} mm", 1000 * is,
+                                 what, of, 1000 * due));
+  };
+  short_of("long", design.doubler->length, base + 2 * design.base_weld, "the base with its welds");
+  short_of("wide", design.doubler->width, design.thickness + 2 * design.base_weld,
+           "the main plate with its welds");
+  return faults;
 }
 
 structure::PadeyeGeometry PadeyePart::geometry() const {
@@ -171,6 +209,8 @@ std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const Block
                      along_axis ? lower : upper,
                      along_axis ? upper : lower};
   faults = structure::padeye_faults(placed.geometry);
+  for (std::string& fault : doubler_faults(design, lower + upper))
+    faults.push_back(std::move(fault));
   const double to_end = out.sign * (out.end - pin_out);
   if (design.radius > to_end + same_place)
     faults.push_back(

@@ -11,6 +11,7 @@
 #include "pipeline/declaration/format.h"
 #include "pipeline/declaration/geometry_format.h"
 #include "structure/mesh/padeye/padeye_geometry.h"
+#include "structure/practice/padeye_formulas.h"
 
 namespace blocklift::pipeline {
 
@@ -25,12 +26,14 @@ struct PadeyeDesign {
   double hole = std::numeric_limits<double>::quiet_NaN();       ///< diameter
   double pin = std::numeric_limits<double>::quiet_NaN();        ///< diameter
   double cheek_radius = 0;
-  double cheek_thickness = 0;              ///< of each of two
-  double cheek_weld = 0;                   ///< leg of the fillet around a cheek plate
-  std::optional<double> jaw;               ///< inside width of the shackle
-  std::optional<double> tensile_strength;  ///< of the plates, Pa
-  double design_factor = 2;                ///< N_d of ASME BTH-1
-  int divisions = 32;                      ///< elements around the hole
+  double cheek_thickness = 0;  ///< of each of two
+  double cheek_weld = 0;       ///< leg of the fillet around a cheek plate
+  double base_weld = 0;        ///< leg of the fillets on both sides of the base; 0: welded through
+  std::optional<structure::PadeyeDoubler> doubler;  ///< between base and plating
+  std::optional<double> jaw;                        ///< inside width of the shackle
+  std::optional<double> tensile_strength;           ///< of the plates, Pa
+  double design_factor = 2;                         ///< N_d of ASME BTH-1
+  int divisions = 32;                               ///< elements around the hole
 };
 
 /// Padeye by itself, for a part: with its base, and without a lug.
@@ -49,6 +52,9 @@ struct PlacedPadeye {
   Eigen::Matrix3d R_BP = Eigen::Matrix3d::Identity();
   Vector3 p_BP = Vector3::Zero();  ///< the middle of the hole, m
 };
+
+/// What does not fit of a doubler below a base of that length, a sentence each; empty: nothing.
+std::vector<std::string> doubler_faults(const PadeyeDesign& design, double base);
 
 Format<PadeyeDesign> padeye_format();
 Format<PadeyePart> padeye_part_format();

@@ -8,6 +8,7 @@
 
 #include "pipeline/declaration/format.h"
 #include "pipeline/files/rope_model.h"
+#include "pipeline/files/spreader.h"
 
 namespace blocklift::pipeline {
 
@@ -69,6 +70,48 @@ struct StockShackle {
   double mass = nan;           ///< kg
 };
 
+/// An oblong master link in stock, of round bar: two straight sides and two half rings. SI units.
+struct StockMasterLink {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+  Located<std::string> name;
+  double working_load = nan;   ///< N, of all legs together
+  double breaking_load = nan;  ///< N
+  double bar = nan;            ///< diameter, m
+  double inside_length = nan;  ///< m
+  double inside_width = nan;   ///< m
+  double mass = nan;           ///< kg
+
+  /// Of its bar, as long as the line through the middle of it, of steel, kg.
+  double mass_of_bar() const;
+};
+
+/// A sheave in stock over which slings are led. SI units.
+struct StockSheave {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+  Located<std::string> name;
+  double working_load = nan;   ///< N, on its pin
+  double breaking_load = nan;  ///< N
+  double rope = nan;           ///< largest diameter that its groove takes, m
+  double tread = nan;          ///< diameter at the bottom of the groove, m
+  double mass = nan;           ///< kg
+};
+
+/// A spreader bar in stock. SI units.
+struct StockSpreader {
+  Located<std::string> name;
+  SpreaderInCase bar;
+  double working_load = std::numeric_limits<double>::quiet_NaN();  ///< N, hung below it
+  /// Of the slings above to the level, the least that the working load holds for, rad.
+  double sling_angle = std::numeric_limits<double>::quiet_NaN();
+
+  /// What the bar bears of its resistance under the working load, all forces times a factor: half of
+  /// it over tan(sling_angle) presses the bar at the height of its upper eyes, its own weight
+  /// bends it (structure::column_utilisation).
+  double utilisation(double factor) const;
+};
+
 /// Rigging of one kind as it is in stock, with the source of its figures.
 struct RiggingStock {
   std::string kind;
@@ -78,6 +121,9 @@ struct RiggingStock {
   std::optional<SlingConstruction> construction;  ///< of all slings of the file
   std::vector<StockSling> slings;
   std::vector<StockShackle> shackles;
+  std::vector<StockMasterLink> master_links;
+  std::vector<StockSheave> sheaves;
+  std::vector<StockSpreader> spreaders;
   Mark place;
 
   double safety_factor_of(const StockSling& sling) const {
@@ -89,8 +135,9 @@ struct RiggingStock {
 Format<RiggingStock> rigging_stock_format();
 
 /// Whether the figures of a stock hold together, after its ropes were looked up: working loads by
-/// the rule, strength over mass by the construction, pins by the shear that they may bear. Figures
-/// that could not be read are passed over.
+/// the rule, strength over mass by the construction, pins by the shear that they may bear, master
+/// links by their mass and the mean stress of their sides, sheaves by the bend of their largest rope,
+/// spreader bars as columns. Figures that could not be read are passed over.
 void check_rigging_stock(const RiggingStock& stock, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

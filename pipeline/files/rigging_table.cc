@@ -1,6 +1,7 @@
 #include "pipeline/files/rigging_table.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -62,6 +63,16 @@ bool is_any_of(const std::string& text, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), text) != words.end();
 }
 
+/// The table of a file of kind rigging whose items a row of headings begins; none: no such row.
+const char* table_of(const std::string& heading) {
+  static const std::map<std::string, const char*> tables{{"sling", "slings"},
+                                                         {"shackle", "shackles"},
+                                                         {"master_link", "master_links"},
+                                                         {"sheave", "sheaves"}};
+  const auto found = tables.find(heading);
+  return found == tables.end() ? nullptr : found->second;
+}
+
 /// Writes each line of a table as one line of YAML, so that the lines keep their numbers.
 class TableWriter {
  public:
@@ -92,7 +103,7 @@ class TableWriter {
   void add_row(const Cells& cells) {
     if (!headings_.empty())
       add_item(cells);
-    else if (is_any_of(cells.front(), {"sling", "shackle"}))
+    else if (table_of(cells.front()))
       add_headings(cells);
     else
       add_key(cells);
@@ -117,7 +128,7 @@ class TableWriter {
   void add_headings(const Cells& cells) {
     close_rule();
     headings_ = cells;
-    text_ += cells.front() == "sling" ? "slings: {" : "shackles: {";
+    text_ += std::string(table_of(cells.front())) + ": {";
   }
 
   void add_item(const Cells& cells) {
@@ -129,7 +140,7 @@ class TableWriter {
     std::string rope, item;
     for (std::size_t i = 1; i < cells.size(); ++i) {
       if (cells[i].empty()) continue;
-      const bool is_own = headings_.front() == "shackle" ||
+      const bool is_own = headings_.front() != "sling" ||
                           is_any_of(headings_[i], {"rope", "working_load", "safety_factor"});
       (is_own ? item : rope) += entry(headings_[i], cells[i]);
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -67,7 +69,23 @@ void check_walls(const SpreaderInCase& bar, Reading& reading) {
                              most)});
 }
 
+const std::vector<std::pair<std::string, structure::BucklingCurve>>& buckling_curves() {
+  using structure::BucklingCurve;
+  static const std::vector<std::pair<std::string, BucklingCurve>> all{{"a0", BucklingCurve::a0},
+                                                                      {"a", BucklingCurve::a},
+                                                                      {"b", BucklingCurve::b},
+                                                                      {"c", BucklingCurve::c},
+                                                                      {"d", BucklingCurve::d}};
+  return all;
+}
+
 }  // namespace
+
+std::string buckling_curve_name(structure::BucklingCurve curve) {
+  for (const auto& [name, one] : buckling_curves())
+    if (one == curve) return name;
+  return {};
+}
 
 const std::array<std::string, 4> spreader_eyes = {"upper_a", "upper_b", "lower_a", "lower_b"};
 
@@ -118,12 +136,7 @@ Format<SpreaderInCase> spreader_format() {
       .required("yield_stress", &SpreaderInCase::yield_stress,
                 quantity(Dimension::stress, Range::positive()), "of its steel")
       .by_default("buckling_curve", &SpreaderInCase::curve,
-                  choice<BucklingCurve>({{"a0", BucklingCurve::a0},
-                                         {"a", BucklingCurve::a},
-                                         {"b", BucklingCurve::b},
-                                         {"c", BucklingCurve::c},
-                                         {"d", BucklingCurve::d}}),
-                  "c",
+                  choice<BucklingCurve>(buckling_curves()), "c",
                   "of EN 1993-1-1, table 6.2: a for hollow sections finished hot, b for welded "
                   "boxes, c for sections formed cold")
       .optional("mass", &SpreaderInCase::given_mass, quantity(Dimension::mass, Range::positive()),

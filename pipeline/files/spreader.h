@@ -49,6 +49,9 @@ extern const std::array<std::string, 4> spreader_eyes;
 /// Youngs's modulus and density of the steel that bars are of, Pa and kg/m^3.
 inline constexpr double bar_modulus = 210e9, bar_density = 7850;
 
+/// The name of a buckling curve in files.
+std::string buckling_curve_name(structure::BucklingCurve curve);
+
 Format<SpreaderInCase> spreader_format();
 
 }  // namespace blocklift::pipeline

@@ -64,14 +64,15 @@ class StandardCheck {
         exists(*rope.rope.termination, rules_.sling->termination,
                fmt::format("the rules {} have no termination", rules_.name));
     }
-    if (!standard_.bend_diameter) return;
+    const std::optional<double> bend = standard_.bend_of(rope.name.value);
+    if (!bend) return;
     if (!rope.rope.diameter) {
       lacks("diameter", "the bend diameter is held against");
-    } else if (*standard_.bend_diameter < *rope.rope.diameter) {
+    } else if (*bend < *rope.rope.diameter) {
       diagnostics_.error(standard_.place,
                          fmt::format("rope {} of {} is bent round {}", rope.name.value,
                                      format_quantity(*rope.rope.diameter, Dimension::length),
-                                     format_quantity(*standard_.bend_diameter, Dimension::length)),
+                                     format_quantity(*bend, Dimension::length)),
                          {"a sling is not bent round less than its own diameter"});
     }
   }
@@ -91,11 +92,46 @@ class StandardCheck {
                            fmt::format("a shackle is at lug \"{}\", which the load does not have",
                                        shackle.name.value),
                            {names_hint("its lugs are", lugs, shackle.name.value)});
-      if (shackle.breaking_load < shackle.working_load)
-        diagnostics_.error(
-            shackle.name.mark,
-            fmt::format("the shackle at lug {} breaks below its working load", shackle.name.value));
+      breaks_above_working_load(shackle, "the shackle at lug");
     }
+  }
+
+  void master_links() {
+    std::vector<std::string> hooks;
+    for (const RopeInCase& rope : case_.ropes)
+      if (rope.is_sling() && rope.path.front().kind == ResolvedPoint::Kind::hook)
+        hooks.push_back(rope.path.front().body_name(case_.cranes));
+    std::sort(hooks.begin(), hooks.end());
+    hooks.erase(std::unique(hooks.begin(), hooks.end()), hooks.end());
+    for (const MasterLinkInCase& link : standard_.master_links) {
+      if (std::find(hooks.begin(), hooks.end(), link.name.value) == hooks.end())
+        diagnostics_.error(link.name.mark,
+                           fmt::format("a master link is at hook \"{}\", from which no sling hangs",
+                                       link.name.value),
+                           {names_hint("slings hang from", hooks, link.name.value)});
+      breaks_above_working_load(link, "the master link at hook");
+    }
+  }
+
+  void sheaves() {
+    std::vector<std::string> slings;
+    for (const RopeInCase& rope : case_.ropes)
+      if (rope.is_sling()) slings.push_back(rope.name.value);
+    for (const SheaveInCase& sheave : standard_.sheaves) {
+      if (std::find(slings.begin(), slings.end(), sheave.name.value) == slings.end())
+        diagnostics_.error(
+            sheave.name.mark,
+            fmt::format("a sheave is at \"{}\", which is no sling of the case", sheave.name.value),
+            {names_hint("its slings are", slings, sheave.name.value)});
+      breaks_above_working_load(sheave, "the sheave of rope");
+    }
+  }
+
+  template <class Accessory>
+  void breaks_above_working_load(const Accessory& one, const char* what) {
+    if (!(one.breaking_load < one.working_load)) return;
+    diagnostics_.error(one.name.mark,
+                       fmt::format("{} {} breaks below its working load", what, one.name.value));
   }
 
  private:
@@ -126,6 +162,8 @@ void check_standard(const LiftCase& lift_case, Diagnostics& diagnostics) {
   for (const RopeInCase& rope : lift_case.ropes)
     if (rope.is_sling()) check.sling(rope);
   check.shackles();
+  check.master_links();
+  check.sheaves();
 }
 
 }  // namespace blocklift::pipeline

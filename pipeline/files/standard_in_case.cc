@@ -1,5 +1,7 @@
 #include "pipeline/files/standard_in_case.h"
 
+#include <algorithm>
+
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/model_library.h"
 
@@ -24,7 +26,35 @@ Format<ShackleInCase> shackle_in_case_format() {
   return table.format();
 }
 
+Format<MasterLinkInCase> master_link_in_case_format() {
+  const auto load = quantity(Dimension::load, Range::positive());
+  Table<MasterLinkInCase> table("master link", "Master link between a hook and its slings.");
+  table.required("working_load", &MasterLinkInCase::working_load, load, "WLL, of all legs together")
+      .required("breaking_load", &MasterLinkInCase::breaking_load, load, "MBL")
+      .by_default("mass", &MasterLinkInCase::mass, quantity(Dimension::mass, Range::not_negative()),
+                  "0 kg", "counted to the weight of the rigging");
+  return table.format();
+}
+
+Format<SheaveInCase> sheave_in_case_format() {
+  const auto load = quantity(Dimension::load, Range::positive());
+  Table<SheaveInCase> table("sheave", "Sheave over which a sling is led.");
+  table
+      .required("working_load", &SheaveInCase::working_load, load,
+                "WLL, on its pin, for both parts of the rope")
+      .required("breaking_load", &SheaveInCase::breaking_load, load, "MBL, likewise")
+      .required("tread", &SheaveInCase::tread, quantity(Dimension::length, Range::positive()),
+                "diameter at the bottom of the groove, round which the rope is bent");
+  return table.format();
+}
+
 }  // namespace
+
+std::optional<double> StandardInCase::bend_of(const std::string& rope) const {
+  const SheaveInCase* sheave = find_by_name(sheaves, rope);
+  if (!sheave) return bend_diameter;
+  return std::min(sheave->tread, bend_diameter.value_or(sheave->tread));
+}
 
 Format<StandardInCase> standard_in_case_format() {
   Table<StandardInCase> table(
@@ -59,6 +89,10 @@ Format<StandardInCase> standard_in_case_format() {
                 "if left out")
       .optional("shackles", &StandardInCase::shackles, named_tables(shackle_in_case_format()),
                 "by lug")
+      .optional("master_links", &StandardInCase::master_links,
+                named_tables(master_link_in_case_format()), "by hook: C1.main")
+      .optional("sheaves", &StandardInCase::sheaves, named_tables(sheave_in_case_format()),
+                "by sling that is led over one")
       .place(&StandardInCase::place);
   return table.format();
 }

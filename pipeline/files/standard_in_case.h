@@ -19,6 +19,22 @@ struct ShackleInCase {
   double breaking_load = 0;   ///< N
 };
 
+/// Master link between a hook and its slings.
+struct MasterLinkInCase {
+  Located<std::string> name;  ///< of the hook: "C1.main"
+  double working_load = 0;    ///< N, of all legs together
+  double breaking_load = 0;   ///< N
+  double mass = 0;            ///< kg
+};
+
+/// Sheave over which a sling is led.
+struct SheaveInCase {
+  Located<std::string> name;  ///< of the rope
+  double working_load = 0;    ///< N, on its pin
+  double breaking_load = 0;   ///< N
+  double tread = 0;           ///< diameter at the bottom of the groove, m
+};
+
 /// The standard by which a case is checked, with what the case chooses of it. SI units.
 struct StandardInCase {
   std::vector<Located<std::string>> rule_names;
@@ -33,7 +49,12 @@ struct StandardInCase {
   std::optional<double> length_tolerance;  ///< of slings, over their length
   std::optional<double> bend_diameter;     ///< of what slings are bent round, m
   std::vector<ShackleInCase> shackles;
+  std::vector<MasterLinkInCase> master_links;
+  std::vector<SheaveInCase> sheaves;
   Mark place;
+
+  /// What a rope is bent round, m; none: nothing.
+  std::optional<double> bend_of(const std::string& rope) const;
 };
 
 Format<StandardInCase> standard_in_case_format();

@@ -93,7 +93,7 @@ Format<SlingRules> sling_rules_format() {
 }
 
 Format<ShackleRules> shackle_rules_format() {
-  Table<ShackleRules> table("shackle rules", "What shackles may carry.");
+  Table<ShackleRules> table("shackle rules", "What shackles and other accessories may carry.");
   table
       .required("working", &ShackleRules::working, factor_format("On the static load."),
                 "working load over the static load, and over the dynamic load / DAF")
@@ -210,6 +210,7 @@ void for_each_section(StandardRules& rules, const StandardRules& others, const V
   visit(rules.length_tolerance, others.length_tolerance);
   visit(rules.sling, others.sling);
   visit(rules.shackle, others.shackle);
+  visit(rules.accessory, others.accessory);
   visit(rules.shackle_side_load, others.shackle_side_load);
   visit(rules.consequence, others.consequence);
   visit(rules.fine_mesh, others.fine_mesh);
@@ -341,6 +342,10 @@ Format<StandardRules> standard_rules_format() {
       .optional("sling", &StandardRules::sling, sling_rules_format(), "safety factor of slings")
       .optional("shackle", &StandardRules::shackle, shackle_rules_format(),
                 "what shackles may carry")
+      .optional("accessory", &StandardRules::accessory, shackle_rules_format(),
+                "what master links and sheaves may carry; without it the static load is held "
+                "against their working load, the dynamic load against that times the dynamic "
+                "amplification")
       .optional("shackle_side_load", &StandardRules::shackle_side_load, list_of(side_load_format()),
                 "what shackles at padeyes bear of their loads, by the angle of the pull out of the "
                 "plane across their pin")

@@ -69,8 +69,8 @@ struct SlingRules {
   std::vector<NamedFactor> material, wear, termination;
 };
 
-/// Shackles: static load <= working load; dynamic load <= working load x DAF, <= breaking load /
-/// breaking.
+/// Shackles, and what rules say alike of other accessories: static load <= working load; dynamic load
+/// <= working load x DAF, <= breaking load / breaking.
 struct ShackleRules {
   ClauseFactor working;  ///< on the static load
   ClauseFactor breaking;
@@ -125,6 +125,7 @@ struct StandardRules {
   std::optional<ClauseFactor> length_tolerance;  ///< of slings, over their length, either way
   std::optional<SlingRules> sling;
   std::optional<ShackleRules> shackle;
+  std::optional<ShackleRules> accessory;       ///< master links and sheaves
   std::vector<SideLoadRow> shackle_side_load;  ///< the smallest angle first
   std::optional<ConsequenceRules> consequence;
   std::optional<FineMeshRules> fine_mesh;

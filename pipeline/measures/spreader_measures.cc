@@ -112,6 +112,30 @@ structure::ColumnForces largest_forces(const std::vector<BarForce>& forces, doub
   return largest;
 }
 
+double largest_share(const structure::Column& column, const LiftSpreader& bar, const LiftRun& lift,
+                     double factor) {
+  double largest = 0;
+  for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()})
+    for (Eigen::Index i = 0; i < history->sample_count(); ++i)
+      largest = std::max(
+          largest,
+          structure::column_utilisation(
+              column, largest_forces(rope_forces(bar, *history, i), column.length), factor));
+  return largest;
+}
+
+double largest_hung_load(const LiftSpreader& bar, const LiftRun& lift) {
+  const dynamics::History& history = lift.static_history;
+  double largest = 0;
+  for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
+    double sum = 0;
+    for (const LiftSpreader::End& end : bar.ends)
+      if (!end.last) sum -= history.ropes[static_cast<std::size_t>(end.rope)].first_force(i, 2);
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 double spreader_factor(const CheckSettings& checks) {
   return checks.spreader_factor.value_or(checks.yield_factor);
 }

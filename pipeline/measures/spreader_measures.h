@@ -24,6 +24,14 @@ structure::ColumnForces largest_forces(const std::vector<BarForce>& forces, doub
 /// The factor on the forces in spreaders.
 double spreader_factor(const CheckSettings& checks);
 
+/// The most that the ropes of a bar ask of a column in its place at any instant, at rest and in
+/// motion: structure::column_utilisation with that factor.
+double largest_share(const structure::Column& column, const LiftSpreader& bar, const LiftRun& lift,
+                     double factor);
+
+/// The largest downward pull of all that hangs below a bar at rest, N.
+double largest_hung_load(const LiftSpreader& bar, const LiftRun& lift);
+
 /// For each spreader its compression, its bending moment, and what it bears over what it may, by
 /// structure::column_utilisation.
 void add_spreader_measures(const LiftCase& lift_case, const LiftRun& lift,

@@ -33,6 +33,8 @@ PartPadeye assess_part_padeye(const PartAssessment& assessment) {
   result.input.material = model.materials[static_cast<std::size_t>(
       model.material_of_solid[static_cast<std::size_t>(solids.front().front())])];
   result.input.cheek_weld = padeye.cheek_weld;
+  result.input.base_weld = padeye.base_weld;
+  result.input.doubler = padeye.doubler;
   result.input.jaw = padeye.jaw;
   result.input.tensile_strength = padeye.tensile_strength;
   result.input.design_factor = padeye.design_factor;

@@ -58,11 +58,11 @@ void add_weights(const Assessment& assessment, TextDocument& document) {
 
 /// Identification and certificate are filled in by hand: the case does not know them.
 void add_rigging(const LiftCase& lift_case, TextDocument& document) {
-  std::vector<Row> slings, shackles;
+  std::vector<Row> slings, shackles, links, sheaves, bars;
   for (const RopeInCase& rope : lift_case.ropes) {
-    if (rope.lug().empty()) continue;
-    slings.push_back({rope.name.value, rope.lug(), fmt::format("{:.3f}", rope.length.value),
-                      number(rope.rope.diameter, 1e3, 0),
+    if (!rope.is_sling()) continue;
+    slings.push_back({rope.name.value, rope.lug().empty() ? rope.to.value.name.value : rope.lug(),
+                      fmt::format("{:.3f}", rope.length.value), number(rope.rope.diameter, 1e3, 0),
                       rope.rope.material ? rope.rope.material->value : "–",
                       rope.rope.termination ? rope.rope.termination->value : "–",
                       tonnes(rope.rope.breaking_load), "", ""});
@@ -70,14 +70,33 @@ void add_rigging(const LiftCase& lift_case, TextDocument& document) {
   for (const ShackleInCase& shackle : lift_case.standard->shackles)
     shackles.push_back(
         {shackle.name.value, tonnes(shackle.working_load), tonnes(shackle.breaking_load), "", ""});
+  for (const MasterLinkInCase& link : lift_case.standard->master_links)
+    links.push_back({link.name.value, tonnes(link.working_load), tonnes(link.breaking_load),
+                     number(link.mass, 1, 1), "", ""});
+  for (const SheaveInCase& sheave : lift_case.standard->sheaves)
+    sheaves.push_back({sheave.name.value, tonnes(sheave.working_load), tonnes(sheave.breaking_load),
+                       number(sheave.tread, 1e3, 0), "", ""});
+  for (const SpreaderInCase& bar : lift_case.spreaders)
+    bars.push_back({bar.name.value, fmt::format("{:.3f}", bar.length.value),
+                    number(bar.mass(), 1, 0), number(bar.yield_stress, 1e-6, 0), "", ""});
   document.heading("Rigging list");
   if (!slings.empty())
-    document.table({"sling", "lug", "length, m", "diameter, mm", "material", "termination",
+    document.table({"sling", "ends at", "length, m", "diameter, mm", "material", "termination",
                     "MBL, t", "ID", "certificate"},
                    std::move(slings));
   if (!shackles.empty())
     document.table({"shackle at lug", "WLL, t", "MBL, t", "ID", "certificate"},
                    std::move(shackles));
+  if (!links.empty())
+    document.table({"master link at hook", "WLL, t", "MBL, t", "mass, kg", "ID", "certificate"},
+                   std::move(links));
+  if (!sheaves.empty())
+    document.table(
+        {"sheave of sling", "WLL on the pin, t", "MBL, t", "tread, mm", "ID", "certificate"},
+        std::move(sheaves));
+  if (!bars.empty())
+    document.table({"spreader", "length, m", "mass, kg", "yield, MPa", "ID", "certificate"},
+                   std::move(bars));
 }
 
 void add_geometry(const LiftCase& lift_case, TextDocument& document) {

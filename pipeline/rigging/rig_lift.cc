@@ -41,6 +41,20 @@ class LiftRunner {
     rope->rope_choice = sling.rope_choice;
   }
 
+  /// The bar in the place of the case's, which keeps its name and where it starts.
+  void set_spreader(const std::string& name, const SpreaderInCase& chosen) {
+    for (SpreaderInCase& bar : assessment_.lift_case.spreaders) {
+      if (bar.name.value != name) continue;
+      SpreaderInCase changed = chosen;
+      changed.name = bar.name;
+      changed.position = bar.position;
+      changed.attitude = bar.attitude;
+      bar = std::move(changed);
+    }
+  }
+
+  const LiftRun& lift() const { return *assessment_.lift; }
+
   Loads run() {
     assessment_.lift.reset();
     const LoadMass mass = assessment_.block.model
@@ -105,8 +119,15 @@ bool RiggedLift::pass() const {
   return settled.stands &&
          std::all_of(slings.begin(), slings.end(),
                      [](const RiggedSling& sling) { return sling.chosen.pass(); }) &&
-         std::all_of(shackles.begin(), shackles.end(),
-                     [](const ChosenShackle& shackle) { return !shackle.index || shackle.pass(); });
+         std::all_of(
+             shackles.begin(), shackles.end(),
+             [](const ChosenShackle& shackle) { return !shackle.index || shackle.pass(); }) &&
+         std::all_of(master_links.begin(), master_links.end(),
+                     [](const ChosenMasterLink& link) { return link.pass(); }) &&
+         std::all_of(sheaves.begin(), sheaves.end(),
+                     [](const ChosenSheave& sheave) { return sheave.pass(); }) &&
+         std::all_of(spreaders.begin(), spreaders.end(),
+                     [](const ChosenSpreader& spreader) { return spreader.pass(); });
 }
 
 RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
@@ -114,18 +135,29 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
   RiggedLift rigged;
   rigged.stock = std::move(stock);
   LiftRunner runner(std::move(lift_case), progress);
+  std::vector<std::string> bars;
+  for (const SpreaderInCase& bar : runner.the_case().spreaders)
+    if (has_bars_of_length(rigged.stock, bar.length.value)) bars.push_back(bar.name.value);
   Loads loads;
+  // Slings first, then bars.
   const auto choose = [&] {
     loads = runner.run();
     const SlingChecks checks(runner.the_case(), loads.facts);
     Choice choice;
     for (const SlingDemand& demand : loads.demands)
       choice.push_back(choose_sling(rigged.stock, checks, demand).index);
+    for (const std::string& bar : bars)
+      choice.push_back(choose_spreader(rigged.stock, runner.the_case(), runner.lift(), bar).index);
     return choice;
   };
   const auto choose_again = [&](const Choice& choice) {
-    for (std::size_t i = 0; i < choice.size(); ++i)
-      runner.set_rope(loads.demands[i].rope, rigged.stock.slings[choice[i]].sling);
+    for (std::size_t i = 0; i < choice.size(); ++i) {
+      if (i < loads.demands.size())
+        runner.set_rope(loads.demands[i].rope, rigged.stock.slings[choice[i]].sling);
+      else
+        runner.set_spreader(bars[i - loads.demands.size()],
+                            rigged.stock.spreaders[choice[i]].spreader.bar);
+    }
     return choose();
   };
   rigged.settled = settle(choose, choose_again, most_rigging_runs);
@@ -136,11 +168,25 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
     const std::size_t index = rigged.settled.choice[i];
     rigged.slings.push_back(
         {loads.demands[i], {index, checks.of(rigged.stock.slings[index], loads.demands[i])}});
+    const RopeInCase& rope = *runner.the_case().find_rope(loads.demands[i].rope);
+    if (is_led_over_sheaves(rope) && !rigged.stock.sheaves.empty())
+      rigged.sheaves.push_back(choose_sheave(rigged.stock, runner.the_case(), loads.facts,
+                                             loads.demands[i],
+                                             rigged.stock.slings[index].sling.rope));
     // Those at the eyes of a spreader are its own.
     if (!loads.demands[i].lug.empty())
       add_shackle(choose_shackle(rigged.stock, runner.the_case(), loads.facts, loads.demands[i]),
                   rigged.shackles);
   }
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    const std::size_t index = rigged.settled.choice[loads.demands.size() + i];
+    rigged.spreaders.push_back(
+        {bars[i], index,
+         check_spreader(rigged.stock.spreaders[index], runner.the_case(), runner.lift(), bars[i])});
+  }
+  for (const MasterLinkDemand& demand : master_link_demands(runner.the_case(), runner.lift()))
+    if (auto link = choose_master_link(rigged.stock, runner.the_case(), loads.facts, demand))
+      rigged.master_links.push_back(std::move(*link));
   rigged.lift_case = runner.take_case();
   return rigged;
 }

@@ -84,6 +84,71 @@ YAML::Node rigged_shackles(const RiggedLift& rigged, const YAML::Node& shackles)
   return with_entries(shackles, chosen);
 }
 
+YAML::Node load_node(double newtons) {
+  return YAML::Node(fmt::format("{:.10g} kN", newtons / 1e3));
+}
+
+YAML::Node rigged_master_links(const RiggedLift& rigged, const YAML::Node& links) {
+  std::vector<std::pair<std::string, YAML::Node>> chosen;
+  for (const ChosenMasterLink& one : rigged.master_links) {
+    const StockMasterLink& link = rigged.stock.master_links[one.index].link;
+    YAML::Node node;
+    node["working_load"] = load_node(link.working_load);
+    node["breaking_load"] = load_node(link.breaking_load);
+    node["mass"] = fmt::format("{:.10g} kg", link.mass);
+    node.SetStyle(YAML::EmitterStyle::Flow);
+    chosen.emplace_back(one.demand.hook, node);
+  }
+  return with_entries(links, chosen);
+}
+
+YAML::Node rigged_sheaves(const RiggedLift& rigged, const YAML::Node& sheaves) {
+  std::vector<std::pair<std::string, YAML::Node>> chosen;
+  for (const ChosenSheave& one : rigged.sheaves) {
+    if (!one.index) continue;
+    const StockSheave& sheave = rigged.stock.sheaves[*one.index].sheave;
+    YAML::Node node;
+    node["working_load"] = load_node(sheave.working_load);
+    node["breaking_load"] = load_node(sheave.breaking_load);
+    node["tread"] = fmt::format("{:.10g} mm", 1e3 * sheave.tread);
+    node.SetStyle(YAML::EmitterStyle::Flow);
+    chosen.emplace_back(one.rope, node);
+  }
+  return with_entries(sheaves, chosen);
+}
+
+std::string millimetres(double length) { return fmt::format("{:.10g} mm", 1e3 * length); }
+
+YAML::Node section_node(const BarSection& section) {
+  YAML::Node node, measures;
+  if (section.pipe)
+    for (const double length : *section.pipe) measures.push_back(millimetres(length));
+  else
+    for (const double length : *section.box) measures.push_back(millimetres(length));
+  node[section.pipe ? "pipe" : "box"] = measures;
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
+/// The bars with the keys of the stock's; where a bar starts is the case's own.
+YAML::Node rigged_spreaders(const RiggedLift& rigged, const YAML::Node& spreaders) {
+  std::vector<std::pair<std::string, YAML::Node>> changed;
+  for (const ChosenSpreader& one : rigged.spreaders) {
+    const SpreaderInCase& bar = rigged.stock.spreaders[one.index].spreader.bar;
+    YAML::Node node = YAML::Clone(spreaders[one.name]);
+    node.remove("mass");
+    if (bar.given_mass) node["mass"] = fmt::format("{:.10g} kg", *bar.given_mass);
+    node["length"] = millimetres(bar.length.value);
+    node["section"] = section_node(bar.section.value);
+    node["yield_stress"] = fmt::format("{:.10g} MPa", bar.yield_stress / 1e6);
+    node["buckling_curve"] = buckling_curve_name(bar.curve);
+    node["upper_eye"] = millimetres(bar.upper_eye);
+    node["lower_eye"] = millimetres(bar.lower_eye);
+    changed.emplace_back(one.name, node);
+  }
+  return with_entries(spreaders, changed);
+}
+
 }  // namespace
 
 std::string rigged_case_text(const RiggedLift& rigged) {
@@ -92,7 +157,11 @@ std::string rigged_case_text(const RiggedLift& rigged) {
   const auto& standard = rigged.lift_case.standard;
   if (standard && standard->rules.shackle && !rigged.stock.shackles.empty())
     root["standard"]["shackles"] = rigged_shackles(rigged, root["standard"]["shackles"]);
-  return fmt::format("# Slings chosen from stock by blocklift rig, for the case {}.\n",
+  if (standard && !rigged.master_links.empty())
+    root["standard"]["master_links"] =
+        rigged_master_links(rigged, root["standard"]["master_links"]);
+  if (!rigged.spreaders.empty()) root["spreaders"] = rigged_spreaders(rigged, root["spreaders"]);
+  return fmt::format("# Rigging chosen from stock by blocklift rig, for the case {}.\n",
                      rigged.lift_case.file.filename().string()) +
          YAML::Dump(root) + '\n';
 }

@@ -7,8 +7,10 @@
 
 namespace blocklift::pipeline {
 
-/// The case file with the chosen slings as its ropes' models and, where it has a standard with rules
-/// for shackles, the chosen shackles at its lugs. A sling is named where the case finds a model of
+/// The case file with the chosen slings as its ropes' models, the chosen spreader bars and, where it
+/// has a standard, the chosen master links at its hooks, the sheaves of its slings
+/// and (with rules for shackles) the chosen
+/// shackles at its lugs. A sling is named where the case finds a model of
 /// that name with the same breaking load, else its keys are written. Comments of the file are lost,
 /// and places that share an anchor are written out where they change.
 std::string rigged_case_text(const RiggedLift& rigged);

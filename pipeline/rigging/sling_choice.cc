@@ -33,7 +33,7 @@ std::string obstacle_of_name(const char* key, const std::optional<Located<std::s
 
 }  // namespace
 
-std::string SlingChecks::obstacle(const SlingInStock& candidate) const {
+std::string SlingChecks::obstacle(const SlingInStock& candidate, const std::string& of_rope) const {
   if (!case_.standard) return {};
   const RopeModel& rope = candidate.sling.rope;
   const StandardInCase& standard = *case_.standard;
@@ -46,10 +46,10 @@ std::string SlingChecks::obstacle(const SlingInStock& candidate) const {
           obstacle_of_name("termination", rope.termination, rules.termination, standard.rules.name);
     if (!obstacle.empty()) return obstacle;
   }
-  if (!standard.bend_diameter) return {};
+  const std::optional<double> bend = standard.bend_of(of_rope);
+  if (!bend) return {};
   if (!rope.diameter) return "it has no diameter, which the bend diameter is held against";
-  if (*standard.bend_diameter < *rope.diameter)
-    return "it is bent round less than its own diameter";
+  if (*bend < *rope.diameter) return "it is bent round less than its own diameter";
   return {};
 }
 
@@ -86,7 +86,7 @@ ChosenSling choose_sling(const Stock& stock, const SlingChecks& checks, const Sl
   std::string obstacle;
   for (std::size_t i = 0; i < stock.slings.size(); ++i) {
     const SlingInStock& candidate = stock.slings[i];
-    if (const std::string reason = checks.obstacle(candidate); !reason.empty()) {
+    if (const std::string reason = checks.obstacle(candidate, demand.rope); !reason.empty()) {
       obstacle = fmt::format("{}: {}", candidate.name(), reason);
       continue;
     }

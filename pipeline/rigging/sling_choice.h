@@ -29,7 +29,7 @@ class SlingChecks {
 
   /// What keeps a sling out of the question whatever its strength: a material or termination that
   /// the rules do not know, or a bend that is too sharp. Empty: nothing.
-  std::string obstacle(const SlingInStock& candidate) const;
+  std::string obstacle(const SlingInStock& candidate, const std::string& of_rope) const;
 
   /// The candidate in place of the rope's own, without an obstacle:
   /// - breaking load over the case's factor against the largest tension, at rest or in motion;

@@ -56,6 +56,18 @@ class StockGatherer {
       is_new(shackle.name);
       stock_.shackles.push_back({shackle, file.rule.name});
     }
+    for (const StockMasterLink& link : file.master_links) {
+      is_new(link.name);
+      stock_.master_links.push_back({link, file.rule.name});
+    }
+    for (const StockSheave& sheave : file.sheaves) {
+      is_new(sheave.name);
+      stock_.sheaves.push_back({sheave, file.rule.name});
+    }
+    for (const StockSpreader& spreader : file.spreaders) {
+      is_new(spreader.name);
+      stock_.spreaders.push_back({spreader, file.rule.name});
+    }
   }
 
   Stock finish() {
@@ -66,6 +78,18 @@ class StockGatherer {
     std::stable_sort(stock_.shackles.begin(), stock_.shackles.end(),
                      [](const ShackleInStock& a, const ShackleInStock& b) {
                        return a.shackle.working_load < b.shackle.working_load;
+                     });
+    std::stable_sort(stock_.master_links.begin(), stock_.master_links.end(),
+                     [](const MasterLinkInStock& a, const MasterLinkInStock& b) {
+                       return a.link.working_load < b.link.working_load;
+                     });
+    std::stable_sort(stock_.sheaves.begin(), stock_.sheaves.end(),
+                     [](const SheaveInStock& a, const SheaveInStock& b) {
+                       return a.sheave.working_load < b.sheave.working_load;
+                     });
+    std::stable_sort(stock_.spreaders.begin(), stock_.spreaders.end(),
+                     [](const SpreaderInStock& a, const SpreaderInStock& b) {
+                       return a.spreader.bar.mass() < b.spreader.bar.mass();
                      });
     return std::move(stock_);
   }

@@ -27,10 +27,37 @@ struct ShackleInStock {
   const std::string& name() const { return shackle.name.value; }
 };
 
+/// A master link that may be chosen, with the rule of its stock.
+struct MasterLinkInStock {
+  StockMasterLink link;
+  std::string rule;
+
+  const std::string& name() const { return link.name.value; }
+};
+
+/// A sheave that may be chosen, with the rule of its stock.
+struct SheaveInStock {
+  StockSheave sheave;
+  std::string rule;
+
+  const std::string& name() const { return sheave.name.value; }
+};
+
+/// A spreader bar that may be chosen, with the rule of its stock.
+struct SpreaderInStock {
+  StockSpreader spreader;
+  std::string rule;
+
+  const std::string& name() const { return spreader.name.value; }
+};
+
 /// All that may be chosen, the weakest first.
 struct Stock {
-  std::vector<SlingInStock> slings;      ///< by breaking load
-  std::vector<ShackleInStock> shackles;  ///< by working load
+  std::vector<SlingInStock> slings;             ///< by breaking load
+  std::vector<ShackleInStock> shackles;         ///< by working load
+  std::vector<MasterLinkInStock> master_links;  ///< likewise
+  std::vector<SheaveInStock> sheaves;           ///< likewise
+  std::vector<SpreaderInStock> spreaders;       ///< by mass
 };
 
 /// Reads the files of kind rigging in folders, those of their subfolders left out. A file whose name

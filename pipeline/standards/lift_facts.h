@@ -41,6 +41,19 @@ struct SlingFacts {
   std::optional<std::string> material, termination;
   std::optional<double> diameter;  ///< m
   int slings_on_hook = 1;
+  bool is_at_hook = false;  ///< it begins at the hook, not below a spreader
+  double angle = 0;         ///< at its upper end to the plumb, at the largest load at rest, rad
+};
+
+/// Load of a hook over what its load chart allows, derating included, where it is largest.
+struct ChartFacts {
+  double at_rest = 0, in_motion = 0;  ///< the largest shares
+  double radius = 0;                  ///< where that of rest is, m
+  std::string derating;               ///< "x 0.8 for wind of 12 m/s (source)"; empty: none
+
+  /// What the chart makes of a capacity for the largest load, where the load is another than at the
+  /// instant of the largest share: that load over that share, N.
+  static double capacity(double load, double share) { return load / share; }
 };
 
 /// Hoist with its hook block.
@@ -48,10 +61,11 @@ struct HookFacts {
   std::string name, crane;
   LoadFacts load;  ///< of the tackle: hook block and what hangs on it
   ComputedFactors computed;
-  double hook_block = 0;      ///< weight, N
-  double rigging = 0;         ///< weight of its slings, which the motion leaves out, N
+  double hook_block = 0;  ///< weight, N
+  double rigging = 0;  ///< weight of its slings and its master link, which the motion leaves out, N
   double hoisting_speed = 0;  ///< that the winch may have, m/s
   double capacity = 0;        ///< N
+  std::optional<ChartFacts> chart;
 };
 
 /// Crane: all its hoists together.
@@ -62,6 +76,7 @@ struct CraneFacts {
   double hook_blocks = 0, rigging = 0;  ///< weights, N
   double hoisting_speed = 0;            ///< of its fastest hoist, m/s
   std::optional<double> capacity;       ///< N
+  std::optional<ChartFacts> chart;      ///< of a crane with one hoist
 };
 
 /// Lug that is made as a padeye.
@@ -94,11 +109,11 @@ struct StressFacts {
 struct LiftFacts {
   std::string rest_is_from = "equilibria of the operation";  ///< where loads at rest come from
   double net_weight = 0;                                     ///< N
-  double rigging = 0;                                        ///< of all slings and spreaders, N
-  bool has_rigging_weight = true;                            ///< every sling's model gives its mass
-  double at_rest = 0;            ///< largest load on all hooks together, hook blocks apart, N
-  double in_motion = 0;          ///< likewise
-  bool has_environment = false;  ///< waves or gusts, whose share of loads may reduce factors
+  double rigging = 0;              ///< of all slings, spreaders and master links, N
+  bool has_rigging_weight = true;  ///< every sling's model gives its mass
+  double at_rest = 0;              ///< largest load on all hooks together, hook blocks apart, N
+  double in_motion = 0;            ///< likewise
+  bool has_environment = false;    ///< waves or gusts, whose share of loads may reduce factors
   double yield_factor = 1;
   double lateral = 0;  ///< that the case takes along a lug's pin, share of the force
   std::vector<SlingFacts> slings;

@@ -67,14 +67,18 @@ void LoadFactors::add_contingency(ChainBuilder& chain) const {
 }
 
 void LoadFactors::add_centre(ChainBuilder& chain, const ComputedFactors& computed) const {
-  if (standard_.centre_box) {
+  if (standard_.centre_box && computed.centre_box) {
     const Vector3& box = *standard_.centre_box;
     chain.times(
         "centre of mass", computed.centre_box, computed.centre_box, "standard.centre_box",
         fmt::format("at the worst corner of +-({:g}, {:g}, {:g}) m", box.x(), box.y(), box.z()));
   } else if (const auto& factor = rules().centre_of_mass) {
     chain.times("centre of mass", factor->value, factor->value, factor->clause,
-                "no box of the centre is given");
+                standard_.centre_box ? "the box of the centre is not worked here: the rules' factor"
+                                     : "no box of the centre is given");
+  } else if (standard_.centre_box) {
+    chain.times("centre of mass", {}, {}, "standard.centre_box",
+                "not worked here, and the rules have no factor");
   }
 }
 

@@ -20,56 +20,73 @@ Matrix3d cross_matrix(const Vector3d& v) {
   return m;
 }
 
-/// Displacement of a rope's end by x = (turn and shift of the load, shifts of the hooks), 3 x size.
-MatrixXd displacement_of(const RiggingEnd& end, Eigen::Index size) {
-  MatrixXd d = MatrixXd::Zero(3, size);
-  switch (end.kind) {
-    case RiggingEnd::Kind::fixed:
-      break;
-    case RiggingEnd::Kind::hook:
-      d.middleCols<3>(6 + 3 * end.hook).setIdentity();
-      break;
-    case RiggingEnd::Kind::load:
-      d.leftCols<3>() = -cross_matrix(end.r_W);
-      d.middleCols<3>(3).setIdentity();
-      break;
-  }
-  return d;
-}
-
 /// What a pull T along u at an arm r turns with: the second order of -u . (turn x (turn x r)) / 2.
-void add_arm(const RiggingEnd& end, const Vector3d& u, double tension, MatrixXd& stiffness) {
-  if (end.kind != RiggingEnd::Kind::load) return;
+void add_arm(const RiggingEnd& end, Eigen::Index first, const Vector3d& u, double tension,
+             MatrixXd& stiffness) {
+  if (end.kind != RiggingEnd::Kind::load && end.kind != RiggingEnd::Kind::bar) return;
   const Matrix3d ur = u * end.r_W.transpose();
-  stiffness.topLeftCorner<3, 3>() +=
+  stiffness.block<3, 3>(first, first) +=
       tension * (u.dot(end.r_W) * Matrix3d::Identity() - (ur + ur.transpose()) / 2);
 }
 
 }  // namespace
 
 RiggingBalance::RiggingBalance(std::vector<RiggingRope> ropes, int hooks,
-                               Eigen::MatrixXd load_compliance)
-    : ropes_(std::move(ropes)), compliance_(std::move(load_compliance)) {
+                               Eigen::MatrixXd load_compliance, int bars)
+    : ropes_(std::move(ropes)), bars_(bars), compliance_(std::move(load_compliance)) {
   const auto count = static_cast<Eigen::Index>(ropes_.size());
-  elongation_ = MatrixXd::Zero(count, 6 + 3 * hooks);
+  elongation_ = MatrixXd::Zero(count, 6 + 6 * bars + 3 * hooks);
   if (compliance_.size() == 0) compliance_ = MatrixXd::Zero(count, count);
   tension_.resize(count);
   for (std::size_t i = 0; i < ropes_.size(); ++i) add_rope(i);
 }
 
+/// Where the displacements of what a rope ends at begin in x: turn and shift of the load, those of
+/// each bar, shifts of the hooks.
+Eigen::Index RiggingBalance::first_of(const RiggingEnd& end) const {
+  switch (end.kind) {
+    case RiggingEnd::Kind::hook:
+      return 6 + 6 * bars_ + 3 * end.index;
+    case RiggingEnd::Kind::bar:
+      return 6 + 6 * end.index;
+    case RiggingEnd::Kind::fixed:
+    case RiggingEnd::Kind::load:
+      break;
+  }
+  return 0;
+}
+
+/// Displacement of a rope's end by x, 3 x size.
+MatrixXd RiggingBalance::displacement_of(const RiggingEnd& end) const {
+  MatrixXd d = MatrixXd::Zero(3, elongation_.cols());
+  const Eigen::Index first = first_of(end);
+  switch (end.kind) {
+    case RiggingEnd::Kind::fixed:
+      break;
+    case RiggingEnd::Kind::hook:
+      d.middleCols<3>(first).setIdentity();
+      break;
+    case RiggingEnd::Kind::load:
+    case RiggingEnd::Kind::bar:
+      d.middleCols<3>(first) = -cross_matrix(end.r_W);
+      d.middleCols<3>(first + 3).setIdentity();
+      break;
+  }
+  return d;
+}
+
 void RiggingBalance::add_rope(std::size_t rope) {
   const RiggingRope& r = ropes_[rope];
   const auto row = static_cast<Eigen::Index>(rope);
-  const Eigen::Index size = elongation_.cols();
-  const MatrixXd apart = displacement_of(r.upper, size) - displacement_of(r.lower, size);
+  const MatrixXd apart = displacement_of(r.upper) - displacement_of(r.lower);
   const Vector3d& u = r.direction_W;
   elongation_.row(row) = u.transpose() * apart;
   compliance_(row, row) += r.compliance;
   tension_[row] = r.tension;
   MatrixXd turning =
       r.tension / r.length * apart.transpose() * (Matrix3d::Identity() - u * u.transpose()) * apart;
-  add_arm(r.lower, u, r.tension, turning);
-  add_arm(r.upper, -u, r.tension, turning);
+  add_arm(r.lower, first_of(r.lower), u, r.tension, turning);
+  add_arm(r.upper, first_of(r.upper), -u, r.tension, turning);
   turning_.push_back(std::move(turning));
 }
 

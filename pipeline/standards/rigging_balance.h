@@ -8,9 +8,10 @@ namespace blocklift::pipeline {
 
 /// Where a rope of the rigging ends.
 struct RiggingEnd {
-  enum class Kind { fixed, hook, load } kind = Kind::fixed;
-  int hook = -1;                                  ///< index of the hook
-  Eigen::Vector3d r_W = Eigen::Vector3d::Zero();  ///< of the load: from its centre of mass, m
+  enum class Kind { fixed, hook, load, bar } kind = Kind::fixed;
+  int index = -1;  ///< of the hook or of the spreader bar
+  /// Of load and bars: from the centre of mass, m.
+  Eigen::Vector3d r_W = Eigen::Vector3d::Zero();
 };
 
 /// Rope of the rigging about a state of equilibrium.
@@ -23,10 +24,11 @@ struct RiggingRope {
   double compliance = 0;         ///< m/N
 };
 
-/// How tensions share anew about a state of equilibrium: a rigid load on taut elastic ropes and
-/// hooks that move freely, to the first order of small displacements,
+/// How tensions share anew about a state of equilibrium: a rigid load on taut elastic ropes, hooks
+/// that move freely and rigid spreader bars between them, to the first order of small displacements,
 ///   K x = f + B^T F^-1 e,   dT = F^-1 (B x - e),   K = B^T F^-1 B + K_g,
-/// B the elongation of each rope by the displacements x of load (6) and hooks (3 each), F the
+/// B the elongation of each rope by the displacements x of load and bars (6 each) and hooks (3
+/// each), F the
 /// ropes' compliance with that of the load at its lugs, e how much longer than meant each rope is,
 /// K_g what the tensions turn with (strings and pendulum), f outer forces. A rope that would push
 /// is taken off and the rest solved again. For four equal slings on one hook and a rigid load the
@@ -37,7 +39,8 @@ class RiggingBalance {
   /// @param load_compliance of the load at the ropes' ends along them, ropes x ropes, m/N; empty:
   /// the
   ///   load is rigid.
-  RiggingBalance(std::vector<RiggingRope> ropes, int hooks, Eigen::MatrixXd load_compliance = {});
+  RiggingBalance(std::vector<RiggingRope> ropes, int hooks, Eigen::MatrixXd load_compliance = {},
+                 int bars = 0);
 
   /// Tensions (N) where ropes are longer than meant, m.
   Eigen::VectorXd with_length_errors(const Eigen::VectorXd& errors) const;
@@ -53,8 +56,11 @@ class RiggingBalance {
  private:
   Eigen::VectorXd solve(const Eigen::VectorXd& errors, const Eigen::VectorXd& force) const;
   void add_rope(std::size_t rope);
+  Eigen::Index first_of(const RiggingEnd& end) const;
+  Eigen::MatrixXd displacement_of(const RiggingEnd& end) const;
 
   std::vector<RiggingRope> ropes_;
+  int bars_ = 0;
   Eigen::MatrixXd elongation_;  ///< B
   Eigen::MatrixXd compliance_;  ///< F
   Eigen::VectorXd tension_;

@@ -12,10 +12,9 @@ namespace blocklift::pipeline {
 
 namespace {
 
-/// What hangs on a hook or a crane, up to its dynamic load.
-void add_hook_load(ChainBuilder& chain, const LoadFactors& factors, const LoadFacts& load,
-                   const ComputedFactors& computed, double hook_blocks, double rigging,
-                   double hoisting_speed) {
+/// What hangs below a hook block, or the hook blocks of a crane, at rest.
+void add_load_below_hook(ChainBuilder& chain, const LoadFactors& factors, const LoadFacts& load,
+                         const ComputedFactors& computed, double hook_blocks, double rigging) {
   chain.add("largest load below the hook at rest", std::max(0.0, load.at_rest - hook_blocks),
             factors.facts().rest_is_from,
             fmt::format("with the hook block {}, at {:.1f} s", load_text(load.at_rest),
@@ -24,11 +23,43 @@ void add_hook_load(ChainBuilder& chain, const LoadFactors& factors, const LoadFa
   factors.add_centre(chain, computed);
   factors.add_tilt(chain, computed);
   chain.add("rigging weight", rigging, "mass of the slings' models");
+}
+
+/// What hangs on a hook or a crane, up to its dynamic load.
+void add_hook_load(ChainBuilder& chain, const LoadFactors& factors, const LoadFacts& load,
+                   const ComputedFactors& computed, double hook_blocks, double rigging,
+                   double hoisting_speed) {
+  add_load_below_hook(chain, factors, load, computed, hook_blocks, rigging);
   chain.add("hook block", hook_blocks, "crane's model");
   chain.result("static hook load");
   factors.add_amplification(chain, load.amplification, hoisting_speed);
   LoadFactors::add_resharing(chain, load);
   chain.result("dynamic hook load");
+}
+
+/// What a hook or a crane may carry, by its capacity and by its load chart, in both columns.
+struct Capacity {
+  double standard = 0, simulated = 0;  ///< N
+  std::string text;
+};
+
+std::optional<Capacity> capacity_of(const std::optional<double>& rated,
+                                    const std::optional<ChartFacts>& chart, const LoadFacts& load,
+                                    const std::string& text) {
+  std::optional<Capacity> capacity;
+  if (rated) capacity = Capacity{*rated, *rated, text};
+  if (!chart || !(chart->at_rest > 0) || !(chart->in_motion > 0)) return capacity;
+  const double still = ChartFacts::capacity(load.at_rest, chart->at_rest);
+  const double moving = ChartFacts::capacity(load.in_motion, chart->in_motion);
+  if (!capacity) capacity = Capacity{still, moving, {}};
+  constexpr double rounding = 1 - 1e-9;  // a chart that repeats the capacity does not count
+  if (still < rounding * capacity->standard || moving < rounding * capacity->simulated ||
+      capacity->text.empty())
+    capacity->text = fmt::format("load chart at {:.2f} m{}", chart->radius,
+                                 chart->derating.empty() ? "" : ", " + chart->derating);
+  capacity->standard = std::min(capacity->standard, still);
+  capacity->simulated = std::min(capacity->simulated, moving);
+  return capacity;
 }
 
 /// The hoisting factor where the amplification is another's.
@@ -107,6 +138,71 @@ void tell_side_load(ChainBuilder& chain, const LoadFactors& factors,
                         side->standard.angle / degree, side->simulated.angle / degree));
 }
 
+/// Working load and breaking load of a master link or a sheave.
+struct Accessory {
+  double working_load = 0, breaking_load = 0;  ///< N
+  const char* key = "";                        ///< of the case
+};
+
+void add_static_limit(ChainBuilder& chain, const LoadFactors& factors, const Accessory& accessory) {
+  const auto& rules = factors.rules().accessory;
+  chain.limit(accessory.working_load / (rules ? rules->working.value : 1),
+              "working load " + load_text(accessory.working_load),
+              rules ? rules->working.clause : accessory.key);
+}
+
+void add_dynamic_limit(ChainBuilder& chain, const LoadFactors& factors,
+                       const Accessory& accessory) {
+  const auto& rules = factors.rules().accessory;
+  const double amplification = factors.amplification(factors.hoisting_speed());
+  const double by_working =
+      accessory.working_load / (rules ? rules->working.value : 1) * amplification;
+  if (rules && accessory.breaking_load / rules->breaking.value < by_working) {
+    chain.limit(accessory.breaking_load / rules->breaking.value,
+                fmt::format("breaking load {} / {:g}", load_text(accessory.breaking_load),
+                            rules->breaking.value),
+                rules->breaking.clause);
+    return;
+  }
+  chain.limit(
+      by_working,
+      fmt::format("working load {} x {:.3f}", load_text(accessory.working_load), amplification),
+      rules ? rules->working.clause : accessory.key);
+}
+
+/// Load of a link over that of one leg by the uniform load method: EN 818-4.
+std::optional<double> load_factor_by_standard(std::size_t legs, double angle) {
+  if (legs < 2) return 1.0;
+  if (angle <= std::numbers::pi / 4) return legs == 2 ? 1.4 : 2.1;
+  if (angle <= std::numbers::pi / 3) return legs == 2 ? 1.0 : 1.5;
+  return {};
+}
+
+/// How the slings at a hook share what hangs on its master link.
+void tell_legs(ChainBuilder& chain, const LoadFactors& factors, const HookFacts& hook) {
+  std::size_t legs = 0;
+  double largest = 0, angle = 0;
+  for (const SlingFacts& sling : factors.facts().slings) {
+    if (!sling.is_at_hook || sling.hook != hook.name) continue;
+    ++legs;
+    largest = std::max(largest, sling.load.at_rest);
+    angle = std::max(angle, sling.angle);
+  }
+  if (!(largest > 0)) return;
+  ChainStep step;
+  step.kind = ChainStep::Kind::told;
+  step.name = "load factor of the legs";
+  step.standard = load_factor_by_standard(legs, angle);
+  step.simulated = std::max(0.0, hook.load.at_rest - hook.hook_block) / largest;
+  step.clause = "EN 818-4";
+  step.formula =
+      fmt::format("{} {}, up to {:.1f} deg to the plumb; the most loaded has {} at rest", legs,
+                  legs == 1 ? "leg" : "legs", angle * 180 / std::numbers::pi, load_text(largest));
+  if (!step.standard) step.formula += "; no factor beyond 60 deg";
+  if (legs > 2) step.formula += "; more than two go on an assembly with intermediate links";
+  chain.tell(std::move(step));
+}
+
 const std::string& clause_named(const std::vector<NamedFactor>& factors, const std::string& name) {
   return find_by_name(factors, name)->clause;
 }
@@ -115,7 +211,7 @@ const std::string& clause_named(const std::vector<NamedFactor>& factors, const s
 void add_sling_limit(ChainBuilder& chain, const LoadFactors& factors, const SlingFacts& sling) {
   const SlingRules& rules = *factors.rules().sling;
   SlingChoice choice{*sling.material, factors.standard().wear->value, *sling.termination, {}, 0};
-  const auto& bend = factors.standard().bend_diameter;
+  const auto bend = factors.standard().bend_of(sling.name);
   if (bend && sling.diameter) choice.diameter_ratio = *bend / *sling.diameter;
   const SlingFactor standard = sling_factor(rules, choice);
   if (factors.facts().has_environment && sling.load.in_motion > 0)
@@ -171,7 +267,9 @@ Chain hook_chain(const LoadFactors& factors, const HookFacts& hook) {
   add_hook_load(chain, factors, hook.load, hook.computed, hook.hook_block, hook.rigging,
                 hook.hoisting_speed);
   tell_hoisting(chain, factors, hook.hoisting_speed, hook.load);
-  chain.limit(hook.capacity, "capacity of the hoist", "crane's model");
+  const Capacity capacity =
+      *capacity_of(hook.capacity, hook.chart, hook.load, "capacity of the hoist");
+  chain.limit(capacity.standard, capacity.text, "crane's model", capacity.simulated);
   return chain.finish();
 }
 
@@ -179,18 +277,20 @@ Chain crane_chain(const LoadFactors& factors, const CraneFacts& crane) {
   ChainBuilder chain("crane", crane.name);
   add_hook_load(chain, factors, crane.load, crane.computed, crane.hook_blocks, crane.rigging,
                 crane.hoisting_speed);
-  if (!crane.capacity) return chain.finish();
+  const auto capacity =
+      capacity_of(crane.capacity, crane.chart, crane.load, "capacity of the crane");
+  if (!capacity) return chain.finish();
   const auto cranes = static_cast<int>(factors.facts().cranes.size());
   const TandemRow* row = nullptr;
   for (const TandemRow& one : factors.rules().tandem)
     if (one.cranes <= cranes && (!row || one.cranes > row->cranes)) row = &one;
   if (row)
-    chain.limit(*crane.capacity * row->factor,
-                fmt::format("capacity {} x {:g} of {} cranes", load_text(*crane.capacity),
-                            row->factor, cranes),
-                row->clause);
+    chain.limit(capacity->standard * row->factor,
+                fmt::format("{} {} x {:g} of {} cranes", capacity->text,
+                            load_text(capacity->standard), row->factor, cranes),
+                row->clause, capacity->simulated * row->factor);
   else
-    chain.limit(*crane.capacity, "capacity of the crane", "crane's model");
+    chain.limit(capacity->standard, capacity->text, "crane's model", capacity->simulated);
   return chain.finish();
 }
 
@@ -238,6 +338,51 @@ std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCas
                     fmt::format("breaking load {} / {:g}", derated(shackle.breaking_load),
                                 rules.breaking.value),
                     rules.breaking.clause, simulated_share * least);
+  std::vector<Chain> chains;
+  chains.push_back(at_rest.finish());
+  chains.push_back(in_motion.finish());
+  return chains;
+}
+
+std::vector<Chain> master_link_chains(const LoadFactors& factors, const MasterLinkInCase& link,
+                                      const HookFacts& hook) {
+  const Accessory accessory{link.working_load, link.breaking_load, "standard.master_links"};
+  const auto begin = [&](const std::string& name) {
+    ChainBuilder chain("master link", name);
+    add_load_below_hook(chain, factors, hook.load, hook.computed, hook.hook_block, hook.rigging);
+    chain.result("static load of the link");
+    return chain;
+  };
+  ChainBuilder at_rest = begin(hook.name + " at rest");
+  tell_legs(at_rest, factors, hook);
+  add_static_limit(at_rest, factors, accessory);
+
+  ChainBuilder in_motion = begin(hook.name);
+  factors.add_amplification(in_motion, hook.load.amplification, hook.hoisting_speed);
+  LoadFactors::add_resharing(in_motion, hook.load);
+  in_motion.result("dynamic load of the link");
+  add_dynamic_limit(in_motion, factors, accessory);
+  std::vector<Chain> chains;
+  chains.push_back(at_rest.finish());
+  chains.push_back(in_motion.finish());
+  return chains;
+}
+
+std::vector<Chain> sheave_chains(const LoadFactors& factors, const SheaveInCase& sheave,
+                                 const SlingFacts& sling) {
+  const Accessory accessory{sheave.working_load, sheave.breaking_load, "standard.sheaves"};
+  const auto begin = [&](const std::string& name, bool in_motion) {
+    ChainBuilder chain("sheave", name);
+    factors.add_all(chain, sling.load, sling.computed, sling.slings_on_hook, in_motion);
+    chain.times("both parts of the sling", 2, 2, "parallel parts",
+                "twice its load on the pin; less where the parts are not parallel");
+    chain.result(in_motion ? "dynamic load of the pin" : "static load of the pin");
+    return chain;
+  };
+  ChainBuilder at_rest = begin(sling.name + " at rest", false);
+  add_static_limit(at_rest, factors, accessory);
+  ChainBuilder in_motion = begin(sling.name, true);
+  add_dynamic_limit(in_motion, factors, accessory);
   std::vector<Chain> chains;
   chains.push_back(at_rest.finish());
   chains.push_back(in_motion.finish());

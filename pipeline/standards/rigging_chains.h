@@ -22,4 +22,15 @@ Chain sling_chain(const LoadFactors& factors, const SlingFacts& sling);
 std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCase& shackle,
                                   const SlingFacts& sling);
 
+/// A master link at rest and in motion: what hangs on its hook, against its working load. The load
+/// factor of its legs (load of the link over that of its most loaded leg) is told beside that of EN
+/// 818-4: 1.4 with two legs and 2.1 with more, up to 45 degrees to the plumb, 1 and 1.5 up to 60.
+std::vector<Chain> master_link_chains(const LoadFactors& factors, const MasterLinkInCase& link,
+                                      const HookFacts& hook);
+
+/// A sheave over which a sling is led, at rest and in motion. Its pin bears both parts of the sling,
+/// twice its load where they are parallel, less where they are not.
+std::vector<Chain> sheave_chains(const LoadFactors& factors, const SheaveInCase& sheave,
+                                 const SlingFacts& sling);
+
 }  // namespace blocklift::pipeline

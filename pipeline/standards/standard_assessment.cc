@@ -128,6 +128,16 @@ StandardAssessment assess_standard(const StandardInCase& standard, const LiftFac
       if (sling.lug == shackle.name.value)
         for (Chain& chain : shackle_chains(factors, shackle, sling))
           chains.push_back(std::move(chain));
+  for (const MasterLinkInCase& link : standard.master_links)
+    for (const HookFacts& hook : facts.hooks)
+      if (hook.name == link.name.value)
+        for (Chain& chain : master_link_chains(factors, link, hook))
+          chains.push_back(std::move(chain));
+  for (const SheaveInCase& sheave : standard.sheaves)
+    for (const SlingFacts& sling : facts.slings)
+      if (sling.name == sheave.name.value)
+        for (Chain& chain : sheave_chains(factors, sheave, sling))
+          chains.push_back(std::move(chain));
   for (const LugFacts& lug : facts.lugs) chains.push_back(lug_chain(factors, lug));
   for (const CraneFacts& crane : facts.cranes) chains.push_back(crane_chain(factors, crane));
   for (const StressFacts& stress : facts.stresses) chains.push_back(stress_chain(factors, stress));

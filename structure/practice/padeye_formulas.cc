@@ -56,20 +56,81 @@ double hertz_stress(const PadeyeFormulaInput& input, double force) {
   return 0.18 * std::sqrt(force * (1 / g.pin_diameter - 1 / g.hole_diameter) * e / t);
 }
 
+/// What comes down to a plane parallel to the base, at a depth below it.
+struct BaseLoad {
+  double pull = 0;      ///< across the plane, N; negative where the padeye is pressed down
+  double shear = 0;     ///< in it, N
+  double in_plane = 0;  ///< moments about the middle of the base, N m
+  double out_of_plane = 0;
+};
+
+BaseLoad base_load(const PadeyeGeometry& g, const Vector3& force, double depth) {
+  const double aside = (g.base_right - g.base_left) / 2;  // of the base's middle from the hole's
+  const double arm = g.height + depth;
+  return {force.y(), std::hypot(force.x(), force.z()),
+          std::abs(force.x() * arm + force.y() * aside), std::abs(force.z()) * arm};
+}
+
+/// Lines of weld: throat area and section moduli.
+struct WeldGroup {
+  double area = 0, in_plane = 0, out_of_plane = 0;
+
+  double resultant(const BaseLoad& load) const {
+    const double across =
+        std::abs(load.pull) / area + load.in_plane / in_plane + load.out_of_plane / out_of_plane;
+    return std::hypot(across, load.shear / area);
+  }
+};
+
+void add_base_weld(const PadeyeFormulaInput& input, const Vector3& force,
+                   std::vector<PadeyeFormula>& formulas) {
+  if (!(input.base_weld > 0)) return;
+  const PadeyeGeometry& g = input.geometry;
+  const double length = g.base_left + g.base_right;
+  const double throat = input.base_weld / std::numbers::sqrt2;
+  const WeldGroup weld{2 * throat * length, throat * length * length / 3,
+                       throat * length * g.thickness};
+  formulas.push_back(at_most("base welds: fillets on both sides",
+                             weld.resultant(base_load(g, force, 0)),
+                             0.4 * input.material.yield_stress, "Pa", working_stress));
+}
+
+void add_doubler(const PadeyeFormulaInput& input, const Vector3& force,
+                 std::vector<PadeyeFormula>& formulas) {
+  if (!input.doubler) return;
+  const PadeyeGeometry& g = input.geometry;
+  const PadeyeDoubler& d = *input.doubler;
+  const double yield = input.material.yield_stress;
+  const double throat = d.weld / std::numbers::sqrt2, both = d.length * d.width;
+  const WeldGroup around{2 * throat * (d.length + d.width),
+                         throat * (d.length * d.length / 3 + both),
+                         throat * (d.width * d.width / 3 + both)};
+  formulas.push_back(at_most("doubler: fillet all around",
+                             around.resultant(base_load(g, force, d.thickness)), 0.4 * yield, "Pa",
+                             working_stress));
+  const BaseLoad load = base_load(g, force, 0);
+  const double base = g.base_left + g.base_right;
+  const double line = std::max(0.0, load.pull) / base + 6 * load.in_plane / (base * base);  // N/m
+  const double bending = line * d.width / 4 + load.out_of_plane / (2 * base);
+  formulas.push_back(at_most("doubler: bending between its welds",
+                             6 * bending / (d.thickness * d.thickness), 0.75 * yield, "Pa",
+                             working_stress));
+  const double pressed = std::max(0.0, -load.pull) / base + 6 * load.in_plane / (base * base);
+  formulas.push_back(at_most("doubler: bearing of the base", pressed / g.thickness, 0.9 * yield,
+                             "Pa", working_stress));
+}
+
 void add_base(const PadeyeFormulaInput& input, const Vector3& force,
               std::vector<PadeyeFormula>& formulas) {
   const PadeyeGeometry& g = input.geometry;
   const double yield = input.material.yield_stress;
   const double width = g.base_left + g.base_right, area = width * g.thickness;
-  const double aside = (g.base_right - g.base_left) / 2;  // of the base's middle from the hole's
-  const double in_plane = std::abs(force.x() * g.height + force.y() * aside);
-  const double out_of_plane = std::abs(force.z()) * g.height;
-  const double sum = std::abs(force.y()) / area / (0.6 * yield) +
-                     6 * in_plane / (area * width) / (0.66 * yield) +
-                     6 * out_of_plane / (area * g.thickness) / (0.75 * yield);
+  const BaseLoad load = base_load(g, force, 0);
+  const double sum = std::abs(load.pull) / area / (0.6 * yield) +
+                     6 * load.in_plane / (area * width) / (0.66 * yield) +
+                     6 * load.out_of_plane / (area * g.thickness) / (0.75 * yield);
   formulas.push_back(at_most("base: tension and bending both ways", sum, 1, "1", working_stress));
-  formulas.push_back(at_most("base: shear", std::hypot(force.x(), force.z()) / area, 0.4 * yield,
-                             "Pa", working_stress));
+  formulas.push_back(at_most("base: shear", load.shear / area, 0.4 * yield, "Pa", working_stress));
 }
 
 void add_asme(const PadeyeFormulaInput& input, double force, std::vector<PadeyeFormula>& formulas) {
@@ -104,6 +165,8 @@ std::vector<PadeyeFormula> padeye_working_stress(const PadeyeFormulaInput& input
   Vector3 at_base = force_P;
   at_base.z() = std::max(std::abs(force_P.z()), input.side_load * force);
   add_base(input, at_base, formulas);
+  add_base_weld(input, at_base, formulas);
+  add_doubler(input, at_base, formulas);
   if (g.has_cheeks()) {
     const double throat = input.cheek_weld / std::numbers::sqrt2;
     const double share = g.cheek_thickness / g.bearing_thickness();

@@ -9,11 +9,22 @@
 
 namespace blocklift::structure {
 
+/// Doubler plate between a padeye's base and the plating that it stands on, in the middle under the
+/// base, welded to the plating all around by a fillet.
+struct PadeyeDoubler {
+  double length = 0;     ///< along the base, m
+  double width = 0;      ///< across it, m
+  double thickness = 0;  ///< m
+  double weld = 0;       ///< leg of its fillet, m
+};
+
 /// What the hand formulae of a padeye take. SI units.
 struct PadeyeFormulaInput {
   PadeyeGeometry geometry;
   Material material;
-  double cheek_weld = 0;                   ///< leg of the fillet around each cheek plate, m
+  double cheek_weld = 0;  ///< leg of the fillet around each cheek plate, m
+  double base_weld = 0;   ///< leg of the fillets on both sides of the base, m; 0: welded through
+  std::optional<PadeyeDoubler> doubler;
   std::optional<double> jaw;               ///< inside width of the shackle, m
   std::optional<double> tensile_strength;  ///< F_u, Pa; ASME BTH-1 is left out without it
   double design_factor = 2;                ///< N_d of ASME BTH-1
@@ -38,6 +49,14 @@ struct PadeyeFormula {
 ///     1
 ///   shear in the base           V/A <= 0.4 F_y
 ///   cheek welds                 F t_c / T on half a circle's throat <= 0.4 F_y
+///   base welds, doubler's weld  resultant on the throat a, as an elastic group of lines, <= 0.4 F_y:
+///     |N|/A + M_in/W_in + M_out/W_out across it, V/A along it; for a rectangle L x B
+///     A = 2 a (L + B), W_in = a (L^2/3 + L B), W_out = a (B^2/3 + L B), for the two sides of a
+///     base L A = 2 a L, W_in = a L^2 / 3, W_out = a L t
+///   doubler's bending           6 m / t_d^2 <= 0.75 F_y, m = (N/L_b + 6 M_in/L_b^2) B/4 + M_out/(2
+///     L_b), a strip between the long welds, hinged there, that the base pulls in its middle (N 0
+///     where it presses)
+///   doubler's bearing           (|N|/A + M_in/W_in) of the base where it presses <= 0.9 F_y
 /// (allowables of working-stress design; sums over the plates, T their sum, R their radii), with
 /// the part along the pin taken as `side_load` of F at least (API RP 2A);
 ///   DNV 2.7-3: bearing (Hertz) 0.045 sqrt(F E / (D_H T)), or 0.18 sqrt(F (1/D_p - 1/D_H) E / T)

@@ -79,6 +79,44 @@ TEST(PadeyeFormulas, WorkingStressByHand) {
               1e6 * 35 / 150 / (25 / std::sqrt(2.0) * M_PI * 220), 1e-9);
 }
 
+// The same force on fillets of 20 mm (throat 14.142 mm) along both sides of the base, and on a doubler
+// of 1400 x 300 x 30 mm with a fillet of 12 mm (8.485 mm) around it, 550 and 580 mm below the pin;
+// 5 % of the force along the pin.
+TEST(PadeyeFormulas, WeldsOfTheBaseAndOfADoublerByHand) {
+  structure::PadeyeFormulaInput input =
+      input_of({0.3, 0.08, 0.145, 0.140, 0.22, 0.035, 0.55, 0.6, 0.6}, 206e9);
+  input.base_weld = 0.020;
+  input.doubler = structure::PadeyeDoubler{1.4, 0.3, 0.030, 0.012};
+  const double along = 0.5e6, up = std::sqrt(0.75) * 1e6, pin = 0.05e6;
+  const auto formulas = structure::padeye_working_stress(input, {along, up, 0});
+
+  double a = 20 / std::sqrt(2.0), area = 2 * a * 1200;
+  double across = up / area + along * 550 / (2 * a * 1200 * 1200 / 6) + pin * 550 / (a * 1200 * 80);
+  EXPECT_NEAR(formula(formulas, "base welds: fillets on both sides").demand / 1e6,
+              std::hypot(across, std::hypot(along, pin) / area), 1e-9);
+
+  a = 12 / std::sqrt(2.0);
+  area = 2 * a * (1400 + 300);
+  // Second moments of the four lines over the distance of the outermost.
+  const double in = (2 * a * std::pow(1400, 3) / 12 + 2 * a * 300 * 700.0 * 700) / 700;
+  const double out = (2 * a * std::pow(300, 3) / 12 + 2 * a * 1400 * 150.0 * 150) / 150;
+  across = up / area + along * 580 / in + pin * 580 / out;
+  EXPECT_NEAR(formula(formulas, "doubler: fillet all around").demand / 1e6,
+              std::hypot(across, std::hypot(along, pin) / area), 1e-9);
+  EXPECT_NEAR(formula(formulas, "doubler: fillet all around").limit / 1e6, 0.4 * 355, 1e-9);
+
+  const double moment = along * 550 / (1200 * 1200 / 6.0);  // N/mm at the ends of the base
+  const double bent = (up / 1200 + moment) * 300 / 4 + pin * 550 / (2 * 1200.0);
+  EXPECT_NEAR(formula(formulas, "doubler: bending between its welds").demand / 1e6,
+              6 * bent / (30 * 30), 1e-9);
+  EXPECT_NEAR(formula(formulas, "doubler: bearing of the base").demand / 1e6, moment / 80, 1e-9);
+  // Pressed down, it bears on the plating instead of bending.
+  const auto pressed = structure::padeye_working_stress(input, {0, -up, 0});
+  EXPECT_NEAR(formula(pressed, "doubler: bearing of the base").demand / 1e6, up / 1200 / 80, 1e-9);
+  EXPECT_NEAR(formula(pressed, "doubler: bending between its welds").demand / 1e6,
+              6 * pin * std::sqrt(0.75) * 550 / (2 * 1200.0) / (30 * 30), 1e-9);
+}
+
 TEST(PadeyeFormulas, RulesOfPracticeFailWhatBreaksThem) {
   structure::PadeyeFormulaInput input =
       input_of({0.3, 0.08, 0.145, 0.140, 0.22, 0.035, 0.55, 0.6, 0.6}, 206e9);

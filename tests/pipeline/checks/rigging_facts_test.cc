@@ -1,6 +1,9 @@
 #include "pipeline/checks/rigging_facts.h"
 
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -65,7 +68,7 @@ TEST(RiggingFacts, TolerancesRaiseTheLoads) {
   const LiftCase lift_case = with_tolerances();
   const RiggingFacts rigging(lift_case, lift.run, {}, {});
   for (std::size_t s = 0; s < rigging.slings().size(); ++s) {
-    const ComputedFactors computed = rigging.of_sling(s, 0);
+    const ComputedFactors computed = rigging.of_sling(rigging.slings()[s], 0);
     ASSERT_TRUE(computed.skew);
     ASSERT_TRUE(computed.centre_box);
     EXPECT_GT(*computed.skew, 1);
@@ -75,19 +78,87 @@ TEST(RiggingFacts, TolerancesRaiseTheLoads) {
   }
 }
 
-// A standard takes slings above a bar as it takes those to lugs, and the bar's weight as rigging's;
-// what a balance of single ropes would compute is left out.
-TEST(RiggingFacts, TakeSlingsAboveASpreader) {
-  const test::TemporaryFolder folder;
+/// The sample's lift below a spreader, its load's centre moved along.
+LiftRun run_below_spreader(LiftCase lift_case, double shift) {
+  LoadMass load;
+  load.mass = 10e3;
+  load.p_BoBcm_B = {2 + shift, 0, 0.5};
+  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
+  return run_lift(lift_case, build_lift(lift_case, load), [](auto&&...) {});
+}
+
+double tension_at_rest(const LiftRun& run, const std::string& name) {
+  for (const LiftRope& rope : run.model.ropes)
+    if (rope.name == name)
+      return run.static_history.ropes[static_cast<std::size_t>(rope.rope)].tension[0];
+  return 0;
+}
+
+LiftCase spreader_case(const test::TemporaryFolder& folder) {
   test::spreader_lift().write(folder);
   LiftCase lift_case = read_lift_case("case.yaml");
   lift_case.standard.emplace();
+  return lift_case;
+}
+
+// Second method: the equilibrium of a lift whose centre of mass is where the box has its corner. The
+// balance is of the first order, so that a quarter of its error is left when the box is halved.
+TEST(RiggingFacts, CentreBoxBelowASpreaderIsThatOfAShiftedLoad) {
+  const test::TemporaryFolder folder;
+  LiftCase lift_case = spreader_case(folder);
+  const LiftRun straight = run_below_spreader(lift_case, 0);
+  const auto error_at = [&](double shift, const std::string& name) {
+    lift_case.standard->centre_box = Vector3(shift, 0, 0);
+    const RiggingFacts rigging(lift_case, straight, {}, {});
+    const auto& slings = name[0] == 'U' ? rigging.slings_to_bars() : rigging.slings();
+    // L1 and B1's end a lie at -x: the load's centre nearer to them loads R1 and U1.
+    const LiftRun shifted = run_below_spreader(lift_case, -shift);
+    const double exact = tension_at_rest(shifted, name) / tension_at_rest(straight, name);
+    const ComputedFactors computed = rigging.of_sling(slings.front(), 0);
+    EXPECT_GT(exact, 1.001);
+    return *computed.centre_box - exact;
+  };
+  for (const char* name : {"R1", "U1"}) {
+    const double whole = error_at(0.04, name), half = error_at(0.02, name);
+    EXPECT_LT(std::abs(whole), 4e-3) << name;
+    EXPECT_LT(std::abs(half), 0.3 * std::abs(whole) + 1e-6) << name;
+  }
+}
+
+// The same with a sling that is shorter than meant: of all sets of signs the largest.
+TEST(RiggingFacts, SkewBelowASpreaderIsThatOfWrongLengths) {
+  const test::TemporaryFolder folder;
+  LiftCase lift_case = spreader_case(folder);
+  lift_case.standard->length_tolerance = 0.01;
+  const LiftRun straight = run_below_spreader(lift_case, 0);
+  const RiggingFacts rigging(lift_case, straight, {}, {});
+  std::vector<std::string> names{"R1", "R2", "U1", "U2"};
+  std::map<std::string, double> largest;
+  for (unsigned set = 0; set < 16; ++set) {
+    LiftCase wrong = lift_case;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (RopeInCase& rope : wrong.ropes)
+        if (rope.name.value == names[i]) rope.length.value *= (set >> i & 1U) != 0 ? 1.01 : 0.99;
+    const LiftRun run = run_below_spreader(std::move(wrong), 0);
+    for (const std::string& name : names)
+      largest[name] = std::max(largest[name], tension_at_rest(run, name));
+  }
+  for (const auto* slings : {&rigging.slings(), &rigging.slings_to_bars()})
+    for (const LiftRope& sling : *slings) {
+      const ComputedFactors computed = rigging.of_sling(sling, 0);
+      const double exact = largest[sling.name] / tension_at_rest(straight, sling.name);
+      EXPECT_GT(exact, 1.0001) << sling.name;
+      // Of the second order in the lengths' errors.
+      EXPECT_NEAR(*computed.skew, exact, 2e-3) << sling.name;
+    }
+}
+
+// A standard takes slings above a bar as it takes those to lugs, and the bar's weight as rigging's.
+TEST(RiggingFacts, TakeSlingsAboveASpreader) {
+  const test::TemporaryFolder folder;
+  LiftCase lift_case = spreader_case(folder);
   lift_case.standard->length_tolerance = 0.0025;
-  LoadMass load;
-  load.mass = 10e3;
-  load.p_BoBcm_B = {2, 0, 0.5};
-  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
-  LiftRun run = run_lift(lift_case, build_lift(lift_case, load), [](auto&&...) {});
+  LiftRun run = run_below_spreader(lift_case, 0);
   const double bar = lift_case.find_spreader("B1")->mass() * lift_case.gravity;
   const Assessment assessment{std::move(lift_case), std::move(run), {}, {}, {}, {}, 0};
   const LiftFacts facts = gather_facts(assessment);
@@ -99,7 +170,7 @@ TEST(RiggingFacts, TakeSlingsAboveASpreader) {
   for (const SlingFacts& sling : facts.slings) {
     EXPECT_EQ(sling.hook, "C1.left");
     EXPECT_EQ(sling.slings_on_hook, 2);
-    EXPECT_FALSE(sling.computed.skew);
+    EXPECT_TRUE(sling.computed.skew);
   }
   EXPECT_NEAR(facts.rigging, bar, 1e-9 * bar);
   // The loads of the hook in the motion have the bar already.

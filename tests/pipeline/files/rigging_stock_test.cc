@@ -106,6 +106,58 @@ TEST(RiggingStockTest, RefusesAStockOfNothingKnown) {
               HasSubstr("the stock has neither slings nor shackles"));
 }
 
+std::string stock_of(const std::string& items, const char* factor) {
+  return std::string("kind: rigging\ntitle: t\nsource: s\nrule: {name: own, safety_factor: ") +
+         factor + ", formula: f}\n" + items;
+}
+
+// A link of 30 mm, 210 x 120 mm inside: pi 150 + 180 mm of bar weigh 3.613 kg, and 200 kN are 141.5
+// MPa, 300 kN 212 MPa on its two sides.
+TEST(RiggingStockTest, HoldsMasterLinksToTheirMeasures) {
+  const std::string link = stock_of(
+      "master_links:\n  m: {working_load: 60 kN, breaking_load: 300 kN, bar: 30 mm, "
+      "inside_length: 210 mm, inside_width: 120 mm, mass: 3.6 kg}\n",
+      "5");
+  EXPECT_EQ(complaints_about_stock(link), "");
+  EXPECT_THAT(complaints_about_stock(with(link, "3.6 kg", "4.2 kg")),
+              HasSubstr("m: its mass is 4.2 kg; that of its bar by the measures is 3.61 kg"));
+  EXPECT_THAT(complaints_about_stock(with(link, "60 kN", "70 kN")), HasSubstr("own asks for 5"));
+  EXPECT_THAT(complaints_about_stock(with(with(link, "60 kN", "40 kN"), "300 kN", "200 kN")),
+              HasSubstr("the sides of 30 mm bear 141 MPa on the mean; 150 to 600"));
+}
+
+TEST(RiggingStockTest, HoldsSheavesToTheirRope) {
+  const std::string sheave = stock_of(
+      "sheaves:\n  s: {working_load: 90 kN, breaking_load: 450 kN, rope: 20 mm, tread: 460 mm, "
+      "mass: 32 kg}\n",
+      "5");
+  EXPECT_EQ(complaints_about_stock(sheave), "");
+  EXPECT_THAT(complaints_about_stock(with(sheave, "460 mm", "120 mm")),
+              HasSubstr("s: tread over rope is 6; sheaves have 8 to 60"));
+  EXPECT_THAT(complaints_about_stock(with(sheave, "32 kg", "32 t")), HasSubstr("a full disc"));
+}
+
+// By hand: a pipe of 168.3 x 8 mm, 6 m, S355, curve a: A 4029 mm2, I 1.2973e7 mm4, Euler's load 746.8
+// kN, slenderness 1.3839, chi 0.4259. Slings at 45 degrees press it with (200 + 1.863) / 2 kN, its 190
+// kg bend it with 1.397 kNm: 2 x 100.93 / 609.1 + 2 x 1.397 / (54.72 x (1 - 201.86 / 746.8)).
+TEST(RiggingStockTest, HoldsSpreadersToTheirResistance) {
+  const std::string bar = stock_of(
+      "spreaders:\n  b:\n    bar: {length: 6 m, section: {pipe: [168.3 mm, 8 mm]}, yield_stress: "
+      "355 MPa, buckling_curve: a, mass: 190 kg}\n    working_load: 200 kN\n    sling_angle: 45 "
+      "deg\n",
+      "2");
+  const TemporaryFolder folder;
+  folder.write("stock.yaml", bar);
+  Diagnostics diagnostics;
+  const auto stock = ModelLibrary({}).read_rigging("stock.yaml", diagnostics);
+  ASSERT_EQ(diagnostics.to_text(), "");
+  EXPECT_NEAR(stock->spreaders[0].utilisation(2), 0.4014, 3e-4);
+  EXPECT_THAT(complaints_about_stock(with(bar, "200 kN", "600 kN")),
+              HasSubstr("b: under its working load, times 2, the bar bears"));
+  EXPECT_THAT(complaints_about_stock(with(bar, "sling_angle: 45 deg", "sling_angle: 95 deg")),
+              HasSubstr("sling_angle"));
+}
+
 // The sample's chain as a spreadsheet of a country with decimal commas would write it.
 const std::string sample_table =
     "title;What the yard has;;\r\nsource;\"certificates; loft 2\";;\r\nrule;EN 818-4;;\r\n"
@@ -143,6 +195,19 @@ TEST(RiggingTableTest, HasShacklesAndCommasToo) {
                 "formula,none\n\nshackle,working_load,breaking_load,body,pin,inside_width,mass\n"
                 "bow-8,8.5 t,34 t,25 mm,28.6 mm,43 mm,2.4 kg\n"),
             "");
+}
+
+TEST(RiggingTableTest, HasMasterLinksAndSheaves) {
+  EXPECT_EQ(complaints_about_table(
+                "title,Links\nsource,tags\nrule,own\nsafety_factor,5\nformula,none\n"
+                "master_link,working_load,breaking_load,bar,inside_length,inside_width,mass\n"
+                "m-6,60 kN,300 kN,30 mm,210 mm,120 mm,3.6 kg\n"),
+            "");
+  EXPECT_THAT(
+      complaints_about_table("title,Sheaves\nsource,tags\nrule,own\nsafety_factor,5\nformula,none\n"
+                             "sheave,working_load,breaking_load,rope,tread,mass\n"
+                             "s-20,90 kN,450 kN,20 mm,120 mm,32 kg\n"),
+      HasSubstr("stock.csv:7:1: error: s-20: tread over rope is 6"));
 }
 
 TEST(RiggingTableTest, NamesTheLineOfWhatIsWrong) {
@@ -196,8 +261,27 @@ TEST(ShippedRiggingTest, HoldsTogether) {
       EXPECT_GT(shackle.pin, shackle.body) << shackle.name.value;
       EXPECT_GT(shackle.inside_width, shackle.pin) << shackle.name.value;
     }
+    double lighter_link = 0;
+    for (const StockMasterLink& link : stock->master_links) {
+      EXPECT_TRUE(names.insert(link.name.value).second) << link.name.value;
+      EXPECT_NEAR(link.breaking_load, stock->rule.safety_factor * link.working_load, 1e-6);
+      EXPECT_NEAR(link.mass, link.mass_of_bar(), 0.01 * link.mass) << link.name.value;
+      EXPECT_GT(link.mass, lighter_link) << link.name.value;
+      lighter_link = link.mass;
+    }
+    for (const StockSheave& sheave : stock->sheaves) {
+      EXPECT_TRUE(names.insert(sheave.name.value).second) << sheave.name.value;
+      EXPECT_NEAR(sheave.tread, 23 * sheave.rope, 1e-9) << sheave.name.value;
+    }
+    // Rounded down by a tonne at most.
+    for (const StockSpreader& spreader : stock->spreaders) {
+      EXPECT_TRUE(names.insert(spreader.name.value).second) << spreader.name.value;
+      const double use = spreader.utilisation(stock->rule.safety_factor);
+      EXPECT_LE(use, 1) << spreader.name.value;
+      EXPECT_GT(use, 1 - 1.2 * 9806.65 / spreader.working_load) << spreader.name.value;
+    }
   }
-  EXPECT_GE(files, 8);
+  EXPECT_GE(files, 13);
 }
 
 // Published tables round to the same figures: EN 13414-1 table 4 has 4.60 t for 20 mm and 42.0 t

@@ -14,6 +14,7 @@ namespace {
 using test::SampleLift;
 using test::TemporaryFolder;
 using test::with;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 const std::string sample_rules = R"(kind: standard
@@ -122,6 +123,27 @@ TEST(StandardInCaseTest, AsksForWhatTheRulesNeed) {
   EXPECT_THAT(text, HasSubstr("need a skew"));
   EXPECT_THAT(text, HasSubstr("the model of rope R1 has no material, which the rules 0027/ND need "
                               "for slings"));
+}
+
+TEST(StandardInCaseTest, LooksAtMasterLinksAndSheaves) {
+  const std::string begin = "{rules: en-13001, hoisting_class: HC2, ";
+  EXPECT_EQ(complaints_about_standard(
+                begin + "master_links: {C1.left: {working_load: 5 t, breaking_load: 30 t}}}"),
+            "");
+  EXPECT_THAT(complaints_about_standard(
+                  begin + "master_links: {C1.lefd: {working_load: 5 t, breaking_load: 30 t}}}"),
+              AllOf(HasSubstr("a master link is at hook \"C1.lefd\", from which no sling hangs"),
+                    HasSubstr("did you mean \"C1.left\"?")));
+  EXPECT_THAT(complaints_about_standard(
+                  begin + "master_links: {C1.left: {working_load: 5 t, breaking_load: 3 t}}}"),
+              HasSubstr("the master link at hook C1.left breaks below its working load"));
+  EXPECT_THAT(complaints_about_standard(
+                  begin + "sheaves: {R7: {working_load: 5 t, breaking_load: 30 t, tread: 0.4 m}}}"),
+              HasSubstr("a sheave is at \"R7\", which is no sling of the case"));
+  EXPECT_THAT(
+      complaints_about_standard(
+          begin + "sheaves: {R1: {working_load: 5 t, breaking_load: 30 t, tread: 0.4 m}}}"),
+      HasSubstr("the model of rope R1 has no diameter, which the bend diameter is held against"));
 }
 
 TEST(StandardInCaseTest, LooksAtShacklesAndBends) {

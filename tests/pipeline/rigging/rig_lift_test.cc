@@ -65,6 +65,52 @@ TEST(RigLiftTest, ChoosesSlingsAboveASpreaderToo) {
   EXPECT_EQ(rigged.shackles[0].lug, "L1");
 }
 
+// The plate and a bar of 126 kg on the hook ask for a link of more than 10.1 t; a lighter pipe of the
+// bar's length is strong enough, a longer one is no choice, and the case is written with both.
+TEST(RigLiftTest, ChoosesMasterLinkAndSpreader) {
+  const TemporaryFolder folder;
+  folder.write(
+      "loft/links.yaml",
+      "kind: rigging\ntitle: t\nsource: s\nrule: {name: own, safety_factor: 5, formula: "
+      "f}\nmaster_links:\n"
+      "  m8: {working_load: 8 t, breaking_load: 40 t, bar: 29 mm, inside_length: 203 mm, "
+      "inside_width: 116 mm, mass: 3.26 kg}\n"
+      "  m12: {working_load: 12.5 t, breaking_load: 62.5 t, bar: 37 mm, inside_length: 259 "
+      "mm, inside_width: 148 mm, mass: 6.78 kg}\n");
+  folder.write(
+      "loft/bars.yaml",
+      "kind: rigging\ntitle: t\nsource: s\nrule: {name: own, safety_factor: 2, formula: f}\n"
+      "spreaders:\n"
+      "  weak: {bar: {length: 4 m, section: {pipe: [60.3 mm, 4 mm]}, yield_stress: 355 MPa}, "
+      "working_load: 1 t, sling_angle: 45 deg}\n"
+      "  heavy: {bar: {length: 4 m, section: {pipe: [168.3 mm, 8 mm]}, yield_stress: 355 MPa}, "
+      "working_load: 60 t, sling_angle: 45 deg}\n"
+      "  light: {bar: {length: 4 m, section: {pipe: [139.7 mm, 6.3 mm]}, yield_stress: 355 MPa, "
+      "buckling_curve: a}, working_load: 30 t, sling_angle: 45 deg}\n"
+      "  long: {bar: {length: 5 m, section: {pipe: [139.7 mm, 5 mm]}, yield_stress: 355 MPa}, "
+      "working_load: 12 t, sling_angle: 45 deg}\n");
+  std::string lift_case = test::spreader_lift().lift_case;
+  lift_case += "standard: {rules: queensland-tandem}\n";
+  const RiggedLift rigged = rig_sample(folder, lift_case, {200, 245, 270, 460, 600});
+  EXPECT_TRUE(rigged.pass());
+  ASSERT_EQ(rigged.master_links.size(), 1U);
+  const ChosenMasterLink& link = rigged.master_links[0];
+  EXPECT_EQ(link.demand.hook, "C1.left");
+  EXPECT_EQ(link.demand.legs, 2);
+  EXPECT_EQ(rigged.stock.master_links[link.index].name(), "m12");
+  ASSERT_EQ(rigged.spreaders.size(), 1U);
+  EXPECT_EQ(rigged.stock.spreaders[rigged.spreaders[0].index].name(), "light");
+  write_rigged_case(rigged, "rigged.yaml");
+  const LiftCase again = read_lift_case("rigged.yaml");
+  const SpreaderInCase& bar = *again.find_spreader("B1");
+  EXPECT_NEAR((*bar.section.value.pipe)[0], 0.1397, 1e-12);
+  EXPECT_EQ(bar.curve, structure::BucklingCurve::a);
+  EXPECT_EQ(bar.upper_eye, 0);
+  ASSERT_EQ(again.standard->master_links.size(), 1U);
+  EXPECT_NEAR(again.standard->master_links[0].working_load, 12.5 * 9806.65, 1e-3);
+  EXPECT_NEAR(again.standard->master_links[0].mass, 6.78, 1e-9);
+}
+
 // Half the weight, 49.05 kN, asks for 245.25 kN and 5.0 t; the motion adds a few per cent.
 TEST(RigLiftTest, ChoosesForHalfTheWeightEach) {
   const TemporaryFolder folder;

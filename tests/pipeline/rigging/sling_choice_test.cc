@@ -118,7 +118,7 @@ TEST(SlingChoiceTest, PassesOverWhatTheRulesDoNotKnow) {
   const SlingChecks checks(lift_case, facts_of_r1());
   Stock stock = stock_of({1900, 2000});
   stock.slings[0].sling.rope.termination = called("knot");
-  EXPECT_EQ(checks.obstacle(stock.slings[0]), "0027/ND has no termination \"knot\"");
+  EXPECT_EQ(checks.obstacle(stock.slings[0], "R1"), "0027/ND has no termination \"knot\"");
   EXPECT_EQ(choose_sling(stock, checks, r1).index, 1U);
   stock.slings[1].sling.rope.material.reset();
   try {
@@ -136,11 +136,11 @@ TEST(SlingChoiceTest, PassesOverWhatIsBentTooSharply) {
   lift_case.standard->bend_diameter = 0.05;
   const SlingChecks checks(lift_case, facts_of_r1());
   Stock stock = stock_of({1900});
-  EXPECT_THAT(checks.obstacle(stock.slings[0]), HasSubstr("no diameter"));
+  EXPECT_THAT(checks.obstacle(stock.slings[0], "R1"), HasSubstr("no diameter"));
   stock.slings[0].sling.rope.diameter = 0.06;
-  EXPECT_THAT(checks.obstacle(stock.slings[0]), HasSubstr("less than its own diameter"));
+  EXPECT_THAT(checks.obstacle(stock.slings[0], "R1"), HasSubstr("less than its own diameter"));
   stock.slings[0].sling.rope.diameter = 0.05;
-  EXPECT_EQ(checks.obstacle(stock.slings[0]), "");
+  EXPECT_EQ(checks.obstacle(stock.slings[0], "R1"), "");
 }
 
 // 400 kN are 40.8 t.

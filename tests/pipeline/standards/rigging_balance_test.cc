@@ -122,6 +122,75 @@ TEST(RiggingBalance, BearsAMomentByStatics) {
   EXPECT_NEAR(tension[1], weight / 2 + 1e4, 1e-6);
 }
 
+/// A plumb rope from an upper end to a lower one, of a compliance that no result may depend on.
+RiggingRope plumb(const RiggingEnd& lower, const RiggingEnd& upper, double tension) {
+  RiggingRope rope;
+  rope.lower = lower;
+  rope.upper = upper;
+  rope.tension = tension;
+  rope.length = 10;
+  rope.compliance = 1e-9;
+  return rope;
+}
+
+// A beam on two plumb ropes 8 m apart below a bar on two that are 5 m apart: by statics each pair
+// bears the moment over its own distance, and the upper one the bar's weight, too.
+TEST(RiggingBalance, BearsAMomentThroughABar) {
+  const double bar = 2e5, moment = 1e5;
+  std::vector<RiggingRope> ropes;
+  for (const double side : {-1.0, 1.0}) {
+    ropes.push_back(plumb({RiggingEnd::Kind::load, -1, {4 * side, 0, 0.7}},
+                          {RiggingEnd::Kind::bar, 0, {4 * side, 0, 0}}, weight / 2));
+    ropes.push_back(plumb({RiggingEnd::Kind::bar, 0, {2.5 * side, 0, 0}},
+                          {RiggingEnd::Kind::fixed, -1, Vector3d::Zero()}, (weight + bar) / 2));
+  }
+  // The load's centre hangs 0.7 m below its lugs and takes W 0.7 m of the moment for each radian that
+  // it turns: 1e-4 of what the ropes' stiffness does over their distances, 9e9 N m.
+  const VectorXd tension = RiggingBalance(ropes, 0, {}, 1).with_moment({0, moment, 0});
+  const double tolerance = 2e-4 * moment / 8;
+  EXPECT_NEAR(tension[0], weight / 2 - moment / 8, tolerance);
+  EXPECT_NEAR(tension[2], weight / 2 + moment / 8, tolerance);
+  EXPECT_NEAR(tension[1], (weight + bar) / 2 - moment / 5, 2 * tolerance);
+  EXPECT_NEAR(tension[3], (weight + bar) / 2 + moment / 5, 2 * tolerance);
+}
+
+// Four plumb slings below a frame: alternating errors make forces that are in balance on the load
+// and on the frame, so that each sling's own elongation takes up its error, dT = EA d / L, and the
+// slings above the frame feel nothing. Errors of those above share anew in the same way there.
+TEST(RiggingBalance, SkewsFourSlingsBelowAFrameByThemselves) {
+  const FourSlings above;
+  const double length = 6, compliance = length / axial_stiffness;
+  std::vector<RiggingRope> ropes;
+  for (const RiggingRope& sling : above.ropes) {
+    RiggingRope& rope = ropes.emplace_back(sling);
+    if (rope.lower.kind == RiggingEnd::Kind::load) rope.lower.kind = RiggingEnd::Kind::bar;
+    if (rope.lower.kind == RiggingEnd::Kind::bar) rope.lower.index = 0;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Vector3d& r = above.ropes[static_cast<std::size_t>(i)].lower.r_W;
+    RiggingRope& rope =
+        ropes.emplace_back(plumb({RiggingEnd::Kind::load, -1, {r.x(), r.y(), 1}},
+                                 {RiggingEnd::Kind::bar, 0, {r.x(), r.y(), 0}}, weight / 4));
+    rope.length = length;
+    rope.compliance = compliance;
+  }
+  const RiggingBalance balance(ropes, 1, {}, 1);
+  const double error = 1e-3;
+  VectorXd below = VectorXd::Zero(9), over = VectorXd::Zero(9);
+  below.tail<4>() = alternating(error).head<4>();
+  over.head<4>() = alternating(error).head<4>();
+  const VectorXd with_below = balance.with_length_errors(below);
+  const VectorXd with_over = balance.with_length_errors(over);
+  const double change = error / compliance, change_over = axial_stiffness * error / above.length;
+  for (int i = 0; i < 4; ++i) {
+    const double sign = i % 2 == 0 ? -1 : 1;
+    EXPECT_NEAR(with_below[5 + i], weight / 4 + sign * change, 1e-6 * change) << i;
+    EXPECT_NEAR(with_below[i], above.tension, 1e-6 * change) << i;
+    EXPECT_NEAR(with_over[i], above.tension + sign * change_over, 1e-6 * change) << i;
+    EXPECT_NEAR(with_over[5 + i], weight / 4, 1e-6 * change) << i;
+  }
+}
+
 TEST(RiggingBalance, RefusesMoreSetsThanItCanTry) {
   const std::vector<RiggingRope> ropes(13);
   EXPECT_THROW(RiggingBalance(ropes, 0).largest_by_tolerance(VectorXd::Constant(13, 0.01)),

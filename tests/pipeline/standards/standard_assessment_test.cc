@@ -155,6 +155,131 @@ TEST(StandardAssessment, HoldsShacklesAgainstStaticAndDynamicLoad) {
   EXPECT_NEAR(*chain_of(result, "shackle L1").limit, 682.5e3, 1e-6);
 }
 
+/// The two slings with both legs at the hook, 35 degrees to the plumb.
+LiftFacts two_legs() {
+  LiftFacts facts = two_slings();
+  SlingFacts other = facts.slings[0];
+  other.name = "R2";
+  other.lug = "L2";
+  other.load.at_rest = 820e3;
+  facts.slings.push_back(other);
+  for (SlingFacts& sling : facts.slings) {
+    sling.is_at_hook = true;
+    sling.angle = 0.6;
+  }
+  return facts;
+}
+
+const ChainStep& step_of(const Chain& chain, const std::string& name) {
+  const auto found = std::find_if(chain.steps.begin(), chain.steps.end(),
+                                  [&](const ChainStep& step) { return step.name == name; });
+  if (found == chain.steps.end()) throw std::out_of_range(name);
+  return *found;
+}
+
+// (1,030 - 30) x 1.1 x 1.1 + 20 = 1,230 kN of 1,300 at rest; x 1.05 = 1,291.5 by the standard and
+// x 1.04 by the simulation of 1,300 x 1.05 in motion. Legs of 400 and 820 kN: 1,000 over 820.
+TEST(StandardAssessment, HoldsAMasterLinkAgainstAllItsLegs) {
+  StandardInCase standard = by_nd_0027();
+  standard.master_links.push_back({called("C1.main"), 1300e3, 6500e3, 100});
+  const StandardAssessment result = assess_standard(standard, two_legs());
+  const Chain& at_rest = chain_of(result, "master link C1.main at rest");
+  EXPECT_NEAR(at_rest.standard, 1230e3, 1e-6);
+  EXPECT_NEAR(at_rest.utilisation(), 1230.0 / 1300, 1e-12);
+  const ChainStep& legs = step_of(at_rest, "load factor of the legs");
+  EXPECT_DOUBLE_EQ(*legs.standard, 1.4);
+  EXPECT_NEAR(*legs.simulated, 1000.0 / 820, 1e-12);
+  EXPECT_THAT(legs.formula, HasSubstr("2 legs, up to 34.4 deg to the plumb"));
+  const Chain& in_motion = chain_of(result, "master link C1.main");
+  EXPECT_NEAR(in_motion.standard, 1291.5e3, 1e-6);
+  EXPECT_NEAR(in_motion.simulated, 1230e3 * 1.04, 1e-6);
+  EXPECT_NEAR(*in_motion.limit, 1365e3, 1e-6);
+}
+
+// Rules that have accessories hold the dynamic load against the breaking load, too: 6,500 / 5.
+TEST(StandardAssessment, HoldsAccessoriesAgainstTheRulesOfTheirOwn) {
+  StandardInCase standard = by_nd_0027();
+  standard.rules.accessory = ShackleRules{{1, "own 1"}, {5, "own 2"}};
+  standard.master_links.push_back({called("C1.main"), 1300e3, 6500e3, 0});
+  const Chain chain = chain_of(assess_standard(standard, two_legs()), "master link C1.main");
+  EXPECT_NEAR(*chain.limit, 1300e3, 1e-6);
+  EXPECT_EQ(chain.limit_clause, "own 2");
+}
+
+// EN 818-4 by angle to the plumb and number of legs; none beyond 60 degrees.
+TEST(StandardAssessment, TellsTheLoadFactorOfLegsByAngleAndNumber) {
+  StandardInCase standard = by_nd_0027();
+  standard.master_links.push_back({called("C1.main"), 1300e3, 6500e3, 0});
+  const auto factor = [&](std::size_t legs, double angle) {
+    LiftFacts facts = two_legs();
+    while (facts.slings.size() < legs) facts.slings.push_back(facts.slings[0]);
+    facts.slings[0].angle = angle;
+    const Chain chain = chain_of(assess_standard(standard, facts), "master link C1.main at rest");
+    return step_of(chain, "load factor of the legs").standard;
+  };
+  EXPECT_DOUBLE_EQ(*factor(2, 0.9), 1.0);
+  EXPECT_DOUBLE_EQ(*factor(3, 0.7), 2.1);
+  EXPECT_DOUBLE_EQ(*factor(4, 1.0), 1.5);
+  EXPECT_FALSE(factor(4, 1.1));
+}
+
+// Twice the sling's 605 kN at rest of 1,300; twice 635.25 in motion of 1,300 x 1.05. Round a tread of
+// 300 mm a sling of 75 mm has D/d 4: 1 / (1 - 0.5 / 2) = 1.333 in place of the socket's 1.
+TEST(StandardAssessment, BendsASlingOverItsSheave) {
+  StandardInCase standard = by_nd_0027();
+  standard.sheaves.push_back({called("R1"), 1300e3, 6500e3, 0.3});
+  LiftFacts facts = two_slings();
+  facts.slings[0].diameter = 0.075;
+  const StandardAssessment result = assess_standard(standard, facts);
+  EXPECT_NEAR(chain_of(result, "sheave R1 at rest").utilisation(), 1210.0 / 1300, 1e-12);
+  EXPECT_NEAR(chain_of(result, "sheave R1").standard_utilisation(), 1270.5 / 1365, 1e-12);
+  EXPECT_NEAR(*chain_of(result, "sling R1").limit, 2000e3 / (2.535 * 4 / 3), 1e-6);
+  standard.bend_diameter = 0.168750;  // sharper, D/d 2.25, elsewhere along the sling
+  EXPECT_NEAR(*chain_of(assess_standard(standard, facts), "sling R1").limit, 2000e3 / (2.535 * 1.5),
+              1e-6);
+}
+
+// A chart that allows 1,287.5 kN where its share is largest at rest (1,030 kN x 0.8) and 1,190.2 in
+// motion takes the place of the hoist's 1,500; of the crane, with its reserve of a fifth, too.
+TEST(StandardAssessment, TakesTheLoadChartAtTheRadius) {
+  StandardInCase standard = by_nd_0027();
+  standard.rules.add(shipped_rules("queensland-tandem"));
+  LiftFacts facts = two_slings();
+  facts.hooks[0].chart = ChartFacts{0.8, 0.9, 22.5, "x 0.9 for wind of 12 m/s (maker)"};
+  CraneFacts crane;
+  crane.name = "C1";
+  crane.load = facts.hooks[0].load;
+  crane.hook_blocks = 30e3;
+  crane.chart = facts.hooks[0].chart;
+  facts.cranes = {crane, crane};
+  facts.cranes[1].name = "C2";
+  facts.cranes[1].chart.reset();
+  facts.cranes[1].capacity = 1500e3;
+  const StandardAssessment result = assess_standard(standard, facts);
+  const Chain& hook = chain_of(result, "hook C1.main");
+  EXPECT_NEAR(*hook.limit, 1287.5e3, 1e-6);
+  EXPECT_NEAR(*hook.simulated_limit, 1071.2e3 / 0.9, 1e-6);
+  EXPECT_EQ(hook.limit_text, "load chart at 22.50 m, x 0.9 for wind of 12 m/s (maker)");
+  EXPECT_NEAR(*chain_of(result, "crane C1").limit, 0.8 * 1287.5e3, 1e-6);
+  EXPECT_NEAR(*chain_of(result, "crane C2").limit, 1200e3, 1e-6);
+  EXPECT_THAT(chain_of(result, "crane C2").limit_text, HasSubstr("capacity of the crane"));
+  // A chart that allows more than the hoist does not count.
+  facts.hooks[0].chart = ChartFacts{0.5, 0.5, 22.5, {}};
+  EXPECT_NEAR(*chain_of(assess_standard(standard, facts), "hook C1.main").limit, 1500e3, 1e-6);
+}
+
+// A box that could not be worked does not take the rules' factor away.
+TEST(StandardAssessment, TakesTheRulesFactorWhereTheBoxIsNotWorked) {
+  StandardInCase standard = by_nd_0027();
+  standard.centre_box = Vector3(0.1, 0.1, 0.1);
+  const Chain by_rules = chain_of(assess_standard(standard, two_slings()), "sling R1");
+  EXPECT_NEAR(by_rules.standard, 635.25e3, 1e-6);
+  LiftFacts facts = two_slings();
+  facts.slings[0].computed.centre_box = 1.02;
+  const Chain by_box = chain_of(assess_standard(standard, facts), "sling R1");
+  EXPECT_NEAR(by_box.standard, 635.25e3 / 1.10 * 1.02, 1e-6);
+}
+
 // Stress at rest 100 MPa, by weight class 1.1, 1.05 onshore, 1.2 on a diagonal by the rules, 1.3 as
 // computed.
 TEST(StandardAssessment, SkewsTheStructure) {

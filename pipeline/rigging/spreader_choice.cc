@@ -1,0 +1,61 @@
+#include "pipeline/rigging/spreader_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pipeline/measures/spreader_measures.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+constexpr double same_length = 1e-3;  // m
+
+bool is_as_long(const SpreaderInStock& one, double length) {
+  return std::abs(one.spreader.bar.length.value - length) <= same_length;
+}
+
+const LiftSpreader& bar_of(const LiftRun& lift, const std::string& name) {
+  return *std::find_if(lift.model.spreaders.begin(), lift.model.spreaders.end(),
+                       [&](const LiftSpreader& one) { return one.name == name; });
+}
+
+}  // namespace
+
+bool has_bars_of_length(const Stock& stock, double length) {
+  return std::any_of(stock.spreaders.begin(), stock.spreaders.end(),
+                     [&](const SpreaderInStock& one) { return is_as_long(one, length); });
+}
+
+std::vector<Check> check_spreader(const SpreaderInStock& candidate, const LiftCase& lift_case,
+                                  const LiftRun& lift, const std::string& name) {
+  const LiftSpreader& bar = bar_of(lift, name);
+  const double factor = spreader_factor(lift_case.checks);
+  return {check_at_most(fmt::format("resistance of the bar / {:g}", factor),
+                        largest_share(candidate.spreader.bar.column(), bar, lift, factor), 1, "1"),
+          check_at_most(fmt::format("working load at rest, {}", candidate.rule),
+                        largest_hung_load(bar, lift), candidate.spreader.working_load, "N")};
+}
+
+ChosenSpreader choose_spreader(const Stock& stock, const LiftCase& lift_case, const LiftRun& lift,
+                               const std::string& name) {
+  const double length = lift_case.find_spreader(name)->length.value;
+  std::optional<ChosenSpreader> lightest, nearest;
+  double least_use = 0;
+  for (std::size_t i = 0; i < stock.spreaders.size(); ++i) {
+    const SpreaderInStock& candidate = stock.spreaders[i];
+    if (!is_as_long(candidate, length)) continue;
+    ChosenSpreader chosen{name, i, check_spreader(candidate, lift_case, lift, name)};
+    const double use = governing_check(chosen.checks)->utilisation;
+    const bool is_lighter = !lightest || candidate.spreader.bar.mass() <
+                                             stock.spreaders[lightest->index].spreader.bar.mass();
+    if (chosen.pass() && is_lighter) lightest = chosen;
+    if (nearest && !(use < least_use)) continue;
+    nearest = std::move(chosen);
+    least_use = use;
+  }
+  return lightest ? *lightest : *nearest;
+}
+
+}  // namespace blocklift::pipeline
