@@ -16,6 +16,7 @@
 #include "dynamics/simulation/marched_surface.h"
 #include "dynamics/simulation/newton_matrix.h"
 #include "dynamics/simulation/state_projection.h"
+#include "dynamics/simulation/steersman.h"
 #include "dynamics/simulation/sundials.h"
 
 namespace blocklift::dynamics {
@@ -58,8 +59,10 @@ class Integrator {
   void look_for_condition(double t, bool found);
   int root_count() const { return system_.contact_count() + (settings_.awaited ? 1 : 0); }
   bool is_over() const {
+    if (settings_.end && time_ >= *settings_.end - beside) return true;
     return settings_.awaited && (result_.met || time_ >= settings_.awaited->until);
   }
+  void steer(double t);
   bool motion_jumps(double t) const;
   bool part_ropes(double t);
   double within_interval(double t) const { return std::clamp(t, from_, to_); }
@@ -87,6 +90,7 @@ class Integrator {
   NewtonMatrix newton_;
   std::optional<StateProjection> projection_;
   std::optional<MarchedSurface> surface_;
+  std::optional<Steersman> steersman_;
   Contacts contacts_;
   bool on_ground_ = false;  ///< are there pads that are ground?
   Eigen::VectorXd sample_times_;
@@ -124,6 +128,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
       sample_times_(sample_times(system.operation().duration(), settings.sample_interval)),
       context_(sundials::make_context()),
       result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}, {}} {
+  if (!system.operation().steerings().empty()) steersman_.emplace(system);
   if (!(settings.relative_tolerance > 0.0) || settings.relative_tolerance > 0.1) {
     throw ModelError("the relative tolerance is " + std::to_string(settings.relative_tolerance) +
                      "; a number between 1e-12 and 0.1 is due");
@@ -338,7 +343,7 @@ bool Integrator::motion_jumps(double t) const {
   for (const Winch& winch : system_.operation().winches()) {
     if (jumps(winch.length)) return true;
   }
-  return false;
+  return std::any_of(w_.steered.begin(), w_.steered.end(), jumps);
 }
 
 void Integrator::count_before_restart() {
@@ -504,8 +509,19 @@ bool Integrator::part_ropes(double t) {
   return any;
 }
 
+// What steered drives do from now on.
+void Integrator::steer(double t) {
+  if (!steersman_ || !steersman_->looks_at(t)) return;
+  loaded_time_ = evaluated_time_ = not_a_number;
+  set_state(system_, sundials::view(y_.get()), w_);
+  set_drives(system_, within_interval(t), true, w_);
+  calc_contact_loads(system_, &contacts_, w_);
+  steersman_->look(t, w_);
+}
+
 void Integrator::integrate_interval(double start, double end) {
   const bool parted = part_ropes(start);
+  steer(start);
   // Behind a jump the motion counts as it is then, from the first step on.
   loaded_time_ = not_a_number;
   const bool jumps = motion_jumps(start);
@@ -628,6 +644,7 @@ IntegrationResult Integrator::run() {
   result_.q_end = w_.q;
   result_.v_end = w_.v;
   system_.mechanism().normalise(result_.q_end);
+  if (steersman_) result_.courses = steersman_->courses();
   return std::move(result_);
 }
 

@@ -43,6 +43,8 @@ struct IntegrationSettings {
   double surface_step = not_a_number;  ///< s
   /// The run ends when this is met, or when it may not be met any more.
   std::optional<AwaitedCondition> awaited = {};
+  /// The run ends here, at a breakpoint of the operation, s; none: with the operation.
+  std::optional<double> end = {};
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
   /// Called at each sample with its number and time (s) and the workspace of that instant:
@@ -85,7 +87,8 @@ struct IntegrationResult {
   std::vector<ContactEvent> events;  ///< in order of time
   Eigen::VectorXd q_end, v_end;      ///< state at the end, nq and nv
   std::vector<PartedRope> parted = {};
-  std::optional<double> met = {};  ///< when the awaited condition was, s; samples end there
+  std::optional<double> met = {};    ///< when the awaited condition was, s; samples end there
+  std::vector<Course> courses = {};  ///< of the operation's steered drives, in their order
 };
 
 /// Integrates the operation from (q, v) (nq and nv; driven entries are replaced by the drives')
@@ -101,6 +104,9 @@ struct IntegrationResult {
 ///
 /// A condition that is awaited is one more event: its instant is found as those of ropes and pads
 /// are.
+///
+/// Drives that are steered look at what is, and go on accordingly, at instants at which steps end
+/// (Steersman); their motion is smooth there, and the integration goes on without starting anew.
 ///
 /// A rope that parts pulls no more from then on; the energy that it had stored counts as dissipated.
 ///

@@ -94,13 +94,19 @@ BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Pr
   const RadiationProblem problem = radiation_problem(lift_case);
   const auto radiation = find_radiation(
       problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
-  std::vector<double> met;
+  FoundMotion found;
   for (;;) {
-    BuiltLift model =
-        build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem), met);
-    const std::optional<std::size_t> stage = model.schedule.waiting_stage();
-    if (!stage) return model;
-    met.push_back(find_stage_end(lift_case, model, *stage, progress));
+    BuiltLift model = build_lift(lift_case, load, radiation.get(), flexibility,
+                                 find_marched_water(problem), found);
+    const std::optional<std::size_t> waiting = model.schedule.waiting_stage();
+    const std::optional<std::size_t> steered = model.schedule.steered_stage();
+    if (!waiting && !steered) return model;
+    if (steered && (!waiting || *steered < *waiting)) {
+      for (dynamics::Course& course : find_courses(lift_case, model, *steered, progress))
+        found.courses.push_back(std::move(course));
+    } else {
+      found.met.push_back(find_stage_end(lift_case, model, *waiting, progress));
+    }
   }
 }
 
