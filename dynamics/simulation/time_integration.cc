@@ -43,6 +43,7 @@ class Integrator {
   IntegrationResult run();
 
  private:
+  void depart(const Departure& departure);
   void set_up_cvode();
   void find_relative_unknowns();
   void project_state(double t, VectorRef y);
@@ -98,6 +99,7 @@ class Integrator {
   std::vector<Eigen::Index> relative_unknowns_;  ///< velocities and quaternions: within y
   Eigen::VectorXd indicators_;    ///< at the end of the last step, where no root was found
   double awaited_value_ = -1.0;   ///< likewise of the awaited condition
+  double begin_ = 0.0;            ///< of the run
   double from_ = 0.0, to_ = 0.0;  ///< times between which motions are evaluated now
   double time_ = 0.0;
   // Where the workspace holds the loads of an instant that may be asked for again: time and state.
@@ -135,6 +137,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   }
   w_.q = q;
   w_.v = v;
+  if (settings.departure) depart(*settings.departure);
   system.mechanism().normalise(w_.q);
   // CVODES wants at least one unknown: where everything is driven, one that stays zero.
   const Eigen::Index size = std::max(1, system.state_size());
@@ -149,15 +152,36 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
     on_ground_ = on_ground_ || pad.definition().ground;
   loaded_state_.setZero(size);
   sundials::view(work_.get()).setZero();
-  projection_.emplace(system, w_);
+  projection_.emplace(system, w_, begin_);
   get_state(system, w_.q, w_.v, sundials::view(y_.get()));
+  sundials::view(y_.get()).segment(system.nq_free() + system.nv_free(), w_.memory.size()) =
+      w_.memory;
   find_relative_unknowns();
-  project_state(0.0, sundials::view(y_.get()));
+  project_state(begin_, sundials::view(y_.get()));
   if (settings.surface) {
     set_state(system, sundials::view(y_.get()), w_);
     set_drives(system, 0.0, true, w_);
     surface_.emplace(*settings.surface, settings.surface_step, system, w_);
   }
+}
+
+void Integrator::depart(const Departure& departure) {
+  if (settings_.surface || !system_.operation().steerings().empty())
+    throw ModelError("a run with a marched surface or steered drives begins at time 0");
+  if (!(departure.time >= 0.0) || departure.time >= system_.operation().duration() ||
+      departure.q.size() != w_.q.size() || departure.v.size() != w_.v.size() ||
+      departure.memory.size() != w_.memory.size() ||
+      departure.standing_places.size() != w_.standing_places.size())
+    throw ModelError("a run cannot go on from " + std::to_string(departure.time) +
+                     " s: the operation is over, or the instant is one of another lift");
+  begin_ = from_ = to_ = time_ = time_of_portion_ = departure.time;
+  w_.q = departure.q;
+  w_.v = departure.v;
+  w_.memory = departure.memory;
+  w_.standing_places = departure.standing_places;
+  constexpr double rounding = 1e-9;  // s
+  while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] < begin_ - rounding)
+    ++next_sample_;
 }
 
 void Integrator::find_relative_unknowns() {
@@ -305,7 +329,7 @@ void Integrator::set_up_cvode() {
   cvode_ = CVodeCreate(CV_BDF, context_.get());
   if (!cvode_) throw SimulationError("SUNDIALS: CVodeCreate gave no memory");
   check(CVodeSetErrHandlerFn(cvode_, keep_message, this), "CVodeSetErrHandlerFn");
-  check(CVodeInit(cvode_, right_hand_side, 0.0, y_.get()), "CVodeInit");
+  check(CVodeInit(cvode_, right_hand_side, begin_, y_.get()), "CVodeInit");
   check(CVodeSetUserData(cvode_, this), "CVodeSetUserData");
   check(CVodeWFtolerances(cvode_, error_weights), "CVodeWFtolerances");
   matrix_ = sundials::Matrix(SUNDenseMatrix(1, 1, context_.get()));
@@ -380,7 +404,7 @@ void Integrator::record_samples(double up_to) {
   while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
     loaded_time_ = evaluated_time_ = not_a_number;
     const double t = sample_times_[next_sample_];
-    if (t > 0.0) {
+    if (t > begin_) {
       sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");
     } else {
       sundials::view(sample_.get()) = sundials::view(y_.get());
@@ -397,7 +421,7 @@ void Integrator::record_samples(double up_to) {
     if (settings_.observe) settings_.observe(next_sample_, t, w_);
     if (settings_.works) {
       sundials::view(sampled_work_.get()).setZero();
-      if (t > 0.0) {
+      if (t > begin_) {
         sundials::check(CVodeGetQuadDky(cvode_, t, 0, sampled_work_.get()), "CVodeGetQuadDky");
       }
       result_.history.record_works(next_sample_, sundials::view(sampled_work_.get()));
@@ -527,7 +551,7 @@ void Integrator::integrate_interval(double start, double end) {
   const bool jumps = motion_jumps(start);
   from_ = jumps ? std::min(start + beside, end) : start;
   to_ = end;
-  if (parted || (jumps && start > 0.0)) restart(time_);
+  if (parted || (jumps && start > begin_)) restart(time_);
   const double reached = end - 1e-12 * std::max(1.0, end);
   while (time_ < reached) {
     if (++steps_taken_ > settings_.largest_step_count) fail("more steps than allowed");
@@ -627,14 +651,16 @@ void Integrator::fail(const char* what) {
 }
 
 IntegrationResult Integrator::run() {
-  from_ = 0.0;
-  to_ = system_.operation().breakpoints()[1];
-  contacts_ = find_contacts(system_, 0.0, sundials::view(y_.get()), w_);
-  set_up_cvode();
-  record_samples(0.0);
   const std::vector<double>& breakpoints = system_.operation().breakpoints();
-  for (std::size_t i = 0; i + 1 < breakpoints.size() && !is_over(); ++i) {
-    integrate_interval(breakpoints[i], breakpoints[i + 1]);
+  std::size_t first = 0;
+  while (breakpoints[first + 1] <= begin_ + beside) ++first;
+  from_ = begin_;
+  to_ = breakpoints[first + 1];
+  contacts_ = find_contacts(system_, begin_, sundials::view(y_.get()), w_);
+  set_up_cvode();
+  record_samples(begin_);
+  for (std::size_t i = first; i + 1 < breakpoints.size() && !is_over(); ++i) {
+    integrate_interval(std::max(begin_, breakpoints[i]), breakpoints[i + 1]);
   }
   count_before_restart();
   const double end = is_over() ? time_ : system_.operation().duration();

@@ -28,6 +28,19 @@ struct AwaitedCondition {
   double indicator(const LiftSystem& system, const LiftWorkspace& w) const;
 };
 
+/// An instant of a run from which another may go on.
+struct Departure {
+  double time = 0.0;                     ///< s
+  Eigen::VectorXd q, v;                  ///< nq, nv
+  Eigen::VectorXd memory;                ///< of the radiated water
+  std::vector<Vector3> standing_places;  ///< of each pad, m
+
+  /// Of the instant that a workspace holds, at a sample.
+  static Departure of(double time, const LiftWorkspace& w) {
+    return {time, w.q, w.v, w.memory, w.standing_places};
+  }
+};
+
 struct IntegrationSettings {
   /// Local error allowed over one step, relative to 1 m for displacements, 1 rad for angles, and to
   /// the larger of 1 m/s (1 rad/s) and the value for velocities: it does not depend on where the
@@ -43,6 +56,9 @@ struct IntegrationSettings {
   double surface_step = not_a_number;  ///< s
   /// The run ends when this is met, or when it may not be met any more.
   std::optional<AwaitedCondition> awaited = {};
+  /// The run begins there in place of time 0, of which samples before remain empty; null: it does
+  /// not. No surface is marched then, and no drive steered.
+  const Departure* departure = nullptr;
   /// The run ends here, at a breakpoint of the operation, s; none: with the operation.
   std::optional<double> end = {};
   /// Called now and then with the fraction done and the time (s); may be empty.

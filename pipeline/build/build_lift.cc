@@ -507,16 +507,17 @@ class LiftBuilder {
 
   void add_fault(const FaultInCase& fault, const Schedule& schedule,
                  dynamics::OperationBuilder& builder) const {
+    if (!fault.at && !found_.fault) return;
+    const double at = fault.at ? fault.at->value : *found_.fault;
     for (const Located<std::string>& name : fault.stops) {
       for (const Mover& mover : schedule.movers)
         if (name.value == mover.name || name.value == "all")
-          builder.add_stop(mover.name, fault.at.value, fault.within);
+          builder.add_stop(mover.name, at, fault.within);
     }
     for (const Located<std::string>& winch : fault.runs_away)
-      builder.add_runaway(winch.value, fault.at.value, *fault.caught_after, *fault.speed,
-                          fault.within);
+      builder.add_runaway(winch.value, at, *fault.caught_after, *fault.speed, fault.within);
     for (const Located<std::string>& name : fault.parts)
-      builder.add_parting(rope_of(name.value), fault.at.value);
+      builder.add_parting(rope_of(name.value), at);
   }
 
   struct WinchStart {

@@ -88,6 +88,20 @@ struct LiftBody {
   std::vector<BoxShape> boxes;
 };
 
+/// The instant at which a fault is worst, among those that were tried.
+struct WorstInstant {
+  /// A tried instant, and the rope or hoist that carries the most of its breaking load then.
+  struct Trial {
+    double time = 0;   ///< s
+    double share = 0;  ///< largest tension behind it over the breaking load
+    std::string rope;
+    double peak_time = 0;  ///< s, of that tension
+  };
+  Trial worst;
+  Trial undisturbed;          ///< the same without the fault, over the whole operation; time is 0
+  std::vector<Trial> trials;  ///< in order of time
+};
+
 /// The dynamics of a lift case and where its parts are in it.
 struct BuiltLift {
   dynamics::LiftSystem system;
@@ -105,6 +119,8 @@ struct BuiltLift {
   MarchedWater marched = {};
   /// What the water of `system` was computed for; empty where vessels make no waves.
   dynamics::Arrangement arrangement = {};
+  /// Of the fault that comes at its worst instant, if there is one.
+  std::optional<WorstInstant> worst = {};
 
   /// The lift whose static equilibria are asked.
   const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }

@@ -181,7 +181,11 @@ struct StageInCase {
 
 /// What goes wrong at an instant: ropes part, drives come to a stand, winches run away.
 struct FaultInCase {
-  Located<double> at;                           ///< of the operation, s
+  std::optional<Located<double>> at;  ///< of the operation, s; none: at the worst instant
+  /// Ropes and hoists of which one then carries the most of its breaking load, or "all".
+  std::vector<Located<std::string>> worst_for;
+  std::optional<Located<double>> from, to;      ///< between which the worst instant is sought, s
+  double watched = 0;                           ///< behind a tried instant, s
   std::vector<Located<std::string>> parts;      ///< ropes, or hoists whose tackle it is
   std::vector<Located<std::string>> stops;      ///< drives and winches, or "all"
   std::vector<Located<std::string>> runs_away;  ///< winches

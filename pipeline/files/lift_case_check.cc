@@ -546,11 +546,7 @@ class FaultCheck {
       diagnostics_.error(fault.place, "the fault says not what goes wrong",
                          {"give parts, ropes that break, stops, drives that come to a stand, or "
                           "runs_away, winches that pay out"});
-    if (duration_ > 0 && fault.at.value > duration_)
-      diagnostics_.error(
-          fault.at.mark,
-          fmt::format("the fault comes at {:g} s, after the end of the operation", fault.at.value),
-          {fmt::format("the operation lasts {:g} s", duration_)});
+    check_instant(fault);
     for (const Located<std::string>& rope : fault.parts)
       check_name(rope, ropes_, "parts", "its ropes and hoists are", parted_);
     for (const Located<std::string>& drive : fault.stops)
@@ -569,6 +565,37 @@ class FaultCheck {
   }
 
  private:
+  void check_instant(const FaultInCase& fault) {
+    const bool sought = !fault.worst_for.empty();
+    if (fault.at.has_value() == sought)
+      diagnostics_.error(fault.place,
+                         sought ? "the fault has both an instant and worst_for"
+                                : "the fault does not say when it comes",
+                         {"give at, an instant, or worst_for: [all], the worst one"});
+    if (!sought && (fault.from || fault.to))
+      diagnostics_.error(fault.place, "from and to go with worst_for, which is not there");
+    if (fault.from && fault.to && !(fault.from->value < fault.to->value))
+      diagnostics_.error(fault.to->mark, "the worst instant is sought until before it is sought");
+    for (const auto& at : {fault.at, fault.from}) {
+      if (duration_ > 0 && at && at->value > duration_)
+        diagnostics_.error(
+            at->mark,
+            fmt::format("the fault comes at {:g} s, after the end of the operation", at->value),
+            {fmt::format("the operation lasts {:g} s", duration_)});
+    }
+    if (!sought) return;
+    if (any_sought_)
+      diagnostics_.error(fault.worst_for.front().mark,
+                         "the worst instant is sought for one fault at a time",
+                         {"give the other its instant (at), or a case of its own"});
+    any_sought_ = true;
+    std::vector<std::string> known = ropes_;
+    known.emplace_back("all");
+    std::set<std::string> before;
+    for (const Located<std::string>& rope : fault.worst_for)
+      check_name(rope, known, "is worst for", "its ropes and hoists are", before);
+  }
+
   void check_name(const Located<std::string>& name, const std::vector<std::string>& known,
                   const char* verb, const char* hint, std::set<std::string>& before) {
     if (std::find(known.begin(), known.end(), name.value) == known.end()) {
@@ -585,6 +612,7 @@ class FaultCheck {
   double duration_;
   std::vector<std::string> ropes_, drives_, winches_;
   std::set<std::string> parted_, stopped_;
+  bool any_sought_ = false;
 };
 
 /// Ropes, and hoists whose tackles count as ropes; nothing if a crane could not be read.

@@ -583,8 +583,20 @@ Format<FaultInCase> fault_format() {
                            "What goes wrong in motion; the equilibria at rest are those of the "
                            "whole rigging.");
   table
-      .required("at", &FaultInCase::at, located(quantity(Dimension::time, Range::not_negative())),
-                "time of the operation at which it happens")
+      .optional("at", &FaultInCase::at, located(quantity(Dimension::time, Range::not_negative())),
+                "time of the operation at which it happens; or give worst_for")
+      .optional(
+          "worst_for", &FaultInCase::worst_for, list_of(located(reference()), 1),
+          "it happens at the worst instant for these ropes and hoists (C1.main), or for [all]: "
+          "the one after which one of them carries the most of its breaking load. Instants at "
+          "which drives move are tried, closer and closer around the worst ones")
+      .optional("from", &FaultInCase::from,
+                located(quantity(Dimension::time, Range::not_negative())),
+                "the worst instant is sought from then on; from the first move on if left out")
+      .optional("to", &FaultInCase::to, located(quantity(Dimension::time, Range::not_negative())),
+                "until then; until the last move ends if left out")
+      .by_default("watched", &FaultInCase::watched, quantity(Dimension::time, Range::positive()),
+                  "20 s", "how long the ropes are watched behind a tried instant")
       .optional("parts", &FaultInCase::parts, list_of(located(reference()), 1),
                 "ropes that break, or hoists (C1.main) whose tackle does")
       .optional("stops", &FaultInCase::stops, list_of(located(reference()), 1),

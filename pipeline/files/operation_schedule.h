@@ -73,6 +73,8 @@ struct ScheduledSteering {
 struct FoundMotion {
   std::vector<double> met;                ///< when conditions that end stages came about, s
   std::vector<dynamics::Course> courses;  ///< of drives that were steered
+  /// Of the fault that comes at its worst instant, s; none: it does not come.
+  std::optional<double> fault = {};
 };
 
 /// When everything happens.
