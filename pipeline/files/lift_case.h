@@ -270,6 +270,8 @@ struct CheckSettings {
   std::optional<double> largest_sidelead;          ///< rad
   std::optional<double> smallest_clearance;        ///< m
   std::optional<double> smallest_righting_height;  ///< m
+  std::optional<double> largest_heel;              ///< of vessels, rad
+  std::optional<double> smallest_freeboard;        ///< of vessels, m
 };
 
 /// A published or measured pair of largest loads, N.

@@ -419,7 +419,13 @@ Format<CheckSettings> checks_format() {
       .optional("righting_height", &CheckSettings::smallest_righting_height,
                 quantity(Dimension::length),
                 "least moment against a tilt of the hanging load over its weight and the tilt, "
-                "0 m or more; not checked if left out");
+                "0 m or more; not checked if left out")
+      .optional(
+          "heel", &CheckSettings::largest_heel, quantity(Dimension::angle, Range::positive()),
+          "largest heel of a vessel, also behind a load that is lost (faults); not checked if "
+          "left out")
+      .optional("freeboard", &CheckSettings::smallest_freeboard, quantity(Dimension::length),
+                "smallest height of a vessel's deck over calm water; not checked if left out");
   return table.format();
 }
 

@@ -93,6 +93,7 @@ class Scheduler {
     for (const MoveInCase* move : moves) {
       if (move->follows && !move->keeps) add_followers(*move);
     }
+    moves_end_ = schedule_.stages.back().end;
     for (const MoveInCase* move : moves) {
       if (move->keeps) add_keeping(*move, start);
     }
@@ -395,9 +396,7 @@ class Scheduler {
     refuse(move.follows || move.table, "\"follows\" or table");
     const double start = stage_start + (std::isfinite(move.delay) ? move.delay : 0);
     const StageInCase& stage = *stage_;
-    double end = schedule_.stages.back().end;
-    for (const ScheduledSteering& other : schedule_.steerings)
-      if (other.stage == stage_index_) end = std::max(start, other.steering.end);
+    double end = moves_end_;
     if (stage.until && stage.until->within) end = std::max(end, stage_start + *stage.until->within);
     if (move.duration) end = start + move.duration->value;
     if (!(end > start)) {
@@ -540,6 +539,7 @@ class Scheduler {
   const StageInCase* stage_ = nullptr;
   std::size_t stage_index_ = 0;
   std::size_t errors_before_stage_ = 0;
+  double moves_end_ = 0;  // of the stage's moves and followers, s
   std::size_t conditions_ = 0;     // that came about so far
   std::size_t courses_ = 0;        // that are known so far
   std::set<std::size_t> unknown_;  // movers that were steered on a course not known yet
