@@ -211,6 +211,9 @@ void check_steering(const Steering& s, const Operation& operation) {
   const auto* share = std::get_if<KeptShare>(&s.wish);
   if ((tension && tension->rope != rope) || (share && share->rope != rope))
     refuse("a winch keeps the tension of its own rope");
+  if ((tension && tension->stiffness && !positive(*tension->stiffness)) ||
+      (share && share->stiffness && !positive(*share->stiffness)))
+    refuse("a stiffness must be positive");
   if (share && share->others.empty()) refuse("a share is one of several ropes");
 }
 

@@ -29,6 +29,8 @@ struct KeptPlumb {
 struct KeptTension {
   int rope = -1;
   double tension = not_a_number;  ///< N
+  /// By how much the tension falls for each metre that is let out, N/m; none: the rope's own.
+  std::optional<double> stiffness = {};
 };
 
 /// By the winch of a rope: its part of what it and others pull is to stay.
@@ -36,6 +38,8 @@ struct KeptShare {
   int rope = -1;
   std::vector<int> others;
   double share = not_a_number;  ///< T / (T + sum of the others' T)
+  /// By how much T - share (T + sum of the others' T) falls likewise, N/m.
+  std::optional<double> stiffness = {};
 };
 
 using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare>;
@@ -54,7 +58,8 @@ using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare>;
 ///   height   z_point - z_reference - difference
 ///   plumb    J.d / J.J, d the level vector from head to target, J the level velocity of the head
 ///            while the drive's is 1 (with what loops of the crane take along)
-///   tension  (T - wanted) / k, k the rope's stiffness at its length
+///   tension  (T - wanted) / k, k the stiffness against letting out: the rope's at its length, which
+///            nothing exceeds, so that it never asks for too much
 ///   share    (T - share (T + sum T_others)) / k
 struct Steering {
   std::string drive;

@@ -92,14 +92,16 @@ double Steersman::find_travel(const Steering& steering, Helm& helm, const LiftWo
   }
   if (const auto* wish = std::get_if<KeptTension>(&steering.wish)) {
     const RopeLoad& rope = load(wish->rope);
-    return beyond(rope.tension - wish->tension, steering.tolerance) / rope.stiffness;
+    return beyond(rope.tension - wish->tension, steering.tolerance) /
+           wish->stiffness.value_or(rope.stiffness);
   }
   const auto& wish = std::get<KeptShare>(steering.wish);
   const RopeLoad& rope = load(wish.rope);
   double sum = rope.tension;
   for (const int other : wish.others) sum += load(other).tension;
   if (!(sum > 0.0)) return 0.0;
-  return sum * beyond(rope.tension / sum - wish.share, steering.tolerance) / rope.stiffness;
+  return sum * beyond(rope.tension / sum - wish.share, steering.tolerance) /
+         wish.stiffness.value_or(rope.stiffness);
 }
 
 void Steersman::steer(const Steering& steering, Helm& helm, double t, MotionProfile& profile,

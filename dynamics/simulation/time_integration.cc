@@ -31,6 +31,17 @@ constexpr double beside = 2e-6;
 // they lose, down to 1e-5 (LoopProjector): no smaller local error can be met there.
 constexpr double least_tolerance_through_singular_positions = 1e-11;
 
+// Times of the samples between the beginning and the end of the run, s.
+Eigen::VectorXd samples_of(const LiftSystem& system, const IntegrationSettings& settings) {
+  constexpr double rounding = 1e-9;  // s
+  const Eigen::VectorXd all = sample_times(system.operation().duration(), settings.sample_interval);
+  const double begin = settings.departure ? settings.departure->time : 0.0;
+  const double end = settings.end.value_or(system.operation().duration());
+  const auto first = std::lower_bound(all.begin(), all.end(), begin - rounding);
+  const auto last = std::upper_bound(first, all.end(), end + rounding);
+  return Eigen::Map<const Eigen::VectorXd>(all.data() + (first - all.begin()), last - first);
+}
+
 /// One run of CVODES over an operation.
 class Integrator {
  public:
@@ -127,7 +138,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
       settings_(settings),
       w_(system),
       newton_(system),
-      sample_times_(sample_times(system.operation().duration(), settings.sample_interval)),
+      sample_times_(samples_of(system, settings)),
       context_(sundials::make_context()),
       result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}, {}} {
   if (!system.operation().steerings().empty()) steersman_.emplace(system);
@@ -179,9 +190,6 @@ void Integrator::depart(const Departure& departure) {
   w_.v = departure.v;
   w_.memory = departure.memory;
   w_.standing_places = departure.standing_places;
-  constexpr double rounding = 1e-9;  // s
-  while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] < begin_ - rounding)
-    ++next_sample_;
 }
 
 void Integrator::find_relative_unknowns() {

@@ -56,10 +56,11 @@ struct IntegrationSettings {
   double surface_step = not_a_number;  ///< s
   /// The run ends when this is met, or when it may not be met any more.
   std::optional<AwaitedCondition> awaited = {};
-  /// The run begins there in place of time 0, of which samples before remain empty; null: it does
-  /// not. No surface is marched then, and no drive steered.
+  /// The run, and its samples, begin there in place of time 0; null: they do not. No surface is
+  /// marched then, and no drive steered.
   const Departure* departure = nullptr;
-  /// The run ends here, at a breakpoint of the operation, s; none: with the operation.
+  /// The run, and its samples, end here, at a breakpoint of the operation, s, or with the first step
+  /// beyond; none: with the operation.
   std::optional<double> end = {};
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};

@@ -491,9 +491,11 @@ class LiftBuilder {
 
   dynamics::Wish make_wish(const KeepInCase& keep, const std::string& drive) const {
     if (keep.over) return dynamics::KeptPlumb{body_point(*keep.head_at), body_point(*keep.over_at)};
-    if (keep.tension) return dynamics::KeptTension{rope_of(drive), keep.tension->value};
+    std::optional<double> stiffness;
+    if (keep.stiffness) stiffness = keep.stiffness->value;
+    if (keep.tension) return dynamics::KeptTension{rope_of(drive), keep.tension->value, stiffness};
     if (keep.share) {
-      dynamics::KeptShare wish{rope_of(drive), {}, keep.share->value};
+      dynamics::KeptShare wish{rope_of(drive), {}, keep.share->value, stiffness};
       for (const Located<std::string>& other : keep.of) wish.others.push_back(rope_of(other.value));
       return wish;
     }

@@ -134,6 +134,7 @@ struct KeepInCase {
   std::optional<Located<double>> tension;    ///< of the winch's own rope, N
   std::optional<Located<double>> share;      ///< of what it and the ropes `of` pull together
   std::vector<Located<std::string>> of;      ///< ropes, or hoists whose tackle it is
+  std::optional<Located<double>> stiffness;  ///< of a pull against letting out, N/m
   double reaction = 0;                       ///< s
   Located<double> correction;                ///< time in which he would take away what he sees, s
   std::optional<Located<Quantity>> tolerance;

@@ -177,6 +177,8 @@ void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
   only_with(keep.over.has_value(), "over", keep.head.has_value(), "head");
   only_with(!keep.of.empty(), "of", keep.share.has_value(), "share");
   only_with(keep.share.has_value(), "share", !keep.of.empty(), "of");
+  only_with(keep.stiffness.has_value(), "stiffness", keep.tension || keep.share,
+            "tension or share");
   // What is seen decays as e' = -e(t - reaction) / correction, which grows instead where the
   // correction is shorter than 2 / pi of the reaction; the drive's own lag comes on top.
   if (keep.correction.value < 2 * keep.reaction)
@@ -222,6 +224,12 @@ Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
                 "that it pulls of what it and the ropes of `of` pull together")
       .optional("of", &KeepInCase::of, list_of(located(reference()), 1),
                 "ropes, or hoists (C1.main) whose tackle it is")
+      .optional("stiffness", &KeepInCase::stiffness,
+                located(quantity(Dimension::stiffness, Range::positive())),
+                "by how much the tension, or what is pulled above the share, falls for each metre "
+                "that is let out. That of the rope alone if left out, which is never too little to "
+                "come to rest; a load that follows its hook changes its share far less, and is "
+                "brought to it sooner with its own figure")
       .by_default("reaction", &KeepInCase::reaction,
                   quantity(Dimension::time, Range::not_negative()), "1 s",
                   "from what the operator sees to what he does")

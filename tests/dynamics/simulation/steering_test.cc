@@ -179,8 +179,8 @@ TEST(Steering, ActsAfterTheReaction) {
   const History history = run(parts.build(90.0)).history;
   const Eigen::VectorXd& length = history.rope("second").unstretched_length;
   // What is seen at 0.2 s is acted on from 2.2 s on.
-  EXPECT_EQ(length[sample_at(history, 2.2)], 20.0);
-  EXPECT_GT(length[sample_at(history, 2.6)], 20.0);
+  EXPECT_NEAR(length[sample_at(history, 2.2)], 20.0, 1e-9);
+  EXPECT_GT(length[sample_at(history, 2.6)], 20.0 + 1e-6);
   // Far away it goes at its largest speed.
   EXPECT_NEAR(history.rope("second").unstretched_rate.maxCoeff(), limits.speed, 1e-9);
   EXPECT_NEAR(length[length.size() - 1], 23.0, 1e-4);
@@ -298,9 +298,9 @@ TEST(Steering, HoldsATensionAndAShare) {
     operation.add_winch("right", 1, 9.98);
     Steering steering;
     if (by_share)
-      steering.wish = KeptShare{0, {1}, 0.7};
+      steering.wish = KeptShare{0, {1}, 0.45, 6e5};
     else
-      steering.wish = KeptTension{0, 60e3};
+      steering.wish = KeptTension{0, 60e3, {}};
     steering.start = 1.0;
     steering.end = 60.0;
     steering.correction_time = 2.0;
@@ -319,7 +319,7 @@ TEST(Steering, HoldsATensionAndAShare) {
     const double right = history.rope("right").tension.tail(1)[0];
     EXPECT_NEAR(history.rope("left").tension[0], 40e3, 100.0);
     if (by_share)
-      EXPECT_NEAR(left / (left + right), 0.7, 1e-6);
+      EXPECT_NEAR(left / (left + right), 0.45, 1e-6);
     else
       EXPECT_NEAR(left, 60e3, 1.0);
   }
@@ -353,8 +353,8 @@ TEST(Steering, RefusesWhatCannotBe) {
   refuses([](Steering& s) { s.reaction = -1.0; }, "negative");
   refuses([](Steering& s) { s.end = -1.0; }, "\"second\" cannot be steered: it would be from");
   refuses([](Steering& s) { s.lowest = 100.0; }, "no range");
-  refuses([](Steering& s) { s.wish = KeptTension{0, 1.0}; }, "its own rope");
-  refuses([](Steering& s) { s.wish = KeptShare{1, {}, 0.5}; }, "one of several");
+  refuses([](Steering& s) { s.wish = KeptTension{0, 1.0, {}}; }, "its own rope");
+  refuses([](Steering& s) { s.wish = KeptShare{1, {}, 0.5, {}}; }, "one of several");
   refuses([](Steering& s) { s.wish = KeptPlumb{}; }, "winches keep heights");
   parts.operation.add_steering("second", parts.keep_level(10.0));
   refuses([](Steering&) {}, "steered twice");
