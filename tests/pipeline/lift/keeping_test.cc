@@ -122,7 +122,8 @@ TEST(Keeping, AHeadOverAPoint) {
   EXPECT_NEAR(traverse->position[traverse->position.size() - 1], 6.5, 1e-4);
 }
 
-// The left hoist takes 60 % of the load, by tilting it; the tension of the other follows.
+// The left hoist takes more of the load by tilting it: its centre lies 0.7 m below lugs 4 m apart, so
+// that a hook lower by d takes W 0.7 d / 16 m less, 4.3 kN for each metre.
 TEST(Keeping, AShareAndATension) {
   const std::string operation =
       "  - stage: share\n"
@@ -135,7 +136,7 @@ TEST(Keeping, AShareAndATension) {
     const char* name = wish[0] == 's' ? "C1.left: missed share" : "C1.left: missed tension";
     const double first = in_motion(lift_case, lift, name, 0.0);
     const double last = in_motion(lift_case, lift, name, lift.model.steerings[0].end);
-    EXPECT_LT(std::abs(last), std::abs(first)) << wish;
+    EXPECT_LT(std::abs(last), 0.1 * std::abs(first)) << wish;
   }
 }
 
