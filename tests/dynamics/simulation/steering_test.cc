@@ -18,14 +18,14 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr MotionLimits limits{0.2, 0.1, 0.4};
+constexpr MotionLimits drive_can{0.2, 0.1, 0.4};
 
 // Its acceleration and jerk keep to their limits, its speed does not pass the one that is wanted
 // and is there in little more than the least time: v / a + a / j, or 2 sqrt(v / j) where the largest
 // acceleration is not reached.
 TEST(Steering, GoesOverToASpeedWithinItsLimits) {
   constexpr double h = 0.2;
-  for (const MotionLimits& can : {limits, MotionLimits{0.2, 10.0, 0.1}}) {
+  for (const MotionLimits& can : {drive_can, MotionLimits{0.2, 10.0, 0.1}}) {
     SteeredMotion motion;
     double time = 0.0;
     while (std::abs(motion.speed - 0.2) > 1e-3 * 0.2) {
@@ -65,13 +65,13 @@ TEST(Steering, ACourseIsACubicInTime) {
 
 /// Two loads of 10 t, each on its own rope of 20 m from the world, at x = 0 and 10 m; the first is
 /// moved, the second steered.
-struct TwoWinches {
+struct LeaderAndFollower {
   BodyIndex first = -1, second = -1;
   Mechanism mechanism;
   std::vector<Rope> ropes;
   OperationBuilder operation;
 
-  TwoWinches() : mechanism(make()) {
+  LeaderAndFollower() : mechanism(make()) {
     for (int i = 0; i < 2; ++i) {
       const std::string name = i == 0 ? "first" : "second";
       ropes.emplace_back(mechanism, RopeDefinition{.name = name,
@@ -100,7 +100,7 @@ struct TwoWinches {
     steering.start = 0.0;
     steering.end = end;
     steering.correction_time = 4.0;
-    steering.limits = limits;
+    steering.limits = drive_can;
     steering.lowest = 1.0;
     steering.highest = 60.0;
     return steering;
@@ -116,17 +116,17 @@ struct TwoWinches {
   }
 };
 
-IntegrationResult run(const LiftSystem& lift) {
+IntegrationResult run_from_rest(const LiftSystem& lift) {
   Eigen::VectorXd q = lift.q_start();
   EquilibriumSolver(lift).solve(0, q);
   return integrate(lift, q, lift.v_start(), {.relative_tolerance = 1e-8});
 }
 
-double height(const History& history, const char* body, Eigen::Index sample) {
+double height_of(const History& history, const char* body, Eigen::Index sample) {
   return history.body(body).X_WB(sample).p.z();
 }
 
-Eigen::Index sample_at(const History& history, double t) {
+Eigen::Index sample_near(const History& history, double t) {
   Eigen::Index sample = 0;
   (history.time.array() - t).abs().minCoeff(&sample);
   return sample;
@@ -138,25 +138,25 @@ Eigen::Index sample_at(const History& history, double t) {
 TEST(Steering, LagsByTheSpeedTimesTheCorrectionTime) {
   constexpr double speed = 0.05;
   for (const double reaction : {0.0, 1.0}) {
-    TwoWinches parts;
+    LeaderAndFollower parts;
     parts.operation.add_move("first", {0.0, 3.0, {speed, 0.05, 0.2}});
     Steering steering = parts.keep_level(100.0);
     steering.reaction = reaction;
     steering.tolerance = 0.02;
     parts.operation.add_steering("second", steering);
     const LiftSystem lift = parts.build(130.0);
-    const IntegrationResult result = run(lift);
+    const IntegrationResult result = run_from_rest(lift);
     const History& history = result.history;
-    const Eigen::Index moving = sample_at(history, 55.0), last = history.sample_count() - 1;
-    EXPECT_NEAR(height(history, "second", moving) - height(history, "first", moving),
+    const Eigen::Index moving = sample_near(history, 55.0), last = history.sample_count() - 1;
+    EXPECT_NEAR(height_of(history, "second", moving) - height_of(history, "first", moving),
                 speed * 4.0 + 0.02, 1e-4);
-    EXPECT_NEAR(height(history, "second", last) - height(history, "first", last), 0.02, 1e-4);
+    EXPECT_NEAR(height_of(history, "second", last) - height_of(history, "first", last), 0.02, 1e-4);
     ASSERT_EQ(result.courses.size(), 1u);
 
-    TwoWinches replayed;
+    LeaderAndFollower replayed;
     replayed.operation.add_move("first", {0.0, 3.0, {speed, 0.05, 0.2}});
     replayed.operation.add_course("second", result.courses[0], steering.stand());
-    const IntegrationResult again = run(replayed.build(130.0));
+    const IntegrationResult again = run_from_rest(replayed.build(130.0));
     const auto difference =
         (again.history.body("second").pose - history.body("second").pose).cwiseAbs().maxCoeff();
     EXPECT_LT(difference, 1e-6);
@@ -171,29 +171,29 @@ TEST(Steering, LagsByTheSpeedTimesTheCorrectionTime) {
 
 // A drive that is not to be seen to act before the reaction is over does not.
 TEST(Steering, ActsAfterTheReaction) {
-  TwoWinches parts;
+  LeaderAndFollower parts;
   parts.operation.add_move("first", {0.0, 3.0, {1.0, 10.0, 100.0}});
   Steering steering = parts.keep_level(60.0);
   steering.reaction = 2.0;
   parts.operation.add_steering("second", steering);
-  const History history = run(parts.build(90.0)).history;
+  const History history = run_from_rest(parts.build(90.0)).history;
   const Eigen::VectorXd& length = history.rope("second").unstretched_length;
   // What is seen at 0.2 s is acted on from 2.2 s on.
-  EXPECT_NEAR(length[sample_at(history, 2.2)], 20.0, 1e-9);
-  EXPECT_GT(length[sample_at(history, 2.6)], 20.0 + 1e-6);
+  EXPECT_NEAR(length[sample_near(history, 2.2)], 20.0, 1e-9);
+  EXPECT_GT(length[sample_near(history, 2.6)], 20.0 + 1e-6);
   // Far away it goes at its largest speed.
-  EXPECT_NEAR(history.rope("second").unstretched_rate.maxCoeff(), limits.speed, 1e-9);
+  EXPECT_NEAR(history.rope("second").unstretched_rate.maxCoeff(), drive_can.speed, 1e-9);
   EXPECT_NEAR(length[length.size() - 1], 23.0, 1e-4);
 }
 
 // It brakes before it leaves its range, and stands at its end.
 TEST(Steering, StaysWithinTheRange) {
-  TwoWinches parts;
+  LeaderAndFollower parts;
   parts.operation.add_move("first", {0.0, 5.0, {0.5, 0.5, 2.0}});
   Steering steering = parts.keep_level(60.0);
   steering.highest = 22.0;
   parts.operation.add_steering("second", steering);
-  const History history = run(parts.build(90.0)).history;
+  const History history = run_from_rest(parts.build(90.0)).history;
   const Eigen::VectorXd& length = history.rope("second").unstretched_length;
   EXPECT_LE(length.maxCoeff(), 22.0 + 1e-6);
   EXPECT_NEAR(length[length.size() - 1], 22.0, 1e-3);
@@ -202,14 +202,14 @@ TEST(Steering, StaysWithinTheRange) {
 
 // An emergency stop overrules it: half the stop's time at the speed that it had.
 TEST(Steering, IsStopped) {
-  TwoWinches parts;
+  LeaderAndFollower parts;
   parts.operation.add_move("first", {0.0, 5.0, {0.5, 0.5, 2.0}});
   parts.operation.add_steering("second", parts.keep_level(60.0));
   parts.operation.add_stop("second", 10.0, 1.0);
-  const History history = run(parts.build(90.0)).history;
+  const History history = run_from_rest(parts.build(90.0)).history;
   const Eigen::VectorXd& length = history.rope("second").unstretched_length;
-  const double before = length[sample_at(history, 10.0)];
-  EXPECT_NEAR(length[length.size() - 1], before + 0.5 * limits.speed, 1e-9);
+  const double before = length[sample_near(history, 10.0)];
+  EXPECT_NEAR(length[length.size() - 1], before + 0.5 * drive_can.speed, 1e-9);
 }
 
 // A pendulum on a rope of 10 m from a trolley that is steered to stay plumb over it.
@@ -305,7 +305,7 @@ TEST(Steering, HoldsATensionAndAShare) {
     steering.end = 60.0;
     steering.correction_time = 2.0;
     steering.reaction = 0.5;
-    steering.limits = limits;
+    steering.limits = drive_can;
     steering.lowest = 5.0;
     steering.highest = 15.0;
     operation.add_steering("left", steering);
@@ -314,7 +314,7 @@ TEST(Steering, HoldsATensionAndAShare) {
                            .elements = elements,
                            .operation = operation.build(80.0),
                            .q_start = Eigen::VectorXd::Zero(1)});
-    const History history = run(lift).history;
+    const History history = run_from_rest(lift).history;
     const double left = history.rope("left").tension.tail(1)[0];
     const double right = history.rope("right").tension.tail(1)[0];
     EXPECT_NEAR(history.rope("left").tension[0], 40e3, 100.0);
@@ -327,7 +327,7 @@ TEST(Steering, HoldsATensionAndAShare) {
 
 TEST(Steering, AllocatesNothingInTheRightHandSide) {
   if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not in this build";
-  TwoWinches parts;
+  LeaderAndFollower parts;
   parts.operation.add_steering("second", parts.keep_level(10.0));
   const LiftSystem lift = parts.build(60.0);
   LiftWorkspace w(lift);
@@ -342,7 +342,7 @@ TEST(Steering, AllocatesNothingInTheRightHandSide) {
 }
 
 TEST(Steering, RefusesWhatCannotBe) {
-  TwoWinches parts;
+  LeaderAndFollower parts;
   const auto refuses = [&](auto change, const char* message) {
     Steering steering = parts.keep_level(10.0);
     change(steering);
