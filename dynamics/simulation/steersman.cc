@@ -28,13 +28,17 @@ Steersman::Steersman(const LiftSystem& system) : system_(system), kinematics_(sy
   v_.setZero(mechanism.nv());
   if (!mechanism.loops().empty()) projector_.emplace(mechanism);
   for (const Steering& steering : system.operation().steerings()) {
-    helms_.push_back({{steering.start, steering.interval(), {0.0}}, {}, {}, 0.0});
+    helms_.push_back({{steering.start, steering.interval(), {0.0}},
+                      static_cast<std::size_t>(steering.look_count()),
+                      {},
+                      {},
+                      0.0});
   }
 }
 
 bool Steersman::is_due(const Steering& steering, const Helm& helm, double t) const {
   const std::size_t looks = helm.seen.size();
-  if (looks >= static_cast<std::size_t>(steering.look_count())) return false;
+  if (looks >= helm.look_count) return false;
   if (steering.stop_time && t >= *steering.stop_time - coincident) return false;
   return t >= steering.start + static_cast<double>(looks) * helm.course.interval - coincident;
 }
@@ -122,7 +126,7 @@ void Steersman::steer(const Steering& steering, Helm& helm, double t, MotionProf
   };
   const auto stays = [&](double speed) {
     SteeredMotion motion = next(speed);
-    for (int k = 0; k < steering.look_count(); ++k) {
+    for (std::size_t k = 0; k < helm.look_count; ++k) {
       const double at = from + motion.travel;
       if ((at > steering.highest && speed > 0.0) || (at < steering.lowest && speed < 0.0))
         return false;

@@ -28,6 +28,7 @@ class Steersman {
  private:
   struct Helm {
     Course course;
+    std::size_t look_count = 0;
     SteeredMotion motion;
     std::vector<double> seen;  ///< travel that the wish asked for, at each look
     double difference = 0.0;   ///< of KeptHeight
