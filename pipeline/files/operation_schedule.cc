@@ -239,7 +239,8 @@ class Scheduler {
     schedule_.stages.back().end = std::max(schedule_.stages.back().end, planned->end());
     const double before = coordinates_[index];
     coordinates_[index] += distance;
-    if (move.to) unknown_.erase(index);
+    if (move.to && unknown_.erase(index) > 0 && !schedule_.provisional_from)
+      schedule_.provisional_from = stage_index_;
     check_range(index, before, coordinates_[index], name.mark);
   }
 
@@ -539,7 +540,7 @@ class Scheduler {
   const StageInCase* stage_ = nullptr;
   std::size_t stage_index_ = 0;
   std::size_t errors_before_stage_ = 0;
-  double moves_end_ = 0;  // of the stage's moves and followers, s
+  double moves_end_ = 0;           // of the stage's moves and followers, s
   std::size_t conditions_ = 0;     // that came about so far
   std::size_t courses_ = 0;        // that are known so far
   std::set<std::size_t> unknown_;  // movers that were steered on a course not known yet
@@ -594,6 +595,13 @@ std::optional<std::size_t> Schedule::steered_stage() const {
   for (const ScheduledSteering& steered : steerings)
     if (!steered.course) return steered.stage;
   return std::nullopt;
+}
+
+std::size_t Schedule::last_known_stage() const {
+  std::size_t end = stages.size();
+  if (const auto waiting = waiting_stage()) end = std::min(end, *waiting);
+  if (provisional_from) end = std::min(end, *provisional_from);
+  return end - 1;
 }
 
 Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics) {

@@ -85,11 +85,15 @@ struct Schedule {
   std::vector<ScheduledFollower> followers;
   std::vector<ScheduledSteering> steerings;
   double duration = 0;  ///< with the time to settle, s
+  /// The first stage with a move to a place from where a course not known yet leads; none: none.
+  std::optional<std::size_t> provisional_from = {};
 
   /// The first stage whose condition has not come about yet, or nothing.
   std::optional<std::size_t> waiting_stage() const;
   /// The first stage with a drive whose course is not known yet, or nothing.
   std::optional<std::size_t> steered_stage() const;
+  /// The last stage up to which courses can be found in one run: all before it is known but for them.
+  std::size_t last_known_stage() const;
 };
 
 /// What a schedule is made of.

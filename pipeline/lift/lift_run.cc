@@ -113,7 +113,7 @@ BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Pr
       return disturbed;
     }
     if (steered && (!waiting || *steered < *waiting)) {
-      for (dynamics::Course& course : find_courses(lift_case, model, *steered, progress))
+      for (dynamics::Course& course : find_courses(lift_case, model, progress))
         found.courses.push_back(std::move(course));
     } else {
       found.met.push_back(find_stage_end(lift_case, model, *waiting, progress));

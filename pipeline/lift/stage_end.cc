@@ -69,15 +69,17 @@ dynamics::IntegrationResult run_up_to(const LiftCase& lift_case, const BuiltLift
 }  // namespace
 
 std::vector<dynamics::Course> find_courses(const LiftCase& lift_case, const BuiltLift& model,
-                                           std::size_t stage, const Progress& progress) {
-  const ScheduledStage& scheduled = model.schedule.stages[stage];
+                                           const Progress& progress) {
+  const Schedule& schedule = model.schedule;
+  const std::size_t last = schedule.last_known_stage();
+  const double end = schedule.stages[last].end;
   dynamics::IntegrationResult result =
-      run_up_to(lift_case, model, "steering in stage " + scheduled.name, scheduled.end, progress,
-                [&](dynamics::IntegrationSettings& settings) { settings.end = scheduled.end; });
-  // Drives of later stages are steered in the model, too, after those of this one.
+      run_up_to(lift_case, model, "steered drives", end, progress,
+                [&](dynamics::IntegrationSettings& settings) { settings.end = end; });
+  // Drives of later stages are steered in the model, too, after those of these.
   const auto count =
-      std::count_if(model.schedule.steerings.begin(), model.schedule.steerings.end(),
-                    [&](const ScheduledSteering& steered) { return steered.stage == stage; });
+      std::count_if(schedule.steerings.begin(), schedule.steerings.end(),
+                    [&](const ScheduledSteering& one) { return !one.course && one.stage <= last; });
   result.courses.resize(static_cast<std::size_t>(count));
   return std::move(result.courses);
 }
