@@ -96,7 +96,7 @@ class Search {
   /// Samples at which a drive moves, within the time in which the instant is sought.
   void find_moving() {
     const dynamics::Operation& operation = undisturbed_.system.operation();
-    const auto moves = [&](double t) {
+    const auto anything_moves = [&](double t) {
       const auto moves = [&](const dynamics::MotionProfile& profile) {
         return std::abs(profile.evaluate(t).velocity) > standstill;
       };
@@ -108,7 +108,7 @@ class Search {
     for (Eigen::Index i = 1; i + 1 < times_.size(); ++i) {
       if (fault_.from && times_[i] < fault_.from->value) continue;
       if (fault_.to && times_[i] > fault_.to->value) break;
-      if (moves(times_[i])) moving_.push_back(i);
+      if (anything_moves(times_[i])) moving_.push_back(i);
     }
     if (!moving_.empty()) return;
     throw dynamics::SimulationError(
@@ -136,7 +136,8 @@ class Search {
     for (const auto& [instant, trial] : tried_) order.emplace_back(-trial.share, instant);
     std::sort(order.begin(), order.end());
     std::vector<Eigen::Index> kept;
-    for (const auto& [share, instant] : order) {
+    for (const auto& one : order) {
+      const Eigen::Index instant = one.second;
       const bool apart = std::all_of(kept.begin(), kept.end(), [&](Eigen::Index other) {
         return std::abs(static_cast<double>(other - instant)) > closer * step;
       });
