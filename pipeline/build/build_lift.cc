@@ -474,7 +474,7 @@ class LiftBuilder {
     add_schedule(schedule, builder);
     for (const ScheduledSteering& steered : schedule.steerings) {
       dynamics::Steering steering = steered.steering;
-      steering.wish = make_wish(*steered.keep, steering.drive);
+      steering.wish = make_wish(steered.keep, steering.drive);
       steerings_.push_back({steering.drive, steering.wish, steering.start, steering.end});
       if (!steered.course) builder.add_steering(steered.steering.drive, std::move(steering));
     }

@@ -632,7 +632,7 @@ void check_keeping(const LiftCase& lift_case, const Schedule& schedule, Diagnost
   const std::vector<std::string> ropes = names_of_ropes(lift_case);
   if (ropes.empty()) return;
   for (const ScheduledSteering& steering : schedule.steerings) {
-    const KeepInCase& keep = *steering.keep;
+    const KeepInCase& keep = steering.keep;
     const Mover& mover = schedule.movers[steering.mover];
     if (mover.is_winch == keep.over.has_value())
       diagnostics.error(

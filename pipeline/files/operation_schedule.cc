@@ -446,7 +446,7 @@ class Scheduler {
     steering.highest = mover.highest;
     if (!std::isfinite(start + end + keep.reaction + keep.correction.value)) return;
     schedule_.stages.back().end = std::max(schedule_.stages.back().end, steering.stand());
-    schedule_.steerings.push_back({index, stage_index_, steering, &keep, {}, name.mark});
+    schedule_.steerings.push_back({index, stage_index_, steering, keep, {}, name.mark});
   }
 
   /// The table as a smooth curve; complains if it cannot be one or does not cover the leader's way.

@@ -64,7 +64,7 @@ struct ScheduledSteering {
   std::size_t mover = 0;
   std::size_t stage = 0;
   dynamics::Steering steering;  ///< but for its wish
-  const KeepInCase* keep = nullptr;
+  KeepInCase keep;
   std::optional<dynamics::Course> course = {};  ///< none: not known yet
   Mark mark;
 };
