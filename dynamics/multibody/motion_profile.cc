@@ -201,6 +201,26 @@ struct MotionProfile::Stopped {
   double duration;
 };
 
+// A course with the travel and speed that it has at each of its instants.
+struct MotionProfile::Steered {
+  Course course;
+  std::vector<double> travel, speed;
+
+  ProfileValue evaluate(double t) const {
+    const double since = t - course.start;
+    if (since <= 0.0) return {0, 0, 0};
+    const double h = course.interval;
+    const auto& a = course.accelerations;
+    const std::size_t last = a.size() - 1;
+    const auto k = static_cast<std::size_t>(std::min(since / h, static_cast<double>(last)));
+    const double s = since - static_cast<double>(k) * h;
+    if (k == last) return {travel[k] + speed[k] * s, speed[k], 0.0};
+    const double jerk = (a[k + 1] - a[k]) / h;
+    return {travel[k] + s * (speed[k] + s * (a[k] / 2 + s * jerk / 6)),
+            speed[k] + s * (a[k] + s * jerk / 2), a[k] + s * jerk};
+  }
+};
+
 MotionProfile::MotionProfile(Content content, std::vector<double> breakpoints)
     : content_(std::move(content)), breakpoints_(sorted_unique(std::move(breakpoints))) {}
 
@@ -242,6 +262,30 @@ MotionProfile MotionProfile::cam(MotionProfile leader, NaturalSpline spline) {
 MotionProfile MotionProfile::along(NaturalSpline spline) {
   std::vector<double> breakpoints = spline.knots();
   return {std::make_shared<const NaturalSpline>(std::move(spline)), std::move(breakpoints)};
+}
+
+MotionProfile MotionProfile::along(Course course) {
+  const std::vector<double>& a = course.accelerations;
+  const double h = course.interval;
+  const bool finite = std::all_of(a.begin(), a.end(), [](double x) { return std::isfinite(x); });
+  if (!positive(h) || !std::isfinite(course.start) || a.empty() || !finite) {
+    refuse("a course of ", a.size(), " accelerations every ", h, " s from ", course.start,
+           " s on; finite ones, at least one, and a positive interval are due");
+  }
+  std::vector<double> travel{0.0}, speed{0.0}, breakpoints;
+  const auto time = [&](std::size_t k) { return course.start + static_cast<double>(k) * h; };
+  double jerk_before = 0.0;
+  for (std::size_t k = 0; k + 1 < a.size(); ++k) {
+    const double jerk = (a[k + 1] - a[k]) / h;
+    if (jerk != jerk_before) breakpoints.push_back(time(k));
+    jerk_before = jerk;
+    travel.push_back(travel[k] + h * (speed[k] + h * (2 * a[k] + a[k + 1]) / 6));
+    speed.push_back(speed[k] + h * (a[k] + a[k + 1]) / 2);
+  }
+  if (jerk_before != 0.0 || a.back() != 0.0) breakpoints.push_back(time(a.size() - 1));
+  return {std::make_shared<const Steered>(
+              Steered{std::move(course), std::move(travel), std::move(speed)}),
+          std::move(breakpoints)};
 }
 
 MotionProfile MotionProfile::sum(std::vector<MotionProfile> parts) {
@@ -286,6 +330,9 @@ ProfileValue MotionProfile::evaluate(double t) const {
   }
   if (const auto* spline = std::get_if<std::shared_ptr<const NaturalSpline>>(&content_)) {
     return (*spline)->evaluate(t);
+  }
+  if (const auto* steered = std::get_if<std::shared_ptr<const Steered>>(&content_)) {
+    return (*steered)->evaluate(t);
   }
   if (const auto* stopped = std::get_if<std::shared_ptr<const Stopped>>(&content_)) {
     const auto& [profile, start, duration] = **stopped;

@@ -83,6 +83,14 @@ class NaturalSpline {
   std::vector<double> x_, y_, curvature_;
 };
 
+/// How a drive goes that is steered on its way: its acceleration at even instants, straight between
+/// them, from rest. Behind the last of them it keeps its speed.
+struct Course {
+  double start = 0.0;                       ///< s
+  double interval = 1.0;                    ///< s
+  std::vector<double> accelerations = {0};  ///< m/s2 or rad/s2; the first is 0
+};
+
 /// How a drive's coordinate or a winch's rope length goes over time: immutable, cheap to copy.
 class MotionProfile {
  public:
@@ -94,6 +102,10 @@ class MotionProfile {
   static MotionProfile sequence(double initial, std::vector<RestToRestMove> moves);
   /// Goes along a spline over the time: position y(t), straight beyond its ends.
   static MotionProfile along(NaturalSpline spline);
+  /// Travel along a course, from 0; its acceleration is continuous.
+  /// @throws ModelError if the interval is not positive, there is no acceleration, or one is not
+  /// finite.
+  static MotionProfile along(Course course);
   /// Follows another profile like a cam: position y(x(t)), x being the leader's position.
   /// @throws ModelError if the leader leaves the spline's range.
   static MotionProfile cam(MotionProfile leader, NaturalSpline spline);
@@ -123,9 +135,10 @@ class MotionProfile {
   struct Cam;
   struct Sum;
   struct Stopped;
-  using Content =
-      std::variant<Sequence, std::shared_ptr<const Cam>, std::shared_ptr<const Sum>,
-                   std::shared_ptr<const NaturalSpline>, std::shared_ptr<const Stopped>>;
+  struct Steered;
+  using Content = std::variant<Sequence, std::shared_ptr<const Cam>, std::shared_ptr<const Sum>,
+                               std::shared_ptr<const NaturalSpline>, std::shared_ptr<const Stopped>,
+                               std::shared_ptr<const Steered>>;
 
   MotionProfile(Content content, std::vector<double> breakpoints);
 

@@ -26,6 +26,26 @@ std::vector<char> mark_elastic_ends(const LiftDefinition& d) {
   return marks;
 }
 
+void check_wish(const LiftDefinition& d, const Steering& steering) {
+  const auto check_point = [&](const BodyPoint& point) {
+    if (point.body < 0 || point.body >= d.mechanism.body_count() || !point.p_BoQ_B.allFinite())
+      throw ModelError("drive \"" + steering.drive + "\" is steered by a point of no body");
+  };
+  const auto check_rope = [&](int rope) {
+    if (rope < 0 || rope >= static_cast<int>(d.ropes.size()))
+      throw ModelError("drive \"" + steering.drive + "\" is steered by the pull of no rope");
+  };
+  if (const auto* height = std::get_if<KeptHeight>(&steering.wish)) {
+    check_point(height->point);
+    check_point(height->reference);
+  } else if (const auto* plumb = std::get_if<KeptPlumb>(&steering.wish)) {
+    check_point(plumb->head);
+    check_point(plumb->target);
+  } else if (const auto* share = std::get_if<KeptShare>(&steering.wish)) {
+    for (const int rope : share->others) check_rope(rope);
+  }
+}
+
 }  // namespace
 
 LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
@@ -56,6 +76,7 @@ LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
     if (winch.rope < 0 || winch.rope >= static_cast<int>(d_.ropes.size()))
       throw ModelError("winch \"" + winch.name + "\" has no rope");
   }
+  for (const Steering& steering : d_.operation.steerings()) check_wish(d_, steering);
   for (const Parting& parting : d_.operation.partings()) {
     if (parting.rope < 0 || parting.rope >= static_cast<int>(d_.ropes.size()))
       throw ModelError("there is no rope " + std::to_string(parting.rope) + " to part");
@@ -82,6 +103,7 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
       loads(system.mechanism()),
       dynamics(system.mechanism()),
       feeds(system.ropes().size()),
+      steered(system.operation().steerings().size(), MotionProfile::constant(0.0)),
       rope_loads(system.ropes().size()),
       support_loads(system.supports().size()),
       path(make_rope_path(system.ropes())),
@@ -107,6 +129,30 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
 ElasticBody::Ropes LiftWorkspace::ropes(const LiftSystem& system, const Contacts* contacts) {
   return {system.ropes(), feeds, contacts, path, end_shifts, rope_loads};
 }
+
+namespace {
+
+void add_steered_motion(const LiftSystem& system, double t, bool moving, LiftWorkspace& w) {
+  const Operation& operation = system.operation();
+  for (std::size_t i = 0; i < w.steered.size(); ++i) {
+    const Steering& steering = operation.steerings()[i];
+    const ProfileValue value = w.steered[i].evaluate(t);
+    if (steering.is_winch) {
+      const int rope = operation.winches()[steering.index].rope;
+      RopeFeed& feed = w.feeds[static_cast<std::size_t>(rope)];
+      feed.unstretched_length += value.position;
+      if (moving) feed.rate += value.velocity;
+      continue;
+    }
+    const JointDrive& drive = operation.joint_drives()[steering.index];
+    w.q[drive.coordinate_index] += value.position;
+    if (!moving) continue;
+    w.v[drive.velocity_index] += value.velocity;
+    w.vdot[drive.velocity_index] += value.acceleration;
+  }
+}
+
+}  // namespace
 
 void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& w) {
   for (const int k : system.mechanism().driven_velocities()) {
@@ -139,6 +185,7 @@ void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& 
     feed.unstretched_length += value.position;
     if (moving) feed.rate += value.velocity;
   }
+  if (!w.steered.empty()) add_steered_motion(system, t, moving, w);
 }
 
 void set_state(const LiftSystem& system, ConstVectorRef y, LiftWorkspace& w) {

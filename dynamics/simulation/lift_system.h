@@ -157,6 +157,8 @@ struct LiftWorkspace {
   /// Rows of the loops to be enforced off the constraint; none: all, judged at each state anew.
   std::optional<LoopRows> loop_rows;
   std::vector<RopeFeed> feeds;  ///< for each rope; which have parted the integration says
+  /// For each steered drive, what it goes besides its own motion; a Steersman sets them.
+  std::vector<MotionProfile> steered;
   std::vector<RopeLoad> rope_loads;
   std::vector<SupportLoad> support_loads;
   std::vector<Vector3> standing_places;   ///< of each pad, m: p_WG, or where ground was touched

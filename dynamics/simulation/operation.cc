@@ -184,11 +184,69 @@ void OperationBuilder::add_follower(std::string_view drive, std::string_view lea
   }
 }
 
+namespace {
+
+void check_steering(const Steering& s, const Operation& operation) {
+  const auto refuse = [&](const std::string& what) {
+    throw ModelError("drive \"" + s.drive + "\" cannot be steered: " + what);
+  };
+  const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  if (!(s.start >= 0.0) || !(s.end >= s.start) || !std::isfinite(s.end))
+    refuse("it would be from " + seconds(s.start) + " to " + seconds(s.end));
+  if (!positive(s.correction_time) || !positive(s.limits.speed) ||
+      !positive(s.limits.acceleration) || !positive(s.limits.jerk))
+    refuse("its correction time and its limits must be positive");
+  if (!(s.reaction >= 0.0) || !(s.tolerance >= 0.0) || !std::isfinite(s.reaction + s.tolerance))
+    refuse("its reaction and its tolerance must not be negative");
+  if (!(s.lowest <= s.highest)) refuse("it has no range");
+  if (s.is_winch == std::holds_alternative<KeptPlumb>(s.wish))
+    refuse("winches keep heights, tensions and shares, drives of joints a plumb");
+  if (!s.is_winch) {
+    if (operation.joint_drives()[s.index].direction.size() > 0)
+      refuse("its joint is driven as a whole along a direction");
+    return;
+  }
+  const int rope = operation.winches()[s.index].rope;
+  const auto* tension = std::get_if<KeptTension>(&s.wish);
+  const auto* share = std::get_if<KeptShare>(&s.wish);
+  if ((tension && tension->rope != rope) || (share && share->rope != rope))
+    refuse("a winch keeps the tension of its own rope");
+  if ((tension && tension->stiffness && !positive(*tension->stiffness)) ||
+      (share && share->stiffness && !positive(*share->stiffness)))
+    refuse("a stiffness must be positive");
+  if (share && share->others.empty()) refuse("a share is one of several ropes");
+}
+
+}  // namespace
+
+void OperationBuilder::add_steering(std::string_view drive, Steering steering) {
+  const Track& track = find_track(drive);
+  steering.drive = track.name;
+  steering.is_winch = track.is_winch;
+  steering.index = track.index;
+  check_steering(steering, operation_);
+  check_free(track, {steering.start, steering.stand()});
+  for (const Steering& other : operation_.steerings_) {
+    if (other.drive == track.name && other.start < steering.stand() - touching &&
+        steering.start < other.stand() - touching)
+      throw ModelError("drive \"" + track.name + "\" is steered twice at once");
+  }
+  operation_.steerings_.push_back(std::move(steering));
+}
+
+void OperationBuilder::add_course(std::string_view drive, Course course, double stand) {
+  Track& track = find_track(drive);
+  const double start = course.start;
+  check_free(track, {start, stand});
+  track.stopped.push_back({MotionProfile::along(std::move(course)), {start, stand}});
+}
+
 double OperationBuilder::end() const {
   double end = operation_.stages_.empty() ? 0.0 : operation_.stages_.back().end;
   for (const Track& track : tracks_) {
     for (const RestToRestMove& move : track.moves) end = std::max(end, move.end());
   }
+  for (const Steering& steering : operation_.steerings_) end = std::max(end, steering.stand());
   return end;
 }
 
@@ -297,6 +355,14 @@ Operation OperationBuilder::build(double duration) const {
                        std::to_string(shortest) + " m; some length must stay out");
     }
   }
+  for (Steering& steering : operation.steerings_) {
+    const auto track = std::find_if(tracks_.begin(), tracks_.end(),
+                                    [&](const Track& one) { return one.name == steering.drive; });
+    steering.base = make_undisturbed_profile(*track);
+    if (!track->stop) continue;
+    steering.stop_time = track->stop->start;
+    steering.stop_duration = track->stop->end - track->stop->start;
+  }
   operation.breakpoints_ = collect_breakpoints(operation);
   return operation;
 }
@@ -310,6 +376,12 @@ std::vector<double> OperationBuilder::collect_breakpoints(const Operation& opera
   for (const JointDrive& drive : operation.joint_drives_) add(drive.position.breakpoints());
   for (const Winch& winch : operation.winches_) add(winch.length.breakpoints());
   for (const Parting& parting : operation.partings_) add({parting.time});
+  for (const Steering& steering : operation.steerings()) {
+    for (int look = 0; look <= steering.look_count(); ++look)
+      times.push_back(steering.start + look * steering.interval());
+    if (steering.stop_time)
+      add({*steering.stop_time, *steering.stop_time + steering.stop_duration});
+  }
   add(more_breakpoints_);
   std::sort(times.begin(), times.end());
   std::vector<double> breakpoints;

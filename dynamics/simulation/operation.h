@@ -7,6 +7,7 @@
 
 #include "dynamics/multibody/motion_profile.h"
 #include "dynamics/rope/rope.h"
+#include "dynamics/simulation/steering.h"
 
 namespace blocklift::dynamics {
 
@@ -52,8 +53,11 @@ class Operation {
   const std::vector<JointDrive>& joint_drives() const { return joint_drives_; }
   const std::vector<Winch>& winches() const { return winches_; }
   const std::vector<Parting>& partings() const { return partings_; }
+  /// Drives whose motion is found on the way, by a time integration. Elsewhere they stand.
+  const std::vector<Steering>& steerings() const { return steerings_; }
   /// Times (s) at which a stage changes or a motion's jerk jumps: ascending, at least a microsecond
-  /// apart, from 0 to the duration, both included. Integration steps end there.
+  /// apart, from 0 to the duration, both included; looks of steered drives, too. Integration steps
+  /// end there.
   const std::vector<double>& breakpoints() const { return breakpoints_; }
 
  private:
@@ -62,6 +66,7 @@ class Operation {
   std::vector<JointDrive> joint_drives_;
   std::vector<Winch> winches_;
   std::vector<Parting> partings_;
+  std::vector<Steering> steerings_;
   std::vector<double> breakpoints_;
   double duration_ = 0.0;
 };
@@ -112,6 +117,18 @@ class OperationBuilder {
   /// otherwise in that time.
   void add_follower(std::string_view drive, std::string_view leader, double start, double end,
                     const NaturalSpline& own_travel_over_leaders);
+
+  /// The drive is steered after a wish, from the steering's start until it stands again. What the
+  /// builder sets of the steering need not be given.
+  /// @throws ModelError if there is no such drive, it goes along a direction or moves otherwise in
+  /// that time, the wish is not one for it (a winch keeps heights and tensions, of its own rope; a
+  /// joint's drive a plumb), or a number of the steering is not sound.
+  void add_steering(std::string_view drive, Steering steering);
+
+  /// The drive goes along a course, as it was found for a steering, until it stands at `stand` (s).
+  /// Moves that are stopped (stop_moves) must have been before.
+  /// @throws ModelError if there is no such drive, or it moves otherwise in that time.
+  void add_course(std::string_view drive, Course course, double stand);
 
   /// Whatever the drive does, from `time` (s) on it comes to a stand within `duration` (s) and stays
   /// there: an emergency stop, or a drive that sticks (MotionProfile::stopped).

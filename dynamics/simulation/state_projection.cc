@@ -9,11 +9,12 @@
 
 namespace blocklift::dynamics {
 
-StateProjection::StateProjection(const LiftSystem& system, LiftWorkspace& w) : system_(system) {
+StateProjection::StateProjection(const LiftSystem& system, LiftWorkspace& w, double t)
+    : system_(system) {
   find_quaternions();
   const Mechanism& m = system.mechanism();
   if (m.loops().empty()) return;
-  set_drives(system, 0.0, true, w);
+  set_drives(system, t, true, w);
   assemble(m, w.q, w.v);
   projector_.emplace(m);
   w.loop_rows = LoopRows::none(m);

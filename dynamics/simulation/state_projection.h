@@ -15,9 +15,9 @@ namespace blocklift::dynamics {
 /// anew (w.loop_rows). Workspaces are made once.
 class StateProjection {
  public:
-  /// Where there are loops, assembles q and v of the workspace first, driven as at time 0.
+  /// Where there are loops, assembles q and v of the workspace first, driven as at time t (s).
   /// @throws SimulationError if the loops cannot be closed.
-  StateProjection(const LiftSystem& system, LiftWorkspace& w);
+  StateProjection(const LiftSystem& system, LiftWorkspace& w, double t = 0.0);
 
   /// Is there anything to be projected?
   bool is_needed() const { return projector_.has_value() || !quaternions_.empty(); }

@@ -16,6 +16,7 @@
 #include "dynamics/simulation/marched_surface.h"
 #include "dynamics/simulation/newton_matrix.h"
 #include "dynamics/simulation/state_projection.h"
+#include "dynamics/simulation/steersman.h"
 #include "dynamics/simulation/sundials.h"
 
 namespace blocklift::dynamics {
@@ -30,6 +31,17 @@ constexpr double beside = 2e-6;
 // they lose, down to 1e-5 (LoopProjector): no smaller local error can be met there.
 constexpr double least_tolerance_through_singular_positions = 1e-11;
 
+// Times of the samples between the beginning and the end of the run, s.
+Eigen::VectorXd samples_of(const LiftSystem& system, const IntegrationSettings& settings) {
+  constexpr double rounding = 1e-9;  // s
+  const Eigen::VectorXd all = sample_times(system.operation().duration(), settings.sample_interval);
+  const double begin = settings.departure ? settings.departure->time : 0.0;
+  const double end = settings.end.value_or(system.operation().duration());
+  const auto first = std::lower_bound(all.begin(), all.end(), begin - rounding);
+  const auto last = std::upper_bound(first, all.end(), end + rounding);
+  return Eigen::Map<const Eigen::VectorXd>(all.data() + (first - all.begin()), last - first);
+}
+
 /// One run of CVODES over an operation.
 class Integrator {
  public:
@@ -42,6 +54,7 @@ class Integrator {
   IntegrationResult run();
 
  private:
+  void depart(const Departure& departure);
   void set_up_cvode();
   void find_relative_unknowns();
   void project_state(double t, VectorRef y);
@@ -58,8 +71,10 @@ class Integrator {
   void look_for_condition(double t, bool found);
   int root_count() const { return system_.contact_count() + (settings_.awaited ? 1 : 0); }
   bool is_over() const {
+    if (settings_.end && time_ >= *settings_.end - beside) return true;
     return settings_.awaited && (result_.met || time_ >= settings_.awaited->until);
   }
+  void steer(double t);
   bool motion_jumps(double t) const;
   bool part_ropes(double t);
   double within_interval(double t) const { return std::clamp(t, from_, to_); }
@@ -87,6 +102,7 @@ class Integrator {
   NewtonMatrix newton_;
   std::optional<StateProjection> projection_;
   std::optional<MarchedSurface> surface_;
+  std::optional<Steersman> steersman_;
   Contacts contacts_;
   bool on_ground_ = false;  ///< are there pads that are ground?
   Eigen::VectorXd sample_times_;
@@ -94,6 +110,7 @@ class Integrator {
   std::vector<Eigen::Index> relative_unknowns_;  ///< velocities and quaternions: within y
   Eigen::VectorXd indicators_;    ///< at the end of the last step, where no root was found
   double awaited_value_ = -1.0;   ///< likewise of the awaited condition
+  double begin_ = 0.0;            ///< of the run
   double from_ = 0.0, to_ = 0.0;  ///< times between which motions are evaluated now
   double time_ = 0.0;
   // Where the workspace holds the loads of an instant that may be asked for again: time and state.
@@ -121,15 +138,17 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
       settings_(settings),
       w_(system),
       newton_(system),
-      sample_times_(sample_times(system.operation().duration(), settings.sample_interval)),
+      sample_times_(samples_of(system, settings)),
       context_(sundials::make_context()),
       result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}, {}} {
+  if (!system.operation().steerings().empty()) steersman_.emplace(system);
   if (!(settings.relative_tolerance > 0.0) || settings.relative_tolerance > 0.1) {
     throw ModelError("the relative tolerance is " + std::to_string(settings.relative_tolerance) +
                      "; a number between 1e-12 and 0.1 is due");
   }
   w_.q = q;
   w_.v = v;
+  if (settings.departure) depart(*settings.departure);
   system.mechanism().normalise(w_.q);
   // CVODES wants at least one unknown: where everything is driven, one that stays zero.
   const Eigen::Index size = std::max(1, system.state_size());
@@ -144,15 +163,33 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
     on_ground_ = on_ground_ || pad.definition().ground;
   loaded_state_.setZero(size);
   sundials::view(work_.get()).setZero();
-  projection_.emplace(system, w_);
+  projection_.emplace(system, w_, begin_);
   get_state(system, w_.q, w_.v, sundials::view(y_.get()));
+  sundials::view(y_.get()).segment(system.nq_free() + system.nv_free(), w_.memory.size()) =
+      w_.memory;
   find_relative_unknowns();
-  project_state(0.0, sundials::view(y_.get()));
+  project_state(begin_, sundials::view(y_.get()));
   if (settings.surface) {
     set_state(system, sundials::view(y_.get()), w_);
     set_drives(system, 0.0, true, w_);
     surface_.emplace(*settings.surface, settings.surface_step, system, w_);
   }
+}
+
+void Integrator::depart(const Departure& departure) {
+  if (settings_.surface || !system_.operation().steerings().empty())
+    throw ModelError("a run with a marched surface or steered drives begins at time 0");
+  if (!(departure.time >= 0.0) || departure.time >= system_.operation().duration() ||
+      departure.q.size() != w_.q.size() || departure.v.size() != w_.v.size() ||
+      departure.memory.size() != w_.memory.size() ||
+      departure.standing_places.size() != w_.standing_places.size())
+    throw ModelError("a run cannot go on from " + std::to_string(departure.time) +
+                     " s: the operation is over, or the instant is one of another lift");
+  begin_ = from_ = to_ = time_ = time_of_portion_ = departure.time;
+  w_.q = departure.q;
+  w_.v = departure.v;
+  w_.memory = departure.memory;
+  w_.standing_places = departure.standing_places;
 }
 
 void Integrator::find_relative_unknowns() {
@@ -300,7 +337,7 @@ void Integrator::set_up_cvode() {
   cvode_ = CVodeCreate(CV_BDF, context_.get());
   if (!cvode_) throw SimulationError("SUNDIALS: CVodeCreate gave no memory");
   check(CVodeSetErrHandlerFn(cvode_, keep_message, this), "CVodeSetErrHandlerFn");
-  check(CVodeInit(cvode_, right_hand_side, 0.0, y_.get()), "CVodeInit");
+  check(CVodeInit(cvode_, right_hand_side, begin_, y_.get()), "CVodeInit");
   check(CVodeSetUserData(cvode_, this), "CVodeSetUserData");
   check(CVodeWFtolerances(cvode_, error_weights), "CVodeWFtolerances");
   matrix_ = sundials::Matrix(SUNDenseMatrix(1, 1, context_.get()));
@@ -338,7 +375,7 @@ bool Integrator::motion_jumps(double t) const {
   for (const Winch& winch : system_.operation().winches()) {
     if (jumps(winch.length)) return true;
   }
-  return false;
+  return std::any_of(w_.steered.begin(), w_.steered.end(), jumps);
 }
 
 void Integrator::count_before_restart() {
@@ -375,7 +412,7 @@ void Integrator::record_samples(double up_to) {
   while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
     loaded_time_ = evaluated_time_ = not_a_number;
     const double t = sample_times_[next_sample_];
-    if (t > 0.0) {
+    if (t > begin_) {
       sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");
     } else {
       sundials::view(sample_.get()) = sundials::view(y_.get());
@@ -392,7 +429,7 @@ void Integrator::record_samples(double up_to) {
     if (settings_.observe) settings_.observe(next_sample_, t, w_);
     if (settings_.works) {
       sundials::view(sampled_work_.get()).setZero();
-      if (t > 0.0) {
+      if (t > begin_) {
         sundials::check(CVodeGetQuadDky(cvode_, t, 0, sampled_work_.get()), "CVodeGetQuadDky");
       }
       result_.history.record_works(next_sample_, sundials::view(sampled_work_.get()));
@@ -504,14 +541,25 @@ bool Integrator::part_ropes(double t) {
   return any;
 }
 
+// What steered drives do from now on.
+void Integrator::steer(double t) {
+  if (!steersman_ || !steersman_->looks_at(t)) return;
+  loaded_time_ = evaluated_time_ = not_a_number;
+  set_state(system_, sundials::view(y_.get()), w_);
+  set_drives(system_, within_interval(t), true, w_);
+  calc_contact_loads(system_, &contacts_, w_);
+  steersman_->look(t, w_);
+}
+
 void Integrator::integrate_interval(double start, double end) {
   const bool parted = part_ropes(start);
+  steer(start);
   // Behind a jump the motion counts as it is then, from the first step on.
   loaded_time_ = not_a_number;
   const bool jumps = motion_jumps(start);
   from_ = jumps ? std::min(start + beside, end) : start;
   to_ = end;
-  if (parted || (jumps && start > 0.0)) restart(time_);
+  if (parted || (jumps && start > begin_)) restart(time_);
   const double reached = end - 1e-12 * std::max(1.0, end);
   while (time_ < reached) {
     if (++steps_taken_ > settings_.largest_step_count) fail("more steps than allowed");
@@ -611,14 +659,16 @@ void Integrator::fail(const char* what) {
 }
 
 IntegrationResult Integrator::run() {
-  from_ = 0.0;
-  to_ = system_.operation().breakpoints()[1];
-  contacts_ = find_contacts(system_, 0.0, sundials::view(y_.get()), w_);
-  set_up_cvode();
-  record_samples(0.0);
   const std::vector<double>& breakpoints = system_.operation().breakpoints();
-  for (std::size_t i = 0; i + 1 < breakpoints.size() && !is_over(); ++i) {
-    integrate_interval(breakpoints[i], breakpoints[i + 1]);
+  std::size_t first = 0;
+  while (breakpoints[first + 1] <= begin_ + beside) ++first;
+  from_ = begin_;
+  to_ = breakpoints[first + 1];
+  contacts_ = find_contacts(system_, begin_, sundials::view(y_.get()), w_);
+  set_up_cvode();
+  record_samples(begin_);
+  for (std::size_t i = first; i + 1 < breakpoints.size() && !is_over(); ++i) {
+    integrate_interval(std::max(begin_, breakpoints[i]), breakpoints[i + 1]);
   }
   count_before_restart();
   const double end = is_over() ? time_ : system_.operation().duration();
@@ -628,6 +678,7 @@ IntegrationResult Integrator::run() {
   result_.q_end = w_.q;
   result_.v_end = w_.v;
   system_.mechanism().normalise(result_.q_end);
+  if (steersman_) result_.courses = steersman_->courses();
   return std::move(result_);
 }
 

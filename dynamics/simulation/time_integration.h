@@ -28,6 +28,19 @@ struct AwaitedCondition {
   double indicator(const LiftSystem& system, const LiftWorkspace& w) const;
 };
 
+/// An instant of a run from which another may go on.
+struct Departure {
+  double time = 0.0;                     ///< s
+  Eigen::VectorXd q, v;                  ///< nq, nv
+  Eigen::VectorXd memory;                ///< of the radiated water
+  std::vector<Vector3> standing_places;  ///< of each pad, m
+
+  /// Of the instant that a workspace holds, at a sample.
+  static Departure of(double time, const LiftWorkspace& w) {
+    return {time, w.q, w.v, w.memory, w.standing_places};
+  }
+};
+
 struct IntegrationSettings {
   /// Local error allowed over one step, relative to 1 m for displacements, 1 rad for angles, and to
   /// the larger of 1 m/s (1 rad/s) and the value for velocities: it does not depend on where the
@@ -43,6 +56,12 @@ struct IntegrationSettings {
   double surface_step = not_a_number;  ///< s
   /// The run ends when this is met, or when it may not be met any more.
   std::optional<AwaitedCondition> awaited = {};
+  /// The run, and its samples, begin there in place of time 0; null: they do not. No surface is
+  /// marched then, and no drive steered.
+  const Departure* departure = nullptr;
+  /// The run, and its samples, end here, at a breakpoint of the operation, s, or with the first step
+  /// beyond; none: with the operation.
+  std::optional<double> end = {};
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
   /// Called at each sample with its number and time (s) and the workspace of that instant:
@@ -85,7 +104,8 @@ struct IntegrationResult {
   std::vector<ContactEvent> events;  ///< in order of time
   Eigen::VectorXd q_end, v_end;      ///< state at the end, nq and nv
   std::vector<PartedRope> parted = {};
-  std::optional<double> met = {};  ///< when the awaited condition was, s; samples end there
+  std::optional<double> met = {};    ///< when the awaited condition was, s; samples end there
+  std::vector<Course> courses = {};  ///< of the operation's steered drives, in their order
 };
 
 /// Integrates the operation from (q, v) (nq and nv; driven entries are replaced by the drives')
@@ -101,6 +121,9 @@ struct IntegrationResult {
 ///
 /// A condition that is awaited is one more event: its instant is found as those of ropes and pads
 /// are.
+///
+/// Drives that are steered look at what is, and go on accordingly, at instants at which steps end
+/// (Steersman); their motion is smooth there, and the integration goes on without starting anew.
 ///
 /// A rope that parts pulls no more from then on; the energy that it had stored counts as dissipated.
 ///

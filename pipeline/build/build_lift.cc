@@ -50,13 +50,13 @@ class LiftBuilder {
  public:
   LiftBuilder(const LiftCase& lift_case, const LoadMass& load,
               const dynamics::HydrodynamicSeries* radiation, const LoadFlexibility* flexibility,
-              MarchedWater marched, const std::vector<double>& met)
+              MarchedWater marched, const FoundMotion& found)
       : case_(lift_case),
         load_(load),
         radiation_(radiation),
         flexibility_(flexibility),
         marched_(std::move(marched)),
-        met_(met),
+        found_(found),
         marine_(lift_case, lift_case.gravity, floating_load(lift_case)) {
     marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
   }
@@ -97,6 +97,7 @@ class LiftBuilder {
             std::move(ropes_),
             std::move(spreaders_),
             std::move(schedule),
+            std::move(steerings_),
             moves ? std::optional(system(true)) : std::nullopt,
             marched_,
             water ? marine_.arrangement(place()) : dynamics::Arrangement{}};
@@ -455,13 +456,13 @@ class LiftBuilder {
 
   Schedule make_schedule() const {
     Diagnostics diagnostics;
-    Schedule schedule = schedule_operation(case_, diagnostics, met_);
+    Schedule schedule = schedule_operation(case_, diagnostics, found_);
     if (diagnostics.has_errors()) throw InputError(diagnostics);
     return schedule;
   }
 
   dynamics::Operation make_operation(const dynamics::Mechanism& mechanism,
-                                     const Schedule& schedule) const {
+                                     const Schedule& schedule) {
     dynamics::OperationBuilder builder;
     for (const DrivenJoint& drive : driven_joints_) {
       builder.add_joint_drive(mechanism, drive.drive, drive.body, drive.start,
@@ -471,26 +472,54 @@ class LiftBuilder {
       builder.add_winch(winch.name, winch.rope, winch.length);
     }
     add_schedule(schedule, builder);
+    for (const ScheduledSteering& steered : schedule.steerings) {
+      dynamics::Steering steering = steered.steering;
+      steering.wish = make_wish(steered.keep, steering.drive);
+      steerings_.push_back({steering.drive, steering.wish, steering.start, steering.end});
+      if (!steered.course) builder.add_steering(steered.steering.drive, std::move(steering));
+    }
     for (const FaultInCase& fault : case_.faults) add_fault(fault, schedule, builder);
     return builder.build(schedule.duration);
   }
 
+  BodyPoint body_point(const ResolvedPoint& point) const {
+    const std::string body = point.body_name(case_.cranes);
+    return {body == "world" ? dynamics::world_index : body_of_.at(body), point.point};
+  }
+
+  int rope_of(const std::string& name) const { return find_rope(ropes_, hoists_, name); }
+
+  dynamics::Wish make_wish(const KeepInCase& keep, const std::string& drive) const {
+    if (keep.over) return dynamics::KeptPlumb{body_point(*keep.head_at), body_point(*keep.over_at)};
+    std::optional<double> stiffness;
+    if (keep.stiffness) stiffness = keep.stiffness->value;
+    if (keep.tension) return dynamics::KeptTension{rope_of(drive), keep.tension->value, stiffness};
+    if (keep.share) {
+      dynamics::KeptShare wish{rope_of(drive), {}, keep.share->value, stiffness};
+      for (const Located<std::string>& other : keep.of) wish.others.push_back(rope_of(other.value));
+      return wish;
+    }
+    dynamics::KeptHeight wish{
+        body_point(*keep.level_at), {dynamics::world_index, Vector3::Zero()}, std::nullopt};
+    if (keep.with) wish.reference = body_point(*keep.with_at);
+    if (keep.above) wish.difference = keep.above->value;
+    if (keep.with && !keep.above) wish.difference = 0.0;
+    return wish;
+  }
+
   void add_fault(const FaultInCase& fault, const Schedule& schedule,
                  dynamics::OperationBuilder& builder) const {
+    if (!fault.at && !found_.fault) return;
+    const double at = fault.at ? fault.at->value : *found_.fault;
     for (const Located<std::string>& name : fault.stops) {
       for (const Mover& mover : schedule.movers)
         if (name.value == mover.name || name.value == "all")
-          builder.add_stop(mover.name, fault.at.value, fault.within);
+          builder.add_stop(mover.name, at, fault.within);
     }
     for (const Located<std::string>& winch : fault.runs_away)
-      builder.add_runaway(winch.value, fault.at.value, *fault.caught_after, *fault.speed,
-                          fault.within);
-    for (const Located<std::string>& name : fault.parts) {
-      for (const LiftRope& rope : ropes_)
-        if (rope.name == name.value) builder.add_parting(rope.rope, fault.at.value);
-      for (const LiftHoist& hoist : hoists_)
-        if (hoist.name == name.value) builder.add_parting(hoist.rope, fault.at.value);
-    }
+      builder.add_runaway(winch.value, at, *fault.caught_after, *fault.speed, fault.within);
+    for (const Located<std::string>& name : fault.parts)
+      builder.add_parting(rope_of(name.value), at);
   }
 
   struct WinchStart {
@@ -504,7 +533,7 @@ class LiftBuilder {
   const dynamics::HydrodynamicSeries* radiation_;
   const LoadFlexibility* flexibility_;
   MarchedWater marched_;
-  const std::vector<double>& met_;
+  const FoundMotion& found_;
   MarineBuilder marine_;
   std::vector<BodyIndex> modes_;
   std::map<std::string, BodyIndex> body_of_;
@@ -514,6 +543,7 @@ class LiftBuilder {
   std::vector<LiftHoist> hoists_;
   std::vector<LiftRope> ropes_;
   std::vector<LiftSpreader> spreaders_;
+  std::vector<LiftSteering> steerings_;
   std::vector<DrivenJoint> driven_joints_;
   std::vector<HookStart> hook_starts_;
   std::vector<WinchStart> winches_;
@@ -522,6 +552,15 @@ class LiftBuilder {
 };
 
 }  // namespace
+
+int find_rope(const std::vector<LiftRope>& ropes, const std::vector<LiftHoist>& hoists,
+              const std::string& name) {
+  for (const LiftRope& rope : ropes)
+    if (rope.name == name) return rope.rope;
+  for (const LiftHoist& hoist : hoists)
+    if (hoist.name == name) return hoist.rope;
+  throw dynamics::ModelError("the lift has no rope or hoist \"" + name + "\"");
+}
 
 LoadMass load_mass(const VesselModel& vessel) {
   const Vector3 squares = vessel.radii_of_gyration.cwiseAbs2();
@@ -537,12 +576,12 @@ RadiationProblem radiation_problem(const LiftCase& lift_case) {
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
                      const dynamics::HydrodynamicSeries* radiation,
                      const LoadFlexibility* flexibility, MarchedWater marched,
-                     const std::vector<double>& met) {
+                     const FoundMotion& found) {
   if (lift_case.load_table) {
     throw std::invalid_argument("case " + lift_case.name +
                                 " is a load table: it has no cranes whose motion could be built");
   }
-  return LiftBuilder(lift_case, load, radiation, flexibility, std::move(marched), met).build();
+  return LiftBuilder(lift_case, load, radiation, flexibility, std::move(marched), found).build();
 }
 
 }  // namespace blocklift::pipeline

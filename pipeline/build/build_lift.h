@@ -67,12 +67,39 @@ struct LiftSpreader {
   std::vector<End> ends;
 };
 
+/// Index in the system of the rope of that name, or of the hoist's tackle.
+/// @throws dynamics::ModelError if there is none.
+int find_rope(const std::vector<LiftRope>& ropes, const std::vector<LiftHoist>& hoists,
+              const std::string& name);
+
+/// A drive of the lift that keeps something, and what.
+struct LiftSteering {
+  std::string drive;  ///< "C2.traverse", "R7"
+  dynamics::Wish wish;
+  double start = 0;  ///< s
+  double end = 0;    ///< s
+};
+
 /// A body of the lift for the drawing: which boxes stand for it.
 struct LiftBody {
   std::string name;  ///< "C1.gantry", "C1.upper_1", "load"
   std::string kind;  ///< "crane", "vessel", "hook block", "spreader", "load"
   dynamics::BodyIndex body = -1;
   std::vector<BoxShape> boxes;
+};
+
+/// The instant at which a fault is worst, among those that were tried.
+struct WorstInstant {
+  /// A tried instant, and the rope or hoist that carries the most of its breaking load then.
+  struct Trial {
+    double time = 0;   ///< s
+    double share = 0;  ///< largest tension behind it over the breaking load
+    std::string rope;
+    double peak_time = 0;  ///< s, of that tension
+  };
+  Trial worst;
+  Trial undisturbed;          ///< the same without the fault, over the whole operation; time is 0
+  std::vector<Trial> trials;  ///< in order of time
 };
 
 /// The dynamics of a lift case and where its parts are in it.
@@ -84,6 +111,7 @@ struct BuiltLift {
   std::vector<LiftRope> ropes;          ///< in the order of the case
   std::vector<LiftSpreader> spreaders;  ///< in the order of the case
   Schedule schedule;
+  std::vector<LiftSteering> steerings;  ///< in the order of the operation
   /// The same lift without waves and in mean wind, where there are waves or gusts.
   std::optional<dynamics::LiftSystem> calm = {};
   /// The water's surface that is marched beside `system`; none: its water has a memory of its own,
@@ -91,6 +119,8 @@ struct BuiltLift {
   MarchedWater marched = {};
   /// What the water of `system` was computed for; empty where vessels make no waves.
   dynamics::Arrangement arrangement = {};
+  /// Of the fault that comes at its worst instant, if there is one.
+  std::optional<WorstInstant> worst = {};
 
   /// The lift whose static equilibria are asked.
   const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }
@@ -114,7 +144,7 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// waves.
 /// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints
 ///   to the world, see dynamics::ElasticBody.
-/// @param met when the conditions that end stages came about, s; see schedule_operation.
+/// @param found of the operation by running it; see schedule_operation.
 /// @throws InputError if moves do not fit behind those instants.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.
 /// @throws dynamics::ModelError if the parts do not make a lift; a case that was read without
@@ -122,7 +152,7 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
                      const dynamics::HydrodynamicSeries* radiation = nullptr,
                      const LoadFlexibility* flexibility = nullptr, MarchedWater marched = {},
-                     const std::vector<double>& met = {});
+                     const FoundMotion& found = {});
 
 /// Mass, centre of mass and inertia of a load that is a vessel.
 LoadMass load_mass(const VesselModel& vessel);

@@ -39,6 +39,9 @@ class MeasureChecks {
     add_at_most("sidelead", "sidelead: largest angle across the plane of the radius",
                 limits.largest_sidelead);
     add_at_least("clearance", "clearance: smallest distance", limits.smallest_clearance);
+    add_at_most("heel", "heel: largest of a vessel", limits.largest_heel);
+    add_at_least("freeboard", "freeboard: lowest point of a deck over calm water",
+                 limits.smallest_freeboard);
     for (const SpreaderInCase& bar : case_.spreaders) add_spreader(bar);
     if (limits.crane_capacity) {
       add_charts();

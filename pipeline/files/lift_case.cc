@@ -190,7 +190,7 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   load_models(lift_case, library, diagnostics);
   library.complain_about_unused_changes(diagnostics);
   if (document->root.IsMap()) {
-    resolve_rope_points(lift_case, diagnostics);
+    resolve_points(lift_case, diagnostics);
     check_lift_case(lift_case, diagnostics);
   }
   if (diagnostics.error_count() == errors_before && !lift_case.load_table) {

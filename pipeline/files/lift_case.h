@@ -123,6 +123,26 @@ struct WindInCase {
   std::shared_ptr<const dynamics::WindField> make_field(bool at_rest) const;
 };
 
+/// What an operator who steers a drive keeps, after what he sees: one wish.
+struct KeepInCase {
+  std::optional<Located<RopePoint>> level;  ///< whose height a winch keeps
+  std::optional<Located<RopePoint>> with;   ///< against this point's; none: in the world
+  /// Of `level` over `with`, m. None: 0 with `with`, else as it is when the keeping begins.
+  std::optional<Located<double>> above;
+  std::optional<Located<std::string>> head;  ///< hoist whose upper sheave a joint's drive keeps
+  std::optional<Located<RopePoint>> over;    ///< plumb over this point
+  std::optional<Located<double>> tension;    ///< of the winch's own rope, N
+  std::optional<Located<double>> share;      ///< of what it and the ropes `of` pull together
+  std::vector<Located<std::string>> of;      ///< ropes, or hoists whose tackle it is
+  std::optional<Located<double>> stiffness;  ///< of a pull against letting out, N/m
+  double reaction = 0;                       ///< s
+  Located<double> correction;                ///< time in which he would take away what he sees, s
+  std::optional<Located<Quantity>> tolerance;
+  Mark place;
+  // After the look-up; none if it failed.
+  std::optional<ResolvedPoint> level_at, with_at, head_at, over_at;
+};
+
 /// Moves of one or several drives or winches, alike.
 struct MoveInCase {
   std::vector<Located<std::string>> drives;
@@ -136,6 +156,7 @@ struct MoveInCase {
   std::optional<Located<std::string>> follows;
   /// Own travel over the leader's travel, both since the start of the leader's move.
   std::optional<Located<std::vector<std::array<Quantity, 2>>>> table;
+  std::optional<KeepInCase> keeps = {};  ///< in place of a motion that is known
   Mark place;
 };
 
@@ -161,7 +182,11 @@ struct StageInCase {
 
 /// What goes wrong at an instant: ropes part, drives come to a stand, winches run away.
 struct FaultInCase {
-  Located<double> at;                           ///< of the operation, s
+  std::optional<Located<double>> at;  ///< of the operation, s; none: at the worst instant
+  /// Ropes and hoists of which one then carries the most of its breaking load, or "all".
+  std::vector<Located<std::string>> worst_for;
+  std::optional<Located<double>> from, to;      ///< between which the worst instant is sought, s
+  double watched = 0;                           ///< behind a tried instant, s
   std::vector<Located<std::string>> parts;      ///< ropes, or hoists whose tackle it is
   std::vector<Located<std::string>> stops;      ///< drives and winches, or "all"
   std::vector<Located<std::string>> runs_away;  ///< winches
@@ -246,6 +271,8 @@ struct CheckSettings {
   std::optional<double> largest_sidelead;          ///< rad
   std::optional<double> smallest_clearance;        ///< m
   std::optional<double> smallest_righting_height;  ///< m
+  std::optional<double> largest_heel;              ///< of vessels, rad
+  std::optional<double> smallest_freeboard;        ///< of vessels, m
 };
 
 /// A published or measured pair of largest loads, N.

@@ -35,16 +35,16 @@ std::vector<std::string> parts_of(const CraneInCase& crane, bool with_bodies) {
 
 std::string before_dot(const std::string& name) { return name.substr(0, name.find('.')); }
 
-/// Looks up one point of a rope. `does` says in messages what the rope does there: "ends at".
+/// Looks up points: of ropes, and of what operators keep.
 class PointResolver {
  public:
   PointResolver(const LiftCase& lift_case, Diagnostics& diagnostics)
       : case_(lift_case), diagnostics_(diagnostics) {}
 
-  std::optional<ResolvedPoint> resolve(const RopeInCase& rope, const Located<RopePoint>& point,
-                                       const std::string& does) {
+  /// @param subject what is at that point, for messages: "rope R1 ends at".
+  std::optional<ResolvedPoint> resolve(const Located<RopePoint>& point, std::string subject) {
     const RopePoint& p = point.value;
-    subject_ = fmt::format("rope {} {}", rope.name.value, does);
+    subject_ = std::move(subject);
     if (p.body) return resolve_body(*p.body, p.point);
     if (p.name.value.empty()) return std::nullopt;
     if (const SpreaderInCase* bar = case_.find_spreader(before_dot(p.name.value)))
@@ -53,6 +53,19 @@ class PointResolver {
       return resolve_part(p.name, false, Vector3::Zero());
     }
     return resolve_lug(p.name);
+  }
+
+  /// The upper sheave of a hoist.
+  std::optional<ResolvedPoint> resolve_head(const Located<std::string>& hoist,
+                                            std::string subject) {
+    subject_ = std::move(subject);
+    std::optional<ResolvedPoint> head = resolve_part(hoist, false, Vector3::Zero());
+    if (!head) return head;
+    const HoistModel& model = *case_.cranes[head->crane].model->find_hoist(head->part);
+    head->kind = ResolvedPoint::Kind::crane_body;
+    head->part = model.body.value;
+    head->point = model.sheave;
+    return head;
   }
 
  private:
@@ -533,11 +546,7 @@ class FaultCheck {
       diagnostics_.error(fault.place, "the fault says not what goes wrong",
                          {"give parts, ropes that break, stops, drives that come to a stand, or "
                           "runs_away, winches that pay out"});
-    if (duration_ > 0 && fault.at.value > duration_)
-      diagnostics_.error(
-          fault.at.mark,
-          fmt::format("the fault comes at {:g} s, after the end of the operation", fault.at.value),
-          {fmt::format("the operation lasts {:g} s", duration_)});
+    check_instant(fault);
     for (const Located<std::string>& rope : fault.parts)
       check_name(rope, ropes_, "parts", "its ropes and hoists are", parted_);
     for (const Located<std::string>& drive : fault.stops)
@@ -556,6 +565,37 @@ class FaultCheck {
   }
 
  private:
+  void check_instant(const FaultInCase& fault) {
+    const bool sought = !fault.worst_for.empty();
+    if (fault.at.has_value() == sought)
+      diagnostics_.error(fault.place,
+                         sought ? "the fault has both an instant and worst_for"
+                                : "the fault does not say when it comes",
+                         {"give at, an instant, or worst_for: [all], the worst one"});
+    if (!sought && (fault.from || fault.to))
+      diagnostics_.error(fault.place, "from and to go with worst_for, which is not there");
+    if (fault.from && fault.to && !(fault.from->value < fault.to->value))
+      diagnostics_.error(fault.to->mark, "the worst instant is sought until before it is sought");
+    for (const auto& at : {fault.at, fault.from}) {
+      if (duration_ > 0 && at && at->value > duration_)
+        diagnostics_.error(
+            at->mark,
+            fmt::format("the fault comes at {:g} s, after the end of the operation", at->value),
+            {fmt::format("the operation lasts {:g} s", duration_)});
+    }
+    if (!sought) return;
+    if (any_sought_)
+      diagnostics_.error(fault.worst_for.front().mark,
+                         "the worst instant is sought for one fault at a time",
+                         {"give the other its instant (at), or a case of its own"});
+    any_sought_ = true;
+    std::vector<std::string> known = ropes_;
+    known.emplace_back("all");
+    std::set<std::string> before;
+    for (const Located<std::string>& rope : fault.worst_for)
+      check_name(rope, known, "is worst for", "its ropes and hoists are", before);
+  }
+
   void check_name(const Located<std::string>& name, const std::vector<std::string>& known,
                   const char* verb, const char* hint, std::set<std::string>& before) {
     if (std::find(known.begin(), known.end(), name.value) == known.end()) {
@@ -572,17 +612,57 @@ class FaultCheck {
   double duration_;
   std::vector<std::string> ropes_, drives_, winches_;
   std::set<std::string> parted_, stopped_;
+  bool any_sought_ = false;
 };
 
-/// Conditions that end stages name ropes that are there, and ground that bears.
-void check_conditions(const LiftCase& lift_case, Diagnostics& diagnostics) {
+/// Ropes, and hoists whose tackles count as ropes; nothing if a crane could not be read.
+std::vector<std::string> names_of_ropes(const LiftCase& lift_case) {
   std::vector<std::string> ropes;
   for (const RopeInCase& rope : lift_case.ropes) ropes.push_back(rope.name.value);
   for (const CraneInCase& crane : lift_case.cranes) {
-    if (!crane.model) return;
+    if (!crane.model) return {};
     for (const HoistModel& hoist : crane.model->hoists)
       ropes.push_back(crane.name.value + "." + hoist.name.value);
   }
+  return ropes;
+}
+
+/// What operators keep is kept by drives that can: winches heights and pulls, joints a plumb.
+void check_keeping(const LiftCase& lift_case, const Schedule& schedule, Diagnostics& diagnostics) {
+  const std::vector<std::string> ropes = names_of_ropes(lift_case);
+  if (ropes.empty()) return;
+  for (const ScheduledSteering& steering : schedule.steerings) {
+    const KeepInCase& keep = steering.keep;
+    const Mover& mover = schedule.movers[steering.mover];
+    if (mover.is_winch == keep.over.has_value())
+      diagnostics.error(
+          steering.mark,
+          mover.is_winch ? fmt::format("{} is a winch and keeps no head over a point", mover.name)
+                         : fmt::format("{} is no winch and keeps no height or pull", mover.name),
+          {"winches keep level, tension or share; drives of joints keep a head over "
+           "a point"});
+    if (!mover.is_winch && keep.head && before_dot(keep.head->value) != before_dot(mover.name))
+      diagnostics.error(keep.head->mark,
+                        fmt::format("{} is on crane {}, and {} does not move it", keep.head->value,
+                                    before_dot(keep.head->value), mover.name));
+    for (const Located<std::string>& rope : keep.of) {
+      if (std::find(ropes.begin(), ropes.end(), rope.value) == ropes.end())
+        diagnostics.error(
+            rope.mark,
+            fmt::format("a share is kept of \"{}\", which is no rope or hoist of the case",
+                        rope.value),
+            {names_hint("its ropes and hoists are", ropes, rope.value)});
+      if (rope.value == mover.name)
+        diagnostics.error(rope.mark, fmt::format("{} shares with itself", rope.value),
+                          {"of: names the others"});
+    }
+  }
+}
+
+/// Conditions that end stages name ropes that are there, and ground that bears.
+void check_conditions(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  const std::vector<std::string> ropes = names_of_ropes(lift_case);
+  if (ropes.empty()) return;
   for (const StageInCase& stage : lift_case.operation) {
     if (!stage.until) continue;
     for (const auto& rope : {stage.until->slack, stage.until->taut}) {
@@ -713,19 +793,31 @@ void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
 
 }  // namespace
 
-void resolve_rope_points(LiftCase& lift_case, Diagnostics& diagnostics) {
+void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics) {
   PointResolver resolver(lift_case, diagnostics);
   for (RopeInCase& rope : lift_case.ropes) {
     std::vector<std::optional<ResolvedPoint>> points;
-    points.push_back(resolver.resolve(rope, rope.from, "begins at"));
+    const std::string name = "rope " + rope.name.value;
+    points.push_back(resolver.resolve(rope.from, name + " begins at"));
     for (const auto& sheave : rope.through) {
-      points.push_back(resolver.resolve(rope, sheave, "runs over"));
+      points.push_back(resolver.resolve(sheave, name + " runs over"));
     }
-    points.push_back(resolver.resolve(rope, rope.to, "ends at"));
+    points.push_back(resolver.resolve(rope.to, name + " ends at"));
     if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.has_value(); })) {
       continue;
     }
     for (auto& point : points) rope.path.push_back(std::move(*point));
+  }
+  for (StageInCase& stage : lift_case.operation) {
+    for (MoveInCase& move : stage.moves) {
+      if (!move.keeps) continue;
+      KeepInCase& keep = *move.keeps;
+      const std::string subject = fmt::format("stage \"{}\" keeps", stage.name.value);
+      if (keep.level) keep.level_at = resolver.resolve(*keep.level, subject + " the height of");
+      if (keep.with) keep.with_at = resolver.resolve(*keep.with, subject + " level with");
+      if (keep.over) keep.over_at = resolver.resolve(*keep.over, subject + " a head over");
+      if (keep.head) keep.head_at = resolver.resolve_head(*keep.head, subject + " the head of");
+    }
   }
 }
 
@@ -749,6 +841,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_standard(lift_case, diagnostics);
   const Schedule schedule = schedule_operation(lift_case, diagnostics);
   check_duration(lift_case, schedule, diagnostics);
+  check_keeping(lift_case, schedule, diagnostics);
   FaultCheck faults(lift_case, schedule, diagnostics);
   for (const FaultInCase& fault : lift_case.faults) faults.check(fault);
 }

@@ -160,14 +160,104 @@ Format<GroundInCase> ground_format() {
   return table.format();
 }
 
-Format<MoveInCase> move_format() {
+void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
+  const int wishes = keep.level.has_value() + keep.over.has_value() + keep.tension.has_value() +
+                     keep.share.has_value();
+  if (wishes != 1)
+    reading.error(mark,
+                  wishes == 0 ? "the move does not say what is kept" : "the move keeps two things",
+                  {"give one of level, over, tension and share"});
+  const auto only_with = [&](bool given, const char* key, bool other, const char* other_key) {
+    if (given && !other)
+      reading.error(mark, std::string(key) + " goes with " + other_key + ", which is not there");
+  };
+  only_with(keep.with.has_value(), "with", keep.level.has_value(), "level");
+  only_with(keep.above.has_value(), "above", keep.level.has_value(), "level");
+  only_with(keep.head.has_value(), "head", keep.over.has_value(), "over");
+  only_with(keep.over.has_value(), "over", keep.head.has_value(), "head");
+  only_with(!keep.of.empty(), "of", keep.share.has_value(), "share");
+  only_with(keep.share.has_value(), "share", !keep.of.empty(), "of");
+  only_with(keep.stiffness.has_value(), "stiffness", keep.tension || keep.share,
+            "tension or share");
+  // What is seen decays as e' = -e(t - reaction) / correction, which grows instead where the
+  // correction is shorter than 2 / pi of the reaction; the drive's own lag comes on top.
+  if (keep.correction.value < 2 * keep.reaction)
+    reading.error(keep.correction.mark,
+                  "the correction is shorter than twice the reaction: the operator would steer "
+                  "further and further to and fro",
+                  {"three times the reaction and more come to rest without overshooting"});
+  if (!keep.tolerance) return;
+  const Dimension due = keep.tension ? Dimension::force
+                        : keep.share ? Dimension::ratio
+                                     : Dimension::length;
+  if (wishes == 1 && keep.tolerance->value.dimension != due)
+    reading.error(keep.tolerance->mark,
+                  std::string("the tolerance is ") +
+                      std::string(text_of(keep.tolerance->value.dimension).noun) + "; " +
+                      std::string(text_of(due).noun) + " is due");
+}
+
+Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
+  Table<KeepInCase> table("keeping",
+                          "What the operator of a drive keeps while he steers it after what he "
+                          "sees: a height (`level`), a head plumb over a point (`head`, `over`), a "
+                          "`tension`, or a `share` of the load. He asks for the speed that "
+                          "would take away in the time `correction` what he saw a `reaction` ago, "
+                          "and the drive follows within its limits.");
+  table
+      .optional("level", &KeepInCase::level, point,
+                "a hook (C1.main), lug, eye or point of a body, whose height a winch keeps")
+      .optional("with", &KeepInCase::with, point,
+                "as high as this point; a height in the world if left out")
+      .optional("above", &KeepInCase::above, located(quantity(Dimension::length)),
+                "of level over with; if left out 0 m, or without `with` the height at which the "
+                "keeping begins")
+      .optional("head", &KeepInCase::head, located(reference()),
+                "hoist (C1.main) whose upper sheave the drive of a joint keeps plumb")
+      .optional("over", &KeepInCase::over, point,
+                "over this hook, lug, eye or point of a body, as near as the drive alone can")
+      .optional("tension", &KeepInCase::tension,
+                located(quantity(Dimension::force, Range::positive())),
+                "of the winch's own rope, or of the hoist's tackle")
+      .optional("share", &KeepInCase::share,
+                located(quantity(Dimension::ratio, Range::between(0, 1))),
+                "that it pulls of what it and the ropes of `of` pull together")
+      .optional("of", &KeepInCase::of, list_of(located(reference()), 1),
+                "ropes, or hoists (C1.main) whose tackle it is")
+      .optional("stiffness", &KeepInCase::stiffness,
+                located(quantity(Dimension::stiffness, Range::positive())),
+                "by how much the tension, or what is pulled above the share, falls for each metre "
+                "that is let out. That of the rope alone if left out, which is never too little to "
+                "come to rest; a load that follows its hook changes its share far less, and is "
+                "brought to it sooner with its own figure")
+      .by_default("reaction", &KeepInCase::reaction,
+                  quantity(Dimension::time, Range::not_negative()), "1 s",
+                  "from what the operator sees to what he does")
+      .by_default("correction", &KeepInCase::correction,
+                  located(quantity(Dimension::time, Range::positive())), "5 s",
+                  "in which he would take away what he sees; behind a wish that moves on evenly he "
+                  "lags by its speed times this")
+      .optional("tolerance", &KeepInCase::tolerance,
+                quantity_of({Dimension::length, Dimension::force, Dimension::ratio},
+                            Range::not_negative()),
+                "what he lets be: length, force or share, as the wish is; nothing if left out")
+      .rule(check_keep)
+      .place(&KeepInCase::place);
+  return table.format();
+}
+
+/// @param may_keep whether drives may be steered after a wish.
+Format<MoveInCase> move_format(bool may_keep) {
   const auto limit = [](Dimension linear, Dimension angular) {
     return quantity_of({linear, angular}, Range::positive());
   };
-  Table<MoveInCase> table("move",
-                          "What one or several drives or winches do, alike. It goes `by` a "
-                          "distance or `to` a place, from rest to rest, or `follows` "
-                          "another one.");
+  Table<MoveInCase> table(
+      "move", may_keep ? "What one or several drives or winches do, alike. It goes `by` a "
+                         "distance or `to` a place, from rest to rest, `follows` another "
+                         "one, or `keeps` something."
+                       : "What one or several drives or winches do, alike. It goes `by` a "
+                         "distance or `to` a place, from rest to rest, or `follows` "
+                         "another one.");
   table
       .required("drives", &MoveInCase::drives, list_of(located(reference()), 1),
                 "crane and drive or hoist (C1.travel, C1.upper_1), or a rope with its own winch")
@@ -193,6 +283,10 @@ Format<MoveInCase> move_format() {
                 "own travel over the leader's travel, a smooth curve through these points: "
                 "[[leader, own], ...]")
       .place(&MoveInCase::place);
+  if (may_keep)
+    table.optional("keeps", &MoveInCase::keeps, keep_format(rope_point_format()),
+                   "the drive is steered after what its operator sees, until the other moves of "
+                   "the stage have ended, or for the duration");
   return table.format();
 }
 
@@ -333,7 +427,13 @@ Format<CheckSettings> checks_format() {
       .optional("righting_height", &CheckSettings::smallest_righting_height,
                 quantity(Dimension::length),
                 "least moment against a tilt of the hanging load over its weight and the tilt, "
-                "0 m or more; not checked if left out");
+                "0 m or more; not checked if left out")
+      .optional(
+          "heel", &CheckSettings::largest_heel, quantity(Dimension::angle, Range::positive()),
+          "largest heel of a vessel, also behind a load that is lost (faults); not checked if "
+          "left out")
+      .optional("freeboard", &CheckSettings::smallest_freeboard, quantity(Dimension::length),
+                "smallest height of a vessel's deck over calm water; not checked if left out");
   return table.format();
 }
 
@@ -485,7 +585,7 @@ Format<StageInCase> stage_format(bool may_wait) {
   table.required("stage", &StageInCase::name, text(), "its name, for people")
       .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
                   "0 s", "before the stage begins")
-      .optional("moves", &StageInCase::moves, list_of(move_format()), "what moves");
+      .optional("moves", &StageInCase::moves, list_of(move_format(may_wait)), "what moves");
   if (may_wait)
     table.optional("until", &StageInCase::until, stage_until_format(),
                    "what ends the stage, before its moves have ended; they go as far as it takes");
@@ -497,8 +597,20 @@ Format<FaultInCase> fault_format() {
                            "What goes wrong in motion; the equilibria at rest are those of the "
                            "whole rigging.");
   table
-      .required("at", &FaultInCase::at, located(quantity(Dimension::time, Range::not_negative())),
-                "time of the operation at which it happens")
+      .optional("at", &FaultInCase::at, located(quantity(Dimension::time, Range::not_negative())),
+                "time of the operation at which it happens; or give worst_for")
+      .optional(
+          "worst_for", &FaultInCase::worst_for, list_of(located(reference()), 1),
+          "it happens at the worst instant for these ropes and hoists (C1.main), or for [all]: "
+          "the one after which one of them carries the most of its breaking load. Instants at "
+          "which drives move are tried, closer and closer around the worst ones")
+      .optional("from", &FaultInCase::from,
+                located(quantity(Dimension::time, Range::not_negative())),
+                "the worst instant is sought from then on; from the first move on if left out")
+      .optional("to", &FaultInCase::to, located(quantity(Dimension::time, Range::not_negative())),
+                "until then; until the last move ends if left out")
+      .by_default("watched", &FaultInCase::watched, quantity(Dimension::time, Range::positive()),
+                  "20 s", "how long the ropes are watched behind a tried instant")
       .optional("parts", &FaultInCase::parts, list_of(located(reference()), 1),
                 "ropes that break, or hoists (C1.main) whose tackle does")
       .optional("stops", &FaultInCase::stops, list_of(located(reference()), 1),

@@ -88,12 +88,17 @@ class Scheduler {
     std::stable_sort(moves.begin(), moves.end(),
                      [](const MoveInCase* a, const MoveInCase* b) { return a->delay < b->delay; });
     for (const MoveInCase* move : moves) {
-      if (!move->follows) add_moves(*move, start);
+      if (!move->follows && !move->keeps) add_moves(*move, start);
     }
     for (const MoveInCase* move : moves) {
-      if (move->follows) add_followers(*move);
+      if (move->follows && !move->keeps) add_followers(*move);
+    }
+    moves_end_ = schedule_.stages.back().end;
+    for (const MoveInCase* move : moves) {
+      if (move->keeps) add_keeping(*move, start);
     }
     if (stage.until) end_by_condition(*stage.until);
+    take_courses();
     return schedule_.stages.back().end;
   }
 
@@ -127,12 +132,12 @@ class Scheduler {
   void end_by_condition(const StageUntil& until) {
     ScheduledStage& stage = schedule_.stages.back();
     stage.limit = until.within ? stage.start + *until.within : stage.end;
-    if (conditions_ == plan_.met.size()) {
+    if (conditions_ == plan_.found.met.size()) {
       stage.end = std::max(stage.end, *stage.limit);
       return;
     }
     const double planned_end = stage.end;
-    const double met = plan_.met[conditions_++];
+    const double met = plan_.found.met[conditions_++];
     const double time = met + until.reaction;
     const std::vector<Travel> travels = travels_of_stage();
     // One clock slows down for all, so that followers keep to their leaders.
@@ -147,6 +152,26 @@ class Scheduler {
       const auto stopped = dynamics::MotionProfile::stopped(travel.profile, time, duration);
       coordinates_[travel.mover] +=
           stopped.evaluate(stage.end).position - travel.profile.evaluate(planned_end).position;
+    }
+    for (ScheduledSteering& steered : schedule_.steerings) {
+      if (steered.stage != stage_index_) continue;
+      steered.steering.end = std::clamp(time, steered.steering.start, steered.steering.end);
+      stage.end = std::max(stage.end, steered.steering.stand());
+    }
+  }
+
+  /// Courses that are known, of this stage's steered drives.
+  void take_courses() {
+    for (ScheduledSteering& steered : schedule_.steerings) {
+      if (steered.stage != stage_index_) continue;
+      if (courses_ == plan_.found.courses.size()) {
+        unknown_.insert(steered.mover);
+        continue;
+      }
+      steered.course = plan_.found.courses[courses_++];
+      coordinates_[steered.mover] += dynamics::MotionProfile::along(*steered.course)
+                                         .evaluate(steered.steering.stand())
+                                         .position;
     }
   }
 
@@ -214,6 +239,8 @@ class Scheduler {
     schedule_.stages.back().end = std::max(schedule_.stages.back().end, planned->end());
     const double before = coordinates_[index];
     coordinates_[index] += distance;
+    if (move.to && unknown_.erase(index) > 0 && !schedule_.provisional_from)
+      schedule_.provisional_from = stage_index_;
     check_range(index, before, coordinates_[index], name.mark);
   }
 
@@ -270,6 +297,7 @@ class Scheduler {
     const Mover& mover = schedule_.movers[index];
     const double slack = round_off * std::max(std::abs(mover.lowest), std::abs(mover.highest));
     if (mover.start < mover.lowest || mover.start > mover.highest) return;  // has been said
+    if (unknown_.contains(index)) return;  // it will be seen once the course is known
     const bool outside = coordinate < mover.lowest - slack || coordinate > mover.highest + slack;
     if (!outside || !left_range_.insert(index).second) return;
     const auto in_words = [&](double value) { return format_quantity(value, mover.travel); };
@@ -357,6 +385,68 @@ class Scheduler {
     if (!spline) return;
     check_follower(name, index, leader_name, *spline, leading);
     schedule_.followers.push_back({index, leader, stage_index_, *spline, name.mark});
+  }
+
+  void add_keeping(const MoveInCase& move, double stage_start) {
+    const auto refuse = [&](bool given, const char* keys) {
+      if (given)
+        diagnostics_.error(move.place, fmt::format("a move that keeps something takes no {}", keys),
+                           {"its way is what the operator finds"});
+    };
+    refuse(move.by || move.to, "\"by\" or \"to\"");
+    refuse(move.follows || move.table, "\"follows\" or table");
+    const double start = stage_start + (std::isfinite(move.delay) ? move.delay : 0);
+    const StageInCase& stage = *stage_;
+    double end = moves_end_;
+    if (stage.until && stage.until->within) end = std::max(end, stage_start + *stage.until->within);
+    if (move.duration) end = start + move.duration->value;
+    if (!(end > start)) {
+      // The moves that it goes with may be what was complained about.
+      if (diagnostics_.error_count() == errors_before_stage_)
+        diagnostics_.error(
+            move.place,
+            fmt::format("nothing says how long stage \"{}\" keeps this", stage.name.value),
+            {"give the move a duration, or the stage other moves"});
+      return;
+    }
+    for (const Located<std::string>& name : move.drives) {
+      if (const auto mover = find_mover(name)) add_steering(move, name, *mover, start, end);
+    }
+  }
+
+  void add_steering(const MoveInCase& move, const Located<std::string>& name, std::size_t index,
+                    double start, double end) {
+    const auto overlap = [&](std::size_t stage, std::size_t mover, const Mark& mark) {
+      if (stage != stage_index_ || mover != index) return false;
+      diagnostics_.error(name.mark,
+                         fmt::format("the operation overlaps itself: {} keeps something and has a "
+                                     "move of its own in line {}",
+                                     name.value, mark.line));
+      return true;
+    };
+    for (const auto& other : schedule_.moves)
+      if (overlap(other.stage, other.mover, other.mark)) return;
+    for (const auto& other : schedule_.followers)
+      if (overlap(other.stage, other.mover, other.mark)) return;
+    for (const auto& other : schedule_.steerings)
+      if (overlap(other.stage, other.mover, other.mark)) return;
+    const Mover& mover = schedule_.movers[index];
+    const KeepInCase& keep = *move.keeps;
+    dynamics::MotionLimits limits = mover.limits;
+    if (!take_limits(move, mover, limits)) return;
+    dynamics::Steering steering;
+    steering.drive = mover.name;
+    steering.start = start;
+    steering.end = end;
+    steering.reaction = keep.reaction;
+    steering.correction_time = keep.correction.value;
+    steering.tolerance = keep.tolerance ? keep.tolerance->value.value : 0.0;
+    steering.limits = limits;
+    steering.lowest = mover.lowest;
+    steering.highest = mover.highest;
+    if (!std::isfinite(start + end + keep.reaction + keep.correction.value)) return;
+    schedule_.stages.back().end = std::max(schedule_.stages.back().end, steering.stand());
+    schedule_.steerings.push_back({index, stage_index_, steering, keep, {}, name.mark});
   }
 
   /// The table as a smooth curve; complains if it cannot be one or does not cover the leader's way.
@@ -450,7 +540,10 @@ class Scheduler {
   const StageInCase* stage_ = nullptr;
   std::size_t stage_index_ = 0;
   std::size_t errors_before_stage_ = 0;
-  std::size_t conditions_ = 0;  // that came about so far
+  double moves_end_ = 0;           // of the stage's moves and followers, s
+  std::size_t conditions_ = 0;     // that came about so far
+  std::size_t courses_ = 0;        // that are known so far
+  std::set<std::size_t> unknown_;  // movers that were steered on a course not known yet
 };
 
 }  // namespace
@@ -485,10 +578,10 @@ Schedule schedule_operation(OperationPlan plan, Diagnostics& diagnostics) {
 }
 
 Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics,
-                            const std::vector<double>& met) {
+                            const FoundMotion& found) {
   return schedule_operation(
       {"the case", movers_of(lift_case), &lift_case.operation, lift_case.settle,
-       [&](const std::string& name) { return is_incomplete(lift_case, name); }, met},
+       [&](const std::string& name) { return is_incomplete(lift_case, name); }, found},
       diagnostics);
 }
 
@@ -496,6 +589,19 @@ std::optional<std::size_t> Schedule::waiting_stage() const {
   for (std::size_t i = 0; i < stages.size(); ++i)
     if (stages[i].limit && !stages[i].stop) return i;
   return std::nullopt;
+}
+
+std::optional<std::size_t> Schedule::steered_stage() const {
+  for (const ScheduledSteering& steered : steerings)
+    if (!steered.course) return steered.stage;
+  return std::nullopt;
+}
+
+std::size_t Schedule::last_known_stage() const {
+  std::size_t end = stages.size();
+  if (const auto waiting = waiting_stage()) end = std::min(end, *waiting);
+  if (provisional_from) end = std::min(end, *provisional_from);
+  return end - 1;
 }
 
 Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics) {
@@ -534,6 +640,10 @@ void add_schedule(const Schedule& schedule, dynamics::OperationBuilder& builder)
                            follower.own_travel_over_leaders);
     }
     if (stage.stop) builder.stop_moves(stage.start, stage.stop->time, stage.stop->duration);
+  }
+  for (const ScheduledSteering& steered : schedule.steerings) {
+    if (steered.course)
+      builder.add_course(steered.steering.drive, *steered.course, steered.steering.stand());
   }
 }
 

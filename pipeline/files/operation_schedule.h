@@ -59,16 +59,41 @@ struct ScheduledFollower {
   Mark mark;
 };
 
+/// A drive that is steered after a wish in one stage.
+struct ScheduledSteering {
+  std::size_t mover = 0;
+  std::size_t stage = 0;
+  dynamics::Steering steering;  ///< but for its wish
+  KeepInCase keep;
+  std::optional<dynamics::Course> course = {};  ///< none: not known yet
+  Mark mark;
+};
+
+/// What of an operation is found by running it, in the order of the operation.
+struct FoundMotion {
+  std::vector<double> met;                ///< when conditions that end stages came about, s
+  std::vector<dynamics::Course> courses;  ///< of drives that were steered
+  /// Of the fault that comes at its worst instant, s; none: it does not come.
+  std::optional<double> fault = {};
+};
+
 /// When everything happens.
 struct Schedule {
   std::vector<Mover> movers;
   std::vector<ScheduledStage> stages;
   std::vector<ScheduledMove> moves;
   std::vector<ScheduledFollower> followers;
+  std::vector<ScheduledSteering> steerings;
   double duration = 0;  ///< with the time to settle, s
+  /// The first stage with a move to a place from where a course not known yet leads; none: none.
+  std::optional<std::size_t> provisional_from = {};
 
   /// The first stage whose condition has not come about yet, or nothing.
   std::optional<std::size_t> waiting_stage() const;
+  /// The first stage with a drive whose course is not known yet, or nothing.
+  std::optional<std::size_t> steered_stage() const;
+  /// The last stage up to which courses can be found in one run: all before it is known but for them.
+  std::size_t last_known_stage() const;
 };
 
 /// What a schedule is made of.
@@ -79,8 +104,7 @@ struct OperationPlan {
   double settle = 0;  ///< after the last move, s
   /// Is it a drive that exists, but could not be read?
   std::function<bool(const std::string&)> is_incomplete;
-  /// When the conditions of the stages that have one came about, s: of the first ones, in order.
-  std::vector<double> met = {};
+  FoundMotion found = {};  ///< of the first conditions and steered drives
 };
 
 /// Sets the stages one after another: each begins when the one before has ended and its own pause
@@ -88,15 +112,18 @@ struct OperationPlan {
 /// have come to a stand behind the instant of it; where that is not known yet, when its moves have
 /// ended and its time is up.
 ///
+/// A drive that keeps something is steered while the stage's other moves last, or for its duration,
+/// and the stage lasts until it certainly stands. Where it is then is known once its course is.
+///
 /// Complains about drives that do not exist, moves beyond a drive's limits or range, ropes that
 /// would be pulled through their sheave, drives that are moved twice at once, and followers that
 /// cannot follow. What was complained about is left out of the schedule.
 Schedule schedule_operation(OperationPlan plan, Diagnostics& diagnostics);
 Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics,
-                            const std::vector<double>& met = {});
+                            const FoundMotion& found = {});
 Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics);
 
-/// Adds a schedule's stages, moves and followers; the drives and winches that it moves come first.
+/// Adds a schedule's stages, moves and followers, and the courses that are known; the drives and winches that it moves come first.
 void add_schedule(const Schedule& schedule, dynamics::OperationBuilder& builder);
 
 }  // namespace blocklift::pipeline

@@ -87,6 +87,9 @@
 ///   stages         (o) [{name, start_s, end_s, ropes and hoists: [{name, max_static_tension_N, ... as of ropes}],
 ///                      load: the same of all slings' vertical force}]
 ///   parted         (o) [{name, time_s, tension_N, energy_J}]: ropes that parted, their tension and stored energy then
+///   worst_instant  (o) {time_s, rope, share, peak_time_s, undisturbed: {rope, share, peak_time_s},
+///                      tried: [{time_s, rope, share, peak_time_s}]}: when a fault is worst; share: of the
+///                      breaking load
 ///   measures       (o) [{name, subject, kind, unit, extreme, meaning, static, time_of_static_s, dynamic,
 ///                      time_of_dynamic_s}]: of each figure the value that is furthest out
 ///   hoists         (o) like ropes, and crane, capacity_N (o), max_swing_rad (o)

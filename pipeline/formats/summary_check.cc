@@ -128,6 +128,12 @@ Rule measures() {
                    numbers({"static", "time_of_static_s", "dynamic", "time_of_dynamic_s"})));
 }
 
+Rule worst_instant() {
+  const Rule trial =
+      with(table({{"rope", text(), true}}), numbers({"time_s", "share", "peak_time_s"}));
+  return with(trial, {{"undisturbed", trial}, {"tried", list(trial)}});
+}
+
 Rule sling_lengths() {
   const Rule state =
       with(table({{"tensions_N", by_name(number())}, {"lengths_m", by_name(number())}}),
@@ -330,6 +336,7 @@ Rule summary_rule() {
                 {"stages", stages()},
                 {"parted", list(with(table({{"name", text(), true}}),
                                      numbers({"time_s", "tension_N", "energy_J"})))},
+                {"worst_instant", worst_instant()},
                 {"measures", measures()},
                 {"sling_lengths", sling_lengths()},
                 {"comparison", comparison()},

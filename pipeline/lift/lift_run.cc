@@ -11,6 +11,7 @@
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "pipeline/lift/stage_end.h"
 #include "pipeline/lift/stopwatch.h"
+#include "pipeline/lift/worst_instant.h"
 
 namespace blocklift::pipeline {
 
@@ -94,13 +95,29 @@ BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Pr
   const RadiationProblem problem = radiation_problem(lift_case);
   const auto radiation = find_radiation(
       problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
-  std::vector<double> met;
+  FoundMotion found;
+  const auto build = [&](std::optional<double> fault) {
+    found.fault = fault;
+    return build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem),
+                      found);
+  };
   for (;;) {
-    BuiltLift model =
-        build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem), met);
-    const std::optional<std::size_t> stage = model.schedule.waiting_stage();
-    if (!stage) return model;
-    met.push_back(find_stage_end(lift_case, model, *stage, progress));
+    BuiltLift model = build(std::nullopt);
+    const std::optional<std::size_t> waiting = model.schedule.waiting_stage();
+    const std::optional<std::size_t> steered = model.schedule.steered_stage();
+    if (!waiting && !steered) {
+      if (!fault_at_worst(lift_case)) return model;
+      const WorstInstant worst = find_worst_instant(lift_case, build, progress);
+      BuiltLift disturbed = build(worst.worst.time);
+      disturbed.worst = worst;
+      return disturbed;
+    }
+    if (steered && (!waiting || *steered < *waiting)) {
+      for (dynamics::Course& course : find_courses(lift_case, model, progress))
+        found.courses.push_back(std::move(course));
+    } else {
+      found.met.push_back(find_stage_end(lift_case, model, *waiting, progress));
+    }
   }
 }
 

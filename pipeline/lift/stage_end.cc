@@ -1,5 +1,6 @@
 #include "pipeline/lift/stage_end.h"
 
+#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
@@ -13,14 +14,6 @@ namespace {
 
 using Kind = dynamics::AwaitedCondition::Kind;
 
-int rope_of(const BuiltLift& model, const std::string& name) {
-  for (const LiftRope& rope : model.ropes)
-    if (rope.name == name) return rope.rope;
-  for (const LiftHoist& hoist : model.hoists)
-    if (hoist.name == name) return hoist.rope;
-  throw dynamics::ModelError("the lift has no rope or hoist \"" + name + "\"");
-}
-
 dynamics::AwaitedCondition condition_of(const StageUntil& until, const LiftCase& lift_case,
                                         const BuiltLift& model) {
   dynamics::AwaitedCondition awaited;
@@ -28,7 +21,7 @@ dynamics::AwaitedCondition condition_of(const StageUntil& until, const LiftCase&
   const double weight = model.system.mechanism().body(model.load).inertia.mass * lift_case.gravity;
   const auto pull = [&](Kind kind, const std::string& rope) {
     awaited.kind = kind;
-    awaited.rope = rope_of(model, rope);
+    awaited.rope = find_rope(model.ropes, model.hoists, rope);
   };
   const auto bear = [&](Kind kind, double share) {
     awaited.kind = kind;
@@ -53,12 +46,11 @@ std::string in_words(const StageUntil& until) {
   return "the ground to bear " + percent(until.ground_at_least->value) + " or more";
 }
 
-}  // namespace
-
-double find_stage_end(const LiftCase& lift_case, const BuiltLift& model, std::size_t stage,
-                      const Progress& progress) {
-  const StageUntil& until = *lift_case.operation[stage].until;
-  const ScheduledStage& scheduled = model.schedule.stages[stage];
+/// Integrates the operation from rest up to a time (s) that is set by `end_by`.
+template <class EndBy>
+dynamics::IntegrationResult run_up_to(const LiftCase& lift_case, const BuiltLift& model,
+                                      const std::string& what, double end, const Progress& progress,
+                                      const EndBy& end_by) {
   const dynamics::LiftSystem& system = model.system;
   Eigen::VectorXd q = system.q_start();
   dynamics::EquilibriumSolver(model.at_rest()).solve(0, q);
@@ -67,15 +59,42 @@ double find_stage_end(const LiftCase& lift_case, const BuiltLift& model, std::si
   settings.sample_interval = lift_case.dynamics.sample_interval;
   settings.surface = model.marched.radiation.get();
   settings.surface_step = model.marched.step;
-  settings.awaited = condition_of(until, lift_case, model);
-  settings.awaited->from = scheduled.start;
-  settings.awaited->until = *scheduled.limit;
   settings.progress = [&](double, double time) {
-    progress("end of stage " + scheduled.name, time / *scheduled.limit,
-             fmt::format("t = {:.0f} s", time));
+    progress(what, time / end, fmt::format("t = {:.0f} s", time));
   };
+  end_by(settings);
+  return dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+}
+
+}  // namespace
+
+std::vector<dynamics::Course> find_courses(const LiftCase& lift_case, const BuiltLift& model,
+                                           const Progress& progress) {
+  const Schedule& schedule = model.schedule;
+  const std::size_t last = schedule.last_known_stage();
+  const double end = schedule.stages[last].end;
+  dynamics::IntegrationResult result =
+      run_up_to(lift_case, model, "steered drives", end, progress,
+                [&](dynamics::IntegrationSettings& settings) { settings.end = end; });
+  // Drives of later stages are steered in the model, too, after those of these.
+  const auto count =
+      std::count_if(schedule.steerings.begin(), schedule.steerings.end(),
+                    [&](const ScheduledSteering& one) { return !one.course && one.stage <= last; });
+  result.courses.resize(static_cast<std::size_t>(count));
+  return std::move(result.courses);
+}
+
+double find_stage_end(const LiftCase& lift_case, const BuiltLift& model, std::size_t stage,
+                      const Progress& progress) {
+  const StageUntil& until = *lift_case.operation[stage].until;
+  const ScheduledStage& scheduled = model.schedule.stages[stage];
   const dynamics::IntegrationResult result =
-      dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+      run_up_to(lift_case, model, "end of stage " + scheduled.name, *scheduled.limit, progress,
+                [&](dynamics::IntegrationSettings& settings) {
+                  settings.awaited = condition_of(until, lift_case, model);
+                  settings.awaited->from = scheduled.start;
+                  settings.awaited->until = *scheduled.limit;
+                });
   if (result.met) return *result.met;
   throw dynamics::SimulationError(fmt::format(
       "stage \"{}\" waits for {}, which has not come about at {:.6g} s, {:.6g} s after its "

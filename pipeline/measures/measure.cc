@@ -5,8 +5,10 @@
 
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/crane_measures.h"
+#include "pipeline/measures/keeping_measures.h"
 #include "pipeline/measures/load_measures.h"
 #include "pipeline/measures/spreader_measures.h"
+#include "pipeline/measures/vessel_measures.h"
 
 namespace blocklift::pipeline {
 
@@ -51,6 +53,8 @@ std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun&
   add_load_measures(lift_case, lift, measures);
   add_spreader_measures(lift_case, lift, measures);
   add_crane_measures(lift_case, lift, measures);
+  add_vessel_measures(lift_case, lift, measures);
+  add_keeping_measures(lift, measures);
   add_clearances(lift_case, lift, measures);
   return measures;
 }

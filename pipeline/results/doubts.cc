@@ -119,16 +119,28 @@ class Doubts {
           lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name(), parted.time,
           parted.tension / 1e3, parted.energy / 1e3);
     for (const FaultInCase& fault : case_.faults) {
+      const double at = fault.at ? fault.at->value : lift.model.worst->worst.time;
+      if (!fault.at) say_worst(*lift.model.worst);
       for (const Located<std::string>& winch : fault.runs_away)
         doubt("Winch {} runs away at {:g} s, {:.3g} m in {:g} s, as the case says.", winch.value,
-              fault.at.value, *fault.speed * *fault.caught_after, *fault.caught_after);
+              at, *fault.speed * *fault.caught_after, *fault.caught_after);
       if (fault.stops.empty()) continue;
       std::string names;
       for (const Located<std::string>& name : fault.stops)
         names += (names.empty() ? "" : ", ") + (name.value == "all" ? "All drives" : name.value);
-      doubt("{} come to a stand from {:g} s on within {:g} s, as the case says.", names,
-            fault.at.value, fault.within);
+      doubt("{} come to a stand from {:g} s on within {:g} s, as the case says.", names, at,
+            fault.within);
     }
+  }
+
+  void say_worst(const WorstInstant& instant) {
+    const auto& [worst, undisturbed, trials] = instant;
+    doubt(
+        "The fault comes at {:g} s, the worst of {} instants that were tried: {} carries {:.1f} % "
+        "of "
+        "its breaking load then, at {:.2f} s. Without the fault the most is {:.1f} %, of {}.",
+        worst.time, trials.size(), worst.rope, 100 * worst.share, worst.peak_time,
+        100 * undisturbed.share, undisturbed.rope);
   }
 
   void doubt_ropes(const LiftRun& lift) {

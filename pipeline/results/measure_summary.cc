@@ -67,6 +67,23 @@ Json parted_json(const LiftRun& lift) {
   return rows;
 }
 
+Json worst_instant_json(const LiftRun& lift) {
+  if (!lift.model.worst) return nullptr;
+  const auto trial_json = [](const WorstInstant::Trial& trial) -> Json {
+    return {{"time_s", trial.time},
+            {"rope", trial.rope},
+            {"share", trial.share},
+            {"peak_time_s", trial.peak_time}};
+  };
+  const auto& [worst, undisturbed, trials] = *lift.model.worst;
+  Json json = trial_json(worst);
+  json["undisturbed"] = trial_json(undisturbed);
+  json["undisturbed"].erase("time_s");
+  json["tried"] = Json::array();
+  for (const WorstInstant::Trial& trial : trials) json["tried"].push_back(trial_json(trial));
+  return json;
+}
+
 Json measures_json(const LiftRun& lift, const std::vector<LiftMeasure>& measures) {
   Json rows = Json::array();
   for (const LiftMeasure& measure : measures) {

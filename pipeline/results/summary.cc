@@ -426,6 +426,8 @@ void add_watched(const LiftRun& lift, const std::vector<LiftMeasure>& measures, 
   summary["stages"] = stages_json(lift);
   summary["measures"] = measures_json(lift, measures);
   if (Json parted = parted_json(lift); !parted.empty()) summary["parted"] = std::move(parted);
+  if (Json worst = worst_instant_json(lift); !worst.is_null())
+    summary["worst_instant"] = std::move(worst);
 }
 
 void add_doubts(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -74,6 +75,38 @@ TEST(TimeIntegration, HoistThatGripsAtOnce) {
   EXPECT_NEAR(peak / (model.mass * g), factor, 3e-4);
   EXPECT_NEAR(run.history.ropes[0].tension[400] / (model.mass * g), 1.0, 1e-7);
   EXPECT_LT(largest_imbalance(run.history.energy), 1e-6 * model.mass * g);
+}
+
+// A run that goes on from an instant of another goes on as the other did.
+TEST(TimeIntegration, GoesOnFromAnInstantOfAnotherRun) {
+  samples::SingleRopeLift model;
+  model.damping_time = 5e-3;
+  model.payout = -4.0;
+  model.duration = 10.0;
+  const LiftSystem lift = model.build();
+  std::optional<Departure> departure;
+  IntegrationSettings settings{.relative_tolerance = 1e-10};
+  settings.observe = [&](Eigen::Index, double time, const LiftWorkspace& w) {
+    if (std::abs(time - 4.0) < 1e-9) departure = Departure::of(time, w);
+  };
+  const Vector3 start(3.0, 0, -19.0);
+  const IntegrationResult whole = integrate(lift, start, lift.v_start(), settings);
+  ASSERT_TRUE(departure);
+  settings.observe = {};
+  settings.departure = &*departure;
+  const IntegrationResult rest = integrate(lift, start, lift.v_start(), settings);
+  EXPECT_LT((whole.q_end - rest.q_end).norm(), 1e-6);
+  const Eigen::Index first = whole.history.sample_count() - rest.history.sample_count();
+  EXPECT_NEAR(rest.history.time[0], 4.0, 1e-9);
+  EXPECT_LT((whole.history.ropes[0].tension.tail(rest.history.sample_count()) -
+             rest.history.ropes[0].tension)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-5 * model.mass * g);
+  EXPECT_EQ(whole.history.time[first], rest.history.time[0]);
+  departure->time = 20.0;
+  EXPECT_THAT([&] { integrate(lift, start, lift.v_start(), settings); },
+              ThrowsMessage<ModelError>(HasSubstr("cannot go on from")));
 }
 
 // Thrown upwards the load flies free, falls into its rope and is thrown up again: times of the

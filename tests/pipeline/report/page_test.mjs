@@ -7,9 +7,9 @@ import { join } from "node:path";
 import { browserName, testInFolder } from "./browser.mjs";
 
 const sections = {
-  whole: ["checks", "lift", "periods", "histories", "loads", "slings", "stress", "structure", "standard", "accuracy", "method", "annex"],
+  whole: ["checks", "lift", "periods", "histories", "loads", "fault", "slings", "stress", "structure", "standard", "accuracy", "method", "annex"],
   loads: ["checks", "loads", "stress", "structure", "standard", "method", "annex"],
-  motion: ["checks", "lift", "periods", "histories", "loads", "slings", "accuracy", "method", "annex"],
+  motion: ["checks", "lift", "periods", "histories", "loads", "fault", "slings", "accuracy", "method", "annex"],
 };
 const expected = [">988<", "Governing: ", "A sample &amp; nothing else"];
 
@@ -29,6 +29,9 @@ await testInFolder((folder, complain) => {
     if (ids.includes("periods"))
       for (const text of ["block: pendulum along x", ">14.6<", "neutral: nothing brings it back"])
         if (!dom.includes(text)) complainOf(`"${text}" is not among the natural periods`);
+    if (ids.includes("fault"))
+      for (const text of ["The fault comes at 7.3 s, the worst of 3 instants", ">never<"])
+        if (!dom.includes(text)) complainOf(`"${text}" is not where the fault is worst`);
     if (ids.includes("slings"))
       for (const text of ["longer", ">1.43", ">1.240<", ">9.876<"])
         if (!dom.includes(text)) complainOf(`"${text}" is not among the lengths of slings`);

@@ -196,6 +196,17 @@ nlohmann::ordered_json sling_lengths() {
           {"level", {{"tensions_N", tensions}, {"lengths_m", {{"R1", 9.876}, {"R2", 10.1}}}}}};
 }
 
+nlohmann::ordered_json worst_instant() {
+  using json = nlohmann::ordered_json;
+  const auto trial = [](double time, double share) -> json {
+    return {{"time_s", time}, {"rope", "R1"}, {"share", share}, {"peak_time_s", time + 0.5}};
+  };
+  json worst = trial(7.25, 0.43);
+  worst["undisturbed"] = {{"rope", "R2"}, {"share", 0.31}, {"peak_time_s", 3.0}};
+  worst["tried"] = json::array({trial(2.0, 0.35), trial(7.25, 0.43), trial(9.0, 0.33)});
+  return worst;
+}
+
 }  // namespace
 
 void write_sample_result(const std::filesystem::path& folder, const SampleParts& parts) {
@@ -231,6 +242,7 @@ void write_sample_result(const std::filesystem::path& folder, const SampleParts&
     write_modes(writer);
     summary["natural_periods"] = natural_periods();
     summary["sling_lengths"] = sling_lengths();
+    summary["worst_instant"] = worst_instant();
   }
   if (parts.structure) {
     write_structure(writer);

@@ -168,12 +168,14 @@ export interface Chain {
 export interface Standard {
   name: string; title?: string; edition?: string; source?: string; notes?: string[]; governing?: string; chains: Chain[];
 }
+export interface TriedInstant { time_s?: number; rope: string; share?: Maybe<number>; peak_time_s?: number }
+export interface WorstInstant extends TriedInstant { undisturbed?: TriedInstant; tried?: TriedInstant[] }
 export interface Summary {
   sling_lengths?: SlingLengths;
   standard?: Maybe<Standard>;
   verdict?: string; verdict_reasons?: string[]; checks?: Check[];
   ropes?: LoadMaxima[]; hoists?: LoadMaxima[]; cranes?: LoadMaxima[]; loops?: LoadMaxima[];
-  stages?: StageLoads[]; measures?: Measure[];
+  stages?: StageLoads[]; measures?: Measure[]; worst_instant?: Maybe<WorstInstant>;
   comparison?: Maybe<Comparison>; structure?: Maybe<Structure>;
   natural_periods?: { instant: string; time_s: number; modes: NaturalMode[] }[];
   energy?: Maybe<{ largest_energy_J?: number; largest_imbalance_J?: number; relative_imbalance?: number }>;

@@ -5,6 +5,7 @@ import { PageData, readPageData, states } from "./data";
 import { fillAnnex } from "./annex";
 import { append, Child, equip, h } from "./dom";
 import { accuracySection, methodSection } from "./accuracy";
+import { faultSection } from "./fault";
 import { historiesSection, outputsSection } from "./histories";
 import { liftSection } from "./lift";
 import { loadsSection } from "./loads";
@@ -37,7 +38,7 @@ function show(): void {
   let annex = document.getElementById("annex");
   if (!annex) report.append(annex = h("section", { id: "annex" }, h("h2", {}, "Annex")));
   const makers: (() => Section | null)[] = [
-    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock), () => measuresSection(data, clock), () => slingsSection(data),
+    () => liftSection(data, clock, vibrations), () => modesSection(data, clock, vibrations), () => outputsSection(data, clock), () => historiesSection(data, clock), () => loadsSection(data, clock), () => measuresSection(data, clock), () => faultSection(data), () => slingsSection(data),
     () => stressSection(data), () => structureSection(data), () => padeyesSection(data),
     () => standardSection(data), () => accuracySection(data), () => methodSection(data),
   ];
