@@ -100,7 +100,8 @@ class LiftedFacts {
 
   SlingFacts sling_facts(const LiftRope& rope, const std::map<std::string, int>& on_hook,
                          Index& sample) {
-    const RopeModel& model = case_.find_rope(rope.name)->rope;
+    const RopeInCase& in_case = *case_.find_rope(rope.name);
+    const RopeModel& model = in_case.rope;
     SlingFacts sling;
     sling.name = rope.name;
     sling.lug = rope.lug;
@@ -110,6 +111,7 @@ class LiftedFacts {
     if (model.material) sling.material = model.material->value;
     if (model.termination) sling.termination = model.termination->value;
     sling.diameter = model.diameter;
+    if (in_case.bend_diameter) sling.bend_diameter = in_case.bend_diameter->value;
     const auto count = on_hook.find(rope.hoist);
     sling.slings_on_hook = count == on_hook.end() ? 1 : count->second;
     const auto weight = rigging_.weight_of(rope);

@@ -12,6 +12,7 @@
 #include "dynamics/marine/hull/hydrostatics.h"
 #include "pipeline/checks/loop_loads.h"
 #include "pipeline/lift/history_figures.h"
+#include "pipeline/standards/sling_factor.h"
 
 namespace blocklift::pipeline {
 
@@ -172,12 +173,23 @@ void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
 
 }  // namespace
 
+double bend_efficiency(const RopeInCase& rope) {
+  if (!rope.bend_diameter) return 1;
+  return bend_efficiency(rope.bend_diameter->value, *rope.rope.diameter);
+}
+
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
   const double factor = lift_case.checks.rope_safety_factor;
   std::vector<Check> checks;
   for (const LiftRope& rope : lift.model.ropes) {
-    checks.push_back(
-        check_breaking_load(lift, "rope " + rope.name, rope.rope, rope.breaking_load, factor));
+    const RopeInCase& in_case = *lift_case.find_rope(rope.name);
+    const double left = bend_efficiency(in_case);
+    checks.push_back(check_breaking_load(lift, "rope " + rope.name, rope.rope,
+                                         left * rope.breaking_load, factor));
+    if (in_case.bend_diameter)
+      checks.back().note =
+          fmt::format("bent round D/d {:.2f}: {:.1f} % of the breaking load is left (0027/ND, 7.8)",
+                      in_case.bend_diameter->value / *in_case.rope.diameter, 100 * left);
   }
   for (const LiftHoist& hoist : lift.model.hoists) {
     checks.push_back(

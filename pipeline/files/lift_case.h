@@ -94,6 +94,8 @@ struct RopeInCase {
   Located<double> length;                                          ///< unstretched, at the start, m
   double end_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
   std::optional<DriveLimits> winch;  ///< of its own, at the `from` end
+  /// Of the least hook, pin, trunnion or sheave that it is bent round, m; none: it is not bent.
+  std::optional<Located<double>> bend_diameter;
 
   /// The lug at its end, empty if it ends elsewhere.
   std::string lug() const { return path.empty() ? std::string() : path.back().lug; }

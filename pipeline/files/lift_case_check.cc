@@ -262,12 +262,33 @@ void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
   }
 }
 
+void check_bend(const RopeInCase& rope, Diagnostics& diagnostics) {
+  if (!rope.bend_diameter) return;
+  const auto& [bend, mark] = *rope.bend_diameter;
+  if (!rope.rope.diameter) {
+    // A model that could not be read has been complained of.
+    if (std::isfinite(rope.rope.axial_stiffness))
+      diagnostics.error(mark,
+                        fmt::format("the model of rope {} has no diameter, which its bend diameter "
+                                    "is held against",
+                                    rope.name.value),
+                        {"add diameter to the rope's model"});
+  } else if (bend < *rope.rope.diameter) {
+    diagnostics.error(mark,
+                      fmt::format("rope {} of {} is bent round {}", rope.name.value,
+                                  format_quantity(*rope.rope.diameter, Dimension::length),
+                                  format_quantity(bend, Dimension::length)),
+                      {"a rope is not bent round less than its own diameter"});
+  }
+}
+
 void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
   bool all_known = true;
   bool load_hangs = false;
   for (const RopeInCase& rope : lift_case.ropes) {
     all_known &= !rope.path.empty();
     check_sheaves(rope, diagnostics);
+    check_bend(rope, diagnostics);
     for (std::size_t i = 0; i < rope.path.size(); ++i) {
       load_hangs |= rope.path[i].kind == ResolvedPoint::Kind::load;
       if (i > 0 && same_point(rope.path[i - 1], rope.path[i])) {

@@ -443,6 +443,13 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                 "of what the rope is fastened to, in series with it; rigid if left out")
       .optional("winch", &RopeInCase::winch, winch_format(),
                 "of its own: then the rope is moved by its name, like a hoist");
+  // Of a mechanism nothing is held against the breaking load.
+  if (breaking_load_required)
+    table.optional("bend_diameter", &RopeInCase::bend_diameter,
+                   located(quantity(Dimension::length, Range::positive())),
+                   "of the least hook, pin, trunnion or sheave that the wire rope is bent round: "
+                   "of its breaking load 1 - 0.5 / sqrt(D/d) is left, d being the diameter of its "
+                   "model; nothing is lost if left out, as by fibre slings");
   return table.format();
 }
 

@@ -64,7 +64,8 @@ class StandardCheck {
         exists(*rope.rope.termination, rules_.sling->termination,
                fmt::format("the rules {} have no termination", rules_.name));
     }
-    if (!standard_.bend_diameter) return;
+    // A rope with a bend of its own has been held against it, and not against the standard's.
+    if (!standard_.bend_diameter || rope.bend_diameter) return;
     if (!rope.rope.diameter) {
       lacks("diameter", "the bend diameter is held against");
     } else if (*standard_.bend_diameter < *rope.rope.diameter) {

@@ -7,6 +7,7 @@
 #include "pipeline/measures/crane_measures.h"
 #include "pipeline/measures/load_measures.h"
 #include "pipeline/measures/spreader_measures.h"
+#include "pipeline/measures/tackle_measures.h"
 
 namespace blocklift::pipeline {
 
@@ -51,6 +52,7 @@ std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun&
   add_load_measures(lift_case, lift, measures);
   add_spreader_measures(lift_case, lift, measures);
   add_crane_measures(lift_case, lift, measures);
+  add_tackle_measures(lift_case, lift, measures);
   add_clearances(lift_case, lift, measures);
   return measures;
 }

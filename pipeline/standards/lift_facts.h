@@ -38,7 +38,8 @@ struct SlingFacts {
   ComputedFactors computed;
   double breaking_load = 0;  ///< N
   std::optional<std::string> material, termination;
-  std::optional<double> diameter;  ///< m
+  std::optional<double> diameter;       ///< m
+  std::optional<double> bend_diameter;  ///< of what it is bent round, m; none: the standard's
   int slings_on_hook = 1;
 };
 
