@@ -116,6 +116,8 @@ class LiftedFacts {
     sling.slings_on_hook = count == on_hook.end() ? 1 : count->second;
     const auto weight = rigging_.weight_of(rope);
     facts_.has_rigging_weight = facts_.has_rigging_weight && weight;
+    // That of ropes that hang by it is in the loads of the hooks already.
+    if (case_.hangs(in_case)) return sling;
     facts_.rigging += weight.value_or(0);
     rigging_at_[rope.hoist] += weight.value_or(0);
     return sling;

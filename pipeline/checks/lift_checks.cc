@@ -118,6 +118,14 @@ void pass_over_parted(const LiftRun& lift, std::size_t rope, const dynamics::His
   }
 }
 
+/// What a rope pulls beyond its own weight, which it bears in a bight, too.
+Eigen::VectorXd pull_beyond_weight(const LiftRun& lift, std::size_t rope,
+                                   const dynamics::RopeHistory& history) {
+  const double weight = lift.model.system.ropes()[rope].definition().weight_per_length;
+  if (weight == 0) return history.tension;
+  return history.tension - weight * history.unstretched_length;
+}
+
 /// Ropes at lugs may lie slack while the load stands or floats; all others never.
 void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
   const auto static_hangs = find_hanging(lift_case, lift, lift.static_history);
@@ -130,7 +138,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
   std::string rope;
   for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
     const Peak peak = peak_of(lift, Kind::smallest, [&](const dynamics::History& history) {
-      Eigen::VectorXd tension = history.ropes[i].tension;
+      Eigen::VectorXd tension = pull_beyond_weight(lift, i, history.ropes[i]);
       pass_over_parted(lift, i, history, tension);
       if (is_sling[i] == 0) return tension;
       const auto& hangs = &history == &lift.static_history ? static_hangs : dynamic_hangs;
@@ -149,7 +157,11 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
   checks.push_back(at_time(
       check_at_least("slack: smallest tension of any rope, " + rope, smallest.value,
                      lift_case.checks.smallest_tension, "N"),
-      smallest.time, "the demand must stay above the limit; ropes at lugs: while the load hangs"));
+      smallest.time,
+      std::string("the demand must stay above the limit; ropes at lugs: while the load hangs") +
+          (lift_case.rope_weight && lift_case.rope_weight->value
+               ? "; less the own weight of ropes that have some"
+               : "")));
 }
 
 void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {

@@ -42,6 +42,8 @@ class MeasureChecks {
     add_at_least("clearance", "clearance: smallest distance", limits.smallest_clearance);
     for (const SpreaderInCase& bar : case_.spreaders) add_spreader(bar);
     add_tackles();
+    for (const TuggerInCase& line : case_.tuggers) add_line("tugger", line);
+    for (const MooringInCase& line : case_.moorings) add_line("mooring", line);
     if (limits.crane_capacity) {
       add_charts();
       add_supports();
@@ -128,6 +130,18 @@ class MeasureChecks {
                    *hoist.reeving->line_pull, reeving);
       }
     }
+  }
+
+  /// A tugger or mooring against its breaking load, where that is given.
+  template <class Line>
+  void add_line(const std::string& kind, const Line& line) {
+    const LiftMeasure* tension = find(line.name.value, kind + " tension");
+    if (!tension || !line.breaking_load) return;
+    const double factor = case_.checks.rope_safety_factor;
+    add_line(
+        *tension,
+        fmt::format("{} {}: tension against breaking load / {:g}", kind, line.name.value, factor),
+        *line.breaking_load / factor, "");
   }
 
   void add_line(const LiftMeasure& measure, std::string name, double limit,

@@ -554,6 +554,10 @@ Format<LiftCase> lift_case_format() {
                 "bars between slings from above and slings to the load, by name")
       .optional("ropes", &LiftCase::ropes,
                 named_tables(rope_in_case_format(rope_point_format(), true)), "by name")
+      .optional("rope_weight", &LiftCase::rope_weight, located(boolean()),
+                "do slings and tackles from point to point whose model has a mass hang as elastic "
+                "catenaries, whose weight hooks and cranes bear? Straight and weightless if left "
+                "out")
       .by_default("sling_tolerance", &LiftCase::sling_tolerance,
                   quantity(Dimension::ratio, Range::between(0, 0.1)), "0.25 %",
                   "of its length by which a sling may be longer or shorter than meant: what that "

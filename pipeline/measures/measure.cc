@@ -5,6 +5,7 @@
 
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/crane_measures.h"
+#include "pipeline/measures/line_measures.h"
 #include "pipeline/measures/load_measures.h"
 #include "pipeline/measures/spreader_measures.h"
 #include "pipeline/measures/tackle_measures.h"
@@ -53,6 +54,7 @@ std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun&
   add_spreader_measures(lift_case, lift, measures);
   add_crane_measures(lift_case, lift, measures);
   add_tackle_measures(lift_case, lift, measures);
+  add_line_measures(lift, measures);
   add_clearances(lift_case, lift, measures);
   return measures;
 }
