@@ -338,6 +338,22 @@ TEST(LiftCaseErrors, HoistsThatCannotBeEqualised) {
             "1 error\n");
 }
 
+TEST(LiftCaseErrors, WeightOfRopesThatHaveNone) {
+  const auto complaints = [](const std::string& lines, const std::string& rope_lines) {
+    SampleLift lift;
+    lift.rope += rope_lines;
+    lift.lift_case = with(lift.lift_case, "settle: 10 s\n", "settle: 10 s\n" + lines);
+    return complaints_about(lift);
+  };
+  EXPECT_EQ(complaints("rope_weight: true\n", "mass: 50 kg/m\n"), "");
+  EXPECT_EQ(complaints("rope_weight: false\n", ""), "");
+  EXPECT_THAT(complaints("rope_weight: true\n", ""),
+              HasSubstr("error: no rope has a mass by which it would hang\n    add mass to the "
+                        "models of slings and tackles that run from point to point"));
+  EXPECT_THAT(complaints("rope_weight: true\ndynamics: {flexibility: static}\n", "mass: 50 kg/m\n"),
+              HasSubstr("error: ropes hang by their weight, and the block is flexible"));
+}
+
 TEST(LiftCaseErrors, BendsThatCannotBe) {
   const auto complaints = [](const std::string& bend, const std::string& rope_lines) {
     SampleLift lift;

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/measure_checks.h"
 #include "pipeline/lift/stage_loads.h"
 #include "pipeline/measures/chart_derating.h"
@@ -33,10 +36,12 @@ struct WatchedLift {
   }
 };
 
-/// @param crane_lines, case_lines more of the crane and of the case.
+/// @param crane_lines, case_lines, rope_lines more of the crane, of the case, and of the model of both
+///   slings and the left tackle.
 WatchedLift watch(const std::string& checks = "{}", const std::string& crane_lines = "",
-                  const std::string& case_lines = "") {
+                  const std::string& case_lines = "", const std::string& rope_lines = "") {
   test::SampleLift parts;
+  parts.rope += rope_lines;
   parts.crane = test::with(parts.crane, "capacity: 20 t\n",
                            "capacity: 20 t\n"
                            "radius_from: {body: gantry, position: [0 m, 0 m, 0 m]}\n"
@@ -222,6 +227,45 @@ TEST(TackleMeasures, FollowTheShareOfTheFalls) {
     EXPECT_TRUE(check.pass);
   }
   EXPECT_EQ(found, 2);
+}
+
+// Both slings of 2 m and the left tackle of 5 m weigh 50 kg/m: hooks and crane bear them, the load's
+// lugs do not.
+TEST(RopeWeight, IsInWhatHooksAndCraneBear) {
+  const WatchedLift lift =
+      watch("{smallest_tension: 1 kN}", "", "rope_weight: true\n", "mass: 50 kg/m\n");
+  const auto& ropes = lift.run.static_history.ropes;
+  const auto& hoists = lift.run.model.hoists;
+  const auto tension = [&](int rope) { return ropes[static_cast<std::size_t>(rope)].tension[0]; };
+  const double left = (5500 + 50 * (2 + 5)) * g, right = (5500 + 50 * 2) * g;
+  // The load is tilted by a milliradian, which moves its centre by half a millimetre of 4 m.
+  EXPECT_NEAR(tension(hoists[0].rope), left, 5e-4 * left);
+  EXPECT_NEAR(tension(hoists[1].rope), right, 5e-4 * right);
+  EXPECT_NEAR(tension(hoists[0].rope) + tension(hoists[1].rope), left + right,
+              1e-5 * (left + right));
+  double on_lugs = 0, on_hooks = 0;
+  for (const LiftRope& sling : lift.run.model.ropes) {
+    on_lugs += ropes[static_cast<std::size_t>(sling.rope)].last_force(0, 2);
+    on_hooks -= ropes[static_cast<std::size_t>(sling.rope)].first_force(0, 2);
+  }
+  EXPECT_NEAR(on_lugs, 10e3 * g, 1e-6 * 10e3 * g);
+  EXPECT_NEAR(on_hooks, (10e3 + 2 * 2 * 50) * g, 1e-6 * 10e3 * g);
+  EXPECT_NEAR(lift.measure("C1: weight on the base").at_rest[0], (119e3 + 50 * (2 + 2 + 5)) * g,
+              1e-6 * 119e3 * g);
+
+  // A rope that hangs in a bight bears its own weight, and pulls at nothing.
+  double least = std::numeric_limits<double>::infinity();
+  for (const dynamics::History* history : {&lift.run.static_history, &lift.run.dynamic_history()})
+    for (const dynamics::RopeHistory& rope : history->ropes) {
+      const bool weighs = rope.name != "C1.right";
+      const Eigen::VectorXd beyond = rope.tension - (weighs ? 50 * g : 0) * rope.unstretched_length;
+      least = std::min(least, beyond.minCoeff());
+    }
+  for (const Check& check : check_lift(lift.lift_case, lift.run)) {
+    if (!check.name.starts_with("slack")) continue;
+    EXPECT_NEAR(check.demand, least, 1e-9 * least);
+    EXPECT_THAT(check.note, HasSubstr("less the own weight"));
+  }
 }
 
 // Friction keeps the way it had: hoisting before any motion, lowering while rope is paid out and
