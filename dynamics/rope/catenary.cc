@@ -74,10 +74,34 @@ bool is_heap(const CatenaryLine& line, double span, double rise) {
          line.unstretched_length - V / line.weight_per_length >= span;
 }
 
-// First guess of Jonkman (2007), eq. B-4, B-5.
+// Tension along the chord of a line that hangs as a parabola (Irvine 1981, sec. 2.5): of
+//   x/k - a/x^2 = l - L0,   a = l (w L0 cos)^2 / 24,
+// whose left side rises and is concave, so that Newton's method climbs to the root from below.
+double parabola_tension(const CatenaryLine& line, double span, double chord) {
+  const double L0 = line.unstretched_length;
+  const double k = line.axial_stiffness / L0;
+  const double across = line.weight_per_length * L0 * span / chord;
+  const double a = chord * across * across / 24.0;
+  const double stretch = chord - L0;
+  const double turn = std::cbrt(a / (k * k));  // the stretch at which both terms are alike
+  double x = stretch >= 0.0 ? k * std::max(stretch, turn) : std::sqrt(a / (turn - stretch));
+  for (int i = 0; i < 20 && x > 0.0; ++i) {
+    const double step = -(x / k - a / (x * x) - stretch) / (1.0 / k + 2.0 * a / (x * x * x));
+    x += step;
+    if (std::abs(step) < 1e-6 * x) break;
+  }
+  return x;
+}
+
+// First guess: the parabola where the line is taut enough to be near it, otherwise that of Jonkman
+// (2007), eq. B-4, B-5.
 Eigen::Vector2d guess(const CatenaryLine& line, double span, double rise) {
   const double L0 = line.unstretched_length;
   const double w = line.weight_per_length;
+  if (const double chord = std::hypot(span, rise); !line.on_seabed && chord > 0.0) {
+    const double T = parabola_tension(line, span, chord);
+    if (T > w * L0) return {T * span / chord, T * rise / chord + 0.5 * w * L0};
+  }
   double lambda = 0.2;
   if (std::hypot(span, rise) < L0) {
     lambda = std::sqrt(3.0 * ((L0 * L0 - rise * rise) / (span * span) - 1.0));

@@ -50,6 +50,7 @@ ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ro
     if (point.body != d_.body) refuse(d_, "rope \"" + rope.name() + "\" does not end at it");
     if (!rope.definition().left_out.empty())
       refuse(d_, "rope \"" + rope.name() + "\" leaves a segment out");
+    if (rope.hangs()) refuse(d_, "rope \"" + rope.name() + "\" has weight");
     for (std::size_t other = 0; other < e; ++other) {
       if (d_.ends[other].rope == end.rope && d_.ends[other].last == end.last)
         refuse(d_, "an end of rope \"" + rope.name() + "\" is named twice");

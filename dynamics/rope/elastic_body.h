@@ -92,7 +92,7 @@ class ElasticBody {
   };
 
   /// @throws ModelError if an end is not at a point of the body, is named twice or lies at a rope
-  /// with an end at itself, sizes do not fit, the compliance is not symmetric or not positive
+  /// with an end at itself or with weight, sizes do not fit, the compliance is not symmetric or not positive
   /// semidefinite, or a mode is not on a prismatic joint that no drive moves.
   ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ropes, Definition definition);
 

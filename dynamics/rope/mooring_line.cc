@@ -91,6 +91,11 @@ TuggerLine::TuggerLine(Definition definition) : definition_(std::move(definition
   require("stiffness", definition_.stiffness);
   require("damping", definition_.damping);
   require("unstretched length", definition_.unstretched_length);
+  require("held tension", definition_.tension);
+  if (definition_.tension > 0.0 && definition_.stiffness > 0.0) {
+    throw ModelError("tugger line \"" + definition_.name +
+                     "\" holds a tension and has a stiffness; one of the two is due");
+  }
   if (definition_.from.body == definition_.to.body) {
     throw ModelError("tugger line \"" + definition_.name +
                      "\" has both ends on one body; join two");
@@ -113,7 +118,9 @@ TuggerLine::Pull TuggerLine::calc_pull(const MotionState& state) const {
       point_velocity(k, b.body, b.p_BoQ_B) - point_velocity(k, a.body, a.p_BoQ_B);
   pull.rate = pull.direction_W.dot(pull.relative_velocity_W);
   pull.elastic =
-      definition_.stiffness * std::max(0.0, pull.length - definition_.unstretched_length);
+      definition_.tension > 0.0
+          ? definition_.tension
+          : definition_.stiffness * std::max(0.0, pull.length - definition_.unstretched_length);
   pull.tension =
       pull.elastic > 0.0 ? std::max(0.0, pull.elastic + definition_.damping * pull.rate) : 0.0;
   return pull;
@@ -141,10 +148,13 @@ void TuggerLine::add_derivatives(const MotionState& state, ForceDerivatives& der
 
 EnergyAccount TuggerLine::calc_energy(const MotionState& state) const {
   const Pull pull = calc_pull(state);
+  const double lost = (pull.tension - pull.elastic) * pull.rate;
+  if (definition_.tension > 0.0)
+    return {.dissipated_power = lost, .supplied_power = -definition_.tension * pull.rate};
   const double stretch = std::max(0.0, pull.length - definition_.unstretched_length);
   // What the tension does beyond the elastic force on the stretching line is lost.
   return {.stored_energy = 0.5 * definition_.stiffness * stretch * stretch,
-          .dissipated_power = (pull.tension - pull.elastic) * pull.rate};
+          .dissipated_power = lost};
 }
 
 }  // namespace blocklift::dynamics

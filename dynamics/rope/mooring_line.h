@@ -42,21 +42,25 @@ class MooringLine {
   Definition definition_;
 };
 
-/// Tugger line: a straight light line that pulls and never pushes, kept by a winch that stands
-/// still:
-///   T = max(0, k (L - L0) + c dL/dt) where L > L0, else 0   (N).
+/// Tugger line: a straight light line that pulls and never pushes. Of a winch that stands still,
+///   T = max(0, k (L - L0) + c dL/dt) where L > L0, else 0   (N),
+/// or of one that holds a tension, paying out and taking in as the ends move,
+///   T = max(0, T0 + c dL/dt),
+/// whose work -T0 dL/dt is supplied from outside. A tension above zero says which.
 class TuggerLine {
  public:
   struct Definition {
     std::string name;
     BodyPoint from;
     BodyPoint to;
-    double stiffness = not_a_number;           ///< k, N/m
+    double stiffness = not_a_number;           ///< k, N/m; 0 where a tension is held
     double damping = 0.0;                      ///< c, N s/m
-    double unstretched_length = not_a_number;  ///< L0, m
+    double unstretched_length = not_a_number;  ///< L0, m; 0 where a tension is held
+    double tension = 0.0;                      ///< T0 that is held, N; 0: the winch stands
   };
 
-  /// @throws ModelError if a number is negative or not finite, or both ends are on one body.
+  /// @throws ModelError if a number is negative or not finite, both ends are on one body, or a
+  ///   tension is held by a line that has a stiffness.
   explicit TuggerLine(Definition definition);
 
   const std::string& name() const { return definition_.name; }

@@ -59,6 +59,13 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
   require_positive(d.name, "unstretched length", d.unstretched_length, true);
   require_not_negative(d.name, "damping time", d.damping_time);
   require_not_negative(d.name, "damping", d.damping);
+  require_not_negative(d.name, "weight per length", d.weight_per_length);
+  if (hangs() && d.points.size() > 2) {
+    throw ModelError(
+        "rope \"" + d.name +
+        "\" has weight and runs over sheaves; only a rope from point to point hangs as "
+        "a catenary");
+  }
 }
 
 void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
@@ -82,6 +89,7 @@ void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
     const Vector3 p = X_WB.p + r;
     const Vector3 v = V_WB.linear + V_WB.angular.cross(r) + v_in_body;
     path.r_W[i] = r;
+    if (i == 0) path.first_height = p.z();
     if (i > 0 && !runs(i - 1)) {
       path.direction_W[i - 1].setZero();
     } else if (i > 0) {
@@ -120,14 +128,16 @@ RopeLoad Rope::calc_elastic_and_damping(const RopePath& path, const RopeFeed& fe
   load.damping_force = damping(load.stiffness) * (path.length_rate - feed.rate);
   if (feed.parted) {
     load.elastic_force = -load.stiffness * feed.unstretched_length;
-    load.damping_force = 0.0;
+    load.damping_force = load.tension = 0.0;
   }
+  if (hangs() && !feed.parted) hang(path, feed, load);
   return load;
 }
 
 RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed) const {
   RopeLoad load = calc_elastic_and_damping(path, feed);
   load.taut = load.slack_indicator() > 0.0;
+  if (hangs()) return load;
   load.tension = load.taut ? load.elastic_force + load.damping_force : 0.0;
   return load;
 }
@@ -135,6 +145,7 @@ RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed) const {
 RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed, bool taut) const {
   RopeLoad load = calc_elastic_and_damping(path, feed);
   load.taut = taut;
+  if (hangs()) return load;
   load.tension = taut ? load.elastic_force + load.damping_force : 0.0;
   return load;
 }
@@ -193,6 +204,10 @@ struct PathGradient {
 
 void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, const RopeLoad& load,
                            ForceDerivatives& derivatives) const {
+  if (hangs()) {
+    if (load.tension > 0.0) add_hanging_derivatives(kinematics, path, load, derivatives);
+    return;
+  }
   if (!load.taut) return;
   const std::vector<BodyPoint>& points = definition_.points;
   const double k = load.stiffness;
@@ -218,6 +233,13 @@ void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, c
 }
 
 EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
+  if (hangs()) {
+    if (!(load.tension > 0.0)) return {};  // parted
+    return {
+        .stored_energy = load.hanging.stored_energy,
+        .dissipated_power = load.damping_force * (load.length_rate - load.unstretched_rate),
+        .supplied_power = load.unstretched_rate * (load.hanging.feed_force - load.damping_force)};
+  }
   // Without kinks while the rope stays taut, or slack, by declaration: what lies beyond the change
   // is interpolated over.
   const double elastic = load.taut ? load.elastic_force : std::max(0.0, load.elastic_force);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "dynamics/force/force_element.h"
+#include "dynamics/rope/catenary.h"
 
 namespace blocklift::dynamics {
 
@@ -19,6 +20,8 @@ struct RopeDefinition {
   double damping_time = 0.0;  ///< Kelvin-Voigt: this time the stiffness is the damping, s
   double damping = 0.0;       ///< further damping that does not change with the length, N s/m
   double unstretched_length = not_a_number;  ///< at the start of the operation, m
+  /// w, N/m: above zero the rope hangs as a catenary, and has two points; zero: it runs straight.
+  double weight_per_length = 0.0;
 };
 
 /// What the winch leaves out: unstretched length of the rope (m) and its rate (m/s).
@@ -45,6 +48,17 @@ struct RopePath {
                                       ///< where the rope does not run
   double length = not_a_number;       ///< m
   double length_rate = not_a_number;  ///< m/s
+  double first_height = 0.0;          ///< of the first point over z = 0, m
+};
+
+/// What a rope with weight does at its ends, without its damping.
+struct HangingForces {
+  double level = 0.0;          ///< draws the ends together, level, N
+  double first_lift = 0.0;     ///< on the body at the first point, upwards, N
+  double last_lift = 0.0;      ///< on the body at the last point, upwards, N
+  double damping = 0.0;        ///< c of the chord, N s/m
+  double stored_energy = 0.0;  ///< elastic, and of the weight over z = 0, J
+  double feed_force = 0.0;     ///< d(stored_energy)/dL0 with the ends held, N
 };
 
 /// A rope's load at one instant.
@@ -56,8 +70,9 @@ struct RopeLoad {
   double stiffness = not_a_number;           ///< k at this L0, N/m
   double elastic_force = not_a_number;       ///< k (L - L0), N; negative when slack
   double damping_force = not_a_number;       ///< c (Ldot - L0dot), N
-  double tension = not_a_number;             ///< T, N
+  double tension = not_a_number;             ///< T, N; of a rope with weight at its upper end
   bool taut = false;                         ///< does the rope pull?
+  HangingForces hanging;                     ///< of a rope with weight
 
   double elongation() const { return length - unstretched_length; }
   /// Positive where the rope pulls, negative where it is slack, continuous between: N.
@@ -79,10 +94,25 @@ struct RopeLoad {
 /// rope that runs onto the drum. Then the power on the bodies, -T Ldot, is exactly supplied -
 /// dissipated - d(stored)/dt, and it equals the power of the point forces. Source: first variation
 /// of the path length; SIMO theory manual for stiffness in series.
+///
+/// A rope with weight w between two points is an elastic catenary at rest at each instant, with EA
+/// = k L0 (catenary.h): it always pulls, its ends do not pull alike, and its weight is in what they
+/// bear. Its inertia is left out. Damping acts along the chord on the part of its rate that
+/// stretches the rope, with K the stiffness of the chord:
+///   T_d = c (K/k)^2 (Ldot - L0dot), though no more than takes the pull away.
+/// `elastic_force` is what it pulls along the chord beyond its own weight w L0, so that a rope
+/// counts as slack where it hangs in a bight; `taut` tells that alone, and the law is one on both
+/// sides. Energy: stored that of the catenary; supplied by the winch L0dot d(stored)/dL0 at held
+/// ends,
+///   d(stored)/dL0 = w z - T - T^2/(2 EA) + 1/(2 k_crane L0^2) int T^2 ds
+/// of the first point, whose last term is what the spring in series keeps of the strain, less
+/// T_d L0dot.
 class Rope {
  public:
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
-  /// point of one body, segments are left out at an end or all or not told for each, a stiffness or length is not positive, or a damping is negative.
+  /// point of one body, segments are left out at an end or all or not told for each, a stiffness or
+  /// length is not positive, a damping or the weight is negative, or a rope with weight has more
+  /// than two points.
   Rope(const Mechanism& mechanism, RopeDefinition definition);
 
   const std::string& name() const { return definition_.name; }
@@ -93,6 +123,9 @@ class Rope {
   bool runs(std::size_t segment) const {
     return definition_.left_out.empty() || definition_.left_out[segment] == 0;
   }
+
+  /// Does it hang by its weight? Else it runs straight.
+  bool hangs() const { return definition_.weight_per_length > 0.0; }
 
   /// k at an unstretched length (m), N/m.
   double stiffness(double unstretched_length) const {
@@ -118,7 +151,10 @@ class Rope {
   /// is smooth across the instant at which the rope changes. For integrators that locate it.
   RopeLoad calc_load(const RopePath& path, const RopeFeed& feed, bool taut) const;
 
-  /// Adds the pull of a tension (N) to the bodies along the path.
+  /// Adds the pull of a load to the bodies along the path.
+  void add_forces(const RopePath& path, const RopeLoad& load,
+                  std::vector<ForceVector>& F_Bo_W) const;
+  /// Adds the pull of a tension (N) on a rope without weight to the bodies along the path.
   void add_forces(const RopePath& path, double tension, std::vector<ForceVector>& F_Bo_W) const;
 
   /// Derivatives of the pull of a load that is taut, nothing otherwise: the tension's own,
@@ -131,6 +167,9 @@ class Rope {
   EnergyAccount calc_energy(const RopeLoad& load) const;
 
   /// Force on the body at the first or last point, in W, N.
+  Vector3 first_force(const RopePath& path, const RopeLoad& load) const;
+  Vector3 last_force(const RopePath& path, const RopeLoad& load) const;
+  /// The same of a rope without weight.
   static Vector3 first_force(const RopePath& path, double tension) {
     return tension * path.direction_W.front();
   }
@@ -140,6 +179,10 @@ class Rope {
 
  private:
   RopeLoad calc_elastic_and_damping(const RopePath& path, const RopeFeed& feed) const;
+  void hang(const RopePath& path, const RopeFeed& feed, RopeLoad& load) const;
+  Catenary calc_catenary_of(const RopePath& path, double unstretched_length) const;
+  void add_hanging_derivatives(const Kinematics& kinematics, const RopePath& path,
+                               const RopeLoad& load, ForceDerivatives& derivatives) const;
 
   RopeDefinition definition_;
   double crane_compliance_;  ///< 1/k_crane, m/N

@@ -145,14 +145,15 @@ void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWo
     RopeHistory& r = ropes[i];
     const RopeLoad& load = w.rope_loads[i];
     // Within rounding of an instant of change the fixed set may leave a push of no account.
-    const double tension = std::max(0.0, load.tension);
-    r.tension[sample] = tension;
+    RopeLoad pulling = load;
+    pulling.tension = std::max(0.0, load.tension);
+    r.tension[sample] = pulling.tension;
     r.elongation[sample] = load.elongation();
     r.unstretched_length[sample] = load.unstretched_length;
     r.unstretched_rate[sample] = load.unstretched_rate;
     system.ropes()[i].calc_path(w.kinematics, w.path, &w.end_shifts[i]);
-    r.first_force.row(sample) = Rope::first_force(w.path, tension).transpose();
-    r.last_force.row(sample) = system.ropes()[i].last_force(w.path, tension).transpose();
+    r.first_force.row(sample) = system.ropes()[i].first_force(w.path, pulling).transpose();
+    r.last_force.row(sample) = system.ropes()[i].last_force(w.path, pulling).transpose();
   }
 }
 

@@ -21,8 +21,9 @@ void calc_force_derivatives(const LiftSystem& system, double t, bool stretch_onl
   compute_motion_columns(system.mechanism(), w.kinematics, w.v, tangent.inverse.columns);
   tangent.forces.start(w.kinematics, tangent.inverse.columns, stretch_only);
   for (std::size_t i = 0; i < system.ropes().size(); ++i) {
-    if (!w.rope_loads[i].taut || system.ends_elastically(static_cast<int>(i))) continue;
     const Rope& rope = system.ropes()[i];
+    const bool pulls = w.rope_loads[i].taut || rope.hangs();
+    if (!pulls || system.ends_elastically(static_cast<int>(i))) continue;
     rope.calc_path(w.kinematics, w.path);
     rope.add_derivatives(w.kinematics, w.path, w.rope_loads[i], tangent.forces);
   }

@@ -251,7 +251,7 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
     RopeLoad& load = w.rope_loads[i];
     load = contacts ? ropes[i].calc_load(w.path, w.feeds[i], (*contacts)[i] != 0)
                     : ropes[i].calc_load(w.path, w.feeds[i]);
-    if (load.tension != 0.0) ropes[i].add_forces(w.path, load.tension, w.loads.F_Bo_W);
+    if (load.tension != 0.0) ropes[i].add_forces(w.path, load, w.loads.F_Bo_W);
   }
   for (std::size_t i = 0; i < system.elastic_bodies().size(); ++i) {
     system.elastic_bodies()[i].add_forces(w.kinematics, w.q, w.v, w.ropes(system, contacts),

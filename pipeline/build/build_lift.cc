@@ -164,7 +164,7 @@ class LiftBuilder {
       dynamics::RopeDefinition rope;
       rope.name = hook.name;
       rope.points = {sheave, {index, Vector3::Zero()}};
-      set_rope(rope, hoist.rope, hoist.crane_stiffness, length);
+      set_rope(rope, hoist.rope, hoist.crane_stiffness, length, case_.hangs(crane, hoist));
       rope_definitions_.push_back(std::move(rope));
     }
     winches_.push_back({added.name, added.rope, length});
@@ -286,12 +286,13 @@ class LiftBuilder {
     bodies_.push_back({name, std::move(kind), index, std::move(boxes)});
   }
 
-  static void set_rope(dynamics::RopeDefinition& rope, const RopeModel& model,
-                       double stiffness_in_series, double length) {
+  void set_rope(dynamics::RopeDefinition& rope, const RopeModel& model, double stiffness_in_series,
+                double length, bool hangs) const {
     rope.axial_stiffness = model.axial_stiffness;
     rope.damping_time = model.damping_time;
     rope.crane_stiffness = stiffness_in_series;
     rope.unstretched_length = length;
+    if (hangs) rope.weight_per_length = *model.mass_per_length * case_.gravity;
   }
 
   /// Coordinates of a crane's joints: drives as the case says, the others as its loops lead them.
@@ -376,7 +377,7 @@ class LiftBuilder {
         definition.points.push_back(
             {body == "world" ? dynamics::world_index : body_of_.at(body), point.point});
       }
-      set_rope(definition, rope.rope, rope.end_stiffness, rope.length.value);
+      set_rope(definition, rope.rope, rope.end_stiffness, rope.length.value, case_.hangs(rope));
       const int index = static_cast<int>(rope_definitions_.size());
       if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
       ropes_.push_back(

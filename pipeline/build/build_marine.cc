@@ -517,9 +517,10 @@ void MarineBuilder::add_lines(const BodyOf& point, dynamics::ForceElements& elem
     line.name = model.name.value;
     line.from = point(model.from);
     line.to = point(model.to);
-    line.stiffness = model.stiffness;
+    line.stiffness = model.stiffness.value_or(0);
     line.damping = model.damping;
-    line.unstretched_length = model.length.value;
+    line.unstretched_length = model.length ? model.length->value : 0;
+    line.tension = model.tension ? model.tension->value : 0;
     std::get<std::vector<dynamics::TuggerLine>>(elements).emplace_back(line);
   }
 }

@@ -109,7 +109,8 @@ class LiftedFacts {
 
   SlingFacts sling_facts(const LiftRope& rope, const std::map<std::string, int>& on_hook,
                          Index& sample) {
-    const RopeModel& model = case_.find_rope(rope.name)->rope;
+    const RopeInCase& in_case = *case_.find_rope(rope.name);
+    const RopeModel& model = in_case.rope;
     SlingFacts sling;
     sling.name = rope.name;
     sling.lug = rope.lug;
@@ -119,15 +120,17 @@ class LiftedFacts {
     if (model.material) sling.material = model.material->value;
     if (model.termination) sling.termination = model.termination->value;
     sling.diameter = model.diameter;
-    const RopeInCase& in_case = *case_.find_rope(rope.name);
     sling.is_at_hook = in_case.path.front().kind == ResolvedPoint::Kind::hook;
     const Eigen::Vector3d pull =
         lift_.static_history.ropes[static_cast<std::size_t>(rope.rope)].first_force.row(sample);
     if (pull.norm() > 0) sling.angle = std::acos(std::min(1.0, std::abs(pull.z()) / pull.norm()));
+    if (in_case.bend_diameter) sling.bend_diameter = in_case.bend_diameter->value;
     const auto count = on_hook.find(rope.hoist);
     sling.slings_on_hook = count == on_hook.end() ? 1 : count->second;
     const auto weight = rigging_.weight_of(rope);
     facts_.has_rigging_weight = facts_.has_rigging_weight && weight;
+    // That of ropes that hang by it is in the loads of the hooks already.
+    if (case_.hangs(in_case)) return sling;
     facts_.rigging += weight.value_or(0);
     rigging_at_[rope.hoist] += weight.value_or(0);
     return sling;

@@ -12,6 +12,7 @@
 #include "dynamics/marine/hull/hydrostatics.h"
 #include "pipeline/checks/loop_loads.h"
 #include "pipeline/lift/history_figures.h"
+#include "pipeline/standards/sling_factor.h"
 
 namespace blocklift::pipeline {
 
@@ -117,6 +118,14 @@ void pass_over_parted(const LiftRun& lift, std::size_t rope, const dynamics::His
   }
 }
 
+/// What a rope pulls beyond its own weight, which it bears in a bight, too.
+Eigen::VectorXd pull_beyond_weight(const LiftRun& lift, std::size_t rope,
+                                   const dynamics::RopeHistory& history) {
+  const double weight = lift.model.system.ropes()[rope].definition().weight_per_length;
+  if (weight == 0) return history.tension;
+  return history.tension - weight * history.unstretched_length;
+}
+
 /// Ropes at lugs may lie slack while the load stands or floats; all others never.
 void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
   const auto static_hangs = find_hanging(lift_case, lift, lift.static_history);
@@ -129,7 +138,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
   std::string rope;
   for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
     const Peak peak = peak_of(lift, Kind::smallest, [&](const dynamics::History& history) {
-      Eigen::VectorXd tension = history.ropes[i].tension;
+      Eigen::VectorXd tension = pull_beyond_weight(lift, i, history.ropes[i]);
       pass_over_parted(lift, i, history, tension);
       if (is_sling[i] == 0) return tension;
       const auto& hangs = &history == &lift.static_history ? static_hangs : dynamic_hangs;
@@ -148,7 +157,11 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
   checks.push_back(at_time(
       check_at_least("slack: smallest tension of any rope, " + rope, smallest.value,
                      lift_case.checks.smallest_tension, "N"),
-      smallest.time, "the demand must stay above the limit; ropes at lugs: while the load hangs"));
+      smallest.time,
+      std::string("the demand must stay above the limit; ropes at lugs: while the load hangs") +
+          (lift_case.rope_weight && lift_case.rope_weight->value
+               ? "; less the own weight of ropes that have some"
+               : "")));
 }
 
 void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
@@ -172,12 +185,23 @@ void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
 
 }  // namespace
 
+double bend_efficiency(const RopeInCase& rope) {
+  if (!rope.bend_diameter) return 1;
+  return bend_efficiency(rope.bend_diameter->value, *rope.rope.diameter);
+}
+
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
   const double factor = lift_case.checks.rope_safety_factor;
   std::vector<Check> checks;
   for (const LiftRope& rope : lift.model.ropes) {
-    checks.push_back(
-        check_breaking_load(lift, "rope " + rope.name, rope.rope, rope.breaking_load, factor));
+    const RopeInCase& in_case = *lift_case.find_rope(rope.name);
+    const double left = bend_efficiency(in_case);
+    checks.push_back(check_breaking_load(lift, "rope " + rope.name, rope.rope,
+                                         left * rope.breaking_load, factor));
+    if (in_case.bend_diameter)
+      checks.back().note =
+          fmt::format("bent round D/d {:.2f}: {:.1f} % of the breaking load is left (0027/ND, 7.8)",
+                      in_case.bend_diameter->value / *in_case.rope.diameter, 100 * left);
   }
   for (const LiftHoist& hoist : lift.model.hoists) {
     checks.push_back(

@@ -9,6 +9,9 @@
 
 namespace blocklift::pipeline {
 
+/// What the bend of a rope leaves of its breaking load, as a share.
+double bend_efficiency(const RopeInCase& rope);
+
 /// Ropes and tackle against breaking load, hooks and cranes against capacity, slack and swing; each
 /// by the larger of the static and the dynamic history.
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift);

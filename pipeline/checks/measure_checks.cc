@@ -10,6 +10,7 @@
 
 #include "pipeline/measures/chart_derating.h"
 #include "pipeline/measures/spreader_measures.h"
+#include "pipeline/measures/tackle_measures.h"
 
 namespace blocklift::pipeline {
 
@@ -43,6 +44,9 @@ class MeasureChecks {
     add_at_least("freeboard", "freeboard: lowest point of a deck over calm water",
                  limits.smallest_freeboard);
     for (const SpreaderInCase& bar : case_.spreaders) add_spreader(bar);
+    add_tackles();
+    for (const TuggerInCase& line : case_.tuggers) add_line("tugger", line);
+    for (const MooringInCase& line : case_.moorings) add_line("mooring", line);
     if (limits.crane_capacity) {
       add_charts();
       add_supports();
@@ -107,6 +111,55 @@ class MeasureChecks {
       check.time = peak.time;
       checks_.push_back(std::move(check));
     }
+  }
+
+  /// The single rope of each tackle against its breaking load, and the winch against its pull.
+  void add_tackles() {
+    const double factor = case_.checks.rope_safety_factor;
+    for (const CraneInCase& crane : case_.cranes) {
+      for (const HoistModel& hoist : crane.model->hoists) {
+        if (!hoist.reeving) continue;
+        const std::string name = crane.name.value + "." + hoist.name.value;
+        const std::string reeving = describe_reeving(*hoist.reeving);
+        if (const LiftMeasure* load = find(name, "line load"))
+          add_line(*load,
+                   fmt::format("hoist rope {}: largest tension in its tackle against breaking load "
+                               "/ {:g}",
+                               name, factor),
+                   hoist.line_breaking_load() / factor, reeving);
+        const LiftMeasure* pull = find(name, "line pull");
+        if (pull && hoist.reeving->line_pull)
+          add_line(*pull, fmt::format("winch {}: pull on its line against what it may pull", name),
+                   *hoist.reeving->line_pull, reeving);
+      }
+    }
+  }
+
+  /// A tugger or mooring against its breaking load, where that is given.
+  template <class Line>
+  void add_line(const std::string& kind, const Line& line) {
+    const LiftMeasure* tension = find(line.name.value, kind + " tension");
+    if (!tension || !line.breaking_load) return;
+    const double factor = case_.checks.rope_safety_factor;
+    add_line(
+        *tension,
+        fmt::format("{} {}: tension against breaking load / {:g}", kind, line.name.value, factor),
+        *line.breaking_load / factor, "");
+  }
+
+  void add_line(const LiftMeasure& measure, std::string name, double limit,
+                const std::string& reeving) {
+    const MeasurePeak peak = find_peak(lift_, measure);
+    Check check = check_at_most(std::move(name), peak.value, limit, "N");
+    check.time = peak.time;
+    check.note = reeving;
+    checks_.push_back(std::move(check));
+  }
+
+  const LiftMeasure* find(const std::string& subject, const std::string& kind) const {
+    for (const LiftMeasure& measure : measures_)
+      if (measure.subject == subject && measure.kind == kind) return &measure;
+    return nullptr;
   }
 
   void add_charts() {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/crane_check.h"
 
@@ -89,6 +91,43 @@ Format<CraneStand> crane_stand_format() {
   return table.format();
 }
 
+Format<ReevingModel> reeving_format() {
+  Table<ReevingModel> table("reeving",
+                            "How the falls of a tackle are one rope on sheaves. Friction of the "
+                            "sheaves makes the falls, and the pull at the drum, unequal: larger "
+                            "while the load is hoisted, smaller while it is lowered. The motion "
+                            "does not feel it.");
+  table
+      .required("falls", &ReevingModel::falls, integer(Range::between(1, 200)),
+                "parts of rope between the upper and the lower block")
+      .by_default("lead_lines", &ReevingModel::lead_lines, integer(Range::between(1, 8)), "1",
+                  "ends of rope that run to a drum; 2 where the rope has no dead end but an "
+                  "equalising sheave in its middle. The falls are divided among them")
+      .by_default("lead_sheaves", &ReevingModel::lead_sheaves, integer(Range::between(0, 20)), "1",
+                  "on which the rope turns from its first fall to the drum, that by which it "
+                  "leaves the tackle included")
+      .by_default("sheave_efficiency", &ReevingModel::sheave_efficiency,
+                  quantity(Dimension::ratio, Range::between(0.5, 1)), "98 %",
+                  "tension that leaves a sheave over that which enters it while it turns: 96 to "
+                  "98 % on rolling bearings, 92 to 96 % on plain ones")
+      .optional("breaking_load", &ReevingModel::breaking_load,
+                quantity(Dimension::load, Range::positive()),
+                "smallest breaking load of the single rope; that of all falls over their number "
+                "if left out")
+      .optional("line_pull", &ReevingModel::line_pull, quantity(Dimension::load, Range::positive()),
+                "largest pull of the winch on each lead line; not checked if left out")
+      .place(&ReevingModel::place)
+      .rule([](const ReevingModel& reeving, Reading& reading, const Mark& mark) {
+        if (reeving.falls < 1 || reeving.lead_lines < 1) return;
+        if (reeving.falls % reeving.lead_lines == 0) return;
+        reading.error(mark,
+                      fmt::format("{} falls cannot be shared evenly by {} lead lines",
+                                  reeving.falls, reeving.lead_lines),
+                      {"the falls are a multiple of the lead lines"});
+      });
+  return table.format();
+}
+
 Format<HoistModel> hoist_format() {
   Table<HoistModel> table("hoist",
                           "A winch with its tackle and hook block. The tackle's falls are "
@@ -98,6 +137,9 @@ Format<HoistModel> hoist_format() {
                 "where the tackle leaves the body, in its frame")
       .required("hook_block", &HoistModel::hook_block, hook_block_format(), "at its lower end")
       .required("rope", &HoistModel::rope_choice, rope_choice_format(), "all falls together")
+      .optional("reeving", &HoistModel::reeving, reeving_format(),
+                "of the tackle: pull at the drum and load of the single rope follow from it and "
+                "are checked")
       .optional("crane_stiffness", &HoistModel::crane_stiffness,
                 quantity(Dimension::stiffness, Range::positive()),
                 "of what the tackle hangs from, in series with it; rigid if left out")

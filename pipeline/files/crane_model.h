@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/rope/tackle.h"
 #include "pipeline/files/rope_model.h"
 #include "pipeline/mechanism/mechanism_parts.h"
 
@@ -51,6 +52,20 @@ struct ChartDerating {
   Mark place;
 };
 
+/// How the falls of a tackle are one rope on sheaves.
+struct ReevingModel {
+  int falls = 0;       ///< of all its ropes together
+  int lead_lines = 1;  ///< ends of rope that run to a drum, each with its even share of the falls
+  int lead_sheaves = 1;
+  double sheave_efficiency = 1;
+  std::optional<double> breaking_load;  ///< of the single rope, N; none: of all falls over them
+  std::optional<double> line_pull;      ///< of the winch on each lead line, N
+  Mark place;
+
+  /// Falls of one lead line.
+  dynamics::Tackle tackle() const { return {falls / lead_lines, lead_sheaves, sheave_efficiency}; }
+};
+
 /// Hoist: a winch on a body lets out a tackle whose hook block hangs free.
 struct HoistModel {
   Located<std::string> name;
@@ -58,11 +73,17 @@ struct HoistModel {
   Vector3 sheave = Vector3::Zero();  ///< where the tackle leaves the body, in its frame, m
   HookBlockModel hook_block;
   RopeChoice rope_choice;
-  RopeModel rope;                                                    ///< after the look-up
+  RopeModel rope;                       ///< after the look-up
+  std::optional<ReevingModel> reeving;  ///< none: nothing is known of the single rope
   double crane_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
   double capacity = std::numeric_limits<double>::quiet_NaN();        ///< load at the hook, N
   std::optional<Located<std::vector<ChartLine>>> load_chart;         ///< of that load over radius
   DriveLimits winch;  ///< of the rope length between sheave and hook block
+
+  /// Smallest breaking load of the tackle's single rope, N. It has a reeving.
+  double line_breaking_load() const {
+    return reeving->breaking_load.value_or(rope.breaking_load / reeving->falls);
+  }
 };
 
 /// A wheel, bogie, outrigger or leg on which a crane stands.

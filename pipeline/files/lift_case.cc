@@ -138,6 +138,17 @@ std::optional<double> LiftCase::ground_height() const {
   return lowest;
 }
 
+bool LiftCase::hangs(const RopeInCase& rope) const {
+  return rope_weight && rope_weight->value && rope.rope.mass_per_length && rope.through.empty();
+}
+
+bool LiftCase::hangs(const CraneInCase& crane, const HoistModel& hoist) const {
+  if (!rope_weight || !rope_weight->value || !hoist.rope.mass_per_length) return false;
+  if (!crane.equalised) return true;
+  const auto& pair = crane.equalised->value;
+  return pair[0].value != hoist.name.value && pair[1].value != hoist.name.value;
+}
+
 const CraneInCase* LiftCase::find_crane(const std::string& crane) const {
   return find_by_name(cranes, crane);
 }

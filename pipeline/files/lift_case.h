@@ -94,6 +94,8 @@ struct RopeInCase {
   Located<double> length;                                          ///< unstretched, at the start, m
   double end_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
   std::optional<DriveLimits> winch;  ///< of its own, at the `from` end
+  /// Of the least hook, pin, trunnion or sheave that it is bent round, m; none: it is not bent.
+  std::optional<Located<double>> bend_diameter;
 
   /// The lug at its end, empty if it ends elsewhere.
   std::string lug() const { return path.empty() ? std::string() : path.back().lug; }
@@ -337,7 +339,8 @@ struct LiftCase : MarineParts {
   std::vector<CraneInCase> cranes;
   std::vector<SpreaderInCase> spreaders;
   std::vector<RopeInCase> ropes;
-  double sling_tolerance = 0;  ///< share of a sling's length by which it may be off
+  std::optional<Located<bool>> rope_weight;  ///< do ropes hang by their weight?
+  double sling_tolerance = 0;                ///< share of a sling's length by which it may be off
   std::vector<SupportInCase> supports;
   std::optional<double> ground;  ///< height of the ground or a dock's floor under the load, m
   std::optional<GroundInCase> ground_contact;
@@ -356,6 +359,10 @@ struct LiftCase : MarineParts {
   std::filesystem::path file;          ///< where it is
   std::vector<ModelText> model_texts;  ///< of the models that it is made of
 
+  /// Does a rope hang as a catenary by the mass of its model? Ropes over sheaves run straight.
+  bool hangs(const RopeInCase& rope) const;
+  /// Likewise the tackle of a crane's hoist; one that is equalised runs straight.
+  bool hangs(const CraneInCase& crane, const HoistModel& hoist) const;
   /// Is the load a block whose stress is asked?
   bool has_structure() const { return load.model != nullptr; }
   /// Height of the ground ashore, m: as given, else that of the lowest pad or zero; none at sea.

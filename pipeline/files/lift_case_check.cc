@@ -275,12 +275,33 @@ void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
   }
 }
 
+void check_bend(const RopeInCase& rope, Diagnostics& diagnostics) {
+  if (!rope.bend_diameter) return;
+  const auto& [bend, mark] = *rope.bend_diameter;
+  if (!rope.rope.diameter) {
+    // A model that could not be read has been complained of.
+    if (std::isfinite(rope.rope.axial_stiffness))
+      diagnostics.error(mark,
+                        fmt::format("the model of rope {} has no diameter, which its bend diameter "
+                                    "is held against",
+                                    rope.name.value),
+                        {"add diameter to the rope's model"});
+  } else if (bend < *rope.rope.diameter) {
+    diagnostics.error(mark,
+                      fmt::format("rope {} of {} is bent round {}", rope.name.value,
+                                  format_quantity(*rope.rope.diameter, Dimension::length),
+                                  format_quantity(bend, Dimension::length)),
+                      {"a rope is not bent round less than its own diameter"});
+  }
+}
+
 void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
   bool all_known = true;
   bool load_hangs = false;
   for (const RopeInCase& rope : lift_case.ropes) {
     all_known &= !rope.path.empty();
     check_sheaves(rope, diagnostics);
+    check_bend(rope, diagnostics);
     for (std::size_t i = 0; i < rope.path.size(); ++i) {
       load_hangs |= rope.path[i].kind == ResolvedPoint::Kind::load;
       if (i > 0 && same_point(rope.path[i - 1], rope.path[i])) {
@@ -697,6 +718,25 @@ void check_ground(const LiftCase& lift_case, Diagnostics& diagnostics) {
                         {"names that begin with ground_ are those of ground_contact"});
 }
 
+/// Ropes that hang by their weight have some, and end at bodies that do not give way.
+void check_rope_weight(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (!lift_case.rope_weight || !lift_case.rope_weight->value) return;
+  const Mark& mark = lift_case.rope_weight->mark;
+  if (lift_case.dynamics.flexibility != Flexibility::rigid)
+    diagnostics.error(mark, "ropes hang by their weight, and the block is flexible",
+                      {"ropes to a block that gives way run straight: leave one of the two out"});
+  bool any = false;
+  for (const RopeInCase& rope : lift_case.ropes) any = any || lift_case.hangs(rope);
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.model) return;
+    for (const HoistModel& hoist : crane.model->hoists) any = any || lift_case.hangs(crane, hoist);
+  }
+  if (!any)
+    diagnostics.error(mark, "no rope has a mass by which it would hang",
+                      {"add mass to the models of slings and tackles that run from point to "
+                       "point"});
+}
+
 /// The keys of the natural modes, which one kind of flexibility alone reads.
 void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostics) {
   if (dynamics.flexibility == Flexibility::modal) return;
@@ -836,6 +876,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_ground(lift_case, diagnostics);
   check_conditions(lift_case, diagnostics);
   check_flexibility(lift_case.dynamics, diagnostics);
+  check_rope_weight(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_standard(lift_case, diagnostics);

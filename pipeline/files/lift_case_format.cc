@@ -543,6 +543,13 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                 "of what the rope is fastened to, in series with it; rigid if left out")
       .optional("winch", &RopeInCase::winch, winch_format(),
                 "of its own: then the rope is moved by its name, like a hoist");
+  // Of a mechanism nothing is held against the breaking load.
+  if (breaking_load_required)
+    table.optional("bend_diameter", &RopeInCase::bend_diameter,
+                   located(quantity(Dimension::length, Range::positive())),
+                   "of the least hook, pin, trunnion or sheave that the wire rope is bent round: "
+                   "of its breaking load 1 - 0.5 / sqrt(D/d) is left, d being the diameter of its "
+                   "model; nothing is lost if left out, as by fibre slings");
   return table.format();
 }
 
@@ -659,6 +666,10 @@ Format<LiftCase> lift_case_format() {
                 "bars between slings from above and slings to the load, by name")
       .optional("ropes", &LiftCase::ropes,
                 named_tables(rope_in_case_format(rope_point_format(), true)), "by name")
+      .optional("rope_weight", &LiftCase::rope_weight, located(boolean()),
+                "do slings and tackles from point to point whose model has a mass hang as elastic "
+                "catenaries, whose weight hooks and cranes bear? Straight and weightless if left "
+                "out")
       .by_default("sling_tolerance", &LiftCase::sling_tolerance,
                   quantity(Dimension::ratio, Range::between(0, 0.1)), "0.25 %",
                   "of its length by which a sling may be longer or shorter than meant: what that "

@@ -173,16 +173,19 @@ struct MooringInCase {
   double submerged_mass = std::numeric_limits<double>::quiet_NaN();   ///< kg/m
   double axial_stiffness = std::numeric_limits<double>::quiet_NaN();  ///< N
   bool on_seabed = true;
+  std::optional<double> breaking_load;  ///< N
 };
 
-/// A light straight line.
+/// A light straight line, of a winch that stands or of one that holds a tension.
 struct TuggerInCase {
   Located<std::string> name;
   PointModel from;
   PointModel to;
-  Located<double> length;                                       ///< unstretched, m
-  double stiffness = std::numeric_limits<double>::quiet_NaN();  ///< N/m
-  double damping = 0;                                           ///< N s/m
+  std::optional<Located<double>> length;   ///< unstretched, m; none where a tension is held
+  std::optional<double> stiffness;         ///< N/m; likewise
+  std::optional<Located<double>> tension;  ///< that is held, N; none: the winch stands
+  double damping = 0;                      ///< N s/m
+  std::optional<double> breaking_load;     ///< N
 };
 
 /// What floats, in what, and how it is held; part of lift cases and of mechanism files. SI units.
@@ -211,7 +214,7 @@ void add_marine_keys(Table<T>& table) {
       .optional("moorings", &T::moorings, named_tables(mooring_format()),
                 "heavy lines from anchors, by name")
       .optional("tuggers", &T::tuggers, named_tables(tugger_format()),
-                "light straight lines that winches at rest hold, by name");
+                "light straight lines of winches that stand, or hold a tension, by name");
 }
 
 class ModelLibrary;

@@ -419,21 +419,45 @@ Format<MooringInCase> mooring_format() {
       .required("axial_stiffness", &MooringInCase::axial_stiffness,
                 quantity(Dimension::force, Range::positive()), "EA")
       .by_default("on_seabed", &MooringInCase::on_seabed, boolean(), "true",
-                  "lies on a level bottom at the anchor's height where it is slack enough");
+                  "lies on a level bottom at the anchor's height where it is slack enough")
+      .optional("breaking_load", &MooringInCase::breaking_load,
+                quantity(Dimension::load, Range::positive()),
+                "smallest; its tension is checked against it where it is given");
   return table.format();
 }
 
 Format<TuggerInCase> tugger_format() {
-  Table<TuggerInCase> table("tugger line", "A light line that pulls and never pushes.");
+  Table<TuggerInCase> table("tugger line",
+                            "A light line that pulls and never pushes. Its winch stands, and the "
+                            "line stretches from its length by its stiffness; or it holds a "
+                            "tension, and pays out and takes in as the ends move.");
   table.required("from", &TuggerInCase::from, point_format(), "one end")
       .required("to", &TuggerInCase::to, point_format(), "the other end")
-      .required("length", &TuggerInCase::length, quantity(Dimension::length, Range::positive()),
-                "unstretched")
-      .required("stiffness", &TuggerInCase::stiffness,
-                quantity(Dimension::stiffness, Range::positive()), "of the whole line")
+      .optional("length", &TuggerInCase::length,
+                located(quantity(Dimension::length, Range::positive())),
+                "unstretched, of a winch that stands")
+      .optional("stiffness", &TuggerInCase::stiffness,
+                quantity(Dimension::stiffness, Range::positive()),
+                "of the whole line of a winch that stands")
+      .optional("tension", &TuggerInCase::tension,
+                located(quantity(Dimension::load, Range::positive())),
+                "that the winch holds, in place of length and stiffness")
       .by_default("damping", &TuggerInCase::damping,
                   quantity(Dimension::damping, Range::not_negative()), "0 kN s/m",
-                  "of the whole line");
+                  "of the whole line, or of the winch that holds a tension: what a rate of the "
+                  "length adds to it")
+      .optional("breaking_load", &TuggerInCase::breaking_load,
+                quantity(Dimension::load, Range::positive()),
+                "smallest; its tension is checked against it where it is given")
+      .rule([](const TuggerInCase& line, Reading& reading, const Mark& mark) {
+        if (line.tension && (line.length || line.stiffness)) {
+          reading.error(line.tension->mark, "a line that holds a tension has a length or stiffness",
+                        {"give either tension, or length and stiffness"});
+        } else if (!line.tension && (!line.length || !line.stiffness)) {
+          reading.error(mark, "the line says neither what tension it holds nor how it stretches",
+                        {"give either tension, or length and stiffness"});
+        }
+      });
   return table.format();
 }
 

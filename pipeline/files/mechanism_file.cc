@@ -95,6 +95,16 @@ void check_afloat(const MechanismFile& mechanism, Diagnostics& diagnostics) {
       mechanism.tuggers.empty()) {
     return;
   }
+  const auto refuse_breaking_load = [&](const auto& line) {
+    if (line.breaking_load)
+      diagnostics.error(line.name.mark,
+                        "line " + line.name.value +
+                            " has a breaking_load, which lift cases alone "
+                            "hold its tension against",
+                        {"leave it out"});
+  };
+  for (const MooringInCase& line : mechanism.moorings) refuse_breaking_load(line);
+  for (const TuggerInCase& line : mechanism.tuggers) refuse_breaking_load(line);
   const Vector3& g = mechanism.gravity;
   if (mechanism.sea && !(g.z() < 0 && g.head<2>().isZero())) {
     diagnostics.error(mechanism.sea->place, "a sea needs gravity that acts downwards, along -z");

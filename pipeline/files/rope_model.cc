@@ -14,9 +14,11 @@ Table<RopeModel>& add_rope_keys(Table<RopeModel>& table, bool breaking_load_requ
                   "time times the rate of stretching")
       .optional("diameter", &RopeModel::diameter, quantity(Dimension::length, Range::positive()),
                 "of the rope, for bending and tolerances by a standard")
-      .optional("mass", &RopeModel::mass_per_length,
-                quantity(Dimension::mass_per_length, Range::positive()),
-                "per length; rigging weight where a case has a standard, the motion leaves it out")
+      .optional(
+          "mass", &RopeModel::mass_per_length,
+          quantity(Dimension::mass_per_length, Range::positive()),
+          "per length, of all falls together; rigging weight where a case has a standard, and "
+          "in the motion where it asks for rope_weight")
       .optional("material", &RopeModel::material, located(reference()),
                 "by which a standard has its material factor")
       .optional("termination", &RopeModel::termination, located(reference()),

@@ -20,7 +20,7 @@ struct RopeModel {
   double breaking_load = nan;    ///< of all falls together, N
   // What standards ask of a sling.
   std::optional<double> diameter;                   ///< of a part, m
-  std::optional<double> mass_per_length;            ///< kg/m
+  std::optional<double> mass_per_length;            ///< of all falls together, kg/m
   std::optional<Located<std::string>> material;     ///< by which a standard has its factor
   std::optional<Located<std::string>> termination;  ///< likewise
   Mark place;

@@ -64,7 +64,9 @@ class StandardCheck {
         exists(*rope.rope.termination, rules_.sling->termination,
                fmt::format("the rules {} have no termination", rules_.name));
     }
-    const std::optional<double> bend = standard_.bend_of(rope.name.value);
+    // A rope with a bend of its own has been held against it, and not against the standard's.
+    const std::optional<double> bend =
+        rope.bend_diameter ? std::nullopt : standard_.bend_of(rope.name.value);
     if (!bend) return;
     if (!rope.rope.diameter) {
       lacks("diameter", "the bend diameter is held against");

@@ -85,8 +85,8 @@ Format<StandardInCase> standard_in_case_format() {
                 "rules' own")
       .optional("bend_diameter", &StandardInCase::bend_diameter,
                 quantity(Dimension::length, Range::positive()),
-                "of the least pin, hook or trunnion that slings are bent round; they are not bent "
-                "if left out")
+                "of the least pin, hook or trunnion that slings without a bend_diameter of their "
+                "own are bent round; they are not bent if left out")
       .optional("shackles", &StandardInCase::shackles, named_tables(shackle_in_case_format()),
                 "by lug")
       .optional("master_links", &StandardInCase::master_links,

@@ -6,8 +6,10 @@
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/crane_measures.h"
 #include "pipeline/measures/keeping_measures.h"
+#include "pipeline/measures/line_measures.h"
 #include "pipeline/measures/load_measures.h"
 #include "pipeline/measures/spreader_measures.h"
+#include "pipeline/measures/tackle_measures.h"
 #include "pipeline/measures/vessel_measures.h"
 
 namespace blocklift::pipeline {
@@ -55,6 +57,8 @@ std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun&
   add_crane_measures(lift_case, lift, measures);
   add_vessel_measures(lift_case, lift, measures);
   add_keeping_measures(lift, measures);
+  add_tackle_measures(lift_case, lift, measures);
+  add_line_measures(lift, measures);
   add_clearances(lift_case, lift, measures);
   return measures;
 }

@@ -10,14 +10,34 @@ namespace blocklift::pipeline {
 
 namespace {
 
+/// Ropes and tackles that hang by their weight.
+std::string names_of_hanging(const LiftCase& lift_case) {
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+  for (const RopeInCase& rope : lift_case.ropes)
+    if (lift_case.hangs(rope)) add(rope.name.value);
+  for (const CraneInCase& crane : lift_case.cranes)
+    for (const HoistModel& hoist : crane.model->hoists)
+      if (lift_case.hangs(crane, hoist)) add(crane.name.value + "." + hoist.name.value);
+  return names;
+}
+
 void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
   list.emplace_back(
       "Cranes, hook blocks and the block are rigid bodies; a crane's elasticity acts in series "
       "with "
       "each of its tackles. Hook blocks do not turn.");
-  list.emplace_back(
-      "Ropes are weightless springs with damping along their paths; they pull and never push. All "
-      "falls of a tackle are taken together.");
+  const std::string hanging = names_of_hanging(lift_case);
+  list.push_back(
+      hanging.empty()
+          ? "Ropes are weightless springs with damping along their paths; they pull and never "
+            "push. "
+            "All falls of a tackle are taken together."
+          : fmt::format("Ropes are springs with damping that pull and never push; all falls of a "
+                        "tackle are taken together. {} hang as elastic catenaries at each instant, "
+                        "without inertia; their tension is that of the upper end. Other ropes are "
+                        "straight and weightless.",
+                        hanging));
   if (!lift_case.spreaders.empty()) {
     list.emplace_back(
         "Spreaders are rigid bars, their mass spread evenly over their length. As columns they are "

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/loop_loads.h"
 #include "pipeline/files/input_hash.h"
 #include "pipeline/formats/json_values.h"
@@ -74,6 +75,8 @@ class LoadTables {
       if (!rope.lug.empty()) row["lug"] = rope.lug;
       if (!rope.hoist.empty()) row["hoist"] = rope.hoist;
       row["breaking_load_N"] = rope.breaking_load;
+      if (const RopeInCase& in_case = *case_.find_rope(rope.name); in_case.bend_diameter)
+        row["bend_efficiency"] = bend_efficiency(in_case);
       row["linked_static_N"] = linked(static_maxima_, rope.rope);
       row["linked_dynamic_N"] = linked(dynamic_maxima_, rope.rope);
       rows.push_back(row);

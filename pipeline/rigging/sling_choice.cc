@@ -8,6 +8,7 @@
 #include "dynamics/simulation/history.h"
 #include "pipeline/checks/standard_checks.h"
 #include "pipeline/standards/rigging_chains.h"
+#include "pipeline/standards/sling_factor.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -33,11 +34,16 @@ std::string obstacle_of_name(const char* key, const std::optional<Located<std::s
 
 }  // namespace
 
-std::string SlingChecks::obstacle(const SlingInStock& candidate, const std::string& of_rope) const {
-  if (!case_.standard) return {};
+std::optional<double> SlingChecks::bend_diameter(const std::string& name) const {
+  const RopeInCase* rope = case_.find_rope(name);
+  if (rope && rope->bend_diameter) return rope->bend_diameter->value;
+  return case_.standard ? case_.standard->bend_of(name) : std::nullopt;
+}
+
+std::string SlingChecks::obstacle(const SlingInStock& candidate, const SlingDemand& demand) const {
   const RopeModel& rope = candidate.sling.rope;
-  const StandardInCase& standard = *case_.standard;
-  if (standard.rules.sling) {
+  if (case_.standard && case_.standard->rules.sling) {
+    const StandardInCase& standard = *case_.standard;
     const SlingRules& rules = *standard.rules.sling;
     std::string obstacle =
         obstacle_of_name("material", rope.material, rules.material, standard.rules.name);
@@ -46,7 +52,7 @@ std::string SlingChecks::obstacle(const SlingInStock& candidate, const std::stri
           obstacle_of_name("termination", rope.termination, rules.termination, standard.rules.name);
     if (!obstacle.empty()) return obstacle;
   }
-  const std::optional<double> bend = standard.bend_of(of_rope);
+  const std::optional<double> bend = bend_diameter(demand.rope);
   if (!bend) return {};
   if (!rope.diameter) return "it has no diameter, which the bend diameter is held against";
   if (*bend < *rope.diameter) return "it is bent round less than its own diameter";
@@ -56,10 +62,14 @@ std::string SlingChecks::obstacle(const SlingInStock& candidate, const std::stri
 std::vector<Check> SlingChecks::of(const SlingInStock& candidate, const SlingDemand& demand) const {
   const double factor = case_.checks.rope_safety_factor;
   const RopeModel& rope = candidate.sling.rope;
+  const RopeInCase* in_case = case_.find_rope(demand.rope);
+  const double left = in_case && in_case->bend_diameter
+                          ? bend_efficiency(in_case->bend_diameter->value, *rope.diameter)
+                          : 1;
   std::vector<Check> checks;
   checks.push_back(check_at_most(fmt::format("breaking load / {:g}", factor),
                                  std::max(demand.at_rest, demand.in_motion),
-                                 rope.breaking_load / factor, "N"));
+                                 left * rope.breaking_load / factor, "N"));
   if (!has_rules()) {
     checks.push_back(check_at_most(fmt::format("working load at rest, {}", candidate.rule),
                                    demand.at_rest, candidate.sling.working_load, "N"));
@@ -86,7 +96,7 @@ ChosenSling choose_sling(const Stock& stock, const SlingChecks& checks, const Sl
   std::string obstacle;
   for (std::size_t i = 0; i < stock.slings.size(); ++i) {
     const SlingInStock& candidate = stock.slings[i];
-    if (const std::string reason = checks.obstacle(candidate, demand.rope); !reason.empty()) {
+    if (const std::string reason = checks.obstacle(candidate, demand); !reason.empty()) {
       obstacle = fmt::format("{}: {}", candidate.name(), reason);
       continue;
     }

@@ -29,15 +29,17 @@ class SlingChecks {
 
   /// What keeps a sling out of the question whatever its strength: a material or termination that
   /// the rules do not know, or a bend that is too sharp. Empty: nothing.
-  std::string obstacle(const SlingInStock& candidate, const std::string& of_rope) const;
+  std::string obstacle(const SlingInStock& candidate, const SlingDemand& demand) const;
 
   /// The candidate in place of the rope's own, without an obstacle:
-  /// - breaking load over the case's factor against the largest tension, at rest or in motion;
+  /// - breaking load, as far as the rope's own bend leaves it, over the case's factor against the largest tension, at rest or in motion;
   /// - the standard's chain, in both columns, where its rules have a factor for slings;
   /// - without such rules, the working load against the largest tension at rest.
   std::vector<Check> of(const SlingInStock& candidate, const SlingDemand& demand) const;
 
  private:
+  /// What a rope of the case is bent round, m; none: nothing.
+  std::optional<double> bend_diameter(const std::string& name) const;
   bool has_rules() const { return facts_ && case_.standard->rules.sling.has_value(); }
 
   const LiftCase& case_;

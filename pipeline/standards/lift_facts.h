@@ -39,7 +39,8 @@ struct SlingFacts {
   ComputedFactors computed;
   double breaking_load = 0;  ///< N
   std::optional<std::string> material, termination;
-  std::optional<double> diameter;  ///< m
+  std::optional<double> diameter;       ///< m
+  std::optional<double> bend_diameter;  ///< of what it is bent round, m; none: the standard's
   int slings_on_hook = 1;
   bool is_at_hook = false;  ///< it begins at the hook, not below a spreader
   double angle = 0;         ///< at its upper end to the plumb, at the largest load at rest, rad

@@ -211,7 +211,8 @@ const std::string& clause_named(const std::vector<NamedFactor>& factors, const s
 void add_sling_limit(ChainBuilder& chain, const LoadFactors& factors, const SlingFacts& sling) {
   const SlingRules& rules = *factors.rules().sling;
   SlingChoice choice{*sling.material, factors.standard().wear->value, *sling.termination, {}, 0};
-  const auto bend = factors.standard().bend_of(sling.name);
+  const std::optional<double> bend =
+      sling.bend_diameter ? sling.bend_diameter : factors.standard().bend_of(sling.name);
   if (bend && sling.diameter) choice.diameter_ratio = *bend / *sling.diameter;
   const SlingFactor standard = sling_factor(rules, choice);
   if (factors.facts().has_environment && sling.load.in_motion > 0)

@@ -20,6 +20,10 @@ double bending_factor(double half, double diameter_ratio) {
   return 1 / (1 - half / std::sqrt(diameter_ratio));
 }
 
+double bend_efficiency(double bend_diameter, double diameter) {
+  return 1 / bending_factor(0.5, bend_diameter / diameter);
+}
+
 SlingFactor sling_factor(const SlingRules& rules, const SlingChoice& choice) {
   SlingFactor f;
   const double share = rules.environment ? choice.environment_share : 0;

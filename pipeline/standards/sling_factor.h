@@ -32,4 +32,8 @@ SlingFactor sling_factor(const SlingRules& rules, const SlingChoice& choice);
 /// 1 / (1 - half / sqrt(D/d)).
 double bending_factor(double half, double diameter_ratio);
 
+/// What a bend round D leaves of the breaking load of a wire rope of the diameter d (m),
+/// 1 - 0.5 / sqrt(D/d). Source: GL Noble Denton 0027/ND rev. 11.2 (2016), 7.8.1, after IMCA M 179.
+double bend_efficiency(double bend_diameter, double diameter);
+
 }  // namespace blocklift::pipeline

@@ -117,6 +117,7 @@ TEST(MooringLine, BalancesOnABody) {
   const MooringLine hanging(
       {"m2", {world_index, {-60, 10, -5}}, {1, {1, 2, -0.5}}, {70, 1200, 4e8}});
   const TuggerLine tugger({"t", {world_index, {-5, 0, 3}}, {1, {0.5, 0, 0}}, 1e4, 300, 5.0});
+  const TuggerLine holding({"h", {world_index, {-5, 0, 3}}, {1, {0.5, 0, 0}}, 0, 300, 0, 2e4});
   body.q.tail<4>() << 0.9, 0.1, -0.3, 0.2;
   body.v.setRandom();
   for (const double x : {-30.0, 0.0, 20.0}) {
@@ -125,6 +126,7 @@ TEST(MooringLine, BalancesOnABody) {
     expect_balanced(body, anchored, 1e-5);
     expect_balanced(body, hanging, 1e-5);
     expect_balanced(body, tugger);
+    expect_balanced(body, holding);
   }
 }
 
@@ -150,6 +152,31 @@ TEST(TuggerLine, PullsAndNeverPushes) {
   body.q.head<3>() << 0, 0, 1.5;
   body.update();
   EXPECT_EQ(tugger.calc_tension(body.state()), 0);
+}
+
+// A winch that holds a tension: the same at any length, more while it pays out, never a push.
+TEST(TuggerLine, HoldsATension) {
+  OneBody body;
+  const TuggerLine tugger({"t", {world_index, Vector3::Zero()}, {1, Vector3::Zero()}, 0, 3, 0, 50});
+  for (const double height : {4.0, 40.0}) {
+    body.q.head<3>() << 0, 0, height;
+    body.v.setZero();
+    body.update();
+    EXPECT_NEAR(tugger.calc_tension(body.state()), 50, 1e-12);
+    body.v[5] = 2;
+    body.update();
+    EXPECT_NEAR(tugger.calc_tension(body.state()), 56, 1e-12);
+    EXPECT_NEAR(tugger.calc_energy(body.state()).supplied_power, -100, 1e-12);
+    EXPECT_NEAR(tugger.calc_energy(body.state()).dissipated_power, 12, 1e-12);
+    body.v[5] = -20;
+    body.update();
+    EXPECT_EQ(tugger.calc_tension(body.state()), 0);
+  }
+  EXPECT_THAT(
+      [] {
+        TuggerLine({"t", {world_index, Vector3::Zero()}, {1, Vector3::Zero()}, 10, 3, 0, 50});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("holds a tension and has a stiffness")));
 }
 
 }  // namespace

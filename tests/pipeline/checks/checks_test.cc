@@ -129,6 +129,19 @@ TEST(LiftChecks, EveryLineHasItsDemandAndLimit) {
   EXPECT_EQ(swing.unit, "rad");
 }
 
+// Round four diameters 1 - 0.5 / sqrt(4) = 3/4 of a wire rope's breaking load are left.
+TEST(LiftChecks, ABendTakesOfTheBreakingLoad) {
+  const SmallLift& lift = small_lift();
+  LiftCase lift_case = lift.lift_case;
+  lift_case.ropes[0].rope.diameter = 0.05;
+  lift_case.ropes[0].bend_diameter = Located<double>{0.2, {}};
+  const std::vector<Check> checks = check_lift(lift_case, lift.run);
+  const Check& bent = find_check(checks, "rope R1: tension against breaking load / 5");
+  EXPECT_NEAR(bent.limit, 0.75 * 30e3 * 9.80665 / 5, 1e-6);
+  EXPECT_THAT(bent.note, HasSubstr("bent round D/d 4.00: 75.0 % of the breaking load is left"));
+  EXPECT_NEAR(find_check(checks, "rope R2").limit, 30e3 * 9.80665 / 5, 1e-6);
+}
+
 TEST(LiftChecks, AsksForWhatTheCaseAsksFor) {
   const SmallLift& lift = small_lift();
   LiftCase lift_case = lift.lift_case;

@@ -338,6 +338,40 @@ TEST(LiftCaseErrors, HoistsThatCannotBeEqualised) {
             "1 error\n");
 }
 
+TEST(LiftCaseErrors, WeightOfRopesThatHaveNone) {
+  const auto complaints = [](const std::string& lines, const std::string& rope_lines) {
+    SampleLift lift;
+    lift.rope += rope_lines;
+    lift.lift_case = with(lift.lift_case, "settle: 10 s\n", "settle: 10 s\n" + lines);
+    return complaints_about(lift);
+  };
+  EXPECT_EQ(complaints("rope_weight: true\n", "mass: 50 kg/m\n"), "");
+  EXPECT_EQ(complaints("rope_weight: false\n", ""), "");
+  EXPECT_THAT(complaints("rope_weight: true\n", ""),
+              HasSubstr("error: no rope has a mass by which it would hang\n    add mass to the "
+                        "models of slings and tackles that run from point to point"));
+  EXPECT_THAT(complaints("rope_weight: true\ndynamics: {flexibility: static}\n", "mass: 50 kg/m\n"),
+              HasSubstr("error: ropes hang by their weight, and the block is flexible"));
+}
+
+TEST(LiftCaseErrors, BendsThatCannotBe) {
+  const auto complaints = [](const std::string& bend, const std::string& rope_lines) {
+    SampleLift lift;
+    lift.rope += rope_lines;
+    lift.lift_case =
+        with(lift.lift_case, "R2: {from: C1.right, to: L2, model: ropes/tackle,",
+             "R2: {from: C1.right, to: L2, bend_diameter: " + bend + ", model: ropes/tackle,");
+    return complaints_about(lift);
+  };
+  EXPECT_EQ(complaints("300 mm", "diameter: 40 mm\n"), "");
+  EXPECT_EQ(complaints("300 mm", ""),
+            "case.yaml:10:53: error: the model of rope R2 has no diameter, which its bend diameter "
+            "is held against\n    add diameter to the rope's model\n1 error\n");
+  EXPECT_EQ(complaints("30 mm", "diameter: 40 mm\n"),
+            "case.yaml:10:53: error: rope R2 of 0.04 m is bent round 0.03 m\n"
+            "    a rope is not bent round less than its own diameter\n1 error\n");
+}
+
 TEST(LiftCaseErrors, FaultsThatCannotBe) {
   const auto complaints = [](const std::string& faults) {
     return complaints_about_case("settle: 10 s\n", "settle: 10 s\nfaults:\n  - " + faults + "\n");

@@ -478,6 +478,16 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
               HasSubstr("would float at a draught of 7 m"));
   EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: B2"),
               HasSubstr("tugger line T1 ends at body \"B2\", which does not exist"));
+  EXPECT_THAT(complaints_of_change("length: 35 m, stiffness: 100 kN/m", "stiffness: 100 kN/m"),
+              HasSubstr("neither what tension it holds nor how it stretches"));
+  EXPECT_THAT(
+      complaints_of_change("length: 35 m, stiffness: 100 kN/m", "length: 35 m, tension: 100 kN"),
+      HasSubstr("a line that holds a tension has a length or stiffness"));
+  EXPECT_EQ(complaints_of_change("length: 35 m, stiffness: 100 kN/m", "tension: 100 kN"), "");
+  EXPECT_THAT(complaints_of_change("stiffness: 100 kN/m",
+                                   "stiffness: 100 kN/m, breaking_load: 1 "
+                                   "MN"),
+              HasSubstr("lift cases alone hold its tension against"));
   EXPECT_THAT(complaints_of_change("model: vessels/barge", "model: vessels/bargo"),
               HasSubstr("did you mean \"vessels/barge\"?"));
   EXPECT_THAT(complaints_of_change("regular: {amplitude: 0.3 m, period: 8 s, heading: 30 deg}",

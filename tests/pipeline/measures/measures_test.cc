@@ -1,15 +1,19 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/measure_checks.h"
 #include "pipeline/lift/stage_loads.h"
 #include "pipeline/measures/chart_derating.h"
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/load_measures.h"
 #include "pipeline/measures/measure.h"
+#include "pipeline/measures/tackle_measures.h"
 #include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {
@@ -32,10 +36,12 @@ struct WatchedLift {
   }
 };
 
-/// @param crane_lines, case_lines more of the crane and of the case.
+/// @param crane_lines, case_lines, rope_lines more of the crane, of the case, and of the model of both
+///   slings and the left tackle.
 WatchedLift watch(const std::string& checks = "{}", const std::string& crane_lines = "",
-                  const std::string& case_lines = "") {
+                  const std::string& case_lines = "", const std::string& rope_lines = "") {
   test::SampleLift parts;
+  parts.rope += rope_lines;
   parts.crane = test::with(parts.crane, "capacity: 20 t\n",
                            "capacity: 20 t\n"
                            "radius_from: {body: gantry, position: [0 m, 0 m, 0 m]}\n"
@@ -49,7 +55,9 @@ WatchedLift watch(const std::string& checks = "{}", const std::string& crane_lin
   parts.crane = test::with(
       parts.crane, "    rope: ropes/tackle\n    crane_stiffness: 10 MN/m\n    capacity: 10 t\n",
       "    rope: ropes/tackle\n    crane_stiffness: 10 MN/m\n    capacity: 10 t\n"
-      "    load_chart: [{radius: 6 m, capacity: 8 t}, {radius: 7 m, capacity: 5 t}]\n");
+      "    load_chart: [{radius: 6 m, capacity: 8 t}, {radius: 7 m, capacity: 5 t}]\n"
+      "    reeving: {falls: 8, lead_lines: 2, lead_sheaves: 2, sheave_efficiency: 96 %,\n"
+      "              breaking_load: 125 kN, line_pull: 10 kN}\n");
   parts.crane += crane_lines;
   parts.lift_case += "checks: " + checks + "\n" + case_lines;
   const test::TemporaryFolder folder;
@@ -186,6 +194,89 @@ TEST(HookMeasures, RadiusLeadsAndChart) {
   EXPECT_TRUE(std::isinf(share.at_rest[last]));
   EXPECT_LT(lift.measure("C1.left: offlead").at_rest.cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_GT(lift.measure("C1.left: sidelead").in_motion.cwiseAbs().maxCoeff(), 1e-3);
+}
+
+// Half of the tackle's load on four falls 1, e, e2, e3 from the drum, and the lead line over two
+// sheaves more, e = 0.96 up. The sample lift only hoists.
+TEST(TackleMeasures, FollowTheShareOfTheFalls) {
+  const WatchedLift& lift = watched();
+  const double e = 0.96, falls = 1 + e + e * e + e * e * e;
+  const LiftMeasure& pull = lift.measure("C1.left: line pull");
+  const LiftMeasure& load = lift.measure("C1.left: line load");
+  const auto rope = static_cast<std::size_t>(lift.run.model.hoists[0].rope);
+  const Eigen::VectorXd due = lift.run.dynamic_history().ropes[rope].tension / 2 / falls / (e * e);
+  EXPECT_LT((pull.in_motion - due).norm(), 1e-12 * due.norm());
+  EXPECT_LT((load.in_motion - due).norm(), 1e-12 * due.norm());
+  EXPECT_NEAR(pull.at_rest[0], lift.run.static_history.ropes[rope].tension[0] / 2 / falls / (e * e),
+              1e-9);
+  EXPECT_THAT(pull.meaning, HasSubstr("8 falls on 2 lead lines, 2 lead sheaves, 96 % a sheave"));
+  EXPECT_THROW(lift.measure("C1.right: line pull"), std::out_of_range);
+
+  int found = 0;
+  for (const Check& check : check_measures(lift.lift_case, lift.run, lift.measures)) {
+    if (check.name.starts_with("hoist rope C1.left: largest tension in its tackle")) {
+      EXPECT_NEAR(check.limit, 25e3, 1e-9);
+      ++found;
+    } else if (check.name.starts_with("winch C1.left: pull on its line")) {
+      EXPECT_NEAR(check.limit, 10e3, 1e-9);
+      ++found;
+    } else {
+      continue;
+    }
+    EXPECT_NEAR(check.demand, due.maxCoeff(), 1e-9 * check.demand);
+    EXPECT_TRUE(check.pass);
+  }
+  EXPECT_EQ(found, 2);
+}
+
+// Both slings of 2 m and the left tackle of 5 m weigh 50 kg/m: hooks and crane bear them, the load's
+// lugs do not.
+TEST(RopeWeight, IsInWhatHooksAndCraneBear) {
+  const WatchedLift lift =
+      watch("{smallest_tension: 1 kN}", "", "rope_weight: true\n", "mass: 50 kg/m\n");
+  const auto& ropes = lift.run.static_history.ropes;
+  const auto& hoists = lift.run.model.hoists;
+  const auto tension = [&](int rope) { return ropes[static_cast<std::size_t>(rope)].tension[0]; };
+  const double left = (5500 + 50 * (2 + 5)) * g, right = (5500 + 50 * 2) * g;
+  // The load is tilted by a milliradian, which moves its centre by half a millimetre of 4 m.
+  EXPECT_NEAR(tension(hoists[0].rope), left, 5e-4 * left);
+  EXPECT_NEAR(tension(hoists[1].rope), right, 5e-4 * right);
+  EXPECT_NEAR(tension(hoists[0].rope) + tension(hoists[1].rope), left + right,
+              1e-5 * (left + right));
+  double on_lugs = 0, on_hooks = 0;
+  for (const LiftRope& sling : lift.run.model.ropes) {
+    on_lugs += ropes[static_cast<std::size_t>(sling.rope)].last_force(0, 2);
+    on_hooks -= ropes[static_cast<std::size_t>(sling.rope)].first_force(0, 2);
+  }
+  EXPECT_NEAR(on_lugs, 10e3 * g, 1e-6 * 10e3 * g);
+  EXPECT_NEAR(on_hooks, (10e3 + 2 * 2 * 50) * g, 1e-6 * 10e3 * g);
+  EXPECT_NEAR(lift.measure("C1: weight on the base").at_rest[0], (119e3 + 50 * (2 + 2 + 5)) * g,
+              1e-6 * 119e3 * g);
+
+  // A rope that hangs in a bight bears its own weight, and pulls at nothing.
+  double least = std::numeric_limits<double>::infinity();
+  for (const dynamics::History* history : {&lift.run.static_history, &lift.run.dynamic_history()})
+    for (const dynamics::RopeHistory& rope : history->ropes) {
+      const bool weighs = rope.name != "C1.right";
+      const Eigen::VectorXd beyond = rope.tension - (weighs ? 50 * g : 0) * rope.unstretched_length;
+      least = std::min(least, beyond.minCoeff());
+    }
+  for (const Check& check : check_lift(lift.lift_case, lift.run)) {
+    if (!check.name.starts_with("slack")) continue;
+    EXPECT_NEAR(check.demand, least, 1e-9 * least);
+    EXPECT_THAT(check.note, HasSubstr("less the own weight"));
+  }
+}
+
+// Friction keeps the way it had: hoisting before any motion, lowering while rope is paid out and
+// until it is taken in again.
+TEST(TackleMeasures, RememberTheWayOfTheRope) {
+  using enum dynamics::TackleMotion;
+  Eigen::VectorXd length(7);
+  length << 5, 5, 5.1, 5.1, 5.1 + 1e-12, 5.05, 5.05;
+  EXPECT_THAT(
+      find_tackle_motion(length),
+      ::testing::ElementsAre(hoisting, hoisting, lowering, lowering, lowering, hoisting, hoisting));
 }
 
 TEST(LoadMeasures, AttitudeSlingsAndGround) {
@@ -440,6 +531,14 @@ TEST(CraneKeys, SayWhatIsWrongInADerating) {
                                 "{up_to: 2 m, factor: 1}]}\n",
                          chart),
               HasSubstr("leaves more, 1, at 2 than before, 0.5"));
+}
+
+TEST(CraneKeys, SayWhatIsWrongInAReeving) {
+  EXPECT_THAT(complaints("", "    reeving: {falls: 9, lead_lines: 2}\n"),
+              HasSubstr("9 falls cannot be shared evenly by 2 lead lines"));
+  EXPECT_THAT(complaints("", "    reeving: {falls: 0}\n"), HasSubstr("falls"));
+  EXPECT_THAT(complaints("", "    reeving: {falls: 8, sheave_efficiency: 30 %}\n"),
+              HasSubstr("sheave_efficiency"));
 }
 
 TEST(CraneKeys, SayWhatIsWrong) {

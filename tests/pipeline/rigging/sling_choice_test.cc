@@ -118,7 +118,7 @@ TEST(SlingChoiceTest, PassesOverWhatTheRulesDoNotKnow) {
   const SlingChecks checks(lift_case, facts_of_r1());
   Stock stock = stock_of({1900, 2000});
   stock.slings[0].sling.rope.termination = called("knot");
-  EXPECT_EQ(checks.obstacle(stock.slings[0], "R1"), "0027/ND has no termination \"knot\"");
+  EXPECT_EQ(checks.obstacle(stock.slings[0], r1), "0027/ND has no termination \"knot\"");
   EXPECT_EQ(choose_sling(stock, checks, r1).index, 1U);
   stock.slings[1].sling.rope.material.reset();
   try {
@@ -131,16 +131,34 @@ TEST(SlingChoiceTest, PassesOverWhatTheRulesDoNotKnow) {
   }
 }
 
+// Round four diameters three quarters are left: 460 kN x 5 / 0.75 = 3,067 kN.
+TEST(SlingChoiceTest, CountsTheBendOfTheRope) {
+  LiftCase lift_case = case_with_factor(5);
+  RopeInCase rope;
+  rope.name.value = "R1";
+  rope.bend_diameter = Located<double>{0.4, {}};
+  lift_case.ropes.push_back(rope);
+  const SlingChecks checks(lift_case, {});
+  Stock stock = stock_of({3000, 3100});
+  EXPECT_THAT(checks.obstacle(stock.slings[0], r1), HasSubstr("no diameter"));
+  for (SlingInStock& sling : stock.slings) sling.sling.rope.diameter = 0.1;
+  const ChosenSling chosen = choose_sling(stock, checks, r1);
+  EXPECT_EQ(stock.slings[chosen.index].name(), "s3100");
+  EXPECT_NEAR(governing_check(chosen.checks)->utilisation, 460.0 * 5 / (0.75 * 3100), 1e-12);
+  stock.slings[1].sling.rope.diameter = 0.5;
+  EXPECT_THAT(checks.obstacle(stock.slings[1], r1), HasSubstr("less than its own diameter"));
+}
+
 TEST(SlingChoiceTest, PassesOverWhatIsBentTooSharply) {
   LiftCase lift_case = case_by_nd_0027();
   lift_case.standard->bend_diameter = 0.05;
   const SlingChecks checks(lift_case, facts_of_r1());
   Stock stock = stock_of({1900});
-  EXPECT_THAT(checks.obstacle(stock.slings[0], "R1"), HasSubstr("no diameter"));
+  EXPECT_THAT(checks.obstacle(stock.slings[0], r1), HasSubstr("no diameter"));
   stock.slings[0].sling.rope.diameter = 0.06;
-  EXPECT_THAT(checks.obstacle(stock.slings[0], "R1"), HasSubstr("less than its own diameter"));
+  EXPECT_THAT(checks.obstacle(stock.slings[0], r1), HasSubstr("less than its own diameter"));
   stock.slings[0].sling.rope.diameter = 0.05;
-  EXPECT_EQ(checks.obstacle(stock.slings[0], "R1"), "");
+  EXPECT_EQ(checks.obstacle(stock.slings[0], r1), "");
 }
 
 // 400 kN are 40.8 t.

@@ -84,6 +84,8 @@ TEST(SlingFactor, BendsByTheTable) {
                                          {4.0, 1.33}, {5.0, 1.29}, {6.0, 1.26}, {7.0, 1.23}};
   for (const auto& [ratio, factor] : rows)
     EXPECT_NEAR(bending_factor(0.5, ratio), factor, 0.5e-2) << ratio;
+  EXPECT_NEAR(bend_efficiency(0.4, 0.1), 0.75, 1e-14);
+  EXPECT_NEAR(bend_efficiency(0.1, 0.1), 0.5, 1e-14);
 }
 
 // EN 1991-3, table 2.5, at 0.2 m/s.

@@ -29,7 +29,7 @@ function ropeTable(data: PageData, clock: Clock): Child {
     { head: "Static, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
     { head: "Dynamic, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
     { head: "Dynamic / static" },
-    ...(broken ? [{ head: "Share of breaking load", title: "largest dynamic tension over breaking load" }] : []),
+    ...(broken ? [{ head: "Share of breaking load", title: "largest dynamic tension over breaking load, less what bends take of it" }] : []),
   ];
   const instant = (time: unknown): Child[] => timed
     ? [timeCell(data, clock, time), h("span", { class: "stage" }, known(time) ? stageAt(data.stages, time) : missing)] : [];
@@ -39,7 +39,7 @@ function ropeTable(data: PageData, clock: Clock): Child {
     ...both(rope.max_dynamic_tension_N), ...instant(rope.time_of_max_dynamic_s),
     ratio(rope.dynamic_over_static),
     ...(broken ? [share(known(rope.max_dynamic_tension_N) && known(rope.breaking_load_N)
-      ? rope.max_dynamic_tension_N / rope.breaking_load_N : null)] : []),
+      ? rope.max_dynamic_tension_N / (rope.breaking_load_N * (rope.bend_efficiency ?? 1)) : null)] : []),
   ]);
   return table("Largest rope loads", columns, rows);
 }

@@ -133,6 +133,8 @@ TEST(MarineJacobian, OfMooringAndTuggerLines) {
   lines.push_back(MooringLine({"m2", {2, {2, 0, 1}}, {world_index, {30, 0, 10}}, {40, 5, 1e5}}));
   std::get<std::vector<TuggerLine>>(elements).push_back(
       TuggerLine({"t", {2, {2, 0, 1}}, {world_index, {30, 20, 10}}, 100, 10, 5}));
+  std::get<std::vector<TuggerLine>>(elements).push_back(
+      TuggerLine({"h", {2, {2, 0, 1}}, {world_index, {-30, 20, 10}}, 0, 10, 0, 400}));
   expect_jacobian(elements, random);
 }
 

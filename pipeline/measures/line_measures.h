@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "pipeline/measures/measure.h"
+
+namespace blocklift::pipeline {
+
+/// Tensions of tuggers, and of moorings at their fairleads.
+void add_line_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures);
+
+}  // namespace blocklift::pipeline
