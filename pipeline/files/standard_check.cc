@@ -129,8 +129,8 @@ class StandardCheck {
     }
   }
 
-  template <class Accessory>
-  void breaks_above_working_load(const Accessory& one, const char* what) {
+  template <class Item>
+  void breaks_above_working_load(const Item& one, const char* what) {
     if (!(one.breaking_load < one.working_load)) return;
     diagnostics_.error(one.name.mark,
                        fmt::format("{} {} breaks below its working load", what, one.name.value));

@@ -41,22 +41,25 @@ void add_hook_load(ChainBuilder& chain, const LoadFactors& factors, const LoadFa
 struct Capacity {
   double standard = 0, simulated = 0;  ///< N
   std::string text;
+  bool is_by_chart = false;
 };
 
 std::optional<Capacity> capacity_of(const std::optional<double>& rated,
                                     const std::optional<ChartFacts>& chart, const LoadFacts& load,
                                     const std::string& text) {
   std::optional<Capacity> capacity;
-  if (rated) capacity = Capacity{*rated, *rated, text};
+  if (rated) capacity = Capacity{*rated, *rated, text, false};
   if (!chart || !(chart->at_rest > 0) || !(chart->in_motion > 0)) return capacity;
   const double still = ChartFacts::capacity(load.at_rest, chart->at_rest);
   const double moving = ChartFacts::capacity(load.in_motion, chart->in_motion);
-  if (!capacity) capacity = Capacity{still, moving, {}};
   constexpr double rounding = 1 - 1e-9;  // a chart that repeats the capacity does not count
-  if (still < rounding * capacity->standard || moving < rounding * capacity->simulated ||
-      capacity->text.empty())
+  if (!capacity || still < rounding * capacity->standard ||
+      moving < rounding * capacity->simulated) {
+    if (!capacity) capacity = Capacity{still, moving, {}, true};
+    capacity->is_by_chart = true;
     capacity->text = fmt::format("load chart at {:.2f} m{}", chart->radius,
                                  chart->derating.empty() ? "" : ", " + chart->derating);
+  }
   capacity->standard = std::min(capacity->standard, still);
   capacity->simulated = std::min(capacity->simulated, moving);
   return capacity;
@@ -287,7 +290,8 @@ Chain crane_chain(const LoadFactors& factors, const CraneFacts& crane) {
     if (one.cranes <= cranes && (!row || one.cranes > row->cranes)) row = &one;
   if (row)
     chain.limit(capacity->standard * row->factor,
-                fmt::format("{} {} x {:g} of {} cranes", capacity->text,
+                fmt::format("{} {} x {:g} of {} cranes",
+                            capacity->is_by_chart ? capacity->text : "capacity",
                             load_text(capacity->standard), row->factor, cranes),
                 row->clause, capacity->simulated * row->factor);
   else
