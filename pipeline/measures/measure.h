@@ -38,7 +38,8 @@ MeasurePeak find_peak(const Eigen::VectorXd& time, const Eigen::VectorXd& values
 MeasurePeak find_peak(const LiftRun& lift, const LiftMeasure& measure);
 
 /// All measures of a lift: attitude of the load and angles of its slings, forces in spreaders,
-/// radius, leads and capacity of hooks, what cranes press on, single ropes of tackles, tuggers and moorings, clearances.
+/// radius, leads and capacity of hooks, what cranes press on, single ropes of tackles, tuggers and
+/// moorings, clearances.
 std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun& lift);
 
 }  // namespace blocklift::pipeline
