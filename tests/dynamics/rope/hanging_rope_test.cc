@@ -81,6 +81,8 @@ TEST(HangingRope, HangsPlumb) {
   EXPECT_LT((hung.on_load() - Vector3(0, 0, G)).norm(), 1e-2);
   EXPECT_LT((hung.on_world() - Vector3(0, 0, -G - W)).norm(), 1e-2);
   EXPECT_NEAR(hung.load.tension, G + W, 1e-2);
+  // int (G + w s)^2 / (2 EA) ds
+  EXPECT_NEAR(hung.load.hanging.strain_energy, (G * G + G * W + W * W / 3) * L0 / (2 * EA), 1e-3);
   // A spring in series takes the mean.
   RopeDefinition soft = sling();
   soft.crane_stiffness = 1e7;
