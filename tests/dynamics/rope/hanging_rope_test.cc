@@ -111,7 +111,7 @@ TEST(HangingRope, ItsChordIsErnstsSpring) {
 // Without weight worth the name it is the rope that runs straight.
 TEST(HangingRope, BecomesTheStraightRope) {
   RopeDefinition light = sling();
-  light.weight_per_length = 1e-2;  // 0.2 N of 5 MN
+  light.weight_per_length = 0.1;  // 2 N of 5 MN
   light.crane_stiffness = 3e8;
   RopeDefinition straight = light;
   straight.weight_per_length = 0;
