@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dynamics/errors.h"
 
@@ -100,7 +101,8 @@ Eigen::Vector2d guess(const CatenaryLine& line, double span, double rise) {
   const double w = line.weight_per_length;
   if (const double chord = std::hypot(span, rise); !line.on_seabed && chord > 0.0) {
     const double T = parabola_tension(line, span, chord);
-    if (T > w * L0) return {T * span / chord, T * rise / chord + 0.5 * w * L0};
+    const bool bears_all = T * rise > 0.5 * w * L0 * chord;  // its lower end, too, is drawn up
+    if (T > w * L0 || bears_all) return {T * span / chord, T * rise / chord + 0.5 * w * L0};
   }
   double lambda = 0.2;
   if (std::hypot(span, rise) < L0) {
@@ -109,6 +111,17 @@ Eigen::Vector2d guess(const CatenaryLine& line, double span, double rise) {
   const double H = std::abs(w * span / (2.0 * lambda));
   const double V = 0.5 * w * (rise / std::tanh(lambda) + L0);
   return {std::clamp(H, 1e-6 * w * L0, 1e6 * w * L0), V};
+}
+
+// The line seen from its other end.
+Catenary reverse(const CatenaryLine& line, const Catenary& other, double rise) {
+  Catenary c = other;
+  c.vertical = -other.lower_vertical;
+  c.lower_vertical = -other.vertical;
+  std::swap(c.tension, c.lower_tension);
+  c.energy += line.weight_per_length * line.unstretched_length * rise;
+  c.stiffness(0, 1) = c.stiffness(1, 0) = -other.stiffness(0, 1);
+  return c;
 }
 
 }  // namespace
@@ -129,6 +142,8 @@ Catenary calc_catenary(const CatenaryLine& line, double span, double rise) {
   const double L0 = line.unstretched_length;
   span = std::max(span, 1e-9 * L0);
   if (line.on_seabed) rise = std::max(rise, 0.0);
+  // Upside down the vertical forces are differences of like numbers where the line hangs plumb.
+  if (rise < 0.0) return reverse(line, calc_catenary(line, span, -rise), rise);
   if (is_heap(line, span, rise)) return hang_straight(line, rise);
   Eigen::Vector2d force = guess(line, span, rise);
   Shape shape = calc_shape(line, force.x(), force.y());

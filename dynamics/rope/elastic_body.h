@@ -92,8 +92,8 @@ class ElasticBody {
   };
 
   /// @throws ModelError if an end is not at a point of the body, is named twice or lies at a rope
-  /// with an end at itself or with weight, sizes do not fit, the compliance is not symmetric or not positive
-  /// semidefinite, or a mode is not on a prismatic joint that no drive moves.
+  /// with an end at itself or with weight, sizes do not fit, the compliance is not symmetric or not
+  /// positive semidefinite, or a mode is not on a prismatic joint that no drive moves.
   ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ropes, Definition definition);
 
   const Definition& definition() const { return d_; }

@@ -62,6 +62,7 @@ void Rope::hang(const RopePath& path, const RopeFeed& feed, RopeLoad& load) cons
   const double T = line.lower_tension;
   const double a = line.vertical, b = line.lower_vertical;
   const double int_T2 = L0 * (line.horizontal * line.horizontal + (a * a + a * b + b * b) / 3.0);
+  h.strain_energy = 0.5 * int_T2 / (load.stiffness * L0);
   h.feed_force = w * path.first_height - T - 0.5 * T * T / (load.stiffness * L0) +
                  0.5 * crane_compliance_ / (L0 * L0) * int_T2;
 }

@@ -58,6 +58,7 @@ struct HangingForces {
   double last_lift = 0.0;      ///< on the body at the last point, upwards, N
   double damping = 0.0;        ///< c of the chord, N s/m
   double stored_energy = 0.0;  ///< elastic, and of the weight over z = 0, J
+  double strain_energy = 0.0;  ///< the elastic part of it, J
   double feed_force = 0.0;     ///< d(stored_energy)/dL0 with the ends held, N
 };
 

@@ -528,14 +528,17 @@ bool Integrator::part_ropes(double t) {
       return calc_stored_energy(system_, within_interval(t), w_).elastic;
     };
     const double before = elastic_energy();
-    const double tension = w_.rope_loads[static_cast<std::size_t>(parting.rope)].tension;
+    const RopeLoad load = w_.rope_loads[static_cast<std::size_t>(parting.rope)];
     feed.parted = true;
     char& acts = contacts_[static_cast<std::size_t>(parting.rope)];
     if (acts != 0) result_.events.push_back({t, parting.rope, false});
     acts = 0;
     const double energy = before - elastic_energy();
     sundials::view(work_.get())[3] += energy;
-    result_.parted.push_back({parting.rope, t, tension, energy});
+    // What a rope with weight loses besides is that of its height.
+    const bool hangs = system_.ropes()[static_cast<std::size_t>(parting.rope)].hangs();
+    result_.parted.push_back(
+        {parting.rope, t, load.tension, hangs ? load.hanging.strain_energy : energy});
     any = true;
   }
   return any;

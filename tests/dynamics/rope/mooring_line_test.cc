@@ -102,6 +102,36 @@ TEST(Catenary, ForcesAreTheSlopeOfTheEnergy) {
   }
 }
 
+// Plumb, taut, from either end: each piece bears what is below it. From above it is the line turned
+// about, with the energy counted from the other end.
+TEST(Catenary, HangsPlumbFromEitherEnd) {
+  const CatenaryLine line = {60, 900, 5e8};
+  const double W = line.weight_per_length * line.unstretched_length;
+  for (const double lower : {1e3, 2e5, 3e6}) {
+    const double stretched = 60 * (1 + (lower + W / 2) / line.axial_stiffness);
+    const Catenary up = calc_catenary(line, 0, stretched);
+    EXPECT_NEAR(up.lower_vertical, lower, 1e-3);
+    EXPECT_NEAR(up.vertical, lower + W, 1e-3);
+    EXPECT_NEAR(up.stiffness(1, 1), line.axial_stiffness / 60, 1e-3 * line.axial_stiffness / 60);
+    const Catenary down = calc_catenary(line, 0, -stretched);
+    EXPECT_NEAR(down.vertical, -lower, 1e-3);
+    EXPECT_NEAR(down.lower_vertical, -lower - W, 1e-3);
+    EXPECT_NEAR(down.tension, lower, 1e-3);
+    EXPECT_NEAR(down.energy, up.energy - W * stretched, 1e-6 * W * stretched);
+  }
+  const double step = 1e-4;
+  for (const double rise : {-30.0, -59.9, -60.02}) {
+    const Catenary c = calc_catenary(line, 3, rise);
+    const auto at = [&](double x, double z) { return calc_catenary(line, 3 + x, rise + z); };
+    EXPECT_NEAR(c.vertical, (at(0, step).energy - at(0, -step).energy) / (2 * step),
+                1e-4 * (1e4 + c.lower_tension));
+    EXPECT_NEAR(c.stiffness(0, 1), (at(0, step).horizontal - at(0, -step).horizontal) / (2 * step),
+                1e-3 * (1e3 + c.stiffness(1, 1)));
+    EXPECT_NEAR(c.stiffness(0, 1), (at(step, 0).vertical - at(-step, 0).vertical) / (2 * step),
+                1e-3 * (1e3 + c.stiffness(1, 1)));
+  }
+}
+
 // Nearly weightless: a spring of stiffness EA/L0.
 TEST(Catenary, BecomesASpringWhenTaut) {
   const Catenary c = calc_catenary({100, 1e-3, 1e6}, 61.2, 81.6);  // 102 m, 2 % long

@@ -365,10 +365,10 @@ TEST(LiftCaseErrors, BendsThatCannotBe) {
   };
   EXPECT_EQ(complaints("300 mm", "diameter: 40 mm\n"), "");
   EXPECT_EQ(complaints("300 mm", ""),
-            "case.yaml:10:53: error: the model of rope R2 has no diameter, which its bend diameter "
+            "case.yaml:10:47: error: the model of rope R2 has no diameter, which its bend diameter "
             "is held against\n    add diameter to the rope's model\n1 error\n");
   EXPECT_EQ(complaints("30 mm", "diameter: 40 mm\n"),
-            "case.yaml:10:53: error: rope R2 of 0.04 m is bent round 0.03 m\n"
+            "case.yaml:10:47: error: rope R2 of 0.04 m is bent round 0.03 m\n"
             "    a rope is not bent round less than its own diameter\n1 error\n");
 }
 
