@@ -119,6 +119,7 @@ class Doubts {
           lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name(), parted.time,
           parted.tension / 1e3, parted.energy / 1e3);
     for (const FaultInCase& fault : case_.faults) {
+      if (!fault.at && !lift.model.worst) continue;  // it does not come
       const double at = fault.at ? fault.at->value : lift.model.worst->worst.time;
       if (!fault.at) say_worst(*lift.model.worst);
       for (const Located<std::string>& winch : fault.runs_away)
