@@ -135,13 +135,41 @@ class ResultTest(InATemporaryFolder):
         with self.assertRaises(ValueError):
             result.passed
 
-    def test_draws_tensions(self):
+    def test_draws(self):
         import matplotlib
 
         matplotlib.use("Agg")
-        axes = blocklift.Case("lift").simulate("out").plot_tensions()
+        result = blocklift.Case("lift").simulate("out")
+        axes = result.plot_tensions()
         self.assertEqual(len(axes.lines), 4)
         self.assertEqual(axes.get_ylabel(), "tension, t")
+        self.assertEqual(result.plot_path("load").get_ylabel(), "way of load, m")
+        with self.assertRaises(KeyError):
+            result.plot_path("roof")
+
+    def test_tables_of_any_variable(self):
+        result = blocklift.Case("lift").simulate("out")
+        frame = result.to_dataframe()
+        self.assertEqual(list(frame.columns), ["R1", "R2", "R3", "R4"])
+        self.assertEqual(frame.index.name, "time")
+        poses = result.to_dataframe(variable="pose")
+        self.assertIn(("load", "z"), poses.columns)
+        self.assertEqual(len(result.natural_periods[0]["modes"]), 16)
+        with self.assertRaises(KeyError):
+            result.to_dataframe(variable="mood")
+
+
+class DescribeTest(InATemporaryFolder):
+    def test_keys_are_explained_by_their_declarations(self):
+        case = blocklift.Case("lift")
+        self.assertIn("default: 9.80665 m/s^2", case.describe("gravity"))
+        self.assertIn("length", case.describe("ropes.R1"))
+        self.assertIn("moves", case.describe("operation[0]"))
+        with self.assertRaisesRegex(KeyError, 'did you mean "gravity"'):
+            case.describe("gravitas")
+        self.assertIn("joints", blocklift.describe("mechanism"))
+        with self.assertRaisesRegex(ValueError, "lift case"):
+            blocklift.describe("novel")
 
 
 class StudyTest(InATemporaryFolder):

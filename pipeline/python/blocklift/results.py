@@ -165,19 +165,32 @@ class Result:
                 arrays[state] = file[f"structure/{way}/{state}/von_mises"][:]
             return arrays
 
-    def to_dataframe(self, state: str = "dynamic") -> pandas.DataFrame:
-        """Tensions over time, N: a rope a column."""
-        frame = self.history(state).tension.to_pandas()
-        frame.columns.name = "rope"
+    def to_dataframe(self, state: str = "dynamic",
+                     variable: str = "tension") -> pandas.DataFrame:
+        """A variable of :meth:`history` over time, SI units: tensions, a rope a column; of arrays with
+        more indices ("pose") a column for each.
+
+        Raises KeyError if the run has no such history or variable.
+        """
+        array = self.history(state)[variable]
+        others = [str(dim) for dim in array.dims if dim != "time"]
+        if len(others) > 1:
+            array = array.stack(column=others)
+        frame = array.to_pandas()
+        if len(others) == 1:
+            frame.columns.name = others[0]
         return frame
+
+    @property
+    def natural_periods(self) -> list[dict[str, Any]]:
+        """Of free swinging, by stage: as summary.json has them; empty if none were found."""
+        found: list[dict[str, Any]] = self.summary.get("natural_periods") or []
+        return found
 
     def plot_tensions(self, ax: matplotlib.axes.Axes | None = None,
                       state: str = "dynamic") -> matplotlib.axes.Axes:
         """Draws the ropes' tensions over time, t."""
-        if ax is None:
-            import matplotlib.pyplot
-
-            ax = matplotlib.pyplot.subplots()[1]
+        ax = _axes(ax)
         for name, tension in self.to_dataframe(state).items():
             ax.plot(tension.index, tension / _NEWTON_PER_TONNE, label=name, linewidth=0.8)
         ax.set_xlabel("time, s")
@@ -185,15 +198,39 @@ class Result:
         ax.legend()
         return ax
 
+    def plot_path(self, body: str = "load", ax: matplotlib.axes.Axes | None = None,
+                  state: str = "dynamic") -> matplotlib.axes.Axes:
+        """Draws where a body's origin goes over time, m from where it begins.
 
-def _attributes(data: h5py.Dataset) -> dict[str, str]:
+        Raises KeyError if there is no such body.
+        """
+        ax = _axes(ax)
+        pose = self.history(state).pose.sel(body=body)
+        for axis in ("x", "y", "z"):
+            place = pose.sel(coordinate=axis)
+            ax.plot(place.time, place - place[0], label=axis, linewidth=0.8)
+        ax.set_xlabel("time, s")
+        ax.set_ylabel(f"way of {body}, m")
+        ax.legend()
+        return ax
+
+
+def _axes(ax: matplotlib.axes.Axes | None) -> matplotlib.axes.Axes:
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot
+
+    return matplotlib.pyplot.subplots()[1]
+
+
+def _attributes(data: Any) -> dict[str, str]:
     def text(value: Any) -> str:
         return value.decode() if isinstance(value, bytes) else str(value)
 
     return {name: text(data.attrs[name]) for name in ("units", "description") if name in data.attrs}
 
 
-def _gather(group: h5py.Group, kind: str, member: str, of: str) -> xarray.DataArray | None:
+def _gather(group: Any, kind: str, member: str, of: str) -> xarray.DataArray | None:
     """One array of the member of all objects of a kind that have it."""
     import xarray
 
