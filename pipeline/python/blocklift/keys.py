@@ -67,12 +67,11 @@ def _text(key: str, places: list[dict[str, Any]]) -> str:
             said = form.get("description")
             if said and said not in lines:
                 lines.append(said)
-            for more in (form.get("$comment"),
-                         "for example " + ", ".join(map(str, form["examples"]))
-                         if form.get("examples") else None,
-                         "one of " + ", ".join(map(str, form["enum"])) if form.get("enum") else None):
-                if more and more not in lines:
-                    lines.append(more)
+            more = [form["$comment"]] if form.get("$comment") else []
+            for word, members_of in (("for example", "examples"), ("one of", "enum")):
+                if form.get(members_of):
+                    more.append(f"{word} {', '.join(map(str, form[members_of]))}")
+            lines += [line for line in more if line not in lines]
     members: dict[str, str] = {}
     for place in places:
         for form in _forms(place):

@@ -1,5 +1,5 @@
-"""Runs a notebook from its first cell to its last in a temporary folder that holds the small lift as
-`my-lift`; fails with the cell that fails."""
+"""Runs a notebook from its first cell to its last in a temporary folder that holds the small lift
+as `my-lift`; fails with the cell that fails."""
 
 import os
 import shutil
@@ -12,7 +12,7 @@ from nbconvert.preprocessors import ExecutePreprocessor
 
 notebook = nbformat.read(sys.argv[1], as_version=4)
 nbformat.validate(notebook)
-assert all(not cell.get("outputs") for cell in notebook.cells), "the notebook is kept without outputs"
+assert not any(cell.get("outputs") for cell in notebook.cells), "a notebook is kept without outputs"
 with tempfile.TemporaryDirectory() as folder:
     shutil.copytree(os.environ["BLOCKLIFT_SMALL_LIFT"], Path(folder) / "my-lift")
     for name in ("HOME", "IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "MPLCONFIGDIR"):
