@@ -37,6 +37,11 @@ say "Python"
 dpkg-deb --extract "$place"/python3-blocklift_*.deb "$place/clean"
 BLOCKLIFT="$place/clean/usr/bin/blocklift" PYTHONPATH="$place/clean/usr/lib/python3/dist-packages" \
   /usr/bin/python3 -c "import blocklift; print('blocklift', blocklift.version(), 'from Python')"
+cp -r pipeline/python "$place/wheel"
+(cd "$place/wheel" && /usr/bin/python3 -c "from setuptools import build_meta; build_meta.build_wheel('.')" >/dev/null 2>&1 &&
+  /usr/bin/python3 -m zipfile --extract blocklift-*.whl unpacked)
+BLOCKLIFT="$place/clean/usr/bin/blocklift" PYTHONPATH="$place/wheel/unpacked" \
+  /usr/bin/python3 -c "import blocklift; print(blocklift.describe('lift case', 'gravity'))"
 
 say "Completion"
 source "$place/clean/usr/share/bash-completion/completions/blocklift"

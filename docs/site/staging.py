@@ -1,5 +1,6 @@
 """Gathers the pages of the site from the repository."""
 
+import json
 import os
 import re
 import shutil
@@ -93,5 +94,17 @@ class Stage:
     def _write_source(self, source, name):
         language = LANGUAGES.get(source.suffix, "text")
         text = source.read_text()
+        if source.suffix == ".ipynb":
+            self.write(name, _notebook(text))
+            return
         fence = "`" * (3 + max((len(run) for run in re.findall(r"`{3,}", text)), default=0))
         self.write(name, f"# {source.relative_to(self.root)}\n\n{fence}{language}\n{text}{fence}\n")
+
+
+def _notebook(text):
+    """The cells of a notebook as a page."""
+    parts = []
+    for cell in json.loads(text)["cells"]:
+        content = "".join(cell["source"])
+        parts.append(content if cell["cell_type"] == "markdown" else f"```python\n{content}\n```")
+    return "\n\n".join(parts) + "\n"

@@ -15,6 +15,7 @@ from typing import Any
 from ruamel.yaml import YAML
 
 from .errors import Complaint, InputError
+from .keys import describe
 from .program import run
 from .results import Result
 
@@ -76,6 +77,14 @@ class Case:
         elif not isinstance(place, dict):
             raise KeyError(f'{key}: there are no keys in what stands before "{last}"')
         place[last] = value
+
+    def describe(self, key: str) -> str:
+        """What the manual says of a key, with unit, limits and default, from the declaration by
+        which the program reads it: `case.describe("wind.speed")`.
+
+        Raises KeyError, with near names, if the format has no such key.
+        """
+        return describe("mechanism" if "mechanism" in self.data else "lift case", key)
 
     def save(self, path: str | os.PathLike[str] | None = None) -> Path:
         """Writes the file, in place or under another name. Models are looked for beside it."""

@@ -151,6 +151,78 @@ class Result:
                     coords={f"{name}_column": labels}, attrs=_attributes(data))
             return xarray.Dataset(variables, coords={"time": ("time", file["time"][:])})
 
+    def measures(self, state: str = "dynamic") -> xarray.Dataset:
+        """What follows from the motion over time, by name: "load: tilt", "R1: sling angle",
+        "load to ground: clearance"; with units.
+
+        Raises KeyError if the run has none, as that of a mechanism.
+        """
+        import xarray
+
+        with self._file() as file:
+            if f"{state}/measures" not in file:
+                raise KeyError(f'{self.folder}: there are no measures of "{state}"')
+            variables = {name: ("time", data[:], _attributes(data))
+                         for name, data in file[f"{state}/measures"].items()}
+            time = file[state]["time"]
+            return xarray.Dataset(variables, coords={"time": ("time", time[:], _attributes(time))})
+
+    def envelope(self, state: str = "dynamic") -> xarray.Dataset:
+        """The largest checked stress of each square of the block's plating over the whole lift, no
+        instant passed over.
+
+        Variables (square): von_mises, Pa; time, when it occurs, s; rope, that with the largest
+        share in it ("" if none); plate; centre (square, axis), m, in the block's frame.
+
+        Raises KeyError without a block whose stress was asked.
+        """
+        import xarray
+
+        with self._file() as file:
+            if f"structure/history/{state}/patches" not in file:
+                raise KeyError(f'{self.folder}: there is no envelope of "{state}"')
+            history = file["structure/history"]
+            patches = history[state]["patches"]
+            ropes = [*_texts(history["ropes"]), ""]  # -1: none
+            plates = _texts(history["patches/plates"])
+            centres = history["patches/points"]
+
+            def take(name: str) -> Any:
+                return "square", patches[name][:], _attributes(patches[name])
+
+            return xarray.Dataset(
+                {"von_mises": take("von_mises"), "time": take("time"),
+                 "rope": ("square", [ropes[place] for place in patches["rope"][:]]),
+                 "plate": ("square", [plates[place] for place in history["patches/plate"][:]]),
+                 "centre": (("square", "axis"), centres[:], _attributes(centres))},
+                coords={"axis": ["x", "y", "z"]})
+
+    def stress(self, state: str = "dynamic") -> xarray.Dataset:
+        """Stress over time at the places that are followed: von_mises, and normal_stress across the
+        plane of the largest principal stress, whose cycles tire the weld (time, place), Pa.
+
+        Raises KeyError without a block whose stress was asked.
+        """
+        import xarray
+
+        with self._file() as file:
+            if "structure/history/points" not in file or state not in ("static", "dynamic"):
+                raise KeyError(f'{self.folder}: there is no stress over time of "{state}"')
+            points = file["structure/history/points"]
+            names = list(points)
+            variables = {
+                kind: xarray.DataArray(
+                    np.stack([points[name][state][kind][:] for name in names], axis=1),
+                    dims=("time", "place"), attrs=_attributes(points[names[0]][state][kind]))
+                for kind in ("von_mises", "normal_stress")}
+            variables["point"] = xarray.DataArray(
+                np.stack([points[name]["point"][:] for name in names]), dims=("place", "axis"),
+                attrs={"units": "m"})
+            time = file[state]["time"]
+            return xarray.Dataset(variables, coords={
+                "time": ("time", time[:], _attributes(time)), "place": names,
+                "axis": ["x", "y", "z"]})
+
     def surface(self) -> dict[str, npt.NDArray[Any]]:
         """The block's surface: points (n, 3), m, in its frame, quads (m, 4), indices, and the
         largest von Mises stress of each point over the lift, Pa, `static` and `dynamic`.
@@ -165,19 +237,32 @@ class Result:
                 arrays[state] = file[f"structure/{way}/{state}/von_mises"][:]
             return arrays
 
-    def to_dataframe(self, state: str = "dynamic") -> pandas.DataFrame:
-        """Tensions over time, N: a rope a column."""
-        frame = self.history(state).tension.to_pandas()
-        frame.columns.name = "rope"
+    def to_dataframe(self, state: str = "dynamic",
+                     variable: str = "tension") -> pandas.DataFrame:
+        """A variable of :meth:`history` over time, SI units: tensions, a rope a column; of arrays
+        with more indices ("pose") a column for each.
+
+        Raises KeyError if the run has no such history or variable.
+        """
+        array = self.history(state)[variable]
+        others = [str(dim) for dim in array.dims if dim != "time"]
+        if len(others) > 1:
+            array = array.stack(column=others)
+        frame = array.to_pandas()
+        if len(others) == 1:
+            frame.columns.name = others[0]
         return frame
+
+    @property
+    def natural_periods(self) -> list[dict[str, Any]]:
+        """Of free swinging, by stage: as summary.json has them; empty if none were found."""
+        found: list[dict[str, Any]] = self.summary.get("natural_periods") or []
+        return found
 
     def plot_tensions(self, ax: matplotlib.axes.Axes | None = None,
                       state: str = "dynamic") -> matplotlib.axes.Axes:
         """Draws the ropes' tensions over time, t."""
-        if ax is None:
-            import matplotlib.pyplot
-
-            ax = matplotlib.pyplot.subplots()[1]
+        ax = _axes(ax)
         for name, tension in self.to_dataframe(state).items():
             ax.plot(tension.index, tension / _NEWTON_PER_TONNE, label=name, linewidth=0.8)
         ax.set_xlabel("time, s")
@@ -185,15 +270,67 @@ class Result:
         ax.legend()
         return ax
 
+    def plot_path(self, body: str = "load", ax: matplotlib.axes.Axes | None = None,
+                  state: str = "dynamic") -> matplotlib.axes.Axes:
+        """Draws where a body's origin goes over time, m from where it begins.
 
-def _attributes(data: h5py.Dataset) -> dict[str, str]:
+        Raises KeyError if there is no such body.
+        """
+        ax = _axes(ax)
+        pose = self.history(state).pose.sel(body=body)
+        for axis in ("x", "y", "z"):
+            place = pose.sel(coordinate=axis)
+            ax.plot(place.time, place - place[0], label=axis, linewidth=0.8)
+        ax.set_xlabel("time, s")
+        ax.set_ylabel(f"way of {body}, m")
+        ax.legend()
+        return ax
+
+    def plot_stress(self, ax: matplotlib.axes.Axes | None = None,
+                    state: str = "dynamic") -> matplotlib.axes.Axes:
+        """Draws the block's surface, coloured by the largest von Mises stress over the lift, MPa.
+
+        ax: axes of three dimensions; made if not given. Raises KeyError without a block whose
+        stress was asked.
+        """
+        import matplotlib.pyplot
+        from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+        surface = self.surface()
+        if ax is None:
+            ax = matplotlib.pyplot.figure().add_subplot(projection="3d")
+        corners = surface["points"][surface["quads"]]
+        faces = Poly3DCollection(corners, linewidths=0)
+        faces.set_array(surface[state][surface["quads"]].mean(axis=1) / 1e6)
+        ax.add_collection3d(faces)  # type: ignore[attr-defined]
+        low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
+        ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]),
+               xlabel="x, m", ylabel="y, m", zlabel="z, m")
+        ax.set_box_aspect(high - low)
+        ax.figure.colorbar(faces, ax=ax, pad=0.15, label="largest von Mises stress, MPa")
+        return ax
+
+
+def _texts(data: h5py.Dataset) -> list[str]:
+    return [text.decode() if isinstance(text, bytes) else str(text) for text in data[:]]
+
+
+def _axes(ax: matplotlib.axes.Axes | None) -> matplotlib.axes.Axes:
+    if ax is not None:
+        return ax
+    import matplotlib.pyplot
+
+    return matplotlib.pyplot.subplots()[1]
+
+
+def _attributes(data: Any) -> dict[str, str]:
     def text(value: Any) -> str:
         return value.decode() if isinstance(value, bytes) else str(value)
 
     return {name: text(data.attrs[name]) for name in ("units", "description") if name in data.attrs}
 
 
-def _gather(group: h5py.Group, kind: str, member: str, of: str) -> xarray.DataArray | None:
+def _gather(group: Any, kind: str, member: str, of: str) -> xarray.DataArray | None:
     """One array of the member of all objects of a kind that have it."""
     import xarray
 

@@ -94,10 +94,38 @@ class ResultTest(InATemporaryFolder):
         self.assertEqual(surface["points"].shape[1], 3)
         self.assertLess(surface["quads"].max(), len(surface["points"]))
         self.assertEqual(len(surface["dynamic"]), len(surface["points"]))
+        self.check_stress(result)
         with self.assertRaises(KeyError):
             result.history("yesterday")
         with self.assertRaises(KeyError):
             result.outputs()
+
+    def check_stress(self, result):
+        assessed = result.summary["structure"]["history"]
+        for state in ("static", "dynamic"):
+            envelope = result.envelope(state)
+            largest = envelope.isel(square=int(envelope.von_mises.argmax()))
+            theirs = assessed[state]
+            self.assertAlmostEqual(float(largest.von_mises) / theirs["checked_von_mises_Pa"], 1,
+                                   places=9)
+            self.assertAlmostEqual(float(largest.time), theirs["time_s"])
+            np.testing.assert_allclose(largest.centre, theirs["checked_point_m"], atol=1e-9)
+            self.assertIn(str(largest.plate.values), theirs["checked_group"])
+            self.assertIn(str(largest.rope.values), ["R1", "R2", "R3", "R4"])
+            # What is followed at the hot spot reaches the envelope there.
+            hot = result.stress(state).von_mises.sel(place="hot spot")
+            self.assertLessEqual(float(hot.max()), float(envelope.von_mises.max()) * (1 + 1e-9))
+        self.assertAlmostEqual(float(hot.max() / largest.von_mises), 1, places=9)
+        tilt = result.measures()["load: tilt"]
+        self.assertEqual(tilt.attrs["units"], "rad")
+        peak = next(one for one in result.summary["measures"] if one["name"] == "load: tilt")
+        self.assertAlmostEqual(float(tilt.max()), peak["dynamic"], places=12)
+        self.assertAlmostEqual(float(tilt.time[int(tilt.argmax())]), peak["time_of_dynamic_s"])
+        axes = result.plot_stress()
+        self.assertEqual(axes.get_zlabel(), "z, m")
+        for missing in (result.envelope, result.stress, result.measures):
+            with self.assertRaises(KeyError):
+                missing("yesterday")
 
     def test_a_changed_case_gives_other_loads_and_leaves_the_file_alone(self):
         before = Path("lift/case.yaml").read_text(encoding="utf-8")
@@ -135,13 +163,41 @@ class ResultTest(InATemporaryFolder):
         with self.assertRaises(ValueError):
             result.passed
 
-    def test_draws_tensions(self):
+    def test_draws(self):
         import matplotlib
 
         matplotlib.use("Agg")
-        axes = blocklift.Case("lift").simulate("out").plot_tensions()
+        result = blocklift.Case("lift").simulate("out")
+        axes = result.plot_tensions()
         self.assertEqual(len(axes.lines), 4)
         self.assertEqual(axes.get_ylabel(), "tension, t")
+        self.assertEqual(result.plot_path("load").get_ylabel(), "way of load, m")
+        with self.assertRaises(KeyError):
+            result.plot_path("roof")
+
+    def test_tables_of_any_variable(self):
+        result = blocklift.Case("lift").simulate("out")
+        frame = result.to_dataframe()
+        self.assertEqual(list(frame.columns), ["R1", "R2", "R3", "R4"])
+        self.assertEqual(frame.index.name, "time")
+        poses = result.to_dataframe(variable="pose")
+        self.assertIn(("load", "z"), poses.columns)
+        self.assertEqual(len(result.natural_periods[0]["modes"]), 16)
+        with self.assertRaises(KeyError):
+            result.to_dataframe(variable="mood")
+
+
+class DescribeTest(InATemporaryFolder):
+    def test_keys_are_explained_by_their_declarations(self):
+        case = blocklift.Case("lift")
+        self.assertIn("default: 9.80665 m/s^2", case.describe("gravity"))
+        self.assertIn("length", case.describe("ropes.R1"))
+        self.assertIn("moves", case.describe("operation[0]"))
+        with self.assertRaisesRegex(KeyError, 'did you mean "gravity"'):
+            case.describe("gravitas")
+        self.assertIn("joints", blocklift.describe("mechanism"))
+        with self.assertRaisesRegex(ValueError, "lift case"):
+            blocklift.describe("novel")
 
 
 class StudyTest(InATemporaryFolder):

@@ -17,7 +17,7 @@ _DONE, _RUN_FAILED, _WRONG_INPUT, _LIFT_FAILS = range(4)
 
 def executable() -> Path:
     """The program: what the variable BLOCKLIFT names, or `blocklift` of the PATH, or that of a
-    build beside this package.
+    build of the clone that this package is in.
 
     Raises FileNotFoundError if there is none.
     """
@@ -29,7 +29,7 @@ def executable() -> Path:
     found = shutil.which("blocklift")
     if found:
         return Path(found)
-    built = Path(__file__).resolve().parents[2] / "build" / "release" / "blocklift"
+    built = Path(__file__).resolve().parents[3] / "build" / "release" / "blocklift"
     if built.is_file():
         return built
     raise FileNotFoundError(

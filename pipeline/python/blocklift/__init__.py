@@ -15,6 +15,7 @@ the files that it writes. All numbers are in SI units; arrays carry theirs in th
 from .case import Case
 from .errors import Complaint, InputError, RunError
 from .hydrodynamics import Hydrodynamics, hydro
+from .keys import describe
 from .measurements import Measured, measured
 from .program import executable, schema, version
 from .results import Result
@@ -29,6 +30,7 @@ __all__ = [
     "Result",
     "RunError",
     "Study",
+    "describe",
     "executable",
     "hydro",
     "measured",
