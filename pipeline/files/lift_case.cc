@@ -8,6 +8,7 @@
 #include "pipeline/declaration/reading.h"
 #include "pipeline/files/lift_case_check.h"
 #include "pipeline/files/named_file.h"
+#include "pipeline/files/rope_points.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/series_file.h"
 

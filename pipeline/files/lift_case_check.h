@@ -4,9 +4,6 @@
 
 namespace blocklift::pipeline {
 
-/// Looks up the ends and sheaves of the case's ropes, and what operators keep, and complains about names that do not exist.
-void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics);
-
 /// Complains about what does not fit together in a case whose models have been read: cranes, ropes
 /// and operation against load table, start values, names, the operation itself. Parts that could
 /// not be read are passed over.
