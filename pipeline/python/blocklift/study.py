@@ -95,7 +95,7 @@ class Study:
         table = pandas.DataFrame(self.summary["limits"]["sea_states"]).rename(
             columns={"peak_period_s": "period", "heading_rad": "heading",
                      "significant_height_m": "height"})
-        data = table.set_index(["heading", "period"]).to_xarray()
+        data: xarray.Dataset = table.set_index(["heading", "period"]).to_xarray()
         for name, unit in (("height", "m"), ("period", "s"), ("heading", "rad")):
             data[name].attrs["units"] = unit
         return data
