@@ -19,7 +19,7 @@ from .keys import describe
 from .program import run
 from .results import Result
 
-_yaml = YAML()
+_yaml: Any = YAML()
 _yaml.preserve_quotes = True
 _yaml.width = 4096
 _INDEX = re.compile(r"\[(\d+)\]")

@@ -44,8 +44,9 @@ def run(arguments: Sequence[str | os.PathLike[str]],
 
     Raises InputError for wrong input, RunError if the run fails.
     """
-    done = subprocess.run([executable(), *map(os.fspath, arguments)], capture_output=True,
-                          text=True, check=False, env={**os.environ, **(environment or {})})
+    done = subprocess.run([str(executable()), *(os.fspath(one) for one in arguments)],
+                          capture_output=True, text=True, check=False,
+                          env={**os.environ, **(environment or {})})
     if done.returncode in (_DONE, _LIFT_FAILS):
         return done.stdout
     if done.returncode == _WRONG_INPUT:

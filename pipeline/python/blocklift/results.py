@@ -135,7 +135,7 @@ class Result:
         with self._file() as file:
             if "outputs" not in file:
                 raise KeyError(f"{self.folder}: these results have no outputs")
-            variables = {}
+            variables: dict[str, Any] = {}
             for name, data in file["outputs"].items():
                 values = data[:]
                 columns = data.attrs.get("columns", "")
@@ -302,7 +302,7 @@ class Result:
         corners = surface["points"][surface["quads"]]
         faces = Poly3DCollection(corners, linewidths=0)
         faces.set_array(surface[state][surface["quads"]].mean(axis=1) / 1e6)
-        ax.add_collection3d(faces)  # type: ignore[attr-defined]
+        ax.add_collection3d(faces)
         low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)
         ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]),
                xlabel="x, m", ylabel="y, m", zlabel="z, m")

@@ -11,7 +11,9 @@ from .program import run
 from .results import Result
 
 if TYPE_CHECKING:
+    import matplotlib.axes
     import pandas
+    import xarray
 
 
 class Study:
@@ -43,8 +45,104 @@ class Study:
 
     @property
     def worst(self) -> Result:
-        """The whole results of the member with the largest leading figure."""
+        """The whole results of the member with the worst leading figure.
+
+        Raises FileNotFoundError of a search, which has a best member.
+        """
         return Result(self.folder / "worst")
+
+    @property
+    def quantiles(self) -> pandas.DataFrame:
+        """Quantiles by figure and share: value, and low and high, the bounds of its confidence."""
+        return self._table_of("quantiles", ["figure", "share"])
+
+    @property
+    def extremes(self) -> pandas.DataFrame:
+        """Extremes by figure, law and share, fitted to the members' largest: value, low, high, and
+        how well the law fits (p_value). Empty if there are too few members."""
+        return self._table_of("extremes", ["figure", "law", "share"])
+
+    @property
+    def correlations(self) -> pandas.DataFrame:
+        """Rank correlation of each figure, a row, with each variable, a column: -1 to 1."""
+        import pandas
+
+        table = pandas.DataFrame({figure["name"]: figure["rank_correlation"]
+                                  for figure in self.summary["figures"]}).T
+        table.index.name = "figure"
+        return table
+
+    @property
+    def sobol_indices(self) -> pandas.DataFrame:
+        """Sobol' indices by figure and variable, first order and total, with their bounds; empty of
+        a study whose design is not for them."""
+        import pandas
+
+        rows = [{"figure": figure, "variable": variable, **index}
+                for figure, variables in self.summary.get("sobol_indices", {}).items()
+                for variable, index in variables.items()]
+        table = pandas.DataFrame(rows)
+        return table.set_index(["figure", "variable"]) if rows else table
+
+    @property
+    def limits(self) -> xarray.Dataset:
+        """The limiting significant height (heading, period), m, and governed_by, the figure that
+        decides, of a study of sea states. Raises KeyError of another one."""
+        import pandas
+
+        if "limits" not in self.summary:
+            raise KeyError(f"{self.folder}: the study does not ask for limiting sea states")
+        table = pandas.DataFrame(self.summary["limits"]["sea_states"]).rename(
+            columns={"peak_period_s": "period", "heading_rad": "heading",
+                     "significant_height_m": "height"})
+        data: xarray.Dataset = table.set_index(["heading", "period"]).to_xarray()
+        for name, unit in (("height", "m"), ("period", "s"), ("heading", "rad")):
+            data[name].attrs["units"] = unit
+        return data
+
+    @property
+    def search(self) -> dict[str, Any]:
+        """The answer of a search: figure, value, variables, bounds, is_feasible, is_converged.
+        Raises KeyError of another study."""
+        if "search" not in self.summary:
+            raise KeyError(f"{self.folder}: the study's design is not a search")
+        found: dict[str, Any] = self.summary["search"]
+        return found
+
+    @property
+    def best(self) -> Result:
+        """The whole results of the member that a search found best. Raises KeyError of another
+        study."""
+        assert self.search is not None
+        return Result(self.folder / "best")
+
+    def plot_tornado(self, figure: str | None = None,
+                     ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
+        """Draws how much each variable has to do with a figure, the study's first if none is named:
+        rank correlations, the largest on top.
+
+        Raises KeyError if there is no such figure.
+        """
+        correlations = self.correlations
+        name = figure if figure is not None else correlations.index[0]
+        row = correlations.loc[name]
+        if ax is None:
+            import matplotlib.pyplot
+
+            ax = matplotlib.pyplot.subplots()[1]
+        row = row.reindex(row.abs().sort_values().index)
+        ax.barh(row.index, row.values)
+        ax.axvline(0, color="black", linewidth=0.8)
+        ax.set_xlabel(f"rank correlation with {name}")
+        return ax
+
+    def _table_of(self, kind: str, index: list[str]) -> pandas.DataFrame:
+        import pandas
+
+        rows = [{"figure": figure["name"], **entry}
+                for figure in self.summary["figures"] for entry in figure[kind]]
+        table = pandas.DataFrame(rows)
+        return table.set_index(index) if rows else table
 
 
 def sweep(study: str | os.PathLike[str], output: str | os.PathLike[str], *,

@@ -1,5 +1,6 @@
 """The Python package on the small lift, through the program that was built."""
 
+import json
 import os
 import shutil
 import tempfile
@@ -215,6 +216,58 @@ class StudyTest(InATemporaryFolder):
         largest = study.spreads.loc["ropes.R1.max_static_tension_N"]
         self.assertEqual(members["weight (kg)"].idxmax(), largest.member_of_largest)
         self.assertEqual(list(study.worst.history("dynamic").rope.values), ["R1", "R2", "R3", "R4"])
+        # The weight decides alone.
+        figure = "ropes.R1.max_static_tension_N"
+        self.assertEqual(study.correlations.loc[figure, "weight"], 1)
+        median = study.quantiles.loc[(figure, 0.5)]
+        self.assertAlmostEqual(median.value, members[figure].median(), delta=1e-6 * median.value)
+        self.assertTrue(median.low < median.value < median.high)
+        axes = study.plot_tornado(figure)
+        self.assertEqual(axes.get_xlabel(), f"rank correlation with {figure}")
+        self.assertEqual(len(study.sobol_indices), 0)
+        for other in ("limits", "search", "best"):
+            with self.assertRaises(KeyError):
+                getattr(study, other)
+
+    def test_sobol_indices(self):
+        Path("study.yaml").write_text(
+            "study: two\ncase: lift\ndesign: sensitivity\nmembers: 8\n"
+            "figures: [ropes.R1.max_static_tension_N]\nvary:\n"
+            "  weight: {keys: ['block:mass'], spread: {law: uniform, lowest: 7 t, highest: 9 t}}\n"
+            "  R1: {keys: [ropes.R1.length],"
+            " spread: {law: uniform, lowest: 2.999 m, highest: 3.001 m}}\n",
+            encoding="utf-8")
+        indices = blocklift.sweep("study.yaml", "out", workers=2).sobol_indices
+        total = indices.total.loc["ropes.R1.max_static_tension_N"]
+        self.assertGreater(total["weight"], 0.9)
+        self.assertLess(total["R1"], 0.1)
+
+    def test_limiting_seas(self):
+        states = [{"peak_period_s": period, "heading_rad": heading, "known_as": "interpolated",
+                   "significant_height_m": 0.1 * period + heading, "governed_by": "swing"}
+                  for period in (5.0, 8.0) for heading in (0.0, 1.5)]
+        Path("study.json").write_text(
+            json.dumps({"figures": [], "limits": {"alpha": 1, "sea_states": states}}))
+        limits = blocklift.Study(".").limits
+        self.assertAlmostEqual(float(limits.height.sel(heading=1.5, period=8)), 2.3)
+        self.assertEqual(limits.height.attrs["units"], "m")
+        self.assertEqual(str(limits.governed_by.sel(heading=0, period=5).values), "swing")
+
+    def test_a_search(self):
+        Path("search.yaml").write_text(
+            "study: level\ncase: lift\ndesign: search\nmembers: 14\n"
+            "minimise: 'measures.load: tilt.static'\nvary:\n"
+            "  pair: {keys: [ropes.R1.length, ropes.R3.length], between: [2.9 m, 3.2 m]}\n",
+            encoding="utf-8")
+        study = blocklift.sweep("search.yaml", "out", workers=2)
+        found = study.search
+        self.assertTrue(found["is_feasible"])
+        tilts = study.members["measures.load: tilt.static"]
+        self.assertEqual(found["member"], tilts.idxmin())
+        self.assertAlmostEqual(float(study.best.measures("static")["load: tilt"].max()),
+                               found["value"], places=9)
+        with self.assertRaises(FileNotFoundError):
+            study.worst
 
 
 class MeasuredTest(InATemporaryFolder):
