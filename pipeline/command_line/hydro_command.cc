@@ -44,6 +44,8 @@ void print_panels(const HydrodynamicState& state) {
       state.bytes / 1e9);
   log_entry(panels);
   if (!is_quiet()) print_wrapped(panels);
+  const std::string doubt = doubt_about_coupling(*state.model, state.settings.frequencies.back());
+  if (!doubt.empty()) say_warning(doubt);
   std::fflush(stdout);
 }
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/panels/wetted_body.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
@@ -82,7 +81,6 @@ void require_apart(const HydrodynamicProblem& problem, const std::vector<Pose>& 
 void require_panels(const HydrodynamicProblem& problem, const dynamics::PanelModel& model) {
   try {
     require_panels_for_waves(model, problem.frequencies.back());
-    require_coupling(model, problem.frequencies.back());
   } catch (const dynamics::ModelError& error) {
     Diagnostics diagnostics;
     diagnostics.error(problem.frequencies_place, error.what());

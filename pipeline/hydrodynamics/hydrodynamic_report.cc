@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 #include "pipeline/terminal/text_table.h"
@@ -255,6 +256,23 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
       "twice the size to these; take smaller panels until that is below {:.0f} %",
       database.body_names[body], mode_names[static_cast<std::size_t>(worst % modes_per_body)],
       100.0 * change, 100.0 * acceptable_change);
+}
+
+std::string doubt_about_coupling(const dynamics::PanelModel& model, double highest_frequency) {
+  const std::optional<dynamics::CouplingReach> reach = find_coupling_reach(model);
+  const auto length = [&](double frequency) {
+    return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, model.water());
+  };
+  if (!reach || reach->shortest <= length(highest_frequency)) return {};
+  const auto name = [&](int body) { return model.bodies()[static_cast<std::size_t>(body)].name; };
+  return fmt::format(
+      "{} and {} lie {:.4g} m apart: waves shorter than {:.4g} m, above {:.3g} rad/s in deep "
+      "water, "
+      "are lost between them, so that each is computed as if it lay alone there; the shortest "
+      "wave asked for is {:.4g} m long",
+      name(reach->first), name(reach->second), reach->gap, reach->shortest,
+      std::sqrt(2.0 * std::numbers::pi * model.water().gravity / reach->shortest),
+      length(highest_frequency));
 }
 
 std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& title,

@@ -18,6 +18,10 @@ std::string hydrodynamic_table(const HydrodynamicFile& file,
 /// force changes most from panels of twice the size, where that is more than a tenth; else empty.
 std::string doubt_about_panels(const dynamics::HydrodynamicDatabase& database);
 
+/// A sentence for bodies so far apart that the waves of a frequency (rad/s) are lost between them
+/// on the surface's mesh; else empty.
+std::string doubt_about_coupling(const dynamics::PanelModel& model, double highest_frequency);
+
 /// A page of HTML that needs nothing else: added mass, damping, retardation functions, excitation
 /// and response of each body and mode.
 std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& title,

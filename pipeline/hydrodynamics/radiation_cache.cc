@@ -146,9 +146,13 @@ std::optional<dynamics::HydrodynamicDatabase> read_entry(const fs::path& file,
 dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
                                                 const std::string& of_what, const Say& say) {
   say("computing that of " + of_what);
-  dynamics::HydrodynamicDatabase database = compute_or_refuse(
-      problem,
-      [&](const RadiationProblem& p) { return compute_radiation(p, make_panel_model(p)); });
+  dynamics::HydrodynamicDatabase database =
+      compute_or_refuse(problem, [&](const RadiationProblem& p) {
+        const dynamics::PanelModel model = make_panel_model(p);
+        const std::string doubt = doubt_about_coupling(model, p.frequencies.back());
+        if (!doubt.empty()) say("warning: " + doubt);
+        return compute_radiation(p, model);
+      });
   say_doubt(database, say);
   return database;
 }

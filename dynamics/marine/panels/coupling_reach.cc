@@ -1,12 +1,7 @@
 #include "dynamics/marine/panels/coupling_reach.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
-#include <sstream>
-
-#include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -60,31 +55,6 @@ std::optional<CouplingReach> find_coupling_reach(const PanelModel& model) {
     }
   }
   return worst;
-}
-
-void require_coupling(const PanelModel& model, double frequency) {
-  const std::optional<CouplingReach> reach = find_coupling_reach(model);
-  const auto length = [&](double w) {
-    return 2.0 * std::numbers::pi / calc_wave_number(w, model.water());
-  };
-  const double wave = length(frequency);
-  if (!reach || reach->shortest <= wave) return;
-  double lowest = 0.0, highest = frequency;
-  while (highest - lowest > 1e-3 * frequency) {
-    const double middle = 0.5 * (lowest + highest);
-    (length(middle) < reach->shortest ? highest : lowest) = middle;
-  }
-  const auto name = [&](int body) { return model.bodies()[static_cast<std::size_t>(body)].name; };
-  std::ostringstream message;
-  message.precision(3);
-  message
-      << name(reach->first) << " and " << name(reach->second) << " lie " << reach->gap
-      << " m apart, and waves shorter than " << reach->shortest << " m, above " << highest
-      << " rad/s, are lost between them, while waves of " << wave << " m, " << frequency
-      << " rad/s, are asked for: those carry about " << reach->gap * wave / reach->shortest
-      << " m far on a surface of this many panels. Place the bodies nearer to each other, lower "
-         "the highest frequency, or compute each by itself";
-  throw ModelError(message.str());
 }
 
 }  // namespace blocklift::dynamics

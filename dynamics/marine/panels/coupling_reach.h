@@ -13,16 +13,12 @@ struct CouplingReach {
   double shortest = not_a_number;  ///< wave that still couples them, m; at most the gap
 };
 
-/// Waves shorter than eight of the widest panel between bodies are lost on their way: two floating
-/// hemispheres, radius a, 16 a apart keep nine tenths of their coupling's damping with 8.5 panels in
-/// a wave, half of it with 4.8 and a third with 3.1 (against B12/B11 = J0(k d), the far field
-/// without what is scattered back). Bodies less than a wave length apart are coupled by the water
-/// between them, not by travelling waves.
+/// Rings widen outwards, and with them the panels between bodies. Waves shorter than eight of the
+/// widest panel there are lost on their way: two floating hemispheres, radius a, 16 a apart keep
+/// nine tenths of their coupling's damping with 8.5 panels in a wave, half of it with 4.8 and a
+/// third with 3.1 (against B12/B11 = J0(k d), the far field without what is scattered back). Bodies
+/// less than a wave length apart are coupled by the water between them, not by travelling waves.
 /// @returns the pair whose shortest wave is the longest; none for a single body.
 std::optional<CouplingReach> find_coupling_reach(const PanelModel& model);
-
-/// @throws ModelError if bodies lie so far apart that the waves of a frequency (rad/s) are lost
-///   between them: how far they lie apart, and up to which distance such waves carry.
-void require_coupling(const PanelModel& model, double frequency);
 
 }  // namespace blocklift::dynamics

@@ -8,7 +8,6 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/enclosed_surface.h"
-#include "dynamics/marine/panels/surface_refinement.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -42,7 +41,6 @@ Nearest nearest_vertex_to_edge(const PlanePolygon& first, const PlanePolygon& se
 }
 
 /// The half-plane of the first polygon: bounded half way to the second.
-/// @param gap between them, m.
 HalfPlane separate(const PlanePolygon& first, const PlanePolygon& second, double& gap) {
   Nearest nearest = nearest_vertex_to_edge(first, second);
   const Nearest other = nearest_vertex_to_edge(second, first);
@@ -63,7 +61,7 @@ HalfPlane separate(const PlanePolygon& first, const PlanePolygon& second, double
                "opening of the other";
     throw ModelError(message.str());
   }
-  gap = nearest.distance;
+  gap = std::min(gap, nearest.distance);
   return half;
 }
 
@@ -99,7 +97,6 @@ class SurfaceMesher {
   double tolerance() const { return 1e-9 * settings_.first_ring; }
   RingWidths widths_at(const PlanePolygon& line) const;
   void add_outer_rings();
-  void refine_between();
 
   SurfaceMeshSettings settings_;
   std::vector<Body> bodies_;
@@ -108,7 +105,6 @@ class SurfaceMesher {
   double inner_radius_ = 0.0;   ///< holds the bodies
   double common_radius_ = 0.0;  ///< from here on the rings are common
   PlanePolygon common_edge_;
-  double widest_gap_ = 0.0;  ///< between two bodies, m
   double outer_area_ = 0.0;  ///< of the polygon that the outer edge is, m2
   std::vector<Panel> panels_;
 };
@@ -142,10 +138,7 @@ SurfaceMesher::SurfaceMesher(std::span<const WaterLine> lines, const SurfaceMesh
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     for (std::size_t j = 0; j < bodies_.size(); ++j) {
       if (i == j) continue;
-      double gap = 0.0;
-      bodies_[i].region.push_back(separate(bodies_[i].line, bodies_[j].line, gap));
-      bodies_[i].gap = std::min(bodies_[i].gap, gap);
-      widest_gap_ = std::max(widest_gap_, gap);
+      bodies_[i].region.push_back(separate(bodies_[i].line, bodies_[j].line, bodies_[i].gap));
     }
   }
   if (!(settings.radius > 1.5 * inner_radius_)) {
@@ -329,24 +322,9 @@ void SurfaceMesher::add_outer_rings() {
   }
 }
 
-/// Bodies nearer than a wave's length are coupled by the water between them.
-void SurfaceMesher::refine_between() {
-  // Eight of their diagonals (find_coupling_reach), which are longer than those of squares.
-  constexpr double panels_in_a_wave = 13.0;
-  if (!(settings_.carried_wave > 0.0) || widest_gap_ <= settings_.carried_wave) return;
-  const double area = std::numbers::pi * inner_radius_ * inner_radius_;
-  SurfaceFineness fineness;
-  fineness.centre = centre_;
-  fineness.radius = inner_radius_;
-  fineness.size = std::max(settings_.carried_wave / panels_in_a_wave,
-                           std::sqrt(area / static_cast<double>(settings_.most_between)));
-  panels_ = refine_surface(panels_, fineness, tolerance());
-}
-
 SurfaceMesh SurfaceMesher::make() {
   for (const Body& body : bodies_) mesh_body(body);
   add_outer_rings();
-  refine_between();
   for (const EnclosedSurface& water : enclosed_) {
     mesh_enclosed_surface(
         water, [&](const PlanePolygon& line) { return widths_at(line); }, tolerance(), panels_);
@@ -384,7 +362,6 @@ SurfaceMeshSettings surface_settings(std::span<const WaterLine> water_lines, dou
   settings.edge_share = 0.25;
   // Slower growth costs a tenth more panels and halves an error that is a hundredth already.
   settings.edge_growth = 1.7;
-  settings.carried_wave = shortest_wave;
   return settings;
 }
 

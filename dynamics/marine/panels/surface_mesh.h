@@ -15,19 +15,13 @@ struct SurfaceMeshSettings {
   /// first_ring, and widen by edge_growth until they have reached it; 0: they begin with it.
   double edge_share = 0.0;
   double edge_growth = 1.4;
-  /// Shortest wave (m) that bodies further apart than its length send to each other: panels between
-  /// them are at most a thirteenth of it wide, unless that takes more than most_between of them; 0: as
-  /// the rings have it.
-  double carried_wave = 0.0;
-  int most_between = 8000;
 };
 
 /// Settings for waves between two lengths (m): waves are resolved by a first ring of a fifteenth of
 /// the shortest (but at least 0.06 of the smallest water line's radius), and by an edge 1.4 of the
 /// longest away, which the damping zone needs to take it in. At a hull whose side moves to and fro
 /// the vertical velocity of the surface is infinite as a logarithm: there the rings begin with a
-/// quarter of the water line's edges, so that they follow the hull's own panels. The shortest wave
-/// is carried from body to body.
+/// quarter of the water line's edges, so that they follow the hull's own panels.
 SurfaceMeshSettings surface_settings(std::span<const WaterLine> water_lines, double shortest_wave,
                                      double longest_wave);
 
@@ -46,9 +40,6 @@ struct SurfaceMesh {
 /// region need not meet those of the next at their corners: the potential is constant on a panel.
 /// Water that a body embraces, a moonpool or the gap to one body that floats in it, has rings of its
 /// own (mesh_enclosed_surface).
-/// The rings widen outwards, and waves shorter than a few panels do not arrive at a body far away,
-/// nor get out from between the bodies. Where bodies lie further apart than carried_wave the
-/// panels within the circle that holds all of them are therefore divided (refine_surface).
 /// Without water lines there is no surface: an empty mesh.
 /// @throws ModelError if water lines intersect, one is not star-shaped enough for the rays, the
 /// regions of three or more bodies do not fill the plane, or a setting is out of range.

@@ -266,34 +266,6 @@ FarField make_empty_far_field(const PanelModel& model, const DatabaseSettings& s
   return far;
 }
 
-/// Area-weighted middle of a hull, level, m.
-Eigen::Vector2d level_middle(const PanelMesh& hull) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  double area = 0.0;
-  for (const Panel& panel : hull.panels) {
-    sum += panel.area * panel.centroid.head<2>();
-    area += panel.area;
-  }
-  return sum / area;
-}
-
-/// Three periods of the lowest frequency; and what the shortest waves need from body to body, with
-/// three periods of theirs to pass, before responses are tapered (s).
-double run_duration(const PanelModel& model, const DatabaseSettings& settings) {
-  const auto periods = [](double w) { return 3.0 * 2.0 * std::numbers::pi / w; };
-  const double highest = settings.frequencies.back();
-  double farthest = 0.0;
-  for (const WettedBody& a : model.bodies()) {
-    for (const WettedBody& b : model.bodies()) {
-      farthest = std::max(farthest, (level_middle(a.hull) - level_middle(b.hull)).norm());
-    }
-  }
-  const double on_the_way = farthest / calc_group_velocity(highest, model.water());
-  return std::max(
-      periods(settings.frequencies.front()),
-      farthest > 0.0 ? (on_the_way + periods(highest)) / (1.0 - tapered_fraction) : 0.0);
-}
-
 HydrodynamicDatabase make_empty(const PanelModel& model, const DatabaseSettings& settings) {
   HydrodynamicDatabase database;
   database.water = model.water();
@@ -379,7 +351,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   if (settings.with_far_field) database.far_field = make_empty_far_field(model, settings);
   const double lowest = settings.frequencies.front(), highest = settings.frequencies.back();
   const double duration =
-      settings.duration > 0.0 ? settings.duration : run_duration(model, settings);
+      settings.duration > 0.0 ? settings.duration : 3.0 * 2.0 * std::numbers::pi / lowest;
   const double strength =
       settings.damping_strength > 0.0 ? settings.damping_strength : damping_zone(lowest).strength;
   DatabaseReport unused;

@@ -57,13 +57,12 @@ struct HydrodynamicDatabase {
 
 /// Changes whenever compute_database, or the meshing of the water's surface, gives other figures
 /// for the same bodies: what was computed before is then not to be taken for what would be now.
-inline constexpr int panel_method_version = 3;
+inline constexpr int panel_method_version = 2;
 
 struct DatabaseSettings {
   std::vector<double> frequencies;  ///< rad/s, positive, ascending
   std::vector<double> headings;     ///< rad
-  /// Of the impulse runs; 0: three periods of the lowest frequency, or what the shortest wave needs
-  /// from body to body, if that is longer, s. The last 40 % are tapered.
+  /// Of the impulse runs; 0: three periods of the lowest frequency, s. The last 40 % are tapered.
   double duration = 0.0;
   /// Of the impulse runs; 0: as long as the surface allows, at most 0.25 rad of the highest
   /// frequency, s.

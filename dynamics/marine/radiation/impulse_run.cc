@@ -10,6 +10,8 @@ namespace {
 
 using Eigen::MatrixXd;
 
+constexpr double tapered_fraction = 0.4;
+
 /// 1 over the first part of the run, then half a cosine down to 0 at its end.
 double taper(long step, long steps) {
   const double begin = (1.0 - tapered_fraction) * static_cast<double>(steps);

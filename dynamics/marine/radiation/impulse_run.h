@@ -7,13 +7,10 @@
 
 namespace blocklift::dynamics {
 
-/// Share of a run, at its end, in which responses are brought down to nothing.
-inline constexpr double tapered_fraction = 0.4;
-
 /// What the water answers to an impulse of each mode of one part: its surface marched from the
 /// elevation that the impulse leaves, and the Fourier integrals of that.
 ///
-/// The last part of the run is tapered (tapered_fraction). The integrals take the march's own dispersion into
+/// The last 40 % of the run are tapered. The integrals take the march's own dispersion into
 /// account, w_d = (2/dt) asin(w dt/2), so that they carry no error of the time step but in the
 /// damping zone. The part must outlive the run.
 class ImpulseRun {

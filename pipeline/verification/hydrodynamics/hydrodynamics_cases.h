@@ -26,16 +26,12 @@ VerificationCase floating_hemisphere();
 VerificationCase truncated_cylinder();
 /// Symmetry of two bodies' coefficients.
 VerificationCase two_hemispheres();
-/// Waves between two boxes many wave lengths apart.
-VerificationCase bodies_far_apart();
 /// Diffraction directly and by Haskind's relation.
 VerificationCase haskind_relation();
 /// Excitation of a cylinder that stands on the bottom.
 VerificationCase standing_cylinder();
 /// Mean drift of a standing column; waves sent out against damping; energy at a free body.
 VerificationCase mean_drift_of_waves();
-/// Mean drift of a held column by the pressure on it, against the waves far away.
-VerificationCase near_field_drift();
 /// A sphere that a current takes along.
 VerificationCase drag_of_a_current();
 /// A sphere in a regular wave over 1,000 periods.
@@ -46,12 +42,9 @@ VerificationCase free_decay_of_a_sphere();
 /// it.
 VerificationCase sphere_through_files();
 /// A ring that slides along a spar, both bodies of one database, in regular waves: simulated from a
-/// mechanism file against the same equations in the frequency domain, with buoyancy of the hulls and
-/// by the database's stiffness.
+/// mechanism file against the same equations in the frequency domain.
 VerificationCase bodies_at_a_joint();
 /// Water that swings in a moonpool, without and with a lid that damps it.
 VerificationCase moonpool();
-/// Water that swings between two barges side by side.
-VerificationCase gap_between_barges();
 
 }  // namespace blocklift::pipeline

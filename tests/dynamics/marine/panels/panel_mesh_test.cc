@@ -191,27 +191,6 @@ TEST(PanelClusters, OfABoxCoverIt) {
   EXPECT_EQ(cluster_panels(box, 1.0).count, box.size());
 }
 
-// Divided panels cover what they covered, none wider than asked for, images alike.
-TEST(SurfaceMesh, RefinedPanelsCoverTheSameWater) {
-  const auto lines = find_water_lines(spheres({-8, 8}));
-  SurfaceMeshSettings settings{.first_ring = 0.2, .radius = 40};
-  const SurfaceMesh coarse = make_surface_mesh(lines, settings);
-  settings.carried_wave = 6.0;
-  const SurfaceMesh fine = make_surface_mesh(lines, settings);
-  EXPECT_GT(fine.mesh.size(), coarse.mesh.size());
-  EXPECT_NEAR(fine.mesh.total_area(), coarse.mesh.total_area(), 1e-9 * coarse.mesh.total_area());
-  for (const Panel& panel : fine.mesh.panels) {
-    EXPECT_LT((panel.normal - Vector3(0, 0, -1)).norm(), 1e-12);
-    if (panel.centroid.norm() < 9.0) {
-      EXPECT_LT(panel.diameter(), 6.0 / 8.0);
-    }
-  }
-  EXPECT_EQ(4 * restrict_to_symmetry(fine.mesh, {true, true}).size(), fine.mesh.size());
-  // Nearer than a wave they are left as they are.
-  settings.carried_wave = 15.0;
-  EXPECT_EQ(make_surface_mesh(lines, settings).mesh.size(), coarse.mesh.size());
-}
-
 TEST(SurfaceMesh, ThreeBodiesInARow) {
   const auto lines = find_water_lines(spheres({-3, 0, 3}));
   const SurfaceMesh surface = make_surface_mesh(lines, {.first_ring = 0.15, .radius = 40});

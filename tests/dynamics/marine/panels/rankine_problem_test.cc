@@ -229,22 +229,17 @@ TEST(HydrodynamicDatabase, SurgeOfATruncatedCylinderFollowsItsPanels) {
   EXPECT_EQ(change[yaw], 0.0);  // a round body does not move the water
 }
 
-/// Two hemispheres on a surface for waves from 3 to 10 radii.
-PanelModel two_spheres(double distance, const SurfaceMeshSettings& changes = {}) {
+// Panels between bodies are wider the farther they lie apart; beyond 16 radii waves of six radii
+// (1 rad/s) are lost.
+TEST(CouplingReach, ShrinksWithTheDistance) {
   const PanelMesh sphere = make_half_ellipsoid({1, 1, 1}, {.meridians = 24, .parallels = 6});
-  const std::vector<WettedBody> bodies{{"left", translate(sphere, {-distance / 2, 0, 0}), {}},
-                                       {"right", translate(sphere, {distance / 2, 0, 0}), {}}};
-  const auto lines = find_water_lines(bodies);
-  SurfaceMeshSettings settings = surface_settings(lines, 3.0, 10.0);
-  settings.carried_wave *= changes.carried_wave == 0.0 ? 0.0 : 1.0;
-  settings.most_between = changes.most_between;
-  return {bodies, make_surface_mesh(lines, settings), {1.0, 1.0}, {true, true}};
-}
-
-// Rings widen with the distance: beyond 16 radii waves of six radii (1 rad/s) are lost.
-TEST(CouplingReach, ShrinksWithTheDistanceOfRings) {
   const auto reach_at = [&](double distance) {
-    return find_coupling_reach(two_spheres(distance)).value();
+    const std::vector<WettedBody> bodies{{"left", translate(sphere, {-distance / 2, 0, 0}), {}},
+                                         {"right", translate(sphere, {distance / 2, 0, 0}), {}}};
+    const auto lines = find_water_lines(bodies);
+    const SurfaceMesh surface = make_surface_mesh(lines, surface_settings(lines, 3.0, 10.0));
+    const PanelModel model(bodies, surface, {1.0, 1.0}, {true, true});
+    return find_coupling_reach(model).value();
   };
   const CouplingReach near = reach_at(4.0), far = reach_at(16.0);
   EXPECT_NEAR(near.gap, 2.0, 0.05);
@@ -252,21 +247,6 @@ TEST(CouplingReach, ShrinksWithTheDistanceOfRings) {
   EXPECT_LT(near.shortest, 2.0 * std::numbers::pi);
   EXPECT_GT(far.shortest, 2.0 * std::numbers::pi);
   EXPECT_FALSE(find_coupling_reach(make_sphere_model({true, true})));
-}
-
-// Panels between bodies that are many waves apart carry them, up to a number of panels.
-TEST(CouplingReach, IsThatOfTheShortestWaveByFinerPanels) {
-  const double highest = std::sqrt(2.0 * std::numbers::pi / 3.0);
-  const PanelModel fine = two_spheres(16.0, {.carried_wave = 1.0});
-  EXPECT_LE(find_coupling_reach(fine).value().shortest, 3.0);
-  EXPECT_NO_THROW(require_coupling(fine, highest));
-  const PanelModel few = two_spheres(16.0, {.carried_wave = 1.0, .most_between = 800});
-  EXPECT_LT(few.surface_mesh().size(), fine.surface_mesh().size());
-  EXPECT_THAT([&] { require_coupling(few, highest); },
-              ThrowsMessage<ModelError>(AllOf(HasSubstr("left and right lie 14 m apart"),
-                                              HasSubstr("are lost between them"),
-                                              HasSubstr("those carry about"))));
-  EXPECT_NO_THROW(require_coupling(few, 0.6));
 }
 
 TEST(HydrodynamicDatabase, RefusesFrequenciesOutOfOrder) {
