@@ -160,6 +160,8 @@ std::string rigged_case_text(const RiggedLift& rigged) {
   if (standard && !rigged.master_links.empty())
     root["standard"]["master_links"] =
         rigged_master_links(rigged, root["standard"]["master_links"]);
+  if (standard && !rigged.sheaves.empty())
+    root["standard"]["sheaves"] = rigged_sheaves(rigged, root["standard"]["sheaves"]);
   if (!rigged.spreaders.empty()) root["spreaders"] = rigged_spreaders(rigged, root["spreaders"]);
   return fmt::format("# Rigging chosen from stock by blocklift rig, for the case {}.\n",
                      rigged.lift_case.file.filename().string()) +
