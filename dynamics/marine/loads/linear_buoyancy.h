@@ -14,8 +14,8 @@ namespace blocklift::dynamics {
 ///   y = (zeta; u_y; -u_x),   U = y.C y/2 - W (zeta + p_x u_x + p_y u_y),
 ///   force on R = -dU/dzeta upwards,   moment about R = u x dU/du  (in H).
 ///
-/// W is the buoyancy at rest and (p_x, p_y) where it passes R; at small motions y is heave, roll and
-/// pitch. Since u alone tells the attitude, a vessel may drift and turn about the vertical as far
+/// W is the buoyancy at rest and (p_x, p_y) where it passes R; at small motions y is heave, roll
+/// and pitch. Since u alone tells the attitude, a vessel may drift and turn about the vertical as far
 /// as it likes; the moment has no part about it; and there is a potential at motions of any size,
 /// although the law fits small ones. At rest -dF/dX is the stiffness of hydrostatics.h, the columns
 /// of yaw included.

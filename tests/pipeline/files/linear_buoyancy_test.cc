@@ -36,7 +36,9 @@ radii_of_gyration: [6 m, 11 m, 11 m]
 const std::string afloat = R"(mechanism: afloat
 sea: {}
 vessels:
-  B1: {model: vessels/pontoon, position: [3 m, 4 m], heading: 90 deg, radiation: none, linear_buoyancy: {}}
+  B1:
+    {model: vessels/pontoon, position: [3 m, 4 m], heading: 90 deg, radiation: none,
+     linear_buoyancy: {}}
 simulate: {duration: 2 s}
 )";
 
@@ -93,7 +95,8 @@ LinearBuoyancy::Definition definition_in(const BuiltMechanism& built) {
   return found.empty() ? LinearBuoyancy::Definition() : found.front().definition();
 }
 
-// Of the hull at rest, about the origin on the base line, along the world's axes: she heads along y.
+// Of the hull at rest, about the origin on the base line, along the world's axes: she heads along
+// y.
 TEST(LinearBuoyancy, IsTheHullsAtRestWithoutADatabase) {
   const ReadMechanism given = read(afloat);
   ASSERT_TRUE(given.file) << given.complaints;
