@@ -15,10 +15,10 @@ namespace blocklift::dynamics {
 ///   force on R = -dU/dzeta upwards,   moment about R = u x dU/du  (in H).
 ///
 /// W is the buoyancy at rest and (p_x, p_y) where it passes R; at small motions y is heave, roll
-/// and pitch. Since u alone tells the attitude, a vessel may drift and turn about the vertical as far
-/// as it likes; the moment has no part about it; and there is a potential at motions of any size,
-/// although the law fits small ones. At rest -dF/dX is the stiffness of hydrostatics.h, the columns
-/// of yaw included.
+/// and pitch. Since u alone tells the attitude, a vessel may drift and turn about the vertical as
+/// far as it likes; the moment has no part about it; and there is a potential at motions of any
+/// size, although the law fits small ones. At rest -dF/dX is the stiffness of hydrostatics.h, the
+/// columns of yaw included.
 /// Source: Newman, Marine Hydrodynamics (1977), sec. 6.16, to the first order in the motion.
 class LinearBuoyancy {
  public:
