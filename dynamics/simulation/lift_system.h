@@ -14,6 +14,7 @@
 #include "dynamics/marine/loads/current_load.h"
 #include "dynamics/marine/loads/diffraction_force.h"
 #include "dynamics/marine/loads/hull_force.h"
+#include "dynamics/marine/loads/linear_buoyancy.h"
 #include "dynamics/marine/loads/radiated_water.h"
 #include "dynamics/marine/loads/slow_drift.h"
 #include "dynamics/marine/loads/viscous.h"
@@ -33,7 +34,7 @@ using ForceElements =
                std::vector<DiffractionForce>, std::vector<SlowDrift>, std::vector<CurrentLoad>,
                std::vector<MorisonMember>, std::vector<QuadraticDamping>, std::vector<MooringLine>,
                std::vector<TuggerLine>, std::vector<AppliedLoad>, std::vector<JointLoad>,
-               std::vector<LinearRestraint>>;
+               std::vector<LinearRestraint>, std::vector<LinearBuoyancy>>;
 
 /// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the
 /// works too.

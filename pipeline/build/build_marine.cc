@@ -335,6 +335,13 @@ void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vess
                              dynamics::ForceElements& elements) {
   std::get<std::vector<dynamics::HullForce>>(elements).push_back(
       dynamics::HullForce({"hull of " + name, body, clusters(vessel), sea(at_rest)}));
+  add_damping(name, body, vessel, linear, quadratic, displaced_mass, at_rest, elements);
+}
+
+void MarineBuilder::add_damping(const std::string& name, BodyIndex body, const Vessel& vessel,
+                                const DampingInCase& linear, const DampingInCase& quadratic,
+                                double displaced_mass, bool at_rest,
+                                dynamics::ForceElements& elements) {
   dynamics::QuadraticDamping::Definition damping;
   damping.name = "damping of " + name;
   damping.point = {body, vessel.model.centre_of_mass};
@@ -345,6 +352,67 @@ void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vess
   damping.hull = clusters(vessel);
   damping.reference_volume = displaced_mass / parts_.sea->density;
   std::get<std::vector<dynamics::QuadraticDamping>>(elements).emplace_back(damping);
+}
+
+void MarineBuilder::add_linear_buoyancy(const VesselInCase& vessel, BodyIndex body,
+                                        dynamics::ForceElements& elements) {
+  const std::string& name = vessel.name.value;
+  const LinearBuoyancyInCase& model = *vessel.linear_buoyancy;
+  const Vector3& centre_of_mass = vessel.model->model.centre_of_mass;
+  const dynamics::Pose& X_WB = start(name);
+  const double rho_g = parts_.sea->density * gravity_;
+  const dynamics::Hydrostatics rest = calc_hydrostatics(*clusters(*vessel.model), X_WB);
+  dynamics::LinearBuoyancy::Definition buoyancy;
+  buoyancy.name = "buoyancy of " + name;
+  buoyancy.frame = {body, {X_WB.R.transpose(), Vector3::Zero()}};
+  buoyancy.buoyancy = rho_g * rest.volume;
+  Vector3 p_WC = X_WB.p + rest.p_BoC_W();
+  if (model.stiffness) {
+    buoyancy.frame.X_BH = dynamics::Pose::translation(model.about.value_or(centre_of_mass));
+    buoyancy.stiffness =
+        model.given() - dynamics::calc_stiffness_of_weight(vessel.model->model.mass * gravity_,
+                                                           centre_of_mass - buoyancy.frame.X_BH.p);
+  } else if (vessel.hydrodynamics) {
+    take_buoyancy_of_database(vessel, rho_g, buoyancy, p_WC);
+  } else {
+    constexpr std::array<int, 3> heave_roll_pitch = {5, 0, 1};
+    const Eigen::Matrix<double, 6, 6> K = rho_g * calc_stiffness_over_rho_g(rest);
+    buoyancy.stiffness = K(heave_roll_pitch, heave_roll_pitch);
+  }
+  const dynamics::Pose X_WH = X_WB * buoyancy.frame.X_BH;
+  buoyancy.rest_height = X_WH.p.z();
+  buoyancy.centre = (X_WH.R.transpose() * (p_WC - X_WH.p)).head<2>();
+  std::get<std::vector<dynamics::LinearBuoyancy>>(elements).emplace_back(buoyancy);
+}
+
+void MarineBuilder::take_buoyancy_of_database(const VesselInCase& vessel, double rho_g,
+                                              dynamics::LinearBuoyancy::Definition& buoyancy,
+                                              Vector3& p_WC) const {
+  const dynamics::HydrodynamicDatabase& database = *vessel.hydrodynamics;
+  const auto b = static_cast<std::size_t>(vessel.hydrodynamic_body);
+  const std::vector<Radiating> vessels = radiating();
+  const Radiating& own = *std::find_if(vessels.begin(), vessels.end(), [&](const Radiating& one) {
+    return one.name == vessel.name.value;
+  });
+  buoyancy.frame.X_BH = own.X_BR;
+  const dynamics::Pose X_WH = own.X_WB * own.X_BR;
+  if (database.displaced_volumes[b] > 0.0) {
+    buoyancy.buoyancy = rho_g * database.displaced_volumes[b];
+  }
+  const auto from_reference = [&](const std::vector<Vector3>& points) {
+    return Vector3(points[b] - database.reference_points[b]);
+  };
+  if (!database.centres_of_buoyancy.empty()) {
+    p_WC = X_WH.apply(from_reference(database.centres_of_buoyancy));
+  }
+  const Vector3 arm = database.centres_of_mass.empty()
+                          ? own.X_BR.inverse().apply(vessel.model->model.centre_of_mass)
+                          : from_reference(database.centres_of_mass);
+  const Eigen::Index heave = dynamics::modes_per_body * Eigen::Index{vessel.hydrodynamic_body} + 2;
+  const dynamics::Matrix3 C = database.hydrostatic_stiffness.block<3, 3>(heave, heave);
+  // The database's bodies float by themselves: their weight is that of the water.
+  buoyancy.stiffness =
+      0.5 * (C + C.transpose()) - dynamics::calc_stiffness_of_weight(buoyancy.buoyancy, arm);
 }
 
 void MarineBuilder::add_restraint(const VesselInCase& vessel, BodyIndex body,
@@ -409,8 +477,14 @@ void MarineBuilder::add_current_load(const VesselInCase& vessel, BodyIndex body,
 void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool at_rest,
                                dynamics::ForceElements& elements) {
   const std::string& name = vessel.name.value;
-  add_hull(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
-           displaced_mass_.at(name), at_rest, elements);
+  if (vessel.linear_buoyancy) {
+    add_linear_buoyancy(vessel, body, elements);
+    add_damping(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
+                displaced_mass_.at(name), at_rest, elements);
+  } else {
+    add_hull(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
+             displaced_mass_.at(name), at_rest, elements);
+  }
   if (vessel.current_load) add_current_load(vessel, body, at_rest, elements);
   if (vessel.restraint) add_restraint(vessel, body, elements);
   for (const MemberInCase& model : vessel.members) {
@@ -479,6 +553,7 @@ void MarineBuilder::add_elements(const BodyOf& point, const dynamics::Hydrodynam
     force.mark = draught_mark(vessels, point);
     force.database_body = index++;
     force.sea = sea(at_rest);
+    force.with_froude_krylov = in_case && in_case->linear_buoyancy;
     std::get<std::vector<dynamics::DiffractionForce>>(elements).emplace_back(std::move(force));
   }
 }

@@ -143,6 +143,16 @@ class MarineBuilder {
   std::shared_ptr<const dynamics::HullClusters> clusters(const Vessel& vessel);
   void add_vessel(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
                   dynamics::ForceElements& elements);
+  void add_damping(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
+                   const DampingInCase& linear, const DampingInCase& quadratic,
+                   double displaced_mass, bool at_rest, dynamics::ForceElements& elements);
+  void add_linear_buoyancy(const VesselInCase& vessel, dynamics::BodyIndex body,
+                           dynamics::ForceElements& elements);
+  /// Frame, amount and stiffness from the database that the vessel names, and where its centre of
+  /// buoyancy lies at rest, if that tells it.
+  void take_buoyancy_of_database(const VesselInCase& vessel, double rho_g,
+                                 dynamics::LinearBuoyancy::Definition& buoyancy,
+                                 Vector3& p_WC) const;
   void add_restraint(const VesselInCase& vessel, dynamics::BodyIndex body,
                      dynamics::ForceElements& elements) const;
   void add_current_load(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,

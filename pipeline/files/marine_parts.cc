@@ -362,6 +362,7 @@ void check_marine_parts(const MarineParts& parts, double gravity,
   check_radiation(parts.vessels, diagnostics);
   check_vessel_databases(parts, gravity, diagnostics);
   check_drift(parts.vessels, diagnostics);
+  check_linear_buoyancy(parts.vessels, parts.sea && parts.sea->waves, diagnostics);
   if (parts.sea && sound_so_far) {
     check_sea(parts, gravity, diagnostics);
     for (const VesselInCase& vessel : parts.vessels) {

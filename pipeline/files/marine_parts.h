@@ -13,6 +13,7 @@
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/hull_places.h"
 #include "pipeline/files/hydrodynamic_settings.h"
+#include "pipeline/files/linear_buoyancy.h"
 #include "pipeline/files/vessel_model.h"
 #include "pipeline/mechanism/mechanism_parts.h"
 
@@ -113,9 +114,6 @@ struct MemberInCase {
   double drag_coefficient = 0;
 };
 
-/// Rows of a matrix of six freedoms as a file has them: surge, sway, heave, roll, pitch, yaw.
-using MatrixInCase = std::array<std::array<Quantity, 6>, 6>;
-
 /// Spring and damper of six freedoms that hold a vessel at its place.
 struct RestraintInCase {
   std::optional<Located<MatrixInCase>> stiffness, damping;
@@ -162,6 +160,7 @@ struct VesselInCase {
   DampingInCase damping, quadratic_damping;
   std::optional<CurrentLoadInCase> current_load;
   std::optional<RestraintInCase> restraint;
+  std::optional<LinearBuoyancyInCase> linear_buoyancy;  ///< none: of the hull as it lies
   std::vector<MemberInCase> members;
 };
 

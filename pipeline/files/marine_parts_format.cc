@@ -190,45 +190,6 @@ Format<DampingInCase> damping_format(const char* noun, Dimension linear, Dimensi
   return table.format();
 }
 
-/// What stands in a matrix where a displacement or a turn makes a force or a moment.
-struct MatrixDimensions {
-  Dimension straight, mixed, turning;
-
-  std::vector<Dimension> all() const { return {straight, mixed, turning, Dimension::ratio}; }
-  Dimension at(std::size_t row, std::size_t column) const {
-    if (row < 3 && column < 3) return straight;
-    return row < 3 || column < 3 ? mixed : turning;
-  }
-};
-constexpr MatrixDimensions stiffness_dimensions{Dimension::stiffness, Dimension::force,
-                                                Dimension::rotational_stiffness};
-constexpr MatrixDimensions damping_dimensions{Dimension::damping, Dimension::impulse,
-                                              Dimension::rotational_damping};
-
-Format<MatrixInCase> matrix_format(const MatrixDimensions& dimensions) {
-  return array_of<std::array<Quantity, 6>, 6>(array_of<Quantity, 6>(quantity_of(dimensions.all())));
-}
-
-void check_matrix(const char* key, const std::optional<Located<MatrixInCase>>& matrix,
-                  const MatrixDimensions& dimensions, Reading& reading) {
-  if (!matrix) return;
-  for (std::size_t row = 0; row < 6; ++row) {
-    for (std::size_t column = 0; column < 6; ++column) {
-      const Quantity& entry = matrix->value[row][column];
-      const Dimension due = dimensions.at(row, column);
-      if (entry.dimension == due || (entry.dimension == Dimension::ratio && entry.value == 0)) {
-        continue;
-      }
-      reading.error(matrix->mark,
-                    fmt::format("row {}, column {} of {} is {}; {} is due, or 0", row + 1,
-                                column + 1, key, text_of(entry.dimension).noun,
-                                text_of(due).noun + " such as \"" + text_of(due).example + "\""),
-                    {"rows and columns are surge, sway, heave, roll, pitch, yaw"});
-      return;
-    }
-  }
-}
-
 void check_restraint(const RestraintInCase& restraint, Reading& reading, const Mark& mark) {
   if (!restraint.stiffness && !restraint.damping) {
     reading.error(mark, "a restraint needs its stiffness or its damping");
@@ -242,20 +203,10 @@ void check_restraint(const RestraintInCase& restraint, Reading& reading, const M
                   "eigenvalue");
   }
   if (!restraint.stiffness || !restraint.symmetric) return;
-  const MatrixInCase& rows = restraint.stiffness->value;
-  for (std::size_t row = 0; row < 6; ++row) {
-    for (std::size_t column = 0; column < row; ++column) {
-      const double below = rows[row][column].value, above = rows[column][row].value;
-      if (std::abs(below - above) <= 1e-6 * std::max(std::abs(below), std::abs(above))) continue;
-      reading.error(
-          restraint.stiffness->mark,
-          fmt::format("the stiffness is not symmetric: {:.6g} in row {}, column {}, and {:.6g} in "
-                      "row {}, column {} (SI)",
-                      below, row + 1, column + 1, above, column + 1, row + 1),
-          {"such a spring gives or takes energy on closed paths; \"symmetric: false\" allows it"});
-      return;
-    }
-  }
+  check_symmetric(*restraint.stiffness,
+                  "such a spring gives or takes energy on closed paths; \"symmetric: false\" "
+                  "allows it",
+                  reading);
 }
 
 Format<RestraintInCase> restraint_format() {
@@ -352,16 +303,10 @@ Format<MemberInCase> member_format() {
 
 RestraintInCase::Matrix6 RestraintInCase::matrix(
     const std::optional<Located<MatrixInCase>>& given) {
-  Matrix6 result = Matrix6::Zero();
-  if (!given) return result;
-  for (std::size_t row = 0; row < 6; ++row) {
-    for (std::size_t column = 0; column < 6; ++column) {
-      // The file begins with what is straight, spatial vectors with what turns.
-      result(static_cast<Eigen::Index>((row + 3) % 6),
-             static_cast<Eigen::Index>((column + 3) % 6)) = given->value[row][column].value;
-    }
-  }
-  return result;
+  if (!given) return Matrix6::Zero();
+  // The file begins with what is straight, spatial vectors with what turns.
+  const std::array<int, 6> order = {3, 4, 5, 0, 1, 2};
+  return values_of(given->value)(order, order);
 }
 
 Format<DampingInCase> vessel_damping_format() {
@@ -393,7 +338,7 @@ Format<VesselInCase> vessel_in_case_format() {
       "vessel",
       "A floating body: a body of this name that moves freely. Buoyancy and the "
       "pressure of the undisturbed waves act on its hull as it lies at each "
-      "instant.");
+      "instant, unless its buoyancy is linear.");
   table
       .required("model", &VesselInCase::model_name, located(reference()),
                 "name of the vessel's model file")
@@ -444,6 +389,9 @@ Format<VesselInCase> vessel_in_case_format() {
                 "damping of surge and sway")
       .optional("restraint", &VesselInCase::restraint, restraint_format(),
                 "linear spring and damper by matrices, such as a published mooring")
+      .optional("linear_buoyancy", &VesselInCase::linear_buoyancy, linear_buoyancy_format(),
+                "buoyancy by its stiffness at rest, of a database or a publication, in place of "
+                "the hull's; {} takes that of the database")
       .optional("members", &VesselInCase::members, list_of(member_format()),
                 "slender members with drag")
       .rule([](const VesselInCase& vessel, Reading& reading, const Mark&) {

@@ -91,18 +91,22 @@ std::string draughts_sentence(const LiftCase& lift_case) {
              draughts, X_WB.p.x(), X_WB.p.y());
 }
 
-std::string names_of_drifting(const LiftCase& lift_case) {
+template <class Predicate>
+std::string names_of_vessels(const LiftCase& lift_case, const Predicate& holds) {
   std::string names;
   for (const VesselInCase& vessel : lift_case.vessels) {
-    if (vessel.drift.value == DriftMethod::none) continue;
-    names += (names.empty() ? "" : ", ") + vessel.name.value;
+    if (holds(vessel)) names += (names.empty() ? "" : ", ") + vessel.name.value;
   }
   return names;
 }
 
 void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
                          std::vector<std::string>& list) {
-  const std::string drifting = names_of_drifting(lift_case);
+  const std::string drifting = names_of_vessels(lift_case, [](const VesselInCase& vessel) {
+    return vessel.drift.value != DriftMethod::none;
+  });
+  const std::string linear = names_of_vessels(
+      lift_case, [](const VesselInCase& vessel) { return vessel.linear_buoyancy.has_value(); });
   list.push_back(fmt::format(
       "Buoyancy and the pressure of the undisturbed waves act on each hull as it lies at each "
       "instant, exactly for its panels in still water. Waves are linear; there is no slamming or "
@@ -118,6 +122,12 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
         "that the case names). What the waves' pressure on the moving hull has of it already is "
         "counted twice.",
         drifting));
+  }
+  if (!linear.empty()) {
+    list.push_back(fmt::format(
+        "Not so {}: buoyancy is linear in heave, roll and pitch about where it floats at the "
+        "start, and the waves' forces are those on its hull there.",
+        linear));
   }
   if (lift_case.load.vessel) {
     list.push_back(draughts_sentence(lift_case));

@@ -75,6 +75,20 @@ TEST(MarineJacobian, OfBuoyancy) {
   expect_jacobian(elements, random);
 }
 
+TEST(MarineJacobian, OfLinearBuoyancy) {
+  Random random(7);
+  ForceElements elements;
+  LinearBuoyancy::Definition d;
+  d.name = "b";
+  d.frame = {1, {rotation_about(Vector3(1, 2, 3).normalized(), 0.4), {1, -0.5, 0.3}}};
+  d.rest_height = 0.2;
+  d.buoyancy = 1300;
+  d.centre = {0.4, -0.7};
+  d.stiffness << 700, 90, -50, 90, 2000, 300, -50, 300, 8000;
+  std::get<std::vector<LinearBuoyancy>>(elements).emplace_back(d);
+  expect_jacobian(elements, random);
+}
+
 TEST(MarineJacobian, OfDampingWetInPart) {
   Random random(3);
   ForceElements elements;
