@@ -1,7 +1,7 @@
 #include "pipeline/measures/keeping_measures.h"
 
+#include <cmath>
 #include <limits>
-#include <optional>
 #include <variant>
 
 namespace blocklift::pipeline {
@@ -27,8 +27,8 @@ class MissedAt {
   double operator()(const dynamics::KeptHeight& wish) {
     const double height =
         place(history_, wish.point, sample).z() - place(history_, wish.reference, sample).z();
-    if (!difference_) difference_ = wish.difference.value_or(height);
-    return height - *difference_;
+    if (std::isnan(difference_)) difference_ = wish.difference.value_or(height);
+    return height - difference_;
   }
   double operator()(const dynamics::KeptPlumb& wish) const {
     const Vector3 d = place(history_, wish.head, sample) - place(history_, wish.target, sample);
@@ -48,7 +48,7 @@ class MissedAt {
 
  private:
   const History& history_;
-  std::optional<double> difference_;
+  double difference_ = std::numeric_limits<double>::quiet_NaN();  ///< m; that of the first sample
 };
 
 LiftMeasure describe(const LiftSteering& steering) {
