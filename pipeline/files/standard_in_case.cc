@@ -26,6 +26,20 @@ Format<ShackleInCase> shackle_in_case_format() {
   return table.format();
 }
 
+/// Hooks, "C1.main", each with a table: names of other things have no dot.
+template <class T>
+Format<std::vector<T>> tables_by_hook(Format<T> table) {
+  return converted<std::vector<Named<T>>, std::vector<T>>(
+      names_to(table), [](std::vector<Named<T>> items) {
+        std::vector<T> values;
+        for (Named<T>& item : items) {
+          item.value.name = item.name;
+          values.push_back(std::move(item.value));
+        }
+        return values;
+      });
+}
+
 Format<MasterLinkInCase> master_link_in_case_format() {
   const auto load = quantity(Dimension::load, Range::positive());
   Table<MasterLinkInCase> table("master link", "Master link between a hook and its slings.");
@@ -90,7 +104,7 @@ Format<StandardInCase> standard_in_case_format() {
       .optional("shackles", &StandardInCase::shackles, named_tables(shackle_in_case_format()),
                 "by lug")
       .optional("master_links", &StandardInCase::master_links,
-                named_tables(master_link_in_case_format()), "by hook: C1.main")
+                tables_by_hook(master_link_in_case_format()), "by hook: C1.main")
       .optional("sheaves", &StandardInCase::sheaves, named_tables(sheave_in_case_format()),
                 "by sling that is led over one")
       .place(&StandardInCase::place);

@@ -91,7 +91,7 @@ TEST(LiftCaseErrors, UnknownKey) {
   EXPECT_EQ(complaints_about_case("settle: 10 s", "setle: 10 s"),
             "case.yaml:20:1: error: lift case has no key \"setle\"\n"
             "    its keys are case, title, document, gravity, load, cranes, spreaders, ropes, "
-            "sling_tolerance, ground, ground_contact, supports, ... (26 in all); did you mean "
+            "rope_weight, sling_tolerance, ground, ground_contact, ... (27 in all); did you mean "
             "\"settle\"?\n"
             "1 error\n");
 }

@@ -123,12 +123,13 @@ TEST(Keeping, AHeadOverAPoint) {
 }
 
 // The left hoist takes more of the load by tilting it: its centre lies 0.7 m below lugs 4 m apart, so
-// that a hook lower by d takes W 0.7 d / 16 m less, 4.3 kN for each metre.
+// that a hook lower by d takes W 0.7 d / 16 m less, 4.3 kN for each metre. The operator is told so: by
+// the stiffness of the rope alone, which is two thousand times as large, he would hardly move.
 TEST(Keeping, AShareAndATension) {
   const std::string operation =
       "  - stage: share\n"
-      "    moves: [{drives: [C1.left], duration: 60 s, keeps: {WISH, correction: 2 s, reaction: "
-      "0.5 s}}]\n";
+      "    moves: [{drives: [C1.left], duration: 60 s, keeps: {WISH, stiffness: 4.3 kN/m, "
+      "correction: 2 s, reaction: 0.5 s}}]\n";
   for (const std::string& wish :
        {std::string("share: 50.2 %, of: [C1.right]"), std::string("tension: 54.5 kN")}) {
     const LiftCase lift_case = read_case(test::with(operation, "WISH", wish));
