@@ -166,7 +166,7 @@ LiftSystem hanging_lift(const Vector3& start, double taken_in = 0) {
   if (taken_in > 0) operation.add_move("S2", {0.5, -taken_in, {0.3, 0.3, 1.0}});
   return LiftSystem({.mechanism = std::move(mechanism),
                      .ropes = std::move(ropes),
-                     .operation = operation.build(3.0),
+                     .operation = operation.build(4.0),
                      .q_start = start});
 }
 
