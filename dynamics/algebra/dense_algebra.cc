@@ -1,6 +1,5 @@
 #include "dynamics/algebra/dense_algebra.h"
 
-#include <algorithm>
 #include <complex>
 #include <string>
 #include <utility>
@@ -18,16 +17,6 @@ void zgesv_(const int* n, const int* right_sides, std::complex<double>* a, const
 void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
              double* values, double* work, const int* work_size, int* integers,
              const int* integer_count, int* info);
-void zheevd_(const char* vectors, const char* half, const int* n, std::complex<double>* a,
-             const int* lda, double* values, std::complex<double>* work, const int* work_size,
-             double* reals, const int* real_count, int* integers, const int* integer_count,
-             int* info);
-void dgeev_(const char* left, const char* right, const int* n, double* a, const int* lda,
-            double* real_parts, double* imaginary_parts, double* left_vectors, const int* ldl,
-            double* right_vectors, const int* ldr, double* work, const int* work_size, int* info);
-void dgesvd_(const char* left, const char* right, const int* m, const int* n, double* a,
-             const int* lda, double* values, double* left_vectors, const int* ldu,
-             double* right_vectors, const int* ldv, double* work, const int* work_size, int* info);
 void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
             const int* k, const double* alpha, const double* a, const int* lda, const double* b,
             const int* ldb, const double* beta, double* c, const int* ldc);
@@ -43,7 +32,7 @@ namespace {
 
 int to_int(Eigen::Index value) { return static_cast<int>(value); }
 
-[[noreturn]] void throw_no_convergence(const std::string& what, int columns) {
+[[noreturn]] void throw_no_convergence(const std::string& what, Eigen::Index columns) {
   throw SimulationError("the " + what + " of " + std::to_string(columns) +
                         " columns do not converge");
 }
@@ -101,77 +90,26 @@ Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix) {
 }
 
 Eigen::VectorXd decompose_hermitian(Eigen::MatrixXcd& matrix) {
-  const int n = to_int(matrix.rows());
-  Eigen::VectorXd values(n);
-  if (n == 0) return values;
-  std::complex<double> work_size;
-  double real_count = 0.0;
-  int integer_count = 0, info = 0;
-  const int ask = -1;
-  zheevd_("V", "L", &n, matrix.data(), &n, values.data(), &work_size, &ask, &real_count, &ask,
-          &integer_count, &ask, &info);
-  std::vector<std::complex<double>> work(static_cast<std::size_t>(work_size.real()));
-  std::vector<double> reals(static_cast<std::size_t>(real_count));
-  std::vector<int> integers(static_cast<std::size_t>(integer_count));
-  const int size = static_cast<int>(work.size()), real_size = static_cast<int>(reals.size());
-  zheevd_("V", "L", &n, matrix.data(), &n, values.data(), work.data(), &size, reals.data(),
-          &real_size, integers.data(), &integer_count, &info);
-  if (info != 0) throw_no_convergence("eigenvalues of a Hermitian matrix", n);
-  return values;
+  if (matrix.size() == 0) return {};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(matrix);
+  if (solver.info() != Eigen::Success)
+    throw_no_convergence("eigenvalues of a Hermitian matrix", matrix.cols());
+  matrix = solver.eigenvectors();
+  return solver.eigenvalues();
 }
 
-Eigensystem decompose_general(Eigen::MatrixXd matrix) {
-  const int n = to_int(matrix.rows());
-  Eigensystem system{Eigen::VectorXcd(n), Eigen::MatrixXcd(n, n)};
-  if (n == 0) return system;
-  Eigen::VectorXd real(n), imaginary(n);
-  Eigen::MatrixXd columns(n, n);
-  double work_size = 0.0;
-  int info = 0;
-  const int ask = -1, one = 1;
-  const auto call = [&](double* work, const int* size) {
-    dgeev_("N", "V", &n, matrix.data(), &n, real.data(), imaginary.data(), nullptr, &one,
-           columns.data(), &n, work, size, &info);
-  };
-  call(&work_size, &ask);
-  std::vector<double> work(static_cast<std::size_t>(work_size));
-  const int size = static_cast<int>(work.size());
-  call(work.data(), &size);
-  if (info != 0) throw_no_convergence("eigenvalues of a matrix", n);
-  system.values.real() = real;
-  system.values.imag() = imaginary;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    system.vectors.col(k).real() = columns.col(k);
-    if (imaginary[k] == 0.0) {
-      system.vectors.col(k).imag().setZero();
-      continue;
-    }
-    // Of a pair the real part stands in the first column, the imaginary one in the second.
-    system.vectors.col(k).imag() = columns.col(k + 1);
-    system.vectors.col(k + 1) = system.vectors.col(k).conjugate();
-    ++k;
-  }
-  return system;
+Eigensystem decompose_general(const Eigen::MatrixXd& matrix) {
+  if (matrix.size() == 0) return {};
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix);
+  if (solver.info() != Eigen::Success)
+    throw_no_convergence("eigenvalues of a matrix", matrix.cols());
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-RightSingularVectors decompose_singular(Eigen::MatrixXd matrix) {
-  const int m = to_int(matrix.rows()), n = to_int(matrix.cols()), least = std::min(m, n);
-  RightSingularVectors result{Eigen::VectorXd(least), Eigen::MatrixXd::Identity(n, n)};
-  if (least == 0) return result;
-  double work_size = 0.0;
-  int info = 0;
-  const int ask = -1, one = 1;
-  const auto call = [&](double* work, const int* size) {
-    dgesvd_("N", "A", &m, &n, matrix.data(), &m, result.values.data(), nullptr, &one,
-            result.vectors.data(), &n, work, size, &info);
-  };
-  call(&work_size, &ask);
-  std::vector<double> work(static_cast<std::size_t>(work_size));
-  const int size = static_cast<int>(work.size());
-  call(work.data(), &size);
-  if (info != 0) throw_no_convergence("singular values of a matrix", n);
-  result.vectors.transposeInPlace();
-  return result;
+RightSingularVectors decompose_singular(const Eigen::MatrixXd& matrix) {
+  if (matrix.size() == 0) return {{}, Eigen::MatrixXd::Identity(matrix.cols(), matrix.cols())};
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
 }
 
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,

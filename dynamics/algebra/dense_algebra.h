@@ -1,12 +1,13 @@
 #pragma once
 
-#include <complex>
 #include <vector>
 
 #include <Eigen/Dense>
 
-// Dense decompositions by LAPACK, compiled once: Eigen's own would be instantiated in each source
-// that uses them, the general eigenvalues alone at half a minute of the compiler.
+// Dense decompositions, compiled once: Eigen's are instantiated in each source that uses them, the
+// general eigenvalues alone at half a minute of the compiler. Large matrices are LAPACK's. Small ones,
+// of whose figures users see many digits, are Eigen's: LAPACK rounds by the processor, and small
+// shares of the energy of a mode then differ between machines by more than a billionth.
 namespace blocklift::dynamics {
 
 /// LU factorisation with partial pivoting of a large dense matrix, by LAPACK.
@@ -37,7 +38,8 @@ void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, con
 /// @throws SimulationError if the iteration does not converge.
 Eigen::VectorXd decompose_symmetric(Eigen::MatrixXd& matrix);
 
-/// The same of a Hermitian matrix.
+/// Eigenvalues, ascending, of a Hermitian matrix, whose place its eigenvectors take as columns.
+/// @throws SimulationError if the iteration does not converge.
 Eigen::VectorXd decompose_hermitian(Eigen::MatrixXcd& matrix);
 
 /// A V = V diag(values): eigenvalues of a square real matrix, pairs that are conjugate one behind
@@ -46,17 +48,15 @@ struct Eigensystem {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;
 };
-/// By LAPACK, the matrix balanced first.
 /// @throws SimulationError if the iteration does not converge.
-Eigensystem decompose_general(Eigen::MatrixXd matrix);
+Eigensystem decompose_general(const Eigen::MatrixXd& matrix);
 
 /// A = U diag(values) V^T of an m x n matrix, without U.
 struct RightSingularVectors {
   Eigen::VectorXd values;   ///< min(m, n), descending
   Eigen::MatrixXd vectors;  ///< V, n x n: its last columns span the null space
 };
-/// @throws SimulationError if the iteration does not converge.
-RightSingularVectors decompose_singular(Eigen::MatrixXd matrix);
+RightSingularVectors decompose_singular(const Eigen::MatrixXd& matrix);
 
 /// C = alpha A B + beta C, by BLAS.
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,

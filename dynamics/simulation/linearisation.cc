@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
@@ -75,7 +74,7 @@ std::vector<Mode> solve_modes(const Normalised& equations, const Eigen::MatrixXd
   A.topRightCorner(n, n).setIdentity();
   A.bottomLeftCorner(n, n) = -equations.stiffness;
   A.bottomRightCorner(n, n) = -equations.damping;
-  const Eigensystem system = decompose_general(std::move(A));
+  const Eigensystem system = decompose_general(A);
   const Eigen::VectorXcd& values = system.values;
   const double limit = neutral_limit * values.cwiseAbs().maxCoeff();
   add_neutral_modes(equations, to_v, modes);
@@ -114,7 +113,7 @@ Eigen::MatrixXd motions_of_loops(const Mechanism& mechanism, const LiftWorkspace
     const double length = jacobian.row(i).norm();
     if (length > 0.0) jacobian.row(i) /= length;
   }
-  const RightSingularVectors svd = decompose_singular(std::move(jacobian));
+  const RightSingularVectors svd = decompose_singular(jacobian);
   Eigen::Index rank = 0;
   while (rank < svd.values.size() && svd.values[rank] > redundancy_threshold) ++rank;
   return svd.vectors.rightCols(n - rank);

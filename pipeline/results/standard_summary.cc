@@ -8,6 +8,7 @@
 
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/json_values.h"
+#include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 
@@ -83,19 +84,19 @@ Json standard_json(const StandardAssessment& standard) {
 }
 
 std::string standard_text(const StandardAssessment& standard) {
-  std::string text =
-      fmt::format("\n{}, {}\n{:<26}{:>12}{:>12}{:>8}{:>12}{:>8}\n", standard.name, standard.edition,
-                  "", "limit", "standard", "use", "simulated", "use");
+  std::string text = "\n" + wrapped_sentence(standard.name + ", " + standard.edition);
+  TextTable table({{""}, {"limit", 3}, {"standard", 3}, {"use", 3}, {"simulated", 3}, {"use", 3}});
+  const auto use = [](double utilisation) { return fmt::format("{:.3f}", utilisation); };
   for (const Chain& chain : standard.chains) {
     if (!chain.has_limit()) continue;
-    text += fmt::format("{:<26}{:>12}{:>12}{:>8.3f}{:>12}{:>8.3f}\n", chain.object,
-                        shown(*chain.limit, chain.unit), shown(chain.standard, chain.unit),
-                        chain.standard_utilisation(), shown(chain.simulated, chain.unit),
-                        chain.simulated_utilisation());
+    table.add_row({chain.object, shown(*chain.limit, chain.unit), shown(chain.standard, chain.unit),
+                   use(chain.standard_utilisation()), shown(chain.simulated, chain.unit),
+                   use(chain.simulated_utilisation())});
   }
+  text += table.text();
   if (const Chain* governing = standard.governing())
-    text += fmt::format("governed by {}: {}\n", governing->object, governing->limit_text);
-  for (const std::string& note : standard.notes) text += note + "\n";
+    text += wrapped_sentence("governed by " + governing->object + ": " + governing->limit_text);
+  for (const std::string& note : standard.notes) text += wrapped_sentence(note);
   return text;
 }
 

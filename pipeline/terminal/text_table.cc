@@ -120,14 +120,17 @@ std::vector<std::string> wrap_text(const std::string& text, std::size_t width) {
   return lines;
 }
 
-void print_wrapped(const std::string& sentence) {
+std::string wrapped_sentence(const std::string& sentence) {
   const std::string indent = "    ";
-  std::string before;
+  std::string text, before;
   for (const std::string& line : wrap_text(sentence, terminal_width - indent.size())) {
-    fmt::print("{}{}\n", before, line);
+    text += before + line + "\n";
     before = indent;
   }
+  return text;
 }
+
+void print_wrapped(const std::string& sentence) { fmt::print("{}", wrapped_sentence(sentence)); }
 
 void TextTable::add_row(std::vector<Cell> cells) {
   cells.resize(columns_.size());

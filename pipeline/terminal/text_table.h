@@ -50,7 +50,11 @@ class TextTable {
 /// line of its own.
 std::vector<std::string> wrap_text(const std::string& text, std::size_t width);
 
-/// A sentence on standard output, broken at the terminal's columns, its later lines indented.
+/// A sentence broken at the terminal's columns, its later lines indented, each ending with a line
+/// feed.
+std::string wrapped_sentence(const std::string& sentence);
+
+/// The same on standard output.
 void print_wrapped(const std::string& sentence);
 
 }  // namespace blocklift::pipeline
