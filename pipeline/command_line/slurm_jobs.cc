@@ -71,7 +71,7 @@ fs::path write_slurm_jobs(const SlurmJobs& jobs) {
   const auto log = [&](const char* name) {
     return quoted(without_numbers(folder.string()) + "/" + name);
   };
-  const fs::path submit = folder / "submit.sh";
+  fs::path submit = folder / "submit.sh";
   write_script(
       submit,
       fmt::format("#!/bin/sh\n"
