@@ -6,13 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-// Clones of one function for the instruction sets that a machine may have; the loader picks one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define BLOCKLIFT_VECTOR_CLONES \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define BLOCKLIFT_VECTOR_CLONES
-#endif
+#include "dynamics/instruction_sets.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -223,13 +217,13 @@ template <int vertex_count>
   }
 }
 
-BLOCKLIFT_VECTOR_CLONES
+BLOCKLIFT_CLONES
 void add_triangle(const LocalPanel& panel, const PointColumns& points, PanelIntegral integral,
                   double sign, double* source, double* dipole) {
   choose_integral<3>(panel, points, integral, sign, source, dipole);
 }
 
-BLOCKLIFT_VECTOR_CLONES
+BLOCKLIFT_CLONES
 void add_quadrangle(const LocalPanel& panel, const PointColumns& points, PanelIntegral integral,
                     double sign, double* source, double* dipole) {
   choose_integral<4>(panel, points, integral, sign, source, dipole);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "dynamics/marine/waves/wave_clones.h"
+#include "dynamics/instruction_sets.h"
 
 namespace blocklift::dynamics {
 
@@ -73,10 +73,6 @@ constexpr double rounding = 0x1.8p52;
   return sum * std::bit_cast<double>(power);
 }
 
-}  // namespace
-
-namespace {
-
 // Phase of a component at the origin, within half a turn where it would grow large: the arguments
 // of the cosine stay small however long the simulation lasts.
 double phase_at(const WaveTerms& waves, std::size_t c, double time) {
@@ -85,12 +81,10 @@ double phase_at(const WaveTerms& waves, std::size_t c, double time) {
   return std::abs(phase) < large ? phase : std::remainder(phase, 2.0 * std::numbers::pi);
 }
 
-}  // namespace
-
 BLOCKLIFT_CLONES
-void add_wave_elevation(const WaveTerms& waves, double time, double scale, std::size_t count,
-                        const double* __restrict x, const double* __restrict y,
-                        double* __restrict sum) {
+void cloned_wave_elevation(const WaveTerms& waves, double time, double scale, std::size_t count,
+                           const double* __restrict x, const double* __restrict y,
+                           double* __restrict sum) {
   for (std::size_t c = 0; c < waves.count; ++c) {
     const double a = scale * waves.a[c];
     const double kx = waves.kx[c];
@@ -103,9 +97,9 @@ void add_wave_elevation(const WaveTerms& waves, double time, double scale, std::
 }
 
 BLOCKLIFT_CLONES
-void add_wave_head(const WaveTerms& waves, double depth, double time, double scale,
-                   std::size_t count, const double* __restrict x, const double* __restrict y,
-                   const double* __restrict z, double* __restrict sum) {
+void cloned_wave_head(const WaveTerms& waves, double depth, double time, double scale,
+                      std::size_t count, const double* __restrict x, const double* __restrict y,
+                      const double* __restrict z, double* __restrict sum) {
   for (std::size_t c = 0; c < waves.count; ++c) {
     const double k = waves.k[c];
     const double kx = waves.kx[c];
@@ -130,10 +124,10 @@ void add_wave_head(const WaveTerms& waves, double depth, double time, double sca
 }
 
 BLOCKLIFT_CLONES
-void calc_single_wave(const WaveTerms& wave, double depth, double time, double scale,
-                      std::size_t count, const double* __restrict x, const double* __restrict y,
-                      const double* __restrict z, double* __restrict elevation,
-                      double* __restrict head) {
+void cloned_single_wave(const WaveTerms& wave, double depth, double time, double scale,
+                        std::size_t count, const double* __restrict x, const double* __restrict y,
+                        const double* __restrict z, double* __restrict elevation,
+                        double* __restrict head) {
   const double k = wave.k[0];
   const double kx = wave.kx[0];
   const double ky = wave.ky[0];
@@ -160,6 +154,25 @@ void calc_single_wave(const WaveTerms& wave, double depth, double time, double s
         eta * level *
         (polynomial_exponential(k * below) + polynomial_exponential(-k * (below + 2.0 * depth)));
   }
+}
+
+}  // namespace
+
+void add_wave_elevation(const WaveTerms& waves, double time, double scale, std::size_t count,
+                        const double* x, const double* y, double* sum) {
+  cloned_wave_elevation(waves, time, scale, count, x, y, sum);
+}
+
+void add_wave_head(const WaveTerms& waves, double depth, double time, double scale,
+                   std::size_t count, const double* x, const double* y, const double* z,
+                   double* sum) {
+  cloned_wave_head(waves, depth, time, scale, count, x, y, z, sum);
+}
+
+void calc_single_wave(const WaveTerms& wave, double depth, double time, double scale,
+                      std::size_t count, const double* x, const double* y, const double* z,
+                      double* elevation, double* head) {
+  cloned_single_wave(wave, depth, time, scale, count, x, y, z, elevation, head);
 }
 
 }  // namespace blocklift::dynamics

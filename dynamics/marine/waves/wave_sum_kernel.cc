@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "dynamics/marine/waves/wave_clones.h"
+#include "dynamics/instruction_sets.h"
 #include "dynamics/marine/waves/wave_kernel.h"
 
 namespace blocklift::dynamics {
@@ -134,11 +134,10 @@ constexpr double rounding = 0x1.8p52;
   }
 }
 
-}  // namespace
-
 BLOCKLIFT_CLONES
-void sum_wave_elevations(const WaveSum::Terms& waves, double time, double scale, std::size_t count,
-                         const double* x, const double* y, double* elevation) {
+void cloned_wave_elevations(const WaveSum::Terms& waves, double time, double scale,
+                            std::size_t count, const double* x, const double* y,
+                            double* elevation) {
   for (std::size_t i = 0; i < count; i += lane_count) {
     Lanes at_x, at_y, sum{};
     load(x + i, count - i, at_x);
@@ -155,9 +154,9 @@ void sum_wave_elevations(const WaveSum::Terms& waves, double time, double scale,
 }
 
 BLOCKLIFT_CLONES
-void sum_wave_surface(const WaveSum::Terms& waves, double time, double scale, std::size_t count,
-                      const double* x, const double* y, const double* z, double* elevation,
-                      double* head) {
+void cloned_wave_surface(const WaveSum::Terms& waves, double time, double scale, std::size_t count,
+                         const double* x, const double* y, const double* z, double* elevation,
+                         double* head) {
   std::array<Lanes, WaveSum::most_carriers> W;
   for (std::size_t i = 0; i < count; i += lane_count) {
     Lanes at_x, at_y, at_z;
@@ -176,6 +175,19 @@ void sum_wave_surface(const WaveSum::Terms& waves, double time, double scale, st
     store(eta, count - i, elevation + i);
     store(sum, count - i, head + i);
   }
+}
+
+}  // namespace
+
+void sum_wave_elevations(const WaveSum::Terms& waves, double time, double scale, std::size_t count,
+                         const double* x, const double* y, double* elevation) {
+  cloned_wave_elevations(waves, time, scale, count, x, y, elevation);
+}
+
+void sum_wave_surface(const WaveSum::Terms& waves, double time, double scale, std::size_t count,
+                      const double* x, const double* y, const double* z, double* elevation,
+                      double* head) {
+  cloned_wave_surface(waves, time, scale, count, x, y, z, elevation, head);
 }
 
 }  // namespace blocklift::dynamics
