@@ -13,6 +13,7 @@
 #include "pipeline/checks/structure_skew.h"
 #include "pipeline/measures/chart_derating.h"
 #include "pipeline/measures/crane_measures.h"
+#include "pipeline/measures/spreader_measures.h"
 #include "structure/response/flexibility.h"
 
 namespace blocklift::pipeline {
@@ -42,6 +43,16 @@ LoadFacts load_facts(const VectorXd& at_rest, const VectorXd& in_motion,
   return facts;
 }
 
+/// Each factor that is larger than what is known so far.
+void take_worse(const ComputedFactors& found, ComputedFactors& worst) {
+  const auto larger = [](const std::optional<double>& one, std::optional<double>& known) {
+    if (one && (!known || *one > *known)) known = one;
+  };
+  larger(found.skew, worst.skew);
+  larger(found.centre_box, worst.centre_box);
+  if (!worst.two_hooks) worst.two_hooks = found.two_hooks;
+}
+
 /// Facts of a lift that was simulated.
 class LiftedFacts {
  public:
@@ -61,6 +72,7 @@ class LiftedFacts {
     facts_.has_environment = lift_.model.calm.has_value();
     add_crane_measures(case_, lift_, crane_measures_);
     add_slings();
+    for (const LiftSpreader& bar : lift_.model.spreaders) add_spreader(bar);
     for (std::size_t h = 0; h < lift_.model.hoists.size(); ++h) add_hook(h);
     for (std::size_t c = 0; c < case_.cranes.size(); ++c) add_crane(c);
   }
@@ -134,6 +146,28 @@ class LiftedFacts {
     facts_.rigging += weight.value_or(0);
     rigging_at_[rope.hoist] += weight.value_or(0);
     return sling;
+  }
+
+  void add_spreader(const LiftSpreader& bar) {
+    SpreaderFacts spreader;
+    spreader.name = bar.name;
+    Index sample = 0;
+    spreader.load = load_of(hung_load(bar, lift_.static_history),
+                            hung_load(bar, lift_.dynamic_history()), sample);
+    const structure::Column column = case_.find_spreader(bar.name)->column();
+    spreader.borne_at_rest = borne_load(column, bar, lift_.static_history);
+    spreader.borne_in_motion = borne_load(column, bar, lift_.dynamic_history());
+    for (const LiftSpreader::End& end : bar.ends) {
+      if (!end.last) continue;
+      const auto carries =
+          std::find_if(facts_.slings.begin(), facts_.slings.end(), [&](const SlingFacts& sling) {
+            return find_rope(lift_.model.ropes, lift_.model.hoists, sling.name) == end.rope;
+          });
+      if (carries == facts_.slings.end()) continue;
+      take_worse(carries->computed, spreader.computed);
+      spreader.slings_on_hook = std::max(spreader.slings_on_hook, carries->slings_on_hook);
+    }
+    facts_.spreaders.push_back(std::move(spreader));
   }
 
   /// The largest shares of a hoist's load chart. Beyond the chart it may carry nothing: a share of
@@ -362,6 +396,7 @@ void add_structure(const BlockRun& block, const std::optional<structure::SquareS
 LiftFacts gather_facts(const Assessment& assessment) {
   LiftFacts facts;
   facts.yield_factor = assessment.lift_case.checks.yield_factor;
+  facts.spreader_factor = spreader_factor(assessment.lift_case.checks);
   facts.lateral = assessment.lift_case.checks.lug_side_load;
   if (assessment.lift)
     LiftedFacts(assessment, facts).add();

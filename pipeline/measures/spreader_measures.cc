@@ -54,6 +54,20 @@ std::vector<BarForce> rope_forces(const LiftSpreader& bar, const dynamics::Histo
   return forces;
 }
 
+/// The factor on the forces at which a column bears no more; bisected, since its moments grow faster
+/// than they.
+double growth_to_failure(const structure::Column& column, const structure::ColumnForces& forces) {
+  double most = 1;
+  while (structure::column_utilisation(column, forces, most) < 1) most *= 2;
+  double least = 0;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (least + most) / 2;
+    (structure::column_utilisation(column, forces, middle) < 1 ? least : most) = middle;
+  }
+  return least;
+}
+
 void add_spreader(const LiftCase& lift_case, const LiftRun& lift, const LiftSpreader& bar,
                   std::vector<LiftMeasure>& measures) {
   const structure::Column column = lift_case.find_spreader(bar.name)->column();
@@ -124,16 +138,29 @@ double largest_share(const structure::Column& column, const LiftSpreader& bar, c
   return largest;
 }
 
-double largest_hung_load(const LiftSpreader& bar, const LiftRun& lift) {
-  const dynamics::History& history = lift.static_history;
+Eigen::VectorXd hung_load(const LiftSpreader& bar, const dynamics::History& history) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(history.sample_count());
+  for (const LiftSpreader::End& end : bar.ends)
+    if (!end.last) load -= history.ropes[static_cast<std::size_t>(end.rope)].first_force.col(2);
+  return load;
+}
+
+double borne_load(const structure::Column& column, const LiftSpreader& bar,
+                  const dynamics::History& history) {
+  structure::ColumnForces worst;
   double largest = 0;
+  Eigen::Index instant = 0;
   for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
-    double sum = 0;
-    for (const LiftSpreader::End& end : bar.ends)
-      if (!end.last) sum -= history.ropes[static_cast<std::size_t>(end.rope)].first_force(i, 2);
-    largest = std::max(largest, sum);
+    const structure::ColumnForces forces =
+        largest_forces(rope_forces(bar, history, i), column.length);
+    const double share = structure::column_utilisation(column, forces, 1);
+    if (!(share > largest)) continue;
+    largest = share;
+    worst = forces;
+    instant = i;
   }
-  return largest;
+  const double load = hung_load(bar, history)[instant];
+  return largest > 0 && load > 0 ? load * growth_to_failure(column, worst) : 0;
 }
 
 double spreader_factor(const CheckSettings& checks) {

@@ -29,8 +29,14 @@ double spreader_factor(const CheckSettings& checks);
 double largest_share(const structure::Column& column, const LiftSpreader& bar, const LiftRun& lift,
                      double factor);
 
-/// The largest downward pull of all that hangs below a bar at rest, N.
-double largest_hung_load(const LiftSpreader& bar, const LiftRun& lift);
+/// The downward pull of all that hangs below a bar, at each sample, N.
+Eigen::VectorXd hung_load(const LiftSpreader& bar, const dynamics::History& history);
+
+/// The load below a bar that a column in its place bears: what hangs there at the instant of the
+/// largest share of the resistance, grown with all forces of the ropes until
+/// structure::column_utilisation reaches 1, N. Zero where nothing hangs at that instant.
+double borne_load(const structure::Column& column, const LiftSpreader& bar,
+                  const dynamics::History& history);
 
 /// For each spreader its compression, its bending moment, and what it bears over what it may, by
 /// structure::column_utilisation.

@@ -1,10 +1,12 @@
 #include "pipeline/results/calculation_package.h"
 
+#include <numbers>
 #include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "pipeline/checks/standard_checks.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/input_hash.h"
 #include "pipeline/formats/content_hash.h"
@@ -28,8 +30,11 @@ std::string number(const std::optional<double>& value, double scale, int digits)
 std::string shown(const std::optional<double>& value, const std::string& unit) {
   if (!value) return "–";
   if (unit == "1") return fmt::format("{:.3f}", *value);
+  if (unit == "N") return fmt::format("{:.1f} kN", *value / 1e3);
+  if (unit == "N m") return fmt::format("{:.1f} kN m", *value / 1e3);
   if (unit == "Pa") return fmt::format("{:.1f} MPa", *value / 1e6);
-  return fmt::format("{:.1f} kN", *value / 1e3);
+  if (unit == "rad") return fmt::format("{:.2f} deg", *value * 180 / std::numbers::pi);
+  return fmt::format("{:.3f} {}", *value, unit);
 }
 
 std::string point_text(const Vector3& p) {
@@ -149,6 +154,21 @@ void add_chains(const StandardAssessment& standard, TextDocument& document) {
   }
 }
 
+/// The case's own checks of ropes, cranes, spreaders, clearances and the operation: those that no
+/// chain of the standard holds and no mesh gave.
+void add_plain_checks(const Assessment& assessment, TextDocument& document) {
+  std::vector<Row> rows;
+  for (const Check& check : assessment.checks) {
+    if (check.band || is_of(*assessment.standard, check)) continue;
+    rows.push_back({check.name, shown(check.demand, check.unit), shown(check.limit, check.unit),
+                    fmt::format("{:.3f}", check.utilisation), check.pass ? "pass" : "FAIL",
+                    check.note});
+  }
+  if (rows.empty()) return;
+  document.heading("Checks of the case")
+      .table({"check", "value", "limit", "utilisation", "result", "source"}, std::move(rows));
+}
+
 /// The checks that the block's mesh gave, each with the band in which its error leaves them.
 void add_block(const Assessment& assessment, TextDocument& document) {
   std::vector<Row> rows;
@@ -200,6 +220,7 @@ TextDocument calculation_package(const Assessment& assessment) {
   add_geometry(lift_case, document);
   add_load_cases(lift_case, document);
   add_utilisations(*assessment.standard, document);
+  add_plain_checks(assessment, document);
   add_block(assessment, document);
   add_chains(*assessment.standard, document);
   add_revision(assessment, document);

@@ -147,7 +147,8 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
     for (const SlingDemand& demand : loads.demands)
       choice.push_back(choose_sling(rigged.stock, checks, demand).index);
     for (const std::string& bar : bars)
-      choice.push_back(choose_spreader(rigged.stock, runner.the_case(), runner.lift(), bar).index);
+      choice.push_back(
+          choose_spreader(rigged.stock, runner.the_case(), runner.lift(), loads.facts, bar).index);
     return choice;
   };
   const auto choose_again = [&](const Choice& choice) {
@@ -180,9 +181,9 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
   }
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const std::size_t index = rigged.settled.choice[loads.demands.size() + i];
-    rigged.spreaders.push_back(
-        {bars[i], index,
-         check_spreader(rigged.stock.spreaders[index], runner.the_case(), runner.lift(), bars[i])});
+    rigged.spreaders.push_back({bars[i], index,
+                                check_spreader(rigged.stock.spreaders[index], runner.the_case(),
+                                               runner.lift(), loads.facts, bars[i])});
   }
   for (const MasterLinkDemand& demand : master_link_demands(runner.the_case(), runner.lift()))
     if (auto link = choose_master_link(rigged.stock, runner.the_case(), loads.facts, demand))

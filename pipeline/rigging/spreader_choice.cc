@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "pipeline/checks/standard_checks.h"
 #include "pipeline/measures/spreader_measures.h"
+#include "pipeline/standards/rigging_chains.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -21,6 +24,21 @@ const LiftSpreader& bar_of(const LiftRun& lift, const std::string& name) {
                        [&](const LiftSpreader& one) { return one.name == name; });
 }
 
+/// By the chain of the rules, with the candidate's resistance in place of that of the case's bar.
+std::vector<Check> checks_by_rules(const structure::Column& column, const LiftCase& lift_case,
+                                   const LiftRun& lift, const LiftFacts& facts,
+                                   const LiftSpreader& bar) {
+  SpreaderFacts spreader =
+      *std::find_if(facts.spreaders.begin(), facts.spreaders.end(),
+                    [&](const SpreaderFacts& one) { return one.name == bar.name; });
+  spreader.borne_at_rest = borne_load(column, bar, lift.static_history);
+  spreader.borne_in_motion = borne_load(column, bar, lift.dynamic_history());
+  StandardAssessment assessment;
+  assessment.name = lift_case.standard->rules.name;
+  assessment.chains.push_back(spreader_chain(LoadFactors(*lift_case.standard, facts), spreader));
+  return checks_of(assessment);
+}
+
 }  // namespace
 
 bool has_bars_of_length(const Stock& stock, double length) {
@@ -29,24 +47,32 @@ bool has_bars_of_length(const Stock& stock, double length) {
 }
 
 std::vector<Check> check_spreader(const SpreaderInStock& candidate, const LiftCase& lift_case,
-                                  const LiftRun& lift, const std::string& name) {
+                                  const LiftRun& lift, const std::optional<LiftFacts>& facts,
+                                  const std::string& name) {
   const LiftSpreader& bar = bar_of(lift, name);
+  const structure::Column column = candidate.spreader.bar.column();
   const double factor = spreader_factor(lift_case.checks);
-  return {check_at_most(fmt::format("resistance of the bar / {:g}", factor),
-                        largest_share(candidate.spreader.bar.column(), bar, lift, factor), 1, "1"),
-          check_at_most(fmt::format("working load at rest, {}", candidate.rule),
-                        largest_hung_load(bar, lift), candidate.spreader.working_load, "N")};
+  std::vector<Check> checks{
+      check_at_most(fmt::format("resistance of the bar / {:g}", factor),
+                    largest_share(column, bar, lift, factor), 1, "1"),
+      check_at_most(fmt::format("working load at rest, {}", candidate.rule),
+                    std::max(0.0, hung_load(bar, lift.static_history).maxCoeff()),
+                    candidate.spreader.working_load, "N")};
+  if (facts)
+    for (Check& check : checks_by_rules(column, lift_case, lift, *facts, bar))
+      checks.push_back(std::move(check));
+  return checks;
 }
 
 ChosenSpreader choose_spreader(const Stock& stock, const LiftCase& lift_case, const LiftRun& lift,
-                               const std::string& name) {
+                               const std::optional<LiftFacts>& facts, const std::string& name) {
   const double length = lift_case.find_spreader(name)->length.value;
   std::optional<ChosenSpreader> lightest, nearest;
   double least_use = 0;
   for (std::size_t i = 0; i < stock.spreaders.size(); ++i) {
     const SpreaderInStock& candidate = stock.spreaders[i];
     if (!is_as_long(candidate, length)) continue;
-    ChosenSpreader chosen{name, i, check_spreader(candidate, lift_case, lift, name)};
+    ChosenSpreader chosen{name, i, check_spreader(candidate, lift_case, lift, facts, name)};
     const double use = governing_check(chosen.checks)->utilisation;
     const bool is_lighter = !lightest || candidate.spreader.bar.mass() <
                                              stock.spreaders[lightest->index].spreader.bar.mass();

@@ -8,6 +8,7 @@
 #include "pipeline/files/lift_case.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/rigging/stock.h"
+#include "pipeline/standards/lift_facts.h"
 
 namespace blocklift::pipeline {
 
@@ -23,14 +24,17 @@ struct ChosenSpreader {
 bool has_bars_of_length(const Stock& stock, double length);
 
 /// The lightest bar of the stock, of the length that the case's bar has, that passes: as a column
-/// under the forces of its ropes at every instant, at rest and in motion, by the case's factor; by its
-/// working load against what hangs below it at rest. Where none passes, the one that comes nearest.
+/// under the forces of its ropes at every instant, at rest and in motion, by the case's factor; by the
+/// case's rules, where it names some; by its working load against what hangs below it at rest. Where
+/// none passes, the one that comes nearest.
+/// @param facts of the lift; none where the case names no rules.
 /// @pre has_bars_of_length for that bar.
 ChosenSpreader choose_spreader(const Stock& stock, const LiftCase& lift_case, const LiftRun& lift,
-                               const std::string& name);
+                               const std::optional<LiftFacts>& facts, const std::string& name);
 
 /// The checks of that choice: of the bar `index` of the stock in the place of the case's.
 std::vector<Check> check_spreader(const SpreaderInStock& candidate, const LiftCase& lift_case,
-                                  const LiftRun& lift, const std::string& name);
+                                  const LiftRun& lift, const std::optional<LiftFacts>& facts,
+                                  const std::string& name);
 
 }  // namespace blocklift::pipeline

@@ -46,6 +46,16 @@ struct SlingFacts {
   double angle = 0;         ///< at its upper end to the plumb, at the largest load at rest, rad
 };
 
+/// Spreader bar.
+struct SpreaderFacts {
+  std::string name;
+  LoadFacts load;            ///< of all that hangs below it
+  ComputedFactors computed;  ///< the worst of the slings that carry it
+  int slings_on_hook = 1;
+  /// The load below it that it bears as a column, by the ropes' directions where they ask most, N.
+  double borne_at_rest = 0, borne_in_motion = 0;
+};
+
 /// Load of a hook over what its load chart allows, derating included, where it is largest.
 struct ChartFacts {
   double at_rest = 0, in_motion = 0;  ///< the largest shares
@@ -116,8 +126,10 @@ struct LiftFacts {
   double in_motion = 0;            ///< likewise
   bool has_environment = false;    ///< waves or gusts, whose share of loads may reduce factors
   double yield_factor = 1;
-  double lateral = 0;  ///< that the case takes along a lug's pin, share of the force
+  double spreader_factor = 1;  ///< on the forces in spreader bars
+  double lateral = 0;          ///< that the case takes along a lug's pin, share of the force
   std::vector<SlingFacts> slings;
+  std::vector<SpreaderFacts> spreaders;
   std::vector<HookFacts> hooks;
   std::vector<CraneFacts> cranes;
   std::vector<LugFacts> lugs;

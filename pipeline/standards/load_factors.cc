@@ -162,6 +162,12 @@ void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& str
                           factor ? fmt::format("{:g} times", factor->value) : "the largest"));
 }
 
+void LoadFactors::add_lift_point_consequence(ChainBuilder& chain) const {
+  if (const auto& consequence = rules().consequence)
+    chain.times("consequence", consequence->lift_point.value, consequence->lift_point.value,
+                consequence->lift_point.clause);
+}
+
 void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
                           const ComputedFactors& computed, int slings_on_hook,
                           bool in_motion) const {

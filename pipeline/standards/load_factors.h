@@ -28,6 +28,9 @@ class LoadFactors {
   /// Of the structure's stress, when either diagonal of four slings bears more.
   void add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const;
 
+  /// Of the design of lift points and spreader bars; nothing where the rules have none.
+  void add_lift_point_consequence(ChainBuilder& chain) const;
+
   /// All of them on the load of a sling, a shackle or a lug.
   /// @param in_motion false: without amplification, for what is held against the static load.
   void add_all(ChainBuilder& chain, const LoadFacts& load, const ComputedFactors& computed,

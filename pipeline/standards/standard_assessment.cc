@@ -138,6 +138,8 @@ StandardAssessment assess_standard(const StandardInCase& standard, const LiftFac
       if (sling.name == sheave.name.value)
         for (Chain& chain : sheave_chains(factors, sheave, sling))
           chains.push_back(std::move(chain));
+  for (const SpreaderFacts& spreader : facts.spreaders)
+    chains.push_back(spreader_chain(factors, spreader));
   for (const LugFacts& lug : facts.lugs) chains.push_back(lug_chain(factors, lug));
   for (const CraneFacts& crane : facts.cranes) chains.push_back(crane_chain(factors, crane));
   for (const StressFacts& stress : facts.stresses) chains.push_back(stress_chain(factors, stress));

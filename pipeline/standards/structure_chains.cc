@@ -60,9 +60,7 @@ Chain lug_chain(const LoadFactors& factors, const LugFacts& lug) {
   ChainBuilder chain("lug", lug.name);
   factors.add_all(chain, lug.load, lug.computed, lug.slings_on_hook);
   chain.result("lift point load");
-  if (const auto& consequence = rules.consequence)
-    chain.times("consequence", consequence->lift_point.value, consequence->lift_point.value,
-                consequence->lift_point.clause);
+  factors.add_lift_point_consequence(chain);
   PadeyeFormulaInput input = lug.input;
   input.side_load = rules.lateral ? rules.lateral->value : factors.facts().lateral;
   ChainStep lateral;

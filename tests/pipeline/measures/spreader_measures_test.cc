@@ -141,6 +141,22 @@ TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
   EXPECT_GT(checks[1].demand, checks[0].utilisation);
 }
 
+// All forces grow together until the column bears no more: half the load below the bar that it bears
+// asks half of its resistance where moments do not grow, and less where they do.
+TEST(SpreaderMeasures, BorneLoadIsWhereTheColumnFails) {
+  const BarLift& lift = plain_lift();
+  const LiftSpreader& bar = lift.run.model.spreaders.front();
+  const structure::Column column = lift.lift_case.find_spreader("B1")->column();
+  const double hung = hung_load(bar, lift.run.static_history)[0];
+  EXPECT_NEAR(hung, 10e3 * gravity, 1e-6 * hung);
+  const double borne = borne_load(column, bar, lift.run.static_history);
+  const structure::ColumnForces forces{lift.measure("B1: compression").at_rest[0],
+                                       {lift.measure("B1: bending moment").at_rest[0], 0}};
+  EXPECT_NEAR(structure::column_utilisation(column, forces, borne / hung), 1, 1e-3);
+  EXPECT_LT(structure::column_utilisation(column, forces, borne / hung / 2), 0.5);
+  EXPECT_LT(borne_load(column, bar, lift.run.dynamic_history()), borne * 1.01);
+}
+
 // Two tiers: the hook bears a short bar, from whose ends a long one hangs; all plumb but the top.
 TEST(SpreaderMeasures, TwoTiersFindTheirPlaces) {
   test::SampleLift parts = test::spreader_lift();

@@ -112,9 +112,10 @@ TEST(WriteResults, HasTheCalculationWhereTheCaseNamesRules) {
   const std::string calculation = test::text_of_file("results/calculation.md");
   for (const char* text :
        {"## Design basis", "## Weights", "## Rigging list", "| R1 | L1 |", "## Geometry",
-        "## Load cases", "1. carry", "## Utilisations", "## Block by finite elements",
-        "by the error of the mesh", "| buckling of panels in", "### sling R4", "hook C1.left",
-        "EN 13001-2 4.2.2.2", "| prepared |", "hash of input and factors"})
+        "## Load cases", "1. carry", "## Utilisations", "## Checks of the case",
+        "tension against breaking load", "## Block by finite elements", "by the error of the mesh",
+        "| buckling of panels in", "### sling R4", "hook C1.left", "EN 13001-2 4.2.2.2",
+        "| prepared |", "hash of input and factors"})
     EXPECT_NE(calculation.find(text), std::string::npos) << text;
   const std::string word = test::text_of_file("results/calculation.docx");
   EXPECT_EQ(word.substr(0, 2), "PK");

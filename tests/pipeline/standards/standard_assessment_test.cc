@@ -79,6 +79,20 @@ TEST(StandardAssessment, WorksASlingStepByStep) {
     EXPECT_TRUE(step.kind != ChainStep::Kind::factor || !step.clause.empty()) << step.name;
 }
 
+// As the sling, times 1.30 (0027/ND, table 11-1: "lift points including spreader bars"): 825.825 kN
+// and 904.475 kN of 1,500 kN / 1.5.
+TEST(StandardAssessment, HoldsASpreaderAsALiftPoint) {
+  LiftFacts facts = two_slings();
+  facts.spreader_factor = 1.5;
+  facts.spreaders.push_back({"B1", facts.slings[0].load, {}, 2, 1500e3, 1500e3});
+  const StandardAssessment result = assess_standard(by_nd_0027(), facts);
+  const Chain& spreader = chain_of(result, "spreader B1");
+  EXPECT_NEAR(spreader.standard, 825.825e3, 1e-6);
+  EXPECT_NEAR(spreader.simulated, 904.475e3, 1e-6);
+  EXPECT_NEAR(spreader.standard_utilisation(), 0.825825, 1e-9);
+  EXPECT_NEAR(spreader.simulated_utilisation(), 0.904475, 1e-9);
+}
+
 TEST(StandardAssessment, EveryColumnIsTheProductOfItsSteps) {
   const StandardAssessment result = assess_standard(by_nd_0027(), two_slings());
   for (const Chain& chain : result.chains) {
