@@ -1,10 +1,10 @@
 #pragma once
 
-/// BLOCKLIFT_CLONES before a function of an unnamed namespace: one version of it for any x86-64, one
-/// for machines with AVX2 and FMA and one with AVX-512; the loader chooses when the program starts.
-/// GCC and Clang name the instruction sets differently. A cloned function is called from its own
-/// source only, since Clang 14 gives the clones' common entry a name that other sources do not know.
-/// The address sanitizer is not ready yet when the loader chooses.
+/// BLOCKLIFT_CLONES before a function of an unnamed namespace: one version of it for any x86-64,
+/// one for machines with AVX2 and FMA and one with AVX-512; the loader chooses when the program
+/// starts. GCC and Clang name the instruction sets differently. A cloned function is called from
+/// its own source only, since Clang 14 gives the clones' common entry a name that other sources do
+/// not know. The address sanitizer is not ready yet when the loader chooses.
 #if defined(__clang__)
 #if __has_feature(address_sanitizer)
 #define BLOCKLIFT_SANITIZES_ADDRESSES

@@ -25,7 +25,8 @@ class ChildDied : public std::runtime_error {
 /// child process, and hands back what it makes there; nothing else of it is left here. What it
 /// prints is dropped. Threads of this process do not exist in the child.
 /// @param work its exceptions of kind std::exception are thrown here as ModelError with their text.
-/// @throws ChildDied if the child crashes or exceeds its limits; ModelError if it cannot be started.
+/// @throws ChildDied if the child crashes or exceeds its limits; ModelError if it cannot be
+///   started.
 Packet in_child_process(const std::function<Packet()>& work, const ChildLimits& limits);
 
 /// In a child: from now on so many seconds of the processor are left, s.

@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 
 // Dense decompositions, compiled once: Eigen's are instantiated in each source that uses them, the
-// general eigenvalues alone at half a minute of the compiler. Large matrices are LAPACK's. Small ones,
-// of whose figures users see many digits, are Eigen's: LAPACK rounds by the processor, and small
-// shares of the energy of a mode then differ between machines by more than a billionth.
+// general eigenvalues alone at half a minute of the compiler. Large matrices are LAPACK's. Small
+// ones, of whose figures users see many digits, are Eigen's: LAPACK rounds by the processor, and
+// small shares of the energy of a mode then differ between machines by more than a billionth.
 namespace blocklift::dynamics {
 
 /// LU factorisation with partial pivoting of a large dense matrix, by LAPACK.

@@ -32,7 +32,8 @@ class LinearRestraint {
   /// Does the damping drive some motion: has its symmetric part a negative eigenvalue?
   static bool adds_energy(const Matrix6& damping);
 
-  /// @throws ModelError if a value is not finite, the body is the world, or the damping adds energy.
+  /// @throws ModelError if a value is not finite, the body is the world, or the damping adds
+  ///   energy.
   explicit LinearRestraint(Definition definition);
 
   const std::string& name() const { return definition_.name; }

@@ -30,8 +30,8 @@ struct SupportLoad {
 ///   friction: with s the point's level displacement from where it stands at first and its rate,
 ///   f = -(k_t s + c_t ds/dt), shortened to mu N where longer (regularised Coulomb law).
 /// The elastic part holds a standing load in place, so that a static equilibrium is unique. Where
-/// it stands at first is p_WG; a pad that is `ground` stands wherever it touches down or has slid to
-/// instead, and whoever moves it says where that is (carry_pads_along).
+/// it stands at first is p_WG; a pad that is `ground` stands wherever it touches down or has slid
+/// to instead, and whoever moves it says where that is (carry_pads_along).
 class SupportPad {
  public:
   struct Definition {

@@ -112,8 +112,8 @@ class MotionProfile {
   /// Sum of profiles, for instance of a cam during one stage and moves in others.
   static MotionProfile sum(std::vector<MotionProfile> parts);
 
-  /// Another profile until `start` (s); then its clock slows evenly to a stand within `duration` (s):
-  /// position x(s(t)), ds/dt falling from 1 to 0. From a constant speed v that is the constant
+  /// Another profile until `start` (s); then its clock slows evenly to a stand within `duration`
+  /// (s): position x(s(t)), ds/dt falling from 1 to 0. From a constant speed v that is the constant
   /// deceleration v / duration.
   /// @throws ModelError if the duration is not positive.
   static MotionProfile stopped(MotionProfile profile, double start, double duration);

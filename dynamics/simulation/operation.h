@@ -130,23 +130,23 @@ class OperationBuilder {
   /// @throws ModelError if there is no such drive, or it moves otherwise in that time.
   void add_course(std::string_view drive, Course course, double stand);
 
-  /// Whatever the drive does, from `time` (s) on it comes to a stand within `duration` (s) and stays
-  /// there: an emergency stop, or a drive that sticks (MotionProfile::stopped).
+  /// Whatever the drive does, from `time` (s) on it comes to a stand within `duration` (s) and
+  /// stays there: an emergency stop, or a drive that sticks (MotionProfile::stopped).
   /// @throws ModelError if there is no such drive, it is stopped already, the time is negative or
   /// the duration not positive.
   void add_stop(std::string_view drive, double time, double duration);
 
-  /// A winch runs away: its own motion comes to a stand within `ramp` (s) from `time` (s) on, and it
-  /// pays out at `speed` (m/s) instead, which it reaches in `ramp`, until it is caught after
+  /// A winch runs away: its own motion comes to a stand within `ramp` (s) from `time` (s) on, and
+  /// it pays out at `speed` (m/s) instead, which it reaches in `ramp`, until it is caught after
   /// `duration` (s) and stands within `ramp`. There it stays.
   /// @throws ModelError if there is no such winch, it is stopped already, the time is negative or
   /// another number not positive.
   void add_runaway(std::string_view winch, double time, double duration, double speed, double ramp);
 
   /// Moves and followers that begin at `from` (s) or later, of those added so far, come to a stand
-  /// between `time` (s) and `duration` (s) later (MotionProfile::stopped): all by one clock, so that
-  /// followers keep to their leaders. What would begin after that does not. Moves that are added
-  /// afterwards go on from there.
+  /// between `time` (s) and `duration` (s) later (MotionProfile::stopped): all by one clock, so
+  /// that followers keep to their leaders. What would begin after that does not. Moves that are
+  /// added afterwards go on from there.
   /// @throws ModelError if the duration is not positive.
   void stop_moves(double from, double time, double duration);
 

@@ -347,7 +347,8 @@ void require_writable(const fs::path& folder) {
     refuse(existing.string() + ": " + std::generic_category().message(errno));
   }
   try {
-    // Some places forbid what their access rights allow: names too long, file systems of the kernel.
+    // Some places forbid what their access rights allow: names too long, file systems of the
+    // kernel.
     const Preparation attempt(folder);
   } catch (const fs::filesystem_error& failure) {
     refuse(failure.code().message());

@@ -11,7 +11,8 @@ namespace blocklift::pipeline {
 
 /// Runs all stages of a case: mesh and mass of the block, static sweep, time integration, load
 /// mapping, unit responses, stresses, checks.
-/// @param unfinished what an earlier run of the same case had done, which is taken over bit for bit,
+/// @param unfinished what an earlier run of the same case had done, which is taken over bit for
+///   bit,
 /// and where this one keeps what it has done; null: nothing is kept.
 /// @throws dynamics::SimulationError, structure::ModelError, std::runtime_error as the stages do.
 Assessment assess(LiftCase lift_case, const Progress& progress,

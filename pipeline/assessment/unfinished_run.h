@@ -18,8 +18,8 @@ struct RunTrait {
 /// What a run has done so far, kept beside its results until they are in place, so that a run that
 /// is stopped can be gone on with. It lies in a hidden folder and is never taken for results.
 ///
-/// A part is kept only if the work since the last one is worth it: keep_after() seconds. What cannot
-/// be kept (a full disk, say) is done again instead.
+/// A part is kept only if the work since the last one is worth it: keep_after() seconds. What
+/// cannot be kept (a full disk, say) is done again instead.
 class UnfinishedRun {
  public:
   /// @param results the folder of the results; it need not exist.

@@ -53,8 +53,8 @@ BucklingAssessment assess_buckling(const LiftCase& lift_case,
 
 /// A line for each name of plates: its panel that is nearest to buckling, critical stresses by
 /// Johnson and Ostenfeld, against 1 over the case's buckling factor. Then one for each name of bars
-/// and of stiffeners: what its worst span bears over what it may bear as a column, forces times that
-/// factor.
+/// and of stiffeners: what its worst span bears over what it may bear as a column, forces times
+/// that factor.
 std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAssessment& buckling);
 
 /// `structure.buckling` of summary.json: the first panels and bars; all of them are in results.h5.

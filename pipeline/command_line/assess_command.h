@@ -11,9 +11,9 @@ namespace blocklift::pipeline {
 /// @param decks write the governing load cases as decks for other solvers, too.
 /// @param expect file of figures that the lift is held to; none: it is held to its checks alone.
 /// @param set keys that are to have other values, as parse_key_change takes them.
-/// @returns the exit code: 0 the lift passes, 3 it fails a check or an expected figure is off, 2 the
-///   output is no folder. What else goes wrong is thrown: InputError for the input, anything else
-///   for the run.
+/// @returns the exit code: 0 the lift passes, 3 it fails a check or an expected figure is off, 2
+///   the output is no folder. What else goes wrong is thrown: InputError for the input, anything
+///   else for the run.
 int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks,
                 const std::optional<std::string>& expect, const std::vector<std::string>& set);
 

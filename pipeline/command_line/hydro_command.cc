@@ -94,7 +94,8 @@ void require_writable_file(const fs::path& file) {
   }
 }
 
-/// A database with its page. Whatever fails before the database is in place leaves both as they were.
+/// A database with its page. Whatever fails before the database is in place leaves both as they
+/// were.
 void write_with_page(const fs::path& output, const HydrodynamicFile& file,
                      const std::string& page) {
   AtomicFile prepared(page_of(output));

@@ -240,7 +240,8 @@ SearchResults run_search(const SweepOptions& options, const fs::path& folder,
                          const StudyFile& study, const Eigen::MatrixXd& sample,
                          const MemberStore& store) {
   StudyBlocks blocks(study, folder / "members");
-  // Before all others: it tells whether the lift has the figures. Where it has not, nothing is left.
+  // Before all others: it tells whether the lift has the figures. Where it has not, nothing is
+  // left.
   const bool is_new = store.count_done(static_cast<int>(sample.rows())) == 0;
   try {
     check_figure_limits(study, {member_of_search(study, store, blocks, sample.row(0), 0)});

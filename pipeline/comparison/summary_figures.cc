@@ -132,8 +132,8 @@ void add_stress(FigureList& figures) {
   figures.add({"structure.mass.total_kg", group, "mass", "t", 1e-3, mass});
 }
 
-/// A check's name up to its colon, "rope R1" of "rope R1: tension against ...", where no other check
-/// begins so.
+/// A check's name up to its colon, "rope R1" of "rope R1: tension against ...", where no other
+/// check begins so.
 std::string short_name_of_check(const std::string& name, const std::vector<std::string>& all) {
   const std::string beginning = name.substr(0, name.find(": "));
   const auto begins_so = [&](const std::string& other) {

@@ -25,8 +25,9 @@ struct SummaryFigure {
   UsualTolerance tolerance;
 };
 
-/// A place in a summary: keys and names of rows with dots between ("ropes.R1.max_static_tension_N").
-/// A row of a list goes by its name, lug, plate, rope or instant, which may hold dots itself.
+/// A place in a summary: keys and names of rows with dots between
+/// ("ropes.R1.max_static_tension_N"). A row of a list goes by its name, lug, plate, rope or
+/// instant, which may hold dots itself.
 /// @returns null if there is no such place.
 const nlohmann::ordered_json* find_figure(const nlohmann::ordered_json& summary,
                                           std::string_view path);
@@ -36,8 +37,8 @@ const nlohmann::ordered_json* find_figure(const nlohmann::ordered_json& summary,
 /// periods. Figures that are null are left out.
 std::vector<SummaryFigure> list_figures(const nlohmann::ordered_json& summary);
 
-/// Whether a figure is the worse the smaller it is: a clearance, a margin, a righting height, or any
-/// other measure whose smallest value counts, and what a check asks to be at least its limit.
+/// Whether a figure is the worse the smaller it is: a clearance, a margin, a righting height, or
+/// any other measure whose smallest value counts, and what a check asks to be at least its limit.
 bool is_worse_when_smaller(const nlohmann::ordered_json& summary, std::string_view path);
 
 /// Unit that a figure has in the summary, from the end of its last key: "N", "Pa", "m", "percent",

@@ -19,8 +19,8 @@ struct Tolerance {
 };
 
 /// Whether a name means a figure: its path, whole keys at the path's beginning or end
-/// ("ropes.R1", "stress_increase_percent"), or a pattern of the whole path with * and ?. The unit at
-/// the end of the last key may be left out ("stress_increase").
+/// ("ropes.R1", "stress_increase_percent"), or a pattern of the whole path with * and ?. The unit
+/// at the end of the last key may be left out ("stress_increase").
 bool matches_figure(std::string_view name, std::string_view path);
 
 /// Reads tolerances: "stress_increase=2%,ropes.R1=5 kN", or, without an equals sign, the name of a

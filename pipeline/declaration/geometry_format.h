@@ -25,7 +25,8 @@ Format<Vector3> attitude_format();
 Eigen::Matrix3d rotation_of(const Vector3& roll_pitch_yaw);
 
 /// Angles (rad) of which rotation_of makes R_AB, to rounding for every rotation, the pitch from
-/// -pi/2 to pi/2. Where it is a right angle roll and yaw turn about one axis: one of the many pairs.
+/// -pi/2 to pi/2. Where it is a right angle roll and yaw turn about one axis: one of the many
+/// pairs.
 Vector3 roll_pitch_yaw_of(const Eigen::Matrix3d& R_AB);
 
 }  // namespace blocklift::pipeline

@@ -17,7 +17,8 @@ struct KeyChange {
   Mark mark;          ///< what asks for it
 };
 
-/// Reads a change: "ropes.R1.length=10.02 m", "blocks/hull-860t:mass=870 t". None after a complaint.
+/// Reads a change: "ropes.R1.length=10.02 m", "blocks/hull-860t:mass=870 t". None after a
+/// complaint.
 std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mark,
                                           Diagnostics& diagnostics);
 

@@ -15,8 +15,8 @@ struct TextFile {
   std::string text;                         ///< as it stands, UTF-8
 };
 
-/// Reads a file of text, whatever its form. Complaints are those of load_document that are not about
-/// YAML.
+/// Reads a file of text, whatever its form. Complaints are those of load_document that are not
+/// about YAML.
 std::optional<TextFile> load_text(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

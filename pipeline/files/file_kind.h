@@ -21,8 +21,9 @@ enum class FileKind {
 };
 
 /// The kind of a file, or of the file in a folder: a robot description is XML or ends in .urdf, a
-/// mechanism has the key `mechanism`, a part the key `part`, a study the key `study`, a model says its kind. Everything
-/// else, unreadable files included, counts as a lift case, whose reader says what is wrong.
+/// mechanism has the key `mechanism`, a part the key `part`, a study the key `study`, a model says
+/// its kind. Everything else, unreadable files included, counts as a lift case, whose reader says
+/// what is wrong.
 FileKind kind_of_file(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline

@@ -28,8 +28,8 @@ struct FoundModel {
 /// Finds and reads model files by name.
 ///
 /// A model `cranes/goliath-600t` of the kind crane is one of the files, in this order of places and
-/// names: in the folder of the file that names it, for a crane's rope in the folder of the case that
-/// names the crane, then in each folder of models,
+/// names: in the folder of the file that names it, for a crane's rope in the folder of the case
+/// that names the crane, then in each folder of models,
 ///   cranes/goliath-600t, cranes/goliath-600t.yaml, cranes/goliath-600t/crane.yaml.
 /// A standard's name may do without its folder: nd-0027 is standards/nd-0027.
 /// A name that leads out of all these folders is refused, unless files outside are allowed.

@@ -92,7 +92,8 @@ struct Schedule {
   std::optional<std::size_t> waiting_stage() const;
   /// The first stage with a drive whose course is not known yet, or nothing.
   std::optional<std::size_t> steered_stage() const;
-  /// The last stage up to which courses can be found in one run: all before it is known but for them.
+  /// The last stage up to which courses can be found in one run: all before it is known but for
+  /// them.
   std::size_t last_known_stage() const;
 };
 
@@ -123,7 +124,8 @@ Schedule schedule_operation(const LiftCase& lift_case, Diagnostics& diagnostics,
                             const FoundMotion& found = {});
 Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics);
 
-/// Adds a schedule's stages, moves and followers, and the courses that are known; the drives and winches that it moves come first.
+/// Adds a schedule's stages, moves and followers, and the courses that are known; the drives and
+/// winches that it moves come first.
 void add_schedule(const Schedule& schedule, dynamics::OperationBuilder& builder);
 
 }  // namespace blocklift::pipeline

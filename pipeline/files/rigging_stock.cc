@@ -16,7 +16,8 @@ constexpr double least_of_rule = 0.97;
 /// A breaking load that was tested may lie above the one that the rule asks for.
 constexpr double most_of_rule = 1.25;
 
-/// Mean shear of a pin in both planes when its shackle breaks, Pa: forged steels of 400 to 1200 MPa.
+/// Mean shear of a pin in both planes when its shackle breaks, Pa: forged steels of 400 to 1200
+/// MPa.
 constexpr StrengthRange pin_shear{200e6, 750e6};
 /// Mean tension of both sides of a master link when it breaks, Pa. Its ends are bent and break
 /// first, so that this is half or less of what alloy steel of 700 to 1200 MPa bears.
@@ -191,8 +192,8 @@ void check_sheave(const StockSheave& sheave, Diagnostics& diagnostics) {
     diagnostics.error(sheave.name.mark,
                       fmt::format("{}: tread over rope is {:.3g}; sheaves have {:g} to {:g}",
                                   sheave.name.value, ratio, tread_ratio.least, tread_ratio.most));
-  // A disc of steel of the tread's diameter, as thick as its rim, is heavier by far; a rim alone, of
-  // the rope's own section, lighter.
+  // A disc of steel of the tread's diameter, as thick as its rim, is heavier by far; a rim alone,
+  // of the rope's own section, lighter.
   const double round = std::numbers::pi / 4 * bar_density;
   const double disc = round * std::pow(sheave.tread + 3 * sheave.rope, 2) * 2.5 * sheave.rope;
   const double rim = round * std::numbers::pi * sheave.tread * sheave.rope * sheave.rope;

@@ -106,8 +106,8 @@ struct StockSpreader {
   /// Of the slings above to the level, the least that the working load holds for, rad.
   double sling_angle = std::numeric_limits<double>::quiet_NaN();
 
-  /// What the bar bears of its resistance under the working load, all forces times a factor: half of
-  /// it over tan(sling_angle) presses the bar at the height of its upper eyes, its own weight
+  /// What the bar bears of its resistance under the working load, all forces times a factor: half
+  /// of it over tan(sling_angle) presses the bar at the height of its upper eyes, its own weight
   /// bends it (structure::column_utilisation).
   double utilisation(double factor) const;
 };
@@ -136,8 +136,8 @@ Format<RiggingStock> rigging_stock_format();
 
 /// Whether the figures of a stock hold together, after its ropes were looked up: working loads by
 /// the rule, strength over mass by the construction, pins by the shear that they may bear, master
-/// links by their mass and the mean stress of their sides, sheaves by the bend of their largest rope,
-/// spreader bars as columns. Figures that could not be read are passed over.
+/// links by their mass and the mean stress of their sides, sheaves by the bend of their largest
+/// rope, spreader bars as columns. Figures that could not be read are passed over.
 void check_rigging_stock(const RiggingStock& stock, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

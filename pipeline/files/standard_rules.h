@@ -20,7 +20,8 @@ struct NamedFactor : ClauseFactor {
   Located<std::string> name;
 };
 
-/// Dynamic amplification of hook loads up to a weight: factor + root sqrt(100 t / static hook load).
+/// Dynamic amplification of hook loads up to a weight: factor + root sqrt(100 t / static hook
+/// load).
 struct AmplificationRow {
   std::optional<double> up_to;  ///< static hook load, N; none: whatever is heavier
   double factor = 1;
@@ -63,13 +64,14 @@ struct TiltRule {
 struct SlingRules {
   ClauseFactor load, consequence, floor;
   ClauseFactor bending;  ///< 0.5 of the formula
-  /// What a share E/T of the environment takes off the load factor: load - share E/T, though no less
-  /// than 1 + (load - 1) E/T. None: the standard allows no such reduction.
+  /// What a share E/T of the environment takes off the load factor: load - share E/T, though no
+  /// less than 1 + (load - 1) E/T. None: the standard allows no such reduction.
   std::optional<ClauseFactor> environment;
   std::vector<NamedFactor> material, wear, termination;
 };
 
-/// Shackles, and what rules say alike of other accessories: static load <= working load; dynamic load
+/// Shackles, and what rules say alike of other accessories: static load <= working load; dynamic
+/// load
 /// <= working load x DAF, <= breaking load / breaking.
 struct ShackleRules {
   ClauseFactor working;  ///< on the static load

@@ -52,9 +52,10 @@ void write_wamit(const std::filesystem::path& name, const dynamics::Hydrodynamic
 /// Capytaine's NetCDF, NetCDF-4 or of the classic formats: added_mass, radiation_damping (omega,
 /// radiating_dof, influenced_dof), Froude_Krylov_force and diffraction_force or excitation_force
 /// (complex or reim, omega, wave_direction, influenced_dof), dimensions in whatever order the file
-/// names; degrees of freedom "Heave" or "body__Heave", as strings or as characters. SI, headings in rad. Its time factor is e^{-i w t}:
-/// forces are conjugated. Rotations about rotation_center, else center_of_mass, else the world's
-/// origin. Source: Capytaine documentation, "Conventions" and "Export outputs".
+/// names; degrees of freedom "Heave" or "body__Heave", as strings or as characters. SI, headings in
+/// rad. Its time factor is e^{-i w t}: forces are conjugated. Rotations about rotation_center, else
+/// center_of_mass, else the world's origin. Source: Capytaine documentation, "Conventions" and
+/// "Export outputs".
 dynamics::HydrodynamicDatabase read_capytaine(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline

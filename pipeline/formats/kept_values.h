@@ -20,8 +20,8 @@ namespace blocklift::pipeline {
 ///     template <class Values, class Part>
 ///     void pass(Values& values, Part& part) { values(part.name, part.time, part.positions); }
 ///
-/// is one function for both. Values are numbers, enumerations, texts, matrices, what has a `pass` in
-/// this namespace, and vectors and optionals of these.
+/// is one function for both. Values are numbers, enumerations, texts, matrices, what has a `pass`
+/// in this namespace, and vectors and optionals of these.
 class KeptValuesWriter {
  public:
   static constexpr bool reads = false;

@@ -12,7 +12,8 @@ namespace blocklift::pipeline {
 /// same content gives the same bytes.
 class ZipArchive {
  public:
-  /// @param name with slashes, no two alike. @throws std::length_error beyond 4 GB in all, or 65,535
+  /// @param name with slashes, no two alike. @throws std::length_error beyond 4 GB in all, or
+  ///   65,535
   /// files.
   void add(const std::string& name, std::string_view content);
   /// The whole archive.

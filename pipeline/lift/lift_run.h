@@ -49,8 +49,8 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 
 /// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the
 /// rest. Where stages end by a condition, or drives are steered after what is seen, the lift is run
-/// up to the end of each of them first, so that all of the operation is known; then the worst instant
-/// of a fault is sought where a case asks for it (find_worst_instant).
+/// up to the end of each of them first, so that all of the operation is known; then the worst
+/// instant of a fault is sought where a case asks for it (find_worst_instant).
 /// @throws dynamics::SimulationError also if a condition does not come about in its time.
 /// @throws InputError, dynamics::ModelError, dynamics::SimulationError as find_radiation and
 /// build_lift.

@@ -36,7 +36,8 @@ struct SlingLengths {
   /// than most_in_sets slings.
   Eigen::VectorXd worst_tensions;
   double worst_tilt = 0;  ///< likewise, rad
-  /// Lengths that hang the load level, nearest to those meant, m; none were found where it is empty.
+  /// Lengths that hang the load level, nearest to those meant, m; none were found where it is
+  /// empty.
   Eigen::VectorXd level_lengths;
   SlingState level;  ///< with them
 
@@ -48,9 +49,9 @@ struct SlingLengths {
 /// Finds equilibria of the lift as it is, each anew with other lengths of slings.
 ///
 /// The instant is the first of the history at rest at which the load hangs on its slings alone,
-/// which bear its weight to 1 part in a thousand; the air is still. Slings with a winch of their own count as meant.
-/// Level lengths follow by Newton's method for trim and list; of all changes of length that level
-/// the load it takes the one with the least sum of squares.
+/// which bear its weight to 1 part in a thousand; the air is still. Slings with a winch of their
+/// own count as meant. Level lengths follow by Newton's method for trim and list; of all changes of
+/// length that level the load it takes the one with the least sum of squares.
 ///
 /// @param flexibility of the load as in build_lift; null: it is rigid.
 /// @returns nothing where the load never hangs on slings alone, or the case asks for no tolerance.

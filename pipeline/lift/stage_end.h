@@ -12,8 +12,8 @@ namespace blocklift::pipeline {
 double find_stage_end(const LiftCase& lift_case, const BuiltLift& model, std::size_t stage,
                       const Progress& progress);
 
-/// How the drives go whose courses are not known yet, in the order of the schedule: the operation is
-/// integrated as far as all but those is known (Schedule::last_known_stage).
+/// How the drives go whose courses are not known yet, in the order of the schedule: the operation
+/// is integrated as far as all but those is known (Schedule::last_known_stage).
 /// @throws dynamics::SimulationError if the integration fails.
 std::vector<dynamics::Course> find_courses(const LiftCase& lift_case, const BuiltLift& model,
                                            const Progress& progress);

@@ -27,10 +27,11 @@ class Solid {
   std::unique_ptr<Tree> tree_;
 };
 
-/// Distances over the operation: of the load from cranes, vessels, hook blocks, spreaders, tackles, and
-/// the ground ashore; of spreaders from cranes; of ropes from the crane that they hang on, but for the body that carries them; of
-/// cranes from one another. Cranes are the boxes of their drawing. At most 600 instants of a
-/// history are looked at, and values between them are linear; beyond 20 m all is far.
+/// Distances over the operation: of the load from cranes, vessels, hook blocks, spreaders, tackles,
+/// and the ground ashore; of spreaders from cranes; of ropes from the crane that they hang on, but
+/// for the body that carries them; of cranes from one another. Cranes are the boxes of their
+/// drawing. At most 600 instants of a history are looked at, and values between them are linear;
+/// beyond 20 m all is far.
 void add_clearances(const LiftCase& lift_case, const LiftRun& lift,
                     std::vector<LiftMeasure>& measures);
 

@@ -11,8 +11,8 @@ namespace blocklift::pipeline {
 using Triangle = std::array<Vector3, 3>;
 
 /// Surface of a block in its frame: the shells of its mesh, or its plates on their mid-planes
-/// without openings. Arcs are divided so that no chord lies further in than a hundredth of the arc's
-/// height.
+/// without openings. Arcs are divided so that no chord lies further in than a hundredth of the
+/// arc's height.
 std::vector<Triangle> surface_of(const BlockModel& block);
 /// A hull, in the vessel's frame.
 std::vector<Triangle> surface_of(const dynamics::Hull& hull);

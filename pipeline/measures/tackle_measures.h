@@ -6,8 +6,8 @@
 
 namespace blocklift::pipeline {
 
-/// Which way the rope of a tackle runs at each sample, by its unstretched length (m); as it ran last
-/// where it stands, and before it has moved as if it had hoisted the load to where it is.
+/// Which way the rope of a tackle runs at each sample, by its unstretched length (m); as it ran
+/// last where it stands, and before it has moved as if it had hoisted the load to where it is.
 std::vector<dynamics::TackleMotion> find_tackle_motion(const Eigen::VectorXd& unstretched_length);
 
 /// Pull at the drum and largest tension of the single rope, for hoists that say how their tackle is

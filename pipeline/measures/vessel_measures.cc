@@ -12,8 +12,8 @@ namespace blocklift::pipeline {
 
 namespace {
 
-/// Vertices of a hull that are not lower than its highest by more than a hundredth of its depth: its
-/// deck.
+/// Vertices of a hull that are not lower than its highest by more than a hundredth of its depth:
+/// its deck.
 std::vector<Vector3> deck_of(const dynamics::Hull& hull) {
   const auto [lowest, highest] = hull.bounds();
   const double least = highest.z() - 0.01 * (highest.z() - lowest.z());

@@ -14,8 +14,8 @@ struct CheckGroup {
 };
 
 /// Checks of summary.json by the kind of what is checked: the first word of a check's name (rope,
-/// hoist, lug, ...), apart for those by a standard, whose name stands before it with a colon. Groups
-/// are sorted by what leads in them.
+/// hoist, lug, ...), apart for those by a standard, whose name stands before it with a colon.
+/// Groups are sorted by what leads in them.
 ///
 /// @param checks an array, which must outlive the groups.
 /// @param standard the name of the standard of the summary; empty without.

@@ -7,10 +7,10 @@
 
 namespace blocklift::pipeline {
 
-/// The calculation of a lift by a standard, in the order in which a warranty surveyor asks for it (GL
-/// Noble Denton 0027/ND rev. 11.2, appendix A): basis, weights, rigging list, geometry, load cases,
-/// utilisations, chains of factors, revision with the hash of the case, and boxes to sign. The
-/// assessment has a standard.
+/// The calculation of a lift by a standard, in the order in which a warranty surveyor asks for it
+/// (GL Noble Denton 0027/ND rev. 11.2, appendix A): basis, weights, rigging list, geometry, load
+/// cases, utilisations, chains of factors, revision with the hash of the case, and boxes to sign.
+/// The assessment has a standard.
 TextDocument calculation_package(const Assessment& assessment);
 
 /// What stands at the foot of its pages: case, project, revision and the hash of input and factors.

@@ -21,8 +21,8 @@ inline constexpr const char* load_case_displacements = "load-cases.csv";
 
 /// The instants of the largest checked stress at rest and in motion (of a load table both of its
 /// sets) as an Abaqus and as a Nastran deck: see structure::load_case_deck. In the units of the
-/// deck that the block came from, else in mm, t and N. A table has the displacements that the solver
-/// is to find at the corners of elements.
+/// deck that the block came from, else in mm, t and N. A table has the displacements that the
+/// solver is to find at the corners of elements.
 /// @returns nothing where no block's stress was asked.
 std::vector<LoadCaseFile> load_case_files(const Assessment& assessment);
 

@@ -30,8 +30,8 @@ struct ChosenMasterLink {
 /// The hooks of the case from which several slings hang.
 std::vector<MasterLinkDemand> master_link_demands(const LiftCase& lift_case, const LiftRun& lift);
 
-/// The weakest link that passes: with a standard its chains, at rest and in motion, else its working
-/// load against the largest load at rest. Where none passes, the strongest.
+/// The weakest link that passes: with a standard its chains, at rest and in motion, else its
+/// working load against the largest load at rest. Where none passes, the strongest.
 /// @param facts of the run, where the case has a standard.
 /// @returns none where the stock has no master links.
 std::optional<ChosenMasterLink> choose_master_link(const Stock& stock, const LiftCase& lift_case,

@@ -38,10 +38,10 @@ struct RiggedLift {
 /// Runs of the lift until the choice stands, at most.
 inline constexpr int most_rigging_runs = 15;
 
-/// Chooses for each sling of a case the weakest of a stock that passes the case's checks against its
-/// largest loads, at rest and in motion, and for each spreader the lightest of its length, running the
-/// lift again with the choice until it stands; shackles, master links and sheaves follow from the last
-/// run.
+/// Chooses for each sling of a case the weakest of a stock that passes the case's checks against
+/// its largest loads, at rest and in motion, and for each spreader the lightest of its length,
+/// running the lift again with the choice until it stands; shackles, master links and sheaves
+/// follow from the last run.
 /// Checks of the block and of cranes are not asked.
 /// @throws InputError if the case has no slings, or the block cannot be meshed; as run_lift does.
 RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress);

@@ -21,8 +21,8 @@ struct ChosenShackle {
 };
 
 /// The weakest shackle that passes: its working load against the sling's largest tension at rest;
-/// where the case's rules have shackles, their chains, at rest and in motion. Where none passes, the
-/// strongest.
+/// where the case's rules have shackles, their chains, at rest and in motion. Where none passes,
+/// the strongest.
 /// @param facts of the run, where the case has a standard.
 ChosenShackle choose_shackle(const Stock& stock, const LiftCase& lift_case,
                              const std::optional<LiftFacts>& facts, const SlingDemand& demand);

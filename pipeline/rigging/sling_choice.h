@@ -32,7 +32,8 @@ class SlingChecks {
   std::string obstacle(const SlingInStock& candidate, const SlingDemand& demand) const;
 
   /// The candidate in place of the rope's own, without an obstacle:
-  /// - breaking load, as far as the rope's own bend leaves it, over the case's factor against the largest tension, at rest or in motion;
+  /// - breaking load, as far as the rope's own bend leaves it, over the case's factor against the
+  ///   largest tension, at rest or in motion;
   /// - the standard's chain, in both columns, where its rules have a factor for slings;
   /// - without such rules, the working load against the largest tension at rest.
   std::vector<Check> of(const SlingInStock& candidate, const SlingDemand& demand) const;

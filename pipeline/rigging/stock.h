@@ -60,8 +60,8 @@ struct Stock {
   std::vector<SpreaderInStock> spreaders;       ///< by mass
 };
 
-/// Reads the files of kind rigging in folders, those of their subfolders left out. A file whose name
-/// an earlier folder has is passed over.
+/// Reads the files of kind rigging in folders, those of their subfolders left out. A file whose
+/// name an earlier folder has is passed over.
 /// @param constructions of slings that are taken; none: all of them.
 /// Complains about a folder that cannot be read, files with mistakes, a name given twice, and a
 /// stock without slings.

@@ -104,7 +104,8 @@ Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& fo
     const VectorXd e = errors(taut);
     const MatrixXd K = B.transpose() * stiffness_of_ropes * B + turning;
     // What turns freely (a load about the plumb line of its one hook) stays where it is. Its
-    // stiffness is nil but for rounding, some 1e-13 of the ropes'; that of a pendulum is 1e-5 of it.
+    // stiffness is nil but for rounding, some 1e-13 of the ropes'; that of a pendulum is 1e-5 of
+    // it.
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
     decomposition.setThreshold(1e-10);
     decomposition.compute(K);

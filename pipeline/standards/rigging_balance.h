@@ -25,7 +25,8 @@ struct RiggingRope {
 };
 
 /// How tensions share anew about a state of equilibrium: a rigid load on taut elastic ropes, hooks
-/// that move freely and rigid spreader bars between them, to the first order of small displacements,
+/// that move freely and rigid spreader bars between them, to the first order of small
+/// displacements,
 ///   K x = f + B^T F^-1 e,   dT = F^-1 (B x - e),   K = B^T F^-1 B + K_g,
 /// B the elongation of each rope by the displacements x of load and bars (6 each) and hooks (3
 /// each), F the

@@ -188,7 +188,8 @@ LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
   library.set_changes(std::move(changes));
   std::optional<LiftCase> lift_case = read_lift_case(study.case_path(), library, diagnostics);
   if (!diagnostics.has_errors()) return std::move(*lift_case);
-  // Complaints name the study's own lines, or those of the case and its models as they were changed.
+  // Complaints name the study's own lines, or those of the case and its models as they were
+  // changed.
   diagnostics.error(
       study.place, fmt::format("a member of the study is impossible: {}", describe(study, values)));
   throw InputError(diagnostics);

@@ -42,10 +42,10 @@ struct SearchResults {
 };
 
 /// Searches for the best member from those of a first sample on, by linear approximations in a
-/// trust region (COBYLA; Powell 1994, "A direct search optimization method that models the objective
-/// and constraint functions by linear interpolation"; OpenTURNS'), which needs no derivatives. It
-/// goes on from the best of the sample, then, with what members are left, from the best far away
-/// from what it found. The same study tries the same values.
+/// trust region (COBYLA; Powell 1994, "A direct search optimization method that models the
+/// objective and constraint functions by linear interpolation"; OpenTURNS'), which needs no
+/// derivatives. It goes on from the best of the sample, then, with what members are left, from the
+/// best far away from what it found. The same study tries the same values.
 ///
 /// @param sample values of the first members, a member a row. @param members they themselves.
 /// @throws InputError if the unit of a bound is not that of its figure.

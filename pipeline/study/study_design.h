@@ -7,10 +7,10 @@
 namespace blocklift::pipeline {
 
 /// The values of all members: a member a row, a variable a column, SI units. The same study gives
-/// the same values on every machine. Rows of a sensitivity are those of Saltelli's two samples, then
-/// of the first with a column after another of the second (Saltelli 2002). Of a search they are the
-/// sample with which it begins. Correlated values are joined by copulas; a Latin hypercube keeps
-/// its strata.
+/// the same values on every machine. Rows of a sensitivity are those of Saltelli's two samples,
+/// then of the first with a column after another of the second (Saltelli 2002). Of a search they
+/// are the sample with which it begins. Correlated values are joined by copulas; a Latin hypercube
+/// keeps its strata.
 ///
 /// @throws InputError, with the variable's place, if a law cannot be what it is asked to be.
 Eigen::MatrixXd make_design(const StudyFile& study);

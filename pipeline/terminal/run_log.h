@@ -20,8 +20,8 @@ class LogError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Opens the log of a run, in place of an earlier one, and enters the program, its arguments and its
-/// folder. Before, entries are dropped and nothing is quiet.
+/// Opens the log of a run, in place of an earlier one, and enters the program, its arguments and
+/// its folder. Before, entries are dropped and nothing is quiet.
 /// @throws LogError if the file cannot be written.
 void begin_log(const LogChoice& choice, const std::vector<std::string>& arguments);
 

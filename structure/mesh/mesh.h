@@ -133,8 +133,8 @@ struct DistributingLink {
 };
 
 /// Linear equation between motions of vertices: the sum of a_i . u_i + b_i . theta_i is zero. Its
-/// forces are in balance (sum a_i = 0, sum x_i x a_i + b_i = 0), so that it resists no motion of the
-/// whole.
+/// forces are in balance (sum a_i = 0, sum x_i x a_i + b_i = 0), so that it resists no motion of
+/// the whole.
 struct MotionEquation {
   struct Term {
     int vertex = 0;
@@ -191,7 +191,8 @@ struct LiftingPoint {
   int vertex = -1;
 };
 
-/// Conforming mesh of a structure: shells, beams, solids, masses, links and springs on common vertices.
+/// Conforming mesh of a structure: shells, beams, solids, masses, links and springs on common
+/// vertices.
 ///
 /// Cells are joined where they share vertices: shells along edges, beams along shells' edges, and
 /// what else meets in a vertex. Any number of shells may meet along an edge.

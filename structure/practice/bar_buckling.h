@@ -13,10 +13,10 @@ namespace blocklift::structure {
 
 /// Piece of a bar that buckles as one.
 ///
-/// Of a bar that stands free of plates: straight, from joint to joint; what it ends on (plates, other
-/// bars, links, springs) holds it there, nothing between. Of a stiffener along a plate: from one
-/// support of the plate to the next; other plates hold it, and what crosses it with five times its
-/// second moment about the plate.
+/// Of a bar that stands free of plates: straight, from joint to joint; what it ends on (plates,
+/// other bars, links, springs) holds it there, nothing between. Of a stiffener along a plate: from
+/// one support of the plate to the next; other plates hold it, and what crosses it with five times
+/// its second moment about the plate.
 struct BarSpan {
   std::string bar;                                     ///< name of its region
   std::string group;                                   ///< name of that region's group

@@ -42,10 +42,10 @@ double buckling_resistance(const Column& column);
 
 /// What a bar bears over what it may bear, all forces having been multiplied by a factor:
 ///   N / (chi A f_y) + sum over y, z of  M / (W f_y (1 - N / N_cr)).
-/// The first term is equation 6.46 of EN 1993-1-1; the moments grow by 5.2.2(5), which holds for the
-/// first half wave of a pinned bar, and add up linearly as in 6.2.1(7). Pulled, it is N / (A f_y)
-/// and moments without growth. Closed sections do not buckle sideways under bending (6.3.2.1(2)).
-/// Infinite from Euler's load on.
+/// The first term is equation 6.46 of EN 1993-1-1; the moments grow by 5.2.2(5), which holds for
+/// the first half wave of a pinned bar, and add up linearly as in 6.2.1(7). Pulled, it is N / (A
+/// f_y) and moments without growth. Closed sections do not buckle sideways under bending
+/// (6.3.2.1(2)). Infinite from Euler's load on.
 double column_utilisation(const Column& column, const ColumnForces& forces, double factor);
 
 }  // namespace blocklift::structure

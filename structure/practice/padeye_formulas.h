@@ -49,7 +49,8 @@ struct PadeyeFormula {
 ///     1
 ///   shear in the base           V/A <= 0.4 F_y
 ///   cheek welds                 F t_c / T on half a circle's throat <= 0.4 F_y
-///   base welds, doubler's weld  resultant on the throat a, as an elastic group of lines, <= 0.4 F_y:
+///   base welds, doubler's weld  resultant on the throat a, as an elastic group of lines, <= 0.4
+///   F_y:
 ///     |N|/A + M_in/W_in + M_out/W_out across it, V/A along it; for a rectangle L x B
 ///     A = 2 a (L + B), W_in = a (L^2/3 + L B), W_out = a (B^2/3 + L B), for the two sides of a
 ///     base L A = 2 a L, W_in = a L^2 / 3, W_out = a L t

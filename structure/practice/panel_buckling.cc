@@ -172,9 +172,9 @@ double enclosed_area(const Mesh& mesh, const std::vector<FieldEdge>& outline, co
   return area;
 }
 
-/// The sides of the bounding rectangle that lie free. Each piece of the field's outer outline counts
-/// for the sides to which it faces, as long as it is seen from there: a side is free where more than
-/// half of what faces it is held by no other plate or beam. Holes do not count.
+/// The sides of the bounding rectangle that lie free. Each piece of the field's outer outline
+/// counts for the sides to which it faces, as long as it is seen from there: a side is free where
+/// more than half of what faces it is held by no other plate or beam. Holes do not count.
 FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const std::set<Edge>& beams,
                           const Panel& panel) {
   const auto outer = std::max_element(

@@ -40,9 +40,9 @@ double effective_width_share(const Material& material, double thickness, double 
 
 /// A stiffener and its plates as a column that bends out of the plate; the plate holds it sideways.
 /// EN 1993-1-5, 4.5.3: Euler's load of the gross section, effective area with plates reduced by
-/// 4.4(2), imperfection alpha + 0.09 e / i with alpha = 0.49 of open sections, i the gross radius of
-/// gyration and e the larger distance of stiffener and plates from the common centroid. The section
-/// modulus is that of the effective section.
+/// 4.4(2), imperfection alpha + 0.09 e / i with alpha = 0.49 of open sections, i the gross radius
+/// of gyration and e the larger distance of stiffener and plates from the common centroid. The
+/// section modulus is that of the effective section.
 /// @param length between the supports, m.
 Column stiffener_column(const Material& material, const StiffenerSection& stiffener,
                         const std::array<PlateStrip, 2>& plates, double length);

@@ -222,9 +222,9 @@ Space::~Space() = default;
 namespace {
 
 /// Where deal.II has one thread alone it takes over what is alike of the cell that it looked at
-/// before, and rounds otherwise than with more of them. The last digit of a mass would depend on the
-/// threads, and the motion of the block, whose error is controlled, in its fifth. Two threads are
-/// more than it needs: those that do the work are ours.
+/// before, and rounds otherwise than with more of them. The last digit of a mass would depend on
+/// the threads, and the motion of the block, whose error is controlled, in its fifth. Two threads
+/// are more than it needs: those that do the work are ours.
 void keep_rounding_from_threads() {
   static const bool once = [] {
     dealii::MultithreadInfo::set_thread_limit(2);

@@ -38,9 +38,9 @@ using ElementMatrix = std::function<const Eigen::MatrixXd&(int element)>;
 SparseLower assemble(const Space& space, const std::function<ElementMatrix()>& make_worker,
                      int threads = 0);
 
-/// Stiffness of shells, beams, springs and solids, N/m. Unknowns that nothing stiffens have 1 on the
-/// diagonal, and rotations of a truss' joints about axes that nothing stiffens a stiffness of their
-/// own: they stay at rest.
+/// Stiffness of shells, beams, springs and solids, N/m. Unknowns that nothing stiffens have 1 on
+/// the diagonal, and rotations of a truss' joints about axes that nothing stiffens a stiffness of
+/// their own: they stay at rest.
 /// @throws ModelError if it would not fit into the memory that is free; the message has the
 /// figures.
 SparseLower assemble_stiffness(const Space& space, int threads = 0);

@@ -1,6 +1,7 @@
-// Hydrodynamic databases in HDF5: read, or refused with a HydrodynamicFileError; what is accepted is
-// sound. The input is a list of edits of a sound file, since bytes at random hardly ever are HDF5:
-// parts left out, renamed, or of other shapes and values, then bytes of the file, then its length.
+// Hydrodynamic databases in HDF5: read, or refused with a HydrodynamicFileError; what is accepted
+// is sound. The input is a list of edits of a sound file, since bytes at random hardly ever are
+// HDF5: parts left out, renamed, or of other shapes and values, then bytes of the file, then its
+// length.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -7,8 +7,8 @@ namespace blocklift::dynamics {
 
 /// The headings of a database (rad), its first repeated after a turn, for a vessel that may turn in
 /// the waves.
-/// @throws ModelError, beginning with `who`, if there are none, or unless they ascend through a whole
-///   turn at most 45 degrees apart.
+/// @throws ModelError, beginning with `who`, if there are none, or unless they ascend through a
+///   whole turn at most 45 degrees apart.
 std::vector<double> headings_of_whole_turn(const std::string& who, std::vector<double> headings);
 
 /// Between which of such headings an angle (rad) lies.

@@ -141,8 +141,8 @@ struct FreeLug {
   Vector3 p_BPin = Vector3::Zero();  ///< in the block's frame, m
 };
 
-/// Bar along straight lines from point to point, as a strut, a pillar or a brace is: it is joined to
-/// what it ends on, crosses or runs along in the middle planes.
+/// Bar along straight lines from point to point, as a strut, a pillar or a brace is: it is joined
+/// to what it ends on, crosses or runs along in the middle planes.
 struct Bar {
   std::string name;
   std::vector<Vector3> points;  ///< two or more, m

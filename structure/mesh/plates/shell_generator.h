@@ -14,8 +14,9 @@ namespace blocklift::structure {
 /// normals point along its axis. Groups are the plates (all positions of a name together), pads,
 /// lugs and rows of stiffeners. Stiffeners are beams on the shells' edges, their centroid off the
 /// mid-plane by half the plate's thickness and the profile's own offset; those of one row on one
-/// sheet are a region, after the sheets. Each bar is a group and a region, the last ones. What several sheets share belongs to the lug before the
-/// pad before the thickest plate. Labels count from 1, shells before beams.
+/// sheet are a region, after the sheets. Each bar is a group and a region, the last ones. What
+/// several sheets share belongs to the lug before the pad before the thickest plate. Labels count
+/// from 1, shells before beams.
 ///
 /// @throws ModelError naming the parts: what spread_into_sheets and SheetGrid refuse, elements so
 ///   small that no memory holds them, parts that are not joined to the rest along an edge, a lug

@@ -90,8 +90,8 @@ TEST(HangingRope, HangsPlumb) {
   EXPECT_LT((series.on_load() - Vector3(0, 0, G)).norm(), 1e-2);
 }
 
-// Ernst (1965): a taut chord of length l is as stiff as 1 / (L0/EA + W^2 l / (12 T^3)), W the weight
-// across it. The next term is (W/T)^2 of that.
+// Ernst (1965): a taut chord of length l is as stiff as 1 / (L0/EA + W^2 l / (12 T^3)), W the
+// weight across it. The next term is (W/T)^2 of that.
 TEST(HangingRope, ItsChordIsErnstsSpring) {
   const double L0 = 60, w = 700, EA = 1e9;
   RopeDefinition definition = sling();

@@ -13,8 +13,8 @@ namespace blocklift::dynamics {
 namespace {
 
 // API RP 9B (2015), fast line factors and efficiencies of case A, whose sheaves are as many as its
-// falls: 10 falls on roller bearings, K = 1.04, have 0.123 in the example of 2.3.3.4; 16 falls 0.086
-// and 0.728. Printed to three digits.
+// falls: 10 falls on roller bearings, K = 1.04, have 0.123 in the example of 2.3.3.4; 16 falls
+// 0.086 and 0.728. Printed to three digits.
 TEST(Tackle, LeadLineOfApiRp9b) {
   const auto lead = [](int falls) {
     return calc_shares({falls, 1, 1 / 1.04}, TackleMotion::hoisting).lead_line;

@@ -167,8 +167,8 @@ TEST(TimeIntegration, SwingingLoadHoistedAgainstMinimalCoordinates) {
   EXPECT_LT(largest_imbalance(run.history.energy), 1e-6 * model.mass * g);
 }
 
-// Two equal ropes hold a load, W / 2 each. When one parts the other, stretched by W / 2k, must hold W,
-// for which it stretches by W / k: the load swings about that place by W / 2k, so that the rope
+// Two equal ropes hold a load, W / 2 each. When one parts the other, stretched by W / 2k, must hold
+// W, for which it stretches by W / k: the load swings about that place by W / 2k, so that the rope
 // carries 3/2 W at most. What the parted one had stored, (W / 2)^2 / 2k, is lost.
 TEST(TimeIntegration, ARopeThatPartsLeavesItsLoadToTheOther) {
   MechanismBuilder mechanism_builder;

@@ -148,8 +148,8 @@ const T& named(const std::vector<T>& items, const std::string& name) {
   return *found;
 }
 
-// Free plates are meshed by Gmsh, which makes two meshes even of one description: what it is given is
-// the same to the last digit.
+// Free plates are meshed by Gmsh, which makes two meshes even of one description: what it is given
+// is the same to the last digit.
 TEST(CopiedParts, SoArePlatesOfAnyOrientation) {
   const std::string plates =
       "plates:\n" + deck +
@@ -194,7 +194,8 @@ TEST(CopiedParts, SoArePlatesOfAnyOrientation) {
                 [&](const Vector3& point) { return mirrored(point + Vector3(0.5, 0, 0)); });
 }
 
-// An angle is its own image only if its profile is reflected, too: the mass lies in the mirror plane.
+// An angle is its own image only if its profile is reflected, too: the mass lies in the mirror
+// plane.
 TEST(CopiedParts, SoAreBars) {
   const structure::Mesh mesh =
       mesh_of_text("plates:\n" + deck +

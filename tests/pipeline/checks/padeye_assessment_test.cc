@@ -79,9 +79,9 @@ TEST(PadeyeFormulas, WorkingStressByHand) {
               1e6 * 35 / 150 / (25 / std::sqrt(2.0) * M_PI * 220), 1e-9);
 }
 
-// The same force on fillets of 20 mm (throat 14.142 mm) along both sides of the base, and on a doubler
-// of 1400 x 300 x 30 mm with a fillet of 12 mm (8.485 mm) around it, 550 and 580 mm below the pin;
-// 5 % of the force along the pin.
+// The same force on fillets of 20 mm (throat 14.142 mm) along both sides of the base, and on a
+// doubler of 1400 x 300 x 30 mm with a fillet of 12 mm (8.485 mm) around it, 550 and 580 mm below
+// the pin; 5 % of the force along the pin.
 TEST(PadeyeFormulas, WeldsOfTheBaseAndOfADoublerByHand) {
   structure::PadeyeFormulaInput input =
       input_of({0.3, 0.08, 0.145, 0.140, 0.22, 0.035, 0.55, 0.6, 0.6}, 206e9);

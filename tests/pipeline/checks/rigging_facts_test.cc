@@ -109,8 +109,8 @@ LiftCase spreader_case(const test::TemporaryFolder& folder) {
   return lift_case;
 }
 
-// Second method: the equilibrium of a lift whose centre of mass is where the box has its corner. The
-// balance is of the first order, so that a quarter of its error is left when the box is halved.
+// Second method: the equilibrium of a lift whose centre of mass is where the box has its corner.
+// The balance is of the first order, so that a quarter of its error is left when the box is halved.
 TEST(RiggingFacts, CentreBoxBelowASpreaderIsThatOfAShiftedLoad) {
   const test::TemporaryFolder folder;
   LiftCase lift_case = spreader_case(folder);

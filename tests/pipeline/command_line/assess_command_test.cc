@@ -66,8 +66,8 @@ TEST_F(AssessCommand, WritesResultsAndSaysWhereTheReportIs) {
   EXPECT_EQ(written().size(), 8u);  // two folders and the six files
 }
 
-// Sums come in another order with another number of threads: squares of equal stress must not change
-// places by that, since cells are divided about them. Steps of the integration do change.
+// Sums come in another order with another number of threads: squares of equal stress must not
+// change places by that, since cells are divided about them. Steps of the integration do change.
 TEST_F(AssessCommand, DividesTheSameCellsWithAnyNumberOfThreads) {
   nlohmann::json summaries[2];
   for (const int i : {0, 1}) {

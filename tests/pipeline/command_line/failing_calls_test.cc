@@ -233,8 +233,8 @@ int run_short_of_memory(const std::string& arguments) {
       // Some demands are not vital: the run ends well, and its results are whole.
       if (outcome.exit_code == 0) continue;
       ++failures;
-      // Gmsh reads in a process of its own, whose death is taken for the file's fault. OpenBLAS ends
-      // the program itself, with a word.
+      // Gmsh reads in a process of its own, whose death is taken for the file's fault. OpenBLAS
+      // ends the program itself, with a word.
       const bool in_gmsh = outcome.err.find("Gmsh crashed") != std::string::npos;
       EXPECT_EQ(outcome.exit_code, in_gmsh ? 2 : 1) << how << " " << at << ": " << outcome.err;
       EXPECT_THAT(outcome.err, AnyOf(HasSubstr("error: "), HasSubstr("OpenBLAS: malloc failed")))

@@ -53,7 +53,8 @@ Outcome assess_until_rename(int at) {
                            "' assess lift -o results )");
 }
 
-/// The figures of the results: all of the summary but the run's name, its date and times of computing.
+/// The figures of the results: all of the summary but the run's name, its date and times of
+/// computing.
 nlohmann::json figures() {
   nlohmann::json summary = nlohmann::json::parse(text_of_file("results/summary.json"));
   EXPECT_EQ(summary.erase("run"), 1);

@@ -149,8 +149,8 @@ TEST_F(SweepCommand, AssessesAndFindsSobolIndices) {
   EXPECT_NEAR(indices["deaf"]["total"], 0, 1e-3);
 }
 
-// The factor is made once, for the case as it is written: there its stress is that of an assessment;
-// the other masses' stress follows from the same unit stresses, whoever computes it.
+// The factor is made once, for the case as it is written: there its stress is that of an
+// assessment; the other masses' stress follows from the same unit stresses, whoever computes it.
 TEST_F(SweepCommand, FindsTheStressOfAllMembersWithOneFactor) {
   const std::string masses = "design: grid\nfigures: [" + std::string(checked) +
                              "]\nvary: {weight: {keys: ['block:mass'], values: ";

@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-/// Folders "before" and "after": R1 pulls 10 % more in motion, the stress increases by a point more,
-/// one key of the case and one of its block differ.
+/// Folders "before" and "after": R1 pulls 10 % more in motion, the stress increases by a point
+/// more, one key of the case and one of its block differ.
 class ComparedFolders : public ::testing::Test {
  protected:
   ComparedFolders() {

@@ -1,4 +1,5 @@
-// Rigging in stock, as YAML and as a table: what the reader refuses, and that the shipped stock holds together.
+// Rigging in stock, as YAML and as a table: what the reader refuses, and that the shipped stock
+// holds together.
 
 #include "pipeline/files/rigging_stock.h"
 
@@ -137,9 +138,10 @@ TEST(RiggingStockTest, HoldsSheavesToTheirRope) {
   EXPECT_THAT(complaints_about_stock(with(sheave, "32 kg", "32 t")), HasSubstr("a full disc"));
 }
 
-// By hand: a pipe of 168.3 x 8 mm, 6 m, S355, curve a: A 4029 mm2, I 1.2973e7 mm4, Euler's load 746.8
-// kN, slenderness 1.3839, chi 0.4259. Slings at 45 degrees press it with (200 + 1.863) / 2 kN, its 190
-// kg bend it with 1.397 kNm: 2 x 100.93 / 609.1 + 2 x 1.397 / (54.72 x (1 - 201.86 / 746.8)).
+// By hand: a pipe of 168.3 x 8 mm, 6 m, S355, curve a: A 4029 mm2, I 1.2973e7 mm4, Euler's load
+// 746.8 kN, slenderness 1.3839, chi 0.4259. Slings at 45 degrees press it with (200 + 1.863) / 2
+// kN, its 190 kg bend it with 1.397 kNm: 2 x 100.93 / 609.1 + 2 x 1.397 / (54.72 x (1 - 201.86 /
+// 746.8)).
 TEST(RiggingStockTest, HoldsSpreadersToTheirResistance) {
   const std::string bar = stock_of(
       "spreaders:\n  b:\n    bar: {length: 6 m, section: {pipe: [168.3 mm, 8 mm]}, yield_stress: "

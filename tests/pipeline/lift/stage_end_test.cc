@@ -88,7 +88,8 @@ TEST(GroundContact, BearsTheLoadWhereItIsSetDown) {
 }
 
 // What has slid stays where it came to rest: nothing pulls it back to where it was set down.
-// Nothing but friction holds it: it is dragged when the crane goes on, and by no more than friction.
+// Nothing but friction holds it: it is dragged when the crane goes on, and by no more than
+// friction.
 TEST(GroundContact, ATautSlingDragsTheLoad) {
   const LiftRun lift =
       run(read_case("  - stage: set down\n"

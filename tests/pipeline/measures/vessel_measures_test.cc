@@ -64,8 +64,8 @@ TEST(VesselMeasures, AVesselHeelsToTheOtherSideWhenItsLoadIsLost) {
   const double loaded = heel.at_rest[0];
   // To starboard, port up, by the load's moment over the vessel's stiffness in roll.
   EXPECT_GT(loaded, 0.005);
-  // The boom leans to starboard, too, so that the rest without the load is not upright: it is the mean
-  // of both extremes.
+  // The boom leans to starboard, too, so that the rest without the load is not upright: it is the
+  // mean of both extremes.
   const double other_side = heel.in_motion.minCoeff();
   const double moment = 80e3 * 9.81 * 30.0;
   const double draught = 3123e3 / (1025.0 * 60 * 24);

@@ -28,7 +28,8 @@ constexpr double half_weight = 10e3 * 9.81 / 2;  // of the plate, N
 
 void ignore_progress(const std::string&, double, const std::string&) {}
 
-/// The sample lift: a plate of 10 t hangs level from two plumb slings; settings of the run are rough.
+/// The sample lift: a plate of 10 t hangs level from two plumb slings; settings of the run are
+/// rough.
 std::string quick_case() {
   std::string text =
       with(test::sample_case, "settle: 10 s", "settle: 2 s\nchecks: {rope_safety_factor: 5}");
@@ -65,8 +66,8 @@ TEST(RigLiftTest, ChoosesSlingsAboveASpreaderToo) {
   EXPECT_EQ(rigged.shackles[0].lug, "L1");
 }
 
-// The plate and a bar of 126 kg on the hook ask for a link of more than 10.1 t; a lighter pipe of the
-// bar's length is strong enough, a longer one is no choice, and the case is written with both.
+// The plate and a bar of 126 kg on the hook ask for a link of more than 10.1 t; a lighter pipe of
+// the bar's length is strong enough, a longer one is no choice, and the case is written with both.
 TEST(RigLiftTest, ChoosesMasterLinkAndSpreader) {
   const TemporaryFolder folder;
   folder.write(

@@ -90,7 +90,8 @@ TEST(SlingChoiceTest, ByTheWorkingLoadAtRest) {
   EXPECT_NEAR(governing_check(chosen.checks)->utilisation, 400.0 / 420, 1e-12);
 }
 
-// The chain: 400 kN x 1.10 (weight B) x 1.10 (centre) x 460/400 x 1.25 (skew) = 695.75 kN in motion,
+// The chain: 400 kN x 1.10 (weight B) x 1.10 (centre) x 460/400 x 1.25 (skew) = 695.75 kN in
+// motion,
 // times 1.3 x 1.3 x 1.5 = 1,763.7 kN. The working load is not asked.
 TEST(SlingChoiceTest, ByTheChainOfAStandard) {
   const LiftCase lift_case = case_by_nd_0027();
@@ -171,8 +172,8 @@ TEST(ShackleChoiceTest, ByItsWorkingLoad) {
 }
 
 // 0027/ND: at rest 400 x 1.10 x 1.10 x 1.25 = 605 kN (61.7 t) against the working load; in motion
-// 695.75 kN against the lesser of working load x 1.05 (ashore, 112 t) and a third of 5 times it: the
-// first, so that 67.57 t are needed.
+// 695.75 kN against the lesser of working load x 1.05 (ashore, 112 t) and a third of 5 times it:
+// the first, so that 67.57 t are needed.
 TEST(ShackleChoiceTest, ByTheChainsOfAStandard) {
   const Stock stock = stock_of({1900}, {55, 65, 70, 85});
   const ChosenShackle chosen = choose_shackle(stock, case_by_nd_0027(), facts_of_r1(), r1);

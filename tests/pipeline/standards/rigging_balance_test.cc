@@ -144,8 +144,8 @@ TEST(RiggingBalance, BearsAMomentThroughABar) {
     ropes.push_back(plumb({RiggingEnd::Kind::bar, 0, {2.5 * side, 0, 0}},
                           {RiggingEnd::Kind::fixed, -1, Vector3d::Zero()}, (weight + bar) / 2));
   }
-  // The load's centre hangs 0.7 m below its lugs and takes W 0.7 m of the moment for each radian that
-  // it turns: 1e-4 of what the ropes' stiffness does over their distances, 9e9 N m.
+  // The load's centre hangs 0.7 m below its lugs and takes W 0.7 m of the moment for each radian
+  // that it turns: 1e-4 of what the ropes' stiffness does over their distances, 9e9 N m.
   const VectorXd tension = RiggingBalance(ropes, 0, {}, 1).with_moment({0, moment, 0});
   const double tolerance = 2e-4 * moment / 8;
   EXPECT_NEAR(tension[0], weight / 2 - moment / 8, tolerance);

@@ -90,7 +90,8 @@ TEST(Search, KeepsToABoundThatBinds) {
   }
 }
 
-// The largest sum lies in the corner; what cannot be met is said with the member that comes nearest.
+// The largest sum lies in the corner; what cannot be met is said with the member that comes
+// nearest.
 TEST(Search, EndsAtEdgesAndSaysWhatCannotBe) {
   StudyFile study = bowl_study(100);
   study.minimise.reset();

@@ -20,8 +20,8 @@ namespace {
 constexpr double free_fall = 9.81;
 const Material column_steel{"S355", 210e9, 0.3, 7850, 355e6};
 
-/// A bar along x in four pieces, hung at its ends, where thin rods stand out to either side: a block
-/// has an extent in two directions.
+/// A bar along x in four pieces, hung at its ends, where thin rods stand out to either side: a
+/// block has an extent in two directions.
 Mesh bar_between_lugs(const Profile& profile, double length) {
   Mesh mesh;
   mesh.materials = {column_steel};
@@ -55,8 +55,8 @@ BlockBars bars_of(const ElasticModel& model, const Eigen::MatrixXd& motions) {
   return {model, motions, BlockPanels(model, motions, {})};
 }
 
-// Slings at 45 degrees press a bar of weight G by G / 2 while it bends by G L / 8: the worst place is
-// its middle, and both figures double under twice gravity.
+// Slings at 45 degrees press a bar of weight G by G / 2 while it bends by G L / 8: the worst place
+// is its middle, and both figures double under twice gravity.
 TEST(BarBuckling, ABarUnderSlingsIsASpreader) {
   constexpr double length = 12;
   const Profile tube = pipe(0.08, 0.075);

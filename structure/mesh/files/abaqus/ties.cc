@@ -156,8 +156,8 @@ class Ties {
     return *value * model_.units.length;
   }
 
-  // *SHELL TO SOLID COUPLING, CONSTRAINT NAME = , INFLUENCE DISTANCE = / shells' edge, solids' faces
-  // The solids' nodes follow the plate's edge as points of its thickness.
+  // *SHELL TO SOLID COUPLING, CONSTRAINT NAME = , INFLUENCE DISTANCE = / shells' edge, solids'
+  // faces The solids' nodes follow the plate's edge as points of its thickness.
   void couple(const AbaqusScope& scope, const AbaqusBlock& block) {
     has_rotations_ = true;
     for (const AbaqusLine& line : block.data) {

@@ -101,7 +101,8 @@ struct NamedSet {
   std::vector<int> vertices, shells, beams;
 };
 
-/// What a deck of Nastran or Abaqus, a mesh of Gmsh or a geometry holds, in SI units, the user's numbers beside it.
+/// What a deck of Nastran or Abaqus, a mesh of Gmsh or a geometry holds, in SI units, the user's
+/// numbers beside it.
 ///
 /// Vertices and cells are in the order of the file. Materials lack a yield stress where the deck
 /// gives none (0); shells whose property is nowhere lack a section (-1) if the deck has no
@@ -124,8 +125,8 @@ struct Deck {
 
 struct DeckOptions {
   bool leave_solids_out = false;  ///< list solid elements as left out rather than refuse them
-  /// Cards or keywords that are not known, in capitals, "*" before a keyword or not: they are listed
-  /// as left out rather than refused.
+  /// Cards or keywords that are not known, in capitals, "*" before a keyword or not: they are
+  /// listed as left out rather than refused.
   std::vector<std::string> leave_out = {};
 };
 

@@ -22,8 +22,8 @@ namespace blocklift::structure {
 /// - SPC, SPC1, SPCADD, permanent constraints; FORCE and MOMENT with 1 and 2, PLOAD, PLOAD1 (even,
 ///   whole length), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
 ///
-/// Solids are left out if so asked. Cards of aeroelasticity, optimisation, dynamics and the like are
-/// in the ledger as left out; any other card is an error.
+/// Solids are left out if so asked. Cards of aeroelasticity, optimisation, dynamics and the like
+/// are in the ledger as left out; any other card is an error.
 ///
 /// @throws DeckError with file and line of everything that is wrong or cannot be honoured.
 Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,

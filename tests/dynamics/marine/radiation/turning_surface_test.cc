@@ -1,5 +1,5 @@
-// The water's surface marched beside a barge_off_the_origin that is carried along and turned: the waves it meets,
-// and their force.
+// The water's surface marched beside a barge off the origin that is carried along and turned: the
+// waves it meets, and their force.
 #include <cmath>
 #include <numbers>
 
@@ -63,8 +63,8 @@ double apart(DirectRadiation& a, DirectRadiation& b) {
   return difference.cwiseQuotient(largest).maxCoeff();
 }
 
-// What a turned barge_off_the_origin elsewhere meets is what it meets at home from the heading against it: exactly
-// at turns of the grid, to 0.2^2/8 of a panel's share between them.
+// What a turned barge off the origin elsewhere meets is what it meets at home from the heading
+// against it: exactly at turns of the grid, to 0.2^2/8 of a panel's share between them.
 TEST(TurningSurface, MeetsWavesUnderTheHeadingAgainstIt) {
   const PanelModel model = barge_off_the_origin();
   const Eigen::Vector2d origin(100, 50), home(3, -2), place(131, 20);
@@ -115,8 +115,8 @@ TEST(TurningSurface, TurnsWithoutAJump) {
   EXPECT_LT(left, 0.02 * largest);  // short waves that this coarse surface keeps: 1.3 %
 }
 
-/// The force on a barge_off_the_origin that heaves and surges along itself as it lies at a place under a heading,
-/// in its own axes.
+/// The force on a barge off the origin that heaves and surges along itself as it lies at a place
+/// under a heading, in its own axes.
 Eigen::MatrixXd march(const PanelModel& model, DirectRadiation radiation, const Pose& X_WB) {
   MechanismBuilder builder;
   builder.add_body({.name = "barge",
@@ -147,7 +147,8 @@ Eigen::MatrixXd march(const PanelModel& model, DirectRadiation radiation, const 
   return force;
 }
 
-// The barge_off_the_origin, and the wave with it, turned and carried elsewhere: the same force in her own axes.
+// The barge off the origin, and the wave with it, turned and carried elsewhere: the same force in
+// her own axes.
 TEST(TurningSurface, KeepsTheForceInTheBargesOwnAxes) {
   const PanelModel model = barge_off_the_origin();
   const Eigen::MatrixXd home = march(model, meeting(model, wave), Pose::identity());

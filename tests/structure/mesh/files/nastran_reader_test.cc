@@ -620,8 +620,8 @@ PLOAD,5,12.,1,2,3,4
 }
 
 TEST(NastranReader, EquationsBetweenFreedoms) {
-  // Vertical motion of the middle as the mean of the ends', whose weights have four digits; set 5 is
-  // asked for by nothing.
+  // Vertical motion of the middle as the mean of the ends', whose weights have four digits; set 5
+  // is asked for by nothing.
   const std::string points =
       "GRID,1,,0.,0.,0.\nGRID,2,,1000.,0.,0.\nGRID,3,,3000.,0.,0.\nGRID,4,,0.,0.,0.\n";
   const Deck deck = nastran("CEND\nMPC = 4\nSPC = 1\nBEGIN BULK\n" + points +
