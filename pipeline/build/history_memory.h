@@ -23,8 +23,7 @@ double bytes_of_sample(const dynamics::LiftSystem& system, bool with_works);
 
 /// Refuses histories that memory would not hold, before the first of them is begun.
 /// @throws dynamics::SimulationError with what they need, what may be used
-///   (structure::limit_memory,
-/// dynamics::usable_memory), and the keys that make it less.
+///   (structure::limit_memory, dynamics::usable_memory), and the keys that make it less.
 void require_memory(const std::vector<HistoryToCome>& histories);
 /// The same for both histories of a lift, at rest and in motion.
 void require_memory(const LiftCase& lift_case, const BuiltLift& model);
