@@ -68,6 +68,7 @@ void Rope::hang(const RopePath& path, const RopeFeed& feed, RopeLoad& load) cons
 }
 
 Vector3 Rope::first_force(const RopePath& path, const RopeLoad& load) const {
+  if (load.split.acts) return first_force(path, load.split.first_tension);
   if (!hangs()) return first_force(path, load.tension);
   const Vector3& u = path.direction_W.front();
   return load.hanging.level * level_direction(u) + load.hanging.first_lift * Vector3::UnitZ() +
@@ -75,6 +76,7 @@ Vector3 Rope::first_force(const RopePath& path, const RopeLoad& load) const {
 }
 
 Vector3 Rope::last_force(const RopePath& path, const RopeLoad& load) const {
+  if (load.split.acts) return last_force(path, load.split.last_tension);
   if (!hangs()) return last_force(path, load.tension);
   const Vector3& u = path.direction_W.front();
   return -load.hanging.level * level_direction(u) + load.hanging.last_lift * Vector3::UnitZ() -

@@ -66,6 +66,12 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
         "\" has weight and runs over sheaves; only a rope from point to point hangs as "
         "a catenary");
   }
+  require_not_negative(d.name, "sheave friction", d.sheave_friction);
+  if (d.sheave_friction > 0.0 && (d.points.size() < 3 || !d.left_out.empty())) {
+    throw ModelError(
+        "rope \"" + d.name +
+        "\" has friction at its sheaves; it must run over one, and along its whole path");
+  }
 }
 
 void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
@@ -239,6 +245,11 @@ EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
         .stored_energy = load.hanging.stored_energy,
         .dissipated_power = load.damping_force * (load.length_rate - load.unstretched_rate),
         .supplied_power = load.unstretched_rate * (load.hanging.feed_force - load.damping_force)};
+  }
+  if (load.split.acts) {
+    return {.stored_energy = load.split.stored_energy,
+            .dissipated_power = load.split.dissipated_power,
+            .supplied_power = -load.unstretched_rate * load.split.feed_force};
   }
   // Without kinks while the rope stays taut, or slack, by declaration: what lies beyond the change
   // is interpolated over.

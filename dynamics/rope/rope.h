@@ -22,6 +22,8 @@ struct RopeDefinition {
   double unstretched_length = not_a_number;  ///< at the start of the operation, m
   /// w, N/m: above zero the rope hangs as a catenary, and has two points; zero: it runs straight.
   double weight_per_length = 0.0;
+  /// mu between the rope and each of its sheaves (RopeSplit); zero: its tension is one all along.
+  double sheave_friction = 0.0;
 };
 
 /// What the winch leaves out: unstretched length of the rope (m) and its rate (m/s).
@@ -62,6 +64,16 @@ struct HangingForces {
   double feed_force = 0.0;     ///< d(stored_energy)/dL0 with the ends held, N
 };
 
+/// What a rope with friction at its sheaves does, where the friction acts (RopeSplit).
+struct SplitLoad {
+  bool acts = false;
+  double first_tension = 0.0;     ///< of the length from the first point, N
+  double last_tension = 0.0;      ///< of the length to the last point, N
+  double stored_energy = 0.0;     ///< J
+  double dissipated_power = 0.0;  ///< by damping and friction, W
+  double feed_force = 0.0;        ///< what the winch takes in for each metre that it pays out, N
+};
+
 /// A rope's load at one instant.
 struct RopeLoad {
   double length = not_a_number;              ///< L, m
@@ -71,19 +83,21 @@ struct RopeLoad {
   double stiffness = not_a_number;           ///< k at this L0, N/m
   double elastic_force = not_a_number;       ///< k (L - L0), N; negative when slack
   double damping_force = not_a_number;       ///< c (Ldot - L0dot), N
-  double tension = not_a_number;             ///< T, N; of a rope with weight at its upper end
-  bool taut = false;                         ///< does the rope pull?
-  HangingForces hanging;                     ///< of a rope with weight
+  double tension = not_a_number;  ///< T, N; the largest of a rope with weight or friction
+  bool taut = false;              ///< does the rope pull?
+  HangingForces hanging;          ///< of a rope with weight
+  SplitLoad split;                ///< of a rope with friction
 
   double elongation() const { return length - unstretched_length; }
   /// Positive where the rope pulls, negative where it is slack, continuous between: N.
   double slack_indicator() const { return elastic_force + std::min(0.0, damping_force); }
 };
 
-/// Elastic rope that pulls but never pushes, led over frictionless sheaves.
+/// Elastic rope that pulls but never pushes, led over sheaves.
 ///
-/// One tension acts along the whole path p_W0 .. p_Wn (world positions, m), but for segments that
-/// are left out:
+/// The sheaves turn without friction, or with it as RopeSplit says; in what follows without. One
+/// tension acts along the whole path p_W0 .. p_Wn (world positions, m), but for segments that are
+/// left out:
 ///   L = sum |p_Wi+1 - p_Wi|,   1/k = L0/EA + 1/k_crane,   c = damping_time k + damping,
 ///   T = max(0, k (L - L0) + c (Ldot - L0dot)) where L > L0, else 0,
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
@@ -112,8 +126,8 @@ class Rope {
  public:
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
   /// point of one body, segments are left out at an end or all or not told for each, a stiffness or
-  /// length is not positive, a damping or the weight is negative, or a rope with weight has more
-  /// than two points.
+  /// length is not positive, a damping, the weight or the friction is negative, a rope with weight
+  /// has more than two points, or one with friction has no sheave or leaves segments out.
   Rope(const Mechanism& mechanism, RopeDefinition definition);
 
   const std::string& name() const { return definition_.name; }

@@ -147,6 +147,8 @@ void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWo
     // Within rounding of an instant of change the fixed set may leave a push of no account.
     RopeLoad pulling = load;
     pulling.tension = std::max(0.0, load.tension);
+    pulling.split.first_tension = std::max(0.0, load.split.first_tension);
+    pulling.split.last_tension = std::max(0.0, load.split.last_tension);
     r.tension[sample] = pulling.tension;
     r.elongation[sample] = load.elongation();
     r.unstretched_length[sample] = load.unstretched_length;

@@ -106,6 +106,7 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
       steered(system.operation().steerings().size(), MotionProfile::constant(0.0)),
       rope_loads(system.ropes().size()),
       support_loads(system.supports().size()),
+      splits(make_rope_splits(system.ropes())),
       path(make_rope_path(system.ropes())),
       end_shifts(system.ropes().size()) {
   for (const ElasticBody& body : system.elastic_bodies())
@@ -251,7 +252,13 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
     RopeLoad& load = w.rope_loads[i];
     load = contacts ? ropes[i].calc_load(w.path, w.feeds[i], (*contacts)[i] != 0)
                     : ropes[i].calc_load(w.path, w.feeds[i]);
-    if (load.tension != 0.0) ropes[i].add_forces(w.path, load, w.loads.F_Bo_W);
+    if (w.splits[i].acts() && load.taut && !w.feeds[i].parted)
+      w.splits[i].divide(ropes[i], w.kinematics, w.path, load);
+    if (load.split.acts) {
+      w.splits[i].add_forces(ropes[i], w.path, w.loads.F_Bo_W);
+    } else if (load.tension != 0.0) {
+      ropes[i].add_forces(w.path, load, w.loads.F_Bo_W);
+    }
   }
   for (std::size_t i = 0; i < system.elastic_bodies().size(); ++i) {
     system.elastic_bodies()[i].add_forces(w.kinematics, w.q, w.v, w.ropes(system, contacts),

@@ -22,7 +22,7 @@
 #include "dynamics/multibody/forward_dynamics.h"
 #include "dynamics/rope/elastic_body.h"
 #include "dynamics/rope/mooring_line.h"
-#include "dynamics/rope/rope.h"
+#include "dynamics/rope/rope_split.h"
 #include "dynamics/simulation/operation.h"
 
 namespace blocklift::dynamics {
@@ -161,9 +161,12 @@ struct LiftWorkspace {
   std::vector<MotionProfile> steered;
   std::vector<RopeLoad> rope_loads;
   std::vector<SupportLoad> support_loads;
-  std::vector<Vector3> standing_places;   ///< of each pad, m: p_WG, or where ground was touched
-  RopePath path;                          ///< of the rope evaluated last
-  std::vector<RopeEndShifts> end_shifts;  ///< for each rope; zero at rigid bodies
+  std::vector<Vector3> standing_places;  ///< of each pad, m: p_WG, or where ground was touched
+  /// For each rope; those of ropes without friction do nothing. They act where the integration has
+  /// begun them: equilibria and natural modes are those without friction.
+  std::vector<RopeSplit> splits;
+  RopePath path;                                ///< of the rope evaluated last
+  std::vector<RopeEndShifts> end_shifts;        ///< for each rope; zero at rigid bodies
   std::vector<ElasticBody::Workspace> elastic;  ///< for each elastic body
 
   /// Inertia of the water; null: there is none.

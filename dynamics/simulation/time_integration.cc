@@ -54,6 +54,11 @@ class Integrator {
   IntegrationResult run();
 
  private:
+  /// A sheave with friction: which of the rope's.
+  struct RubbingSheave {
+    std::size_t rope, sheave;
+  };
+
   void depart(const Departure& departure);
   void set_up_cvode();
   void find_relative_unknowns();
@@ -69,7 +74,16 @@ class Integrator {
   void set_down(std::size_t contact, double t);
   void slide_pads(double t);
   void look_for_condition(double t, bool found);
-  int root_count() const { return system_.contact_count() + (settings_.awaited ? 1 : 0); }
+  // Contacts, then sheaves with friction, then the awaited condition.
+  int root_count() const {
+    return system_.contact_count() + static_cast<int>(sheaves_.size()) +
+           (settings_.awaited ? 1 : 0);
+  }
+  void begin_split(std::size_t rope);
+  void evaluate_contacts(double t);
+  void change_contact(std::size_t contact, bool acts, double t);
+  bool change_sheaves(double t, const std::vector<int>* found);
+  double sheave_indicator(const RubbingSheave& at) const;
   bool is_over() const {
     if (settings_.end && time_ >= *settings_.end - beside) return true;
     return settings_.awaited && (result_.met || time_ >= settings_.awaited->until);
@@ -105,6 +119,7 @@ class Integrator {
   std::optional<Steersman> steersman_;
   Contacts contacts_;
   bool on_ground_ = false;  ///< are there pads that are ground?
+  std::vector<RubbingSheave> sheaves_;
   Eigen::VectorXd sample_times_;
   Eigen::Index next_sample_ = 0;
   std::vector<Eigen::Index> relative_unknowns_;  ///< velocities and quaternions: within y
@@ -161,6 +176,9 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
   indicators_.setZero(system.contact_count());
   for (const SupportPad& pad : system.supports())
     on_ground_ = on_ground_ || pad.definition().ground;
+  for (std::size_t i = 0; i < w_.splits.size(); ++i) {
+    for (std::size_t j = 0; j < w_.splits[i].sheave_count(); ++j) sheaves_.push_back({i, j});
+  }
   loaded_state_.setZero(size);
   sundials::view(work_.get()).setZero();
   projection_.emplace(system, w_, begin_);
@@ -182,7 +200,8 @@ void Integrator::depart(const Departure& departure) {
   if (!(departure.time >= 0.0) || departure.time >= system_.operation().duration() ||
       departure.q.size() != w_.q.size() || departure.v.size() != w_.v.size() ||
       departure.memory.size() != w_.memory.size() ||
-      departure.standing_places.size() != w_.standing_places.size())
+      departure.standing_places.size() != w_.standing_places.size() ||
+      departure.splits.size() != w_.splits.size())
     throw ModelError("a run cannot go on from " + std::to_string(departure.time) +
                      " s: the operation is over, or the instant is one of another lift");
   begin_ = from_ = to_ = time_ = time_of_portion_ = departure.time;
@@ -190,6 +209,7 @@ void Integrator::depart(const Departure& departure) {
   w_.v = departure.v;
   w_.memory = departure.memory;
   w_.standing_places = departure.standing_places;
+  w_.splits = departure.splits;
 }
 
 void Integrator::find_relative_unknowns() {
@@ -273,12 +293,14 @@ int Integrator::indicators(double t, N_Vector y, double* g, void* data) {
     }
     calc_contact_indicators(self.w_, self.indicators_);
     Eigen::Map<Eigen::VectorXd>(g, self.system_.contact_count()) = self.indicators_;
+    double* of_sheave = g + self.system_.contact_count();
+    for (const RubbingSheave& at : self.sheaves_) *of_sheave++ = self.sheave_indicator(at);
     if (!awaits) return;
     const AwaitedCondition& awaited = *self.settings_.awaited;
     // Before its time it counts as not met.
     self.awaited_value_ =
         self.to_ > awaited.from + beside ? awaited.indicator(self.system_, self.w_) : -1.0;
-    g[self.system_.contact_count()] = self.awaited_value_;
+    *of_sheave = self.awaited_value_;
   });
 }
 
@@ -445,22 +467,77 @@ void Integrator::change_contacts(double t) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (found[i] == 0) continue;
     const bool acts = found[i] > 0;
-    if (acts == (contacts_[i] != 0)) continue;
-    contacts_[i] = acts ? 1 : 0;
-    result_.events.push_back({t, static_cast<int>(i), acts});
-    ++result_.statistics.contact_changes;
-    if (acts) set_down(i, t);
+    if (acts != (contacts_[i] != 0)) change_contact(i, acts, t);
   }
+  change_sheaves(t, &found);
+}
+
+void Integrator::change_contact(std::size_t contact, bool acts, double t) {
+  const bool divided = contact < system_.ropes().size() && w_.splits[contact].acts();
+  const auto stored = [&] {
+    evaluate_contacts(t);
+    return system_.ropes()[contact].calc_energy(w_.rope_loads[contact]).stored_energy;
+  };
+  const double before = divided ? stored() : 0.0;
+  contacts_[contact] = acts ? 1 : 0;
+  result_.events.push_back({t, static_cast<int>(contact), acts});
+  ++result_.statistics.contact_changes;
+  if (acts) set_down(contact, t);
+  if (!divided) return;
+  if (acts) begin_split(contact);
+  // A slack rope has no division: what that had stored beyond its stretch is lost.
+  sundials::view(work_.get())[3] += before - stored();
+}
+
+// Kinematics and loads of ropes and pads at (t, y_).
+void Integrator::evaluate_contacts(double t) {
+  loaded_time_ = evaluated_time_ = not_a_number;
+  set_state(system_, sundials::view(y_.get()), w_);
+  set_drives(system_, within_interval(t), true, w_);
+  calc_contact_loads(system_, &contacts_, w_);
+}
+
+// Friction divides the rope from now on, from one tension; at the workspace's kinematics.
+void Integrator::begin_split(std::size_t rope) {
+  const Rope& one = system_.ropes()[rope];
+  one.calc_path(w_.kinematics, w_.path);
+  w_.splits[rope].begin(one, w_.kinematics, w_.path,
+                        one.calc_load(w_.path, w_.feeds[rope], contacts_[rope] != 0));
+}
+
+double Integrator::sheave_indicator(const RubbingSheave& at) const {
+  // Where nothing is taut nothing slips.
+  return w_.rope_loads[at.rope].split.acts ? w_.splits[at.rope].indicator(at.sheave) : 1.0;
+}
+
+// Sheaves at which ropes begin to slip or to stick now: those found as roots, and those whose
+// change began at the very start of a step, which root-finding could not see. Are there any?
+bool Integrator::change_sheaves(double t, const std::vector<int>* found) {
+  constexpr double beyond = 1e-4;  // kN, kN/s
+  if (sheaves_.empty()) return false;
+  evaluate_contacts(t);
+  bool changed = false;
+  for (std::size_t k = 0; k < sheaves_.size(); ++k) {
+    const RubbingSheave& at = sheaves_[k];
+    const auto root = static_cast<std::size_t>(system_.contact_count()) + k;
+    const double value = sheave_indicator(at);
+    if (!(found && (*found)[root] < 0) && value > -beyond) continue;
+    RopeSplit& split = w_.splits[at.rope];
+    if (!w_.rope_loads[at.rope].split.acts) continue;
+    split.set_motion(at.sheave, split.motion(at.sheave) == SheaveMotion::sticks
+                                    ? split.tendency(at.sheave)
+                                    : SheaveMotion::sticks);
+    ++result_.statistics.sheave_changes;
+    changed = true;
+  }
+  return changed;
 }
 
 // Where friction has slid over the ground it holds from there on; its force does not jump by that.
 void Integrator::slide_pads(double t) {
   const auto first = contacts_.begin() + static_cast<std::ptrdiff_t>(system_.ropes().size());
   if (std::find(first, contacts_.end(), 1) == contacts_.end()) return;
-  loaded_time_ = evaluated_time_ = not_a_number;
-  set_state(system_, sundials::view(y_.get()), w_);
-  set_drives(system_, within_interval(t), true, w_);
-  calc_contact_loads(system_, &contacts_, w_);
+  evaluate_contacts(t);
   carry_pads_along(system_, w_);
 }
 
@@ -482,12 +559,10 @@ void Integrator::repair_contacts(double t) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const double value = indicators_[static_cast<Eigen::Index>(i)];
     if (std::abs(value) < beyond || (value > 0.0) == (contacts_[i] != 0)) continue;
-    contacts_[i] = value > 0.0 ? 1 : 0;
-    result_.events.push_back({t, static_cast<int>(i), value > 0.0});
-    ++result_.statistics.contact_changes;
-    if (value > 0.0) set_down(i, t);
+    change_contact(i, value > 0.0, t);
     changed = true;
   }
+  changed |= change_sheaves(t, nullptr);
   if (changed) restart(t);
 }
 
@@ -668,6 +743,12 @@ IntegrationResult Integrator::run() {
   from_ = begin_;
   to_ = breakpoints[first + 1];
   contacts_ = find_contacts(system_, begin_, sundials::view(y_.get()), w_);
+  if (!settings_.departure && !sheaves_.empty()) {
+    evaluate_contacts(begin_);
+    for (std::size_t i = 0; i < w_.splits.size(); ++i) {
+      if (w_.splits[i].rubs()) begin_split(i);
+    }
+  }
   set_up_cvode();
   record_samples(begin_);
   for (std::size_t i = first; i + 1 < breakpoints.size() && !is_over(); ++i) {

@@ -34,10 +34,11 @@ struct Departure {
   Eigen::VectorXd q, v;                  ///< nq, nv
   Eigen::VectorXd memory;                ///< of the radiated water
   std::vector<Vector3> standing_places;  ///< of each pad, m
+  std::vector<RopeSplit> splits;         ///< of each rope
 
   /// Of the instant that a workspace holds, at a sample.
   static Departure of(double time, const LiftWorkspace& w) {
-    return {time, w.q, w.v, w.memory, w.standing_places};
+    return {time, w.q, w.v, w.memory, w.standing_places, w.splits};
   }
 };
 
@@ -81,6 +82,7 @@ struct IntegrationStatistics {
   long nonlinear_failures = 0;
   long restarts = 0;         ///< at events and jumps of a motion
   long contact_changes = 0;  ///< ropes that went slack or taut, pads loaded or lifted off
+  long sheave_changes = 0;   ///< sheaves with friction at which a rope began to slip or to stick
 };
 
 /// A rope or pad that began or ceased to act.
@@ -118,6 +120,9 @@ struct IntegrationResult {
 /// from the method's own interpolation; accelerations, tensions and drive forces are computed anew
 /// from the interpolated state, so that each sample is consistent in itself. Largest loads are
 /// those of the samples.
+///
+/// Ropes with friction at their sheaves begin with one tension all along, as in equilibrium, and
+/// stick. Where one begins to slip, or ceases to, is an event likewise (RopeSplit).
 ///
 /// A condition that is awaited is one more event: its instant is found as those of ropes and pads
 /// are.

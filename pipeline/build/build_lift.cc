@@ -378,6 +378,7 @@ class LiftBuilder {
             {body == "world" ? dynamics::world_index : body_of_.at(body), point.point});
       }
       set_rope(definition, rope.rope, rope.end_stiffness, rope.length.value, case_.hangs(rope));
+      definition.sheave_friction = rope.friction();
       const int index = static_cast<int>(rope_definitions_.size());
       if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
       ropes_.push_back(

@@ -130,6 +130,7 @@ class MechanismAssembler {
       definition.damping_time = rope.rope.damping_time;
       definition.crane_stiffness = rope.end_stiffness;
       definition.unstretched_length = rope.length.value;
+      definition.sheave_friction = rope.friction();
       ropes_.emplace_back(mechanism, std::move(definition));
     }
   }

@@ -1,6 +1,7 @@
 #include "pipeline/files/lift_case.h"
 
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <system_error>
 
@@ -137,6 +138,12 @@ std::optional<double> LiftCase::ground_height() const {
   double lowest = 0;
   for (const SupportInCase& support : supports) lowest = std::min(lowest, support.ground);
   return lowest;
+}
+
+double RopeInCase::friction() const {
+  if (sheave_friction) return sheave_friction->value;
+  // exp(-mu pi) is left over half a turn.
+  return sheave_efficiency ? -std::log(sheave_efficiency->value) / std::numbers::pi : 0;
 }
 
 bool LiftCase::hangs(const RopeInCase& rope) const {

@@ -94,11 +94,16 @@ struct RopeInCase {
   Located<double> length;                                          ///< unstretched, at the start, m
   double end_stiffness = std::numeric_limits<double>::infinity();  ///< in series, N/m
   std::optional<DriveLimits> winch;  ///< of its own, at the `from` end
+  /// At each of the sheaves between its ends: mu, or what the tension keeps over half a turn.
+  /// Neither: they have no friction.
+  std::optional<Located<double>> sheave_friction, sheave_efficiency;
   /// Of the least hook, pin, trunnion or sheave that it is bent round, m; none: it is not bent.
   std::optional<Located<double>> bend_diameter;
 
   /// The lug at its end, empty if it ends elsewhere.
   std::string lug() const { return path.empty() ? std::string() : path.back().lug; }
+  /// mu at its sheaves, whichever way it was given; zero: none.
+  double friction() const;
   /// Does it end at a lug or at a spreader?
   bool is_sling() const {
     return !path.empty() &&

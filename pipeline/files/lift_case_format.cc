@@ -523,6 +523,18 @@ Format<StageUntil> stage_until_format() {
   return table.format();
 }
 
+void check_sheave_friction(const RopeInCase& rope, Reading& reading, const Mark&) {
+  if (rope.sheave_friction && rope.sheave_efficiency)
+    reading.error(rope.sheave_efficiency->mark,
+                  "the rope has both a friction and an efficiency of its sheaves",
+                  {"the one says what the other says: leave one out"});
+  if (!rope.through.empty()) return;
+  const auto& given = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
+  if (given)
+    reading.error(given->mark, "the rope has friction at its sheaves, and none of them",
+                  {"name the hooks, pins or sheaves that it runs over: through: [...]"});
+}
+
 }  // namespace
 
 Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
@@ -532,7 +544,18 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                           "between them are hooks (crane and hoist: C1.upper_1), lugs of "
                           "the load (L1), eyes of spreaders (B1.lower_a), or points of bodies.");
   table.required("from", &RopeInCase::from, point, "upper end")
-      .optional("through", &RopeInCase::through, list_of(point), "frictionless sheaves on its way")
+      .optional("through", &RopeInCase::through, list_of(point),
+                "sheaves on its way, without friction unless it is given")
+      .optional("sheave_friction", &RopeInCase::sheave_friction,
+                located(number(Range::between(0, 1))),
+                "coefficient of friction mu at each of the sheaves, which do not turn: a pin, a "
+                "hook, a trunnion. Tensions on the two sides differ by exp(mu x angle of wrap) "
+                "before the rope slips; 0 if left out")
+      .optional("sheave_efficiency", &RopeInCase::sheave_efficiency,
+                located(quantity(Dimension::ratio, Range::between(0.2, 1))),
+                "likewise, in place of the coefficient: the lesser tension over the greater while "
+                "the rope runs over the sheave by 180 degrees, 96 to 98 % for sheaves on rolling "
+                "bearings. A sheave turned by less loses less")
       .required("to", &RopeInCase::to, point, "lower end")
       .required("model", &RopeInCase::rope_choice, rope_choice_format(breaking_load_required),
                 "name of the rope's model file, or the rope's keys")
@@ -550,6 +573,7 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                    "of the least hook, pin, trunnion or sheave that the wire rope is bent round: "
                    "of its breaking load 1 - 0.5 / sqrt(D/d) is left, d being the diameter of its "
                    "model; nothing is lost if left out, as by fibre slings");
+  table.rule(check_sheave_friction);
   return table.format();
 }
 

@@ -171,7 +171,7 @@ const std::vector<std::string>& output_quantities(const std::string& subject) {
        {"position", "velocity", "acceleration", "orientation", "angular_velocity",
         "angular_acceleration"}},
       {"spring", {"force", "elongation"}},
-      {"rope", {"tension", "elongation", "length"}},
+      {"rope", {"tension", "first_tension", "last_tension", "elongation", "length"}},
       {"loop", {"force", "multipliers", "residual"}},
       {"energy",
        {"total", "kinetic", "gravity", "elastic", "drive_work", "winch_work", "outside_work",

@@ -157,7 +157,9 @@ Format<OutputModel> output_format() {
                 "its position, velocity, acceleration in the world, or of its body the orientation "
                 "(quaternion w, x, y, z), angular_velocity, angular_acceleration")
       .optional("spring", &OutputModel::spring, reference(), "its force or elongation")
-      .optional("rope", &OutputModel::rope, reference(), "its tension, elongation or length")
+      .optional("rope", &OutputModel::rope, reference(),
+                "its tension, elongation or length; first_tension and last_tension are those "
+                "of its two ends, which friction at sheaves makes unequal")
       .optional(
           "loop", &OutputModel::loop, reference(),
           "its force on the second body in the world (moment, then force, at the loop's frame), "

@@ -167,6 +167,20 @@ void check_rope_weight(const LiftCase& lift_case, Diagnostics& diagnostics) {
                        "point"});
 }
 
+/// Ropes with friction end at bodies that do not give way.
+void check_friction(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (lift_case.dynamics.flexibility == Flexibility::rigid) return;
+  for (const RopeInCase& rope : lift_case.ropes) {
+    const auto& given = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
+    if (!given || rope.friction() == 0) continue;
+    diagnostics.error(
+        given->mark,
+        fmt::format("rope {} has friction at its sheaves, and the block is flexible",
+                    rope.name.value),
+        {"ropes to a block that gives way have one tension all along: leave one of the two out"});
+  }
+}
+
 }  // namespace
 
 void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {
@@ -175,6 +189,7 @@ void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_ropes(lift_case, diagnostics);
   check_spreaders(lift_case, diagnostics);
   check_rope_weight(lift_case, diagnostics);
+  check_friction(lift_case, diagnostics);
 }
 
 }  // namespace blocklift::pipeline

@@ -1,5 +1,6 @@
 #include "pipeline/measures/line_measures.h"
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,6 +65,30 @@ void add_lines(const LiftRun& lift, const char* kind, const char* meaning,
 void add_line_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   add_lines<TuggerLine>(lift, "tugger tension", "of the line", measures);
   add_lines<MooringLine>(lift, "mooring tension", "at the fairlead", measures);
+}
+
+void add_sheave_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
+  for (const LiftRope& rope : lift.model.ropes) {
+    const auto index = static_cast<std::size_t>(rope.rope);
+    if (!(lift.model.system.ropes()[index].definition().sheave_friction > 0)) continue;
+    LiftMeasure share{.subject = rope.name,
+                      .kind = "larger share",
+                      .unit = "1",
+                      .meaning =
+                          "of the tensions of its two ends, which friction at its sheaves "
+                          "makes unequal; at rest without friction"};
+    const auto shares = [&](const History& history) {
+      const dynamics::RopeHistory& one = history.ropes[index];
+      const Eigen::ArrayXd first = one.first_force.rowwise().norm();
+      const Eigen::ArrayXd last = one.last_force.rowwise().norm();
+      return Eigen::VectorXd(
+          (first + last > 0)
+              .select(first.max(last) / (first + last), std::numeric_limits<double>::quiet_NaN()));
+    };
+    share.at_rest = shares(lift.static_history);
+    share.in_motion = shares(lift.dynamic_history());
+    measures.push_back(std::move(share));
+  }
 }
 
 }  // namespace blocklift::pipeline

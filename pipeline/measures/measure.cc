@@ -59,6 +59,7 @@ std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun&
   add_keeping_measures(lift, measures);
   add_tackle_measures(lift_case, lift, measures);
   add_line_measures(lift, measures);
+  add_sheave_measures(lift, measures);
   add_clearances(lift_case, lift, measures);
   return measures;
 }

@@ -22,6 +22,14 @@ std::string names_of_hanging(const LiftCase& lift_case) {
   return names;
 }
 
+/// Ropes with friction at their sheaves.
+std::string names_of_rubbing(const LiftCase& lift_case) {
+  std::string names;
+  for (const RopeInCase& rope : lift_case.ropes)
+    if (rope.friction() > 0) names += (names.empty() ? "" : ", ") + rope.name.value;
+  return names;
+}
+
 void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
   list.emplace_back(
       "Cranes, hook blocks and the block are rigid bodies; a crane's elasticity acts in series "
@@ -38,6 +46,14 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
                         "without inertia; their tension is that of the upper end. Other ropes are "
                         "straight and weightless.",
                         hanging));
+  const std::string rubbing = names_of_rubbing(lift_case);
+  if (!rubbing.empty()) {
+    list.push_back(
+        fmt::format("In the motion {} stick to their sheaves by friction until the tensions on the "
+                    "two sides differ by exp(mu x angle of wrap), and slip at that ratio (Euler, "
+                    "Eytelwein). They begin with one tension all along, which they have at rest.",
+                    rubbing));
+  }
   if (!lift_case.spreaders.empty()) {
     list.emplace_back(
         "Spreaders are rigid bars, their mass spread evenly over their length. As columns they are "

@@ -288,6 +288,15 @@ void OutputRecorder::add_rope(const std::string& name, const std::string& rope,
   if (quantity == "tension") {
     add_series(name, description, {{"", "N"}},
                [i](const Instant& now, Row row) { row[0] = now.w.rope_loads[i].tension; });
+  } else if (quantity == "first_tension" || quantity == "last_tension") {
+    const bool last = quantity == "last_tension";
+    add_series(name, fmt::format("tension of rope {} at its {} end", rope, last ? "last" : "first"),
+               {{"", "N"}}, [i, last](const Instant& now, Row row) {
+                 const dynamics::RopeLoad& load = now.w.rope_loads[i];
+                 row[0] = !load.split.acts ? load.tension
+                          : last           ? load.split.last_tension
+                                           : load.split.first_tension;
+               });
   } else if (quantity == "elongation") {
     add_series(name, description + ", negative where slack", {{"", "m"}},
                [i](const Instant& now, Row row) { row[0] = now.w.rope_loads[i].elongation(); });

@@ -158,6 +158,7 @@ TEST(BuildLiftTest, TakesWindSupportsSheavesAndRopesWithWinches) {
            "  tugger:\n"
            "    from: {body: world, point: [-10 m, 5 m, 1 m]}\n"
            "    through: [{body: C1.gantry, point: [-3 m, 5 m, 1 m]}]\n"
+           "    sheave_efficiency: 90 %\n"
            "    to: {body: load, point: [0 m, 0 m, 0 m]}\n"
            "    model: {axial_stiffness: 1 MN, breaking_load: 10 t}\n"
            "    length: 9 m\n"
@@ -176,6 +177,8 @@ TEST(BuildLiftTest, TakesWindSupportsSheavesAndRopesWithWinches) {
   ASSERT_EQ(tugger.points().size(), 3U);
   EXPECT_EQ(tugger.points()[0].body, dynamics::world_index);
   EXPECT_EQ(tugger.points()[2].body, built.load);
+  // Over half a turn 90 % are left.
+  EXPECT_NEAR(std::exp(-tugger.definition().sheave_friction * 3.14159265358979), 0.9, 1e-12);
   EXPECT_EQ(built.system.operation().winches().size(), 3U);
 }
 

@@ -581,6 +581,24 @@ TEST(LiftCaseTest, SheavesOnTheLoadAreRefused) {
             "1 error\n");
 }
 
+TEST(LiftCaseTest, FrictionAsksForSheavesAndComesOnce) {
+  const std::string rope = "R1: {from: C1.left, to: L1";
+  EXPECT_EQ(complaints_about_case(rope, "R1: {sheave_friction: 0.1, from: C1.left, to: L1"),
+            "case.yaml:9:25: error: the rope has friction at its sheaves, and none of them\n"
+            "    name the hooks, pins or sheaves that it runs over: through: [...]\n"
+            "1 error\n");
+  EXPECT_THAT(complaints_about_case(rope,
+                                    "R1: {sheave_friction: -0.1, through: [{body: C1.gantry, "
+                                    "point: [1 m, 5 m, 8 m]}], from: C1.left, to: L1"),
+              ::testing::AllOf(HasSubstr("case.yaml:9:25: error:"), HasSubstr("-0.1"),
+                               HasSubstr("1 error\n")));
+  EXPECT_THAT(complaints_about_case(rope,
+                                    "R1: {sheave_friction: 0.1, sheave_efficiency: 90 %, through: "
+                                    "[{body: C1.gantry, point: [1 m, 5 m, 8 m]}], from: C1.left, "
+                                    "to: L1"),
+              HasSubstr("error: the rope has both a friction and an efficiency of its sheaves"));
+}
+
 TEST(LiftCaseTest, OperationMustLastAndNotForEver) {
   SampleLift lift;
   lift.lift_case = with(lift.lift_case, "settle: 10 s", "settle: 0 s");

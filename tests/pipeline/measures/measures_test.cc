@@ -37,10 +37,14 @@ struct WatchedLift {
 };
 
 /// @param crane_lines, case_lines, rope_lines more of the crane, of the case, and of the model of both
-///   slings and the left tackle.
+///   slings and the left tackle. @param left_sling in place of how it runs.
 WatchedLift watch(const std::string& checks = "{}", const std::string& crane_lines = "",
-                  const std::string& case_lines = "", const std::string& rope_lines = "") {
+                  const std::string& case_lines = "", const std::string& rope_lines = "",
+                  const std::string& left_sling = "from: C1.left, to: L1, length: 2 m") {
   test::SampleLift parts;
+  parts.lift_case =
+      test::with(parts.lift_case, "from: C1.left, to: L1, model: ropes/tackle, length: 2 m",
+                 left_sling + ", model: ropes/tackle");
   parts.rope += rope_lines;
   parts.crane = test::with(parts.crane, "capacity: 20 t\n",
                            "capacity: 20 t\n"
@@ -270,6 +274,22 @@ TEST(RopeWeight, IsInWhatHooksAndCraneBear) {
 
 // Friction keeps the way it had: hoisting before any motion, lowering while rope is paid out and
 // until it is taken in again.
+// A sling with both its parts over the left hook: at rest they share alike, in motion within the cone.
+TEST(SheaveMeasures, SharesOfAnEndlessSlingStayWithinTheFriction) {
+  const WatchedLift lift = watch("{}", "", "", "",
+                                 "from: {body: load, point: [0 m, -0.5 m, 1.2 m]}, through: "
+                                 "[C1.left], to: {body: load, point: [0 m, 0.5 m, 1.2 m]}, "
+                                 "length: 4.2 m, sheave_friction: 0.1");
+  const LiftMeasure& share = lift.measure("R1: larger share");
+  EXPECT_EQ(share.unit, "1");
+  EXPECT_LT((share.at_rest.array() - 0.5).abs().maxCoeff(), 1e-12);
+  // The parts are 1 m apart at 2 m below: wrapped by 152 degrees, a little more or less in motion.
+  const double capstan = std::exp(0.1 * 2.75);
+  EXPECT_LT(share.in_motion.maxCoeff(), capstan / (1 + capstan));
+  EXPECT_GT(share.in_motion.maxCoeff(), 0.5 + 1e-6);
+  EXPECT_GT(lift.run.dynamic_history().energy.dissipated.tail(1)[0], 0);
+}
+
 TEST(TackleMeasures, RememberTheWayOfTheRope) {
   using enum dynamics::TackleMotion;
   Eigen::VectorXd length(7);
