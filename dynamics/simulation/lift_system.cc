@@ -43,6 +43,21 @@ void check_wish(const LiftDefinition& d, const Steering& steering) {
     check_point(plumb->target);
   } else if (const auto* share = std::get_if<KeptShare>(&steering.wish)) {
     for (const int rope : share->others) check_rope(rope);
+  } else if (const auto* own = std::get_if<OwnLaw>(&steering.wish)) {
+    for (const Sight& sight : own->sights) {
+      if (const auto* height = std::get_if<SeenHeight>(&sight)) {
+        check_point(height->point);
+        check_point(height->reference);
+      } else if (const auto* plumb = std::get_if<SeenPlumb>(&sight)) {
+        check_point(plumb->head);
+        check_point(plumb->target);
+      } else if (const auto* tension = std::get_if<SeenTension>(&sight)) {
+        check_rope(tension->rope);
+      } else if (const auto* share = std::get_if<SeenShare>(&sight)) {
+        check_rope(share->rope);
+        for (const int rope : share->others) check_rope(rope);
+      }
+    }
   }
 }
 

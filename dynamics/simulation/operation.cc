@@ -191,15 +191,20 @@ void check_steering(const Steering& s, const Operation& operation) {
     throw ModelError("drive \"" + s.drive + "\" cannot be steered: " + what);
   };
   const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  const auto* own = std::get_if<OwnLaw>(&s.wish);
   if (!(s.start >= 0.0) || !(s.end >= s.start) || !std::isfinite(s.end))
     refuse("it would be from " + seconds(s.start) + " to " + seconds(s.end));
-  if (!positive(s.correction_time) || !positive(s.limits.speed) ||
-      !positive(s.limits.acceleration) || !positive(s.limits.jerk))
-    refuse("its correction time and its limits must be positive");
+  if ((!own && !positive(s.correction_time)) || !positive(s.limits.speed) ||
+      !positive(s.limits.acceleration) || !positive(s.limits.jerk) || !positive(s.longest_interval))
+    refuse("its correction time, its limits and its interval must be positive");
   if (!(s.reaction >= 0.0) || !(s.tolerance >= 0.0) || !std::isfinite(s.reaction + s.tolerance))
     refuse("its reaction and its tolerance must not be negative");
   if (!(s.lowest <= s.highest)) refuse("it has no range");
-  if (s.is_winch == std::holds_alternative<KeptPlumb>(s.wish))
+  const auto is_plumb = [](const Sight& sight) { return std::holds_alternative<SeenPlumb>(sight); };
+  if (own && !own->begin) refuse("its law is missing");
+  if (own && s.is_winch && std::any_of(own->sights.begin(), own->sights.end(), is_plumb))
+    refuse("a winch sees no plumb");
+  if (!own && s.is_winch == std::holds_alternative<KeptPlumb>(s.wish))
     refuse("winches keep heights, tensions and shares, drives of joints a plumb");
   if (!s.is_winch) {
     if (operation.joint_drives()[s.index].direction.size() > 0)

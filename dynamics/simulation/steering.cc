@@ -7,8 +7,7 @@ namespace blocklift::dynamics {
 
 namespace {
 
-constexpr double longest_interval = 0.2;  // s
-constexpr double rounding = 1e-9;         // of counts
+constexpr double rounding = 1e-9;  // of counts
 
 }  // namespace
 

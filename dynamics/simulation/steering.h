@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -42,7 +44,45 @@ struct KeptShare {
   std::optional<double> stiffness = {};
 };
 
-using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare>;
+/// What a law from outside sees at a look: one figure each.
+struct SeenHeight {
+  BodyPoint point;
+  BodyPoint reference;  ///< z_point - z_reference, m
+};
+/// The travel by which this drive alone would bring the head plumb over the target (KeptPlumb),
+/// m or rad.
+struct SeenPlumb {
+  BodyPoint head;
+  BodyPoint target;
+};
+struct SeenTension {
+  int rope = -1;  ///< N
+};
+/// T / (T + sum of the others' T); 0 while none of them pulls.
+struct SeenShare {
+  int rope = -1;
+  std::vector<int> others;
+};
+/// The drive's coordinate, or the winch's rope length left out: m or rad.
+struct SeenCoordinate {};
+/// Its rate, m/s or rad/s.
+struct SeenRate {};
+using Sight = std::variant<SeenHeight, SeenPlumb, SeenTension, SeenShare, SeenCoordinate, SeenRate>;
+
+/// The speed (m/s or rad/s; of a winch positive where rope is let out) that a drive is asked for,
+/// after the time (s) and what is seen then.
+using SpeedLaw = std::function<double(double time, std::span<const double> seen)>;
+
+/// By a law from outside, of anybody's making.
+struct OwnLaw {
+  std::string name;           ///< for messages
+  std::vector<Sight> sights;  ///< what the law is given, in this order
+  /// Makes the law anew for a run, so that none remembers another run. Both may throw whatever they
+  /// like: it ends the integration and arrives unchanged.
+  std::function<SpeedLaw()> begin;
+};
+
+using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare, OwnLaw>;
 
 /// A drive or winch that an operator steers after what he sees, in place of a motion known before.
 ///
@@ -61,14 +101,17 @@ using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare>;
 ///   tension  (T - wanted) / k, k the stiffness against letting out: the rope's at its length, which
 ///            nothing exceeds, so that it never asks for too much
 ///   share    (T - share (T + sum T_others)) / k
+/// A law from outside has no travel: it is asked at each look until the end and gives u itself,
+/// which the drive is asked for a reaction time later, |u| <= speed likewise.
 struct Steering {
   std::string drive;
   Wish wish = KeptHeight{};
   double start = not_a_number;            ///< s
   double end = not_a_number;              ///< s: from then on it brakes
   double reaction = 0.0;                  ///< s
-  double correction_time = not_a_number;  ///< s
-  double tolerance = 0.0;                 ///< in the unit of the wish: m, N, 1
+  double correction_time = not_a_number;  ///< s; of no meaning for a law from outside
+  double tolerance = 0.0;                 ///< in the unit of the wish: m, N, 1; likewise
+  double longest_interval = 0.2;          ///< between two looks, s
   MotionLimits limits{};
   double lowest = not_a_number;   ///< coordinate that the drive may not leave, m or rad
   double highest = not_a_number;  ///< likewise
@@ -80,7 +123,7 @@ struct Steering {
   std::optional<double> stop_time = {};               ///< from which on a stop overrules it, s
   double stop_duration = not_a_number;                ///< s
 
-  /// Between two looks, s: a fifth of a second, or less, so that the reaction is a number of them.
+  /// Between two looks, s: the longest, or less, so that the reaction is a number of them.
   double interval() const;
   /// Looks that the reaction takes.
   int looks_behind() const;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
 
@@ -28,16 +31,18 @@ Steersman::Steersman(const LiftSystem& system) : system_(system), kinematics_(sy
   v_.setZero(mechanism.nv());
   if (!mechanism.loops().empty()) projector_.emplace(mechanism);
   for (const Steering& steering : system.operation().steerings()) {
+    const auto* own = std::get_if<OwnLaw>(&steering.wish);
     helms_.push_back({{steering.start, steering.interval(), {0.0}},
                       static_cast<std::size_t>(steering.look_count()),
                       {},
                       {},
-                      0.0});
+                      0.0,
+                      own ? own->begin() : SpeedLaw()});
   }
 }
 
 bool Steersman::is_due(const Steering& steering, const Helm& helm, double t) const {
-  const std::size_t looks = helm.seen.size();
+  const std::size_t looks = helm.asked.size();
   if (looks >= helm.look_count) return false;
   if (steering.stop_time && t >= *steering.stop_time - coincident) return false;
   return t >= steering.start + static_cast<double>(looks) * helm.course.interval - coincident;
@@ -88,7 +93,7 @@ double Steersman::find_travel(const Steering& steering, Helm& helm, const LiftWo
   if (const auto* wish = std::get_if<KeptHeight>(&steering.wish)) {
     const double height =
         place(w.kinematics, wish->point).z() - place(w.kinematics, wish->reference).z();
-    if (helm.seen.empty()) helm.difference = wish->difference.value_or(height);
+    if (helm.asked.empty()) helm.difference = wish->difference.value_or(height);
     return beyond(height - helm.difference, steering.tolerance);
   }
   if (const auto* wish = std::get_if<KeptPlumb>(&steering.wish)) {
@@ -108,16 +113,52 @@ double Steersman::find_travel(const Steering& steering, Helm& helm, const LiftWo
          wish.stiffness.value_or(rope.stiffness);
 }
 
+double Steersman::find_seen(const Steering& steering, const Helm& helm, const Sight& sight,
+                            double t, const LiftWorkspace& w) {
+  const auto tension = [&](int rope) {
+    return w.rope_loads[static_cast<std::size_t>(rope)].tension;
+  };
+  if (const auto* seen = std::get_if<SeenHeight>(&sight))
+    return place(w.kinematics, seen->point).z() - place(w.kinematics, seen->reference).z();
+  if (const auto* seen = std::get_if<SeenPlumb>(&sight))
+    return find_plumb_travel(steering, {seen->head, seen->target}, w);
+  if (const auto* seen = std::get_if<SeenTension>(&sight)) return tension(seen->rope);
+  if (const auto* seen = std::get_if<SeenShare>(&sight)) {
+    double sum = tension(seen->rope);
+    for (const int other : seen->others) sum += tension(other);
+    return sum > 0.0 ? tension(seen->rope) / sum : 0.0;
+  }
+  const ProfileValue base = steering.base.evaluate(t);
+  if (std::holds_alternative<SeenRate>(sight)) return base.velocity + helm.motion.speed;
+  return base.position + helm.motion.travel;
+}
+
+// The speed that follows from what is seen now.
+double Steersman::find_speed(const Steering& steering, Helm& helm, double t,
+                             const LiftWorkspace& w) {
+  const auto* own = std::get_if<OwnLaw>(&steering.wish);
+  if (!own) return find_travel(steering, helm, w) / steering.correction_time;
+  if (t >= steering.end - coincident) return 0.0;
+  seen_.clear();
+  for (const Sight& sight : own->sights) seen_.push_back(find_seen(steering, helm, sight, t, w));
+  const double speed = helm.law(t, seen_);
+  if (!std::isfinite(speed))
+    throw SimulationError("law \"" + own->name + "\" gave drive \"" + steering.drive +
+                          "\" the speed " + std::to_string(speed) + " at " + std::to_string(t) +
+                          " s; it must give a finite one");
+  return speed;
+}
+
 void Steersman::steer(const Steering& steering, Helm& helm, double t, MotionProfile& profile,
                       const LiftWorkspace& w) {
   const double h = helm.course.interval;
-  helm.seen.push_back(find_travel(steering, helm, w));
-  const auto looks = static_cast<int>(helm.seen.size());
+  helm.asked.push_back(find_speed(steering, helm, t, w));
+  const auto looks = static_cast<int>(helm.asked.size());
   const int used = looks - 1 - steering.looks_behind();
   double wanted = 0.0;
   if (used >= 0 && t < steering.end - coincident) {
-    wanted = std::clamp(helm.seen[static_cast<std::size_t>(used)] / steering.correction_time,
-                        -steering.limits.speed, steering.limits.speed);
+    wanted = std::clamp(helm.asked[static_cast<std::size_t>(used)], -steering.limits.speed,
+                        steering.limits.speed);
   }
   const double from = steering.base.evaluate(t).position;
   // Would the drive stay within its range if it went for this speed and braked afterwards?

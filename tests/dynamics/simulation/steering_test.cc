@@ -1,6 +1,9 @@
 // Drives that follow a wish, against closed forms.
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -212,58 +215,198 @@ TEST(Steering, IsStopped) {
   EXPECT_NEAR(length[length.size() - 1], before + 0.5 * drive_can.speed, 1e-9);
 }
 
-// A pendulum on a rope of 10 m from a trolley that is steered to stay plumb over it.
+/// A pendulum on a rope from a trolley that is steered.
+struct Pendulum {
+  static constexpr double length = 10.0, stretch = 10e3 * samples::g * length / 400e6;  // m
+  static constexpr double correction = 8.0;                                             // s
+  static double period() {
+    return 2 * std::numbers::pi * std::sqrt((length + stretch) / samples::g);
+  }
+
+  BodyIndex trolley = -1, load = -1;
+  Mechanism mechanism;
+
+  Pendulum() : mechanism(make()) {}
+
+  Mechanism make() {
+    MechanismBuilder builder;
+    builder.set_gravity({0, 0, -samples::g});
+    BodyDefinition definition;
+    definition.name = "trolley";
+    definition.mass = 1.0;
+    definition.joint.kind = JointKind::prismatic;
+    definition.joint.axis = Vector3::UnitX();
+    definition.driven = {true};
+    trolley = builder.add_body(definition);
+    load = builder.add_body(
+        {.name = "load", .joint = {.kind = JointKind::translational}, .mass = 10e3});
+    return builder.build();
+  }
+
+  Steering steering(Wish wish) const {
+    Steering steering;
+    steering.wish = std::move(wish);
+    steering.start = 0.0;
+    steering.end = 60.0;
+    steering.correction_time = correction;
+    steering.limits = {10.0, 100.0, 1000.0};
+    steering.lowest = -50.0;
+    steering.highest = 50.0;
+    return steering;
+  }
+
+  History run(const Steering& steering) const {
+    std::vector<Rope> ropes;
+    ropes.emplace_back(mechanism,
+                       RopeDefinition{.name = "rope",
+                                      .points = {{trolley, {0, 0, 0}}, {load, {0, 0, 0}}},
+                                      .axial_stiffness = 400e6,
+                                      .damping_time = 0.05,
+                                      .unstretched_length = length});
+    OperationBuilder operation;
+    operation.add_joint_drive(mechanism, "trolley", trolley, 0.0);
+    operation.add_steering("trolley", steering);
+    Eigen::VectorXd q(4);
+    q << 0, 0.05, 0, -length - stretch;
+    const LiftSystem lift(
+        {.mechanism = mechanism, .ropes = ropes, .operation = operation.build(70.0), .q_start = q});
+    return integrate(lift, q, lift.v_start(), {.relative_tolerance = 1e-8}).history;
+  }
+
+  /// Logarithm of the ratio of the swings of two periods, three periods apart.
+  static double decay(const History& history) {
+    const auto swing = [&](double from, double to) {
+      double largest = 0.0;
+      for (Eigen::Index i = 0; i < history.sample_count(); ++i)
+        if (history.time[i] >= from && history.time[i] < to)
+          largest = std::max(largest, std::abs(history.body("load").X_WB(i).p.x() -
+                                               history.body("trolley").X_WB(i).p.x()));
+      return largest;
+    };
+    return std::log(swing(period(), 2 * period()) / swing(4 * period(), 5 * period()));
+  }
+};
+
+// x'' = -omega^2 (x - y), y' = (x - y) / T give d'' + d' / T + omega^2 d = 0 for d = x - y. What is
+// seen is acted on an interval and a half of 0.2 s later, a twentieth of a period, and the largest
+// swing of a window is not its envelope: 8 % by a march of these two equations with the same looks.
 TEST(Steering, APlumbTrolleyTakesTheSwingOutOfAPendulum) {
-  constexpr double length = 10.0, correction = 8.0;
-  MechanismBuilder builder;
-  builder.set_gravity({0, 0, -samples::g});
-  BodyDefinition definition;
-  definition.name = "trolley";
-  definition.mass = 1.0;
-  definition.joint.kind = JointKind::prismatic;
-  definition.joint.axis = Vector3::UnitX();
-  definition.driven = {true};
-  const BodyIndex trolley = builder.add_body(definition);
-  const BodyIndex load =
-      builder.add_body({.name = "load", .joint = {.kind = JointKind::translational}, .mass = 10e3});
-  const Mechanism mechanism = builder.build();
-  std::vector<Rope> ropes;
-  ropes.emplace_back(mechanism, RopeDefinition{.name = "rope",
-                                               .points = {{trolley, {0, 0, 0}}, {load, {0, 0, 0}}},
-                                               .axial_stiffness = 400e6,
-                                               .damping_time = 0.05,
-                                               .unstretched_length = length});
-  OperationBuilder operation;
-  operation.add_joint_drive(mechanism, "trolley", trolley, 0.0);
-  Steering steering;
-  steering.wish = KeptPlumb{{trolley, {0, 0, 0}}, {load, {0, 0, 0}}};
-  steering.start = 0.0;
-  steering.end = 60.0;
-  steering.correction_time = correction;
-  steering.limits = {10.0, 100.0, 1000.0};
-  steering.lowest = -50.0;
-  steering.highest = 50.0;
-  operation.add_steering("trolley", steering);
-  const double stretch = 10e3 * samples::g * length / 400e6;
-  Eigen::VectorXd q(4);
-  q << 0, 0.05, 0, -length - stretch;
-  const LiftSystem lift(
-      {.mechanism = mechanism, .ropes = ropes, .operation = operation.build(70.0), .q_start = q});
-  const History history = integrate(lift, q, lift.v_start(), {.relative_tolerance = 1e-8}).history;
-  // x'' = -omega^2 (x - y), y' = (x - y) / T give d'' + d' / T + omega^2 d = 0 for d = x - y. What is
-  // seen is acted on an interval and a half of 0.2 s later, a twentieth of a period, and the largest
-  // swing of a window is not its envelope: 8 % by a march of these two equations with the same looks.
-  const auto swing = [&](double from, double to) {
-    double largest = 0.0;
-    for (Eigen::Index i = 0; i < history.sample_count(); ++i)
-      if (history.time[i] >= from && history.time[i] < to)
-        largest = std::max(largest, std::abs(history.body("load").X_WB(i).p.x() -
-                                             history.body("trolley").X_WB(i).p.x()));
-    return largest;
+  const Pendulum pendulum;
+  const double decay = Pendulum::decay(pendulum.run(
+      pendulum.steering(KeptPlumb{{pendulum.trolley, {0, 0, 0}}, {pendulum.load, {0, 0, 0}}})));
+  EXPECT_NEAR(decay, 3 * Pendulum::period() / (2 * Pendulum::correction), 0.1 * decay);
+}
+
+/// A law that sees two figures and gives its speed by a function of the time and these.
+OwnLaw own_law(std::vector<Sight> sights, SpeedLaw law) {
+  return {"own", std::move(sights), [law = std::move(law)] { return law; }};
+}
+
+// A proportional law from outside, y' = d / T, is the same equation; with looks every 0.02 s it acts
+// a tenth as late, and comes ten times as near.
+TEST(Steering, AProportionalLawDampsAPendulum) {
+  const Pendulum pendulum;
+  Steering steering = pendulum.steering(
+      own_law({SeenPlumb{{pendulum.trolley, {0, 0, 0}}, {pendulum.load, {0, 0, 0}}}},
+              [](double, std::span<const double> seen) { return seen[0] / Pendulum::correction; }));
+  steering.longest_interval = 0.02;
+  const double decay = Pendulum::decay(pendulum.run(steering));
+  EXPECT_NEAR(decay, 3 * Pendulum::period() / (2 * Pendulum::correction), 0.02 * decay);
+}
+
+// A law that asks for what the built-in wish asks for moves the drive alike.
+TEST(Steering, ALawThatKeepsLevelIsTheBuiltInOne) {
+  const auto run = [](bool by_law) {
+    LeaderAndFollower parts;
+    parts.operation.add_move("first", {0.0, 3.0, {0.05, 0.05, 0.2}});
+    Steering steering = parts.keep_level(80.0);
+    steering.reaction = 0.5;
+    if (by_law)
+      steering.wish = own_law({SeenHeight{{parts.second, {0, 0, 0}}, {parts.first, {0, 0, 0}}}},
+                              [](double, std::span<const double> seen) { return seen[0] / 4.0; });
+    parts.operation.add_steering("second", steering);
+    return run_from_rest(parts.build(110.0)).history;
   };
-  const double period = 2 * std::numbers::pi * std::sqrt((length + stretch) / samples::g);
-  const double decay = std::log(swing(period, 2 * period) / swing(4 * period, 5 * period));
-  EXPECT_NEAR(decay, 3 * period / (2 * correction), 0.1 * decay);
+  const History built_in = run(false), own = run(true);
+  EXPECT_LT((own.body("second").pose - built_in.body("second").pose).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+// Towards a length by its own coordinate: L' = (goal - L) / T decays by exp(-t / T), later by an
+// interval and a half: lambda = exp(lambda 1.5 h) / T. It sees its rate, too.
+TEST(Steering, AWinchGoesToALengthByALaw) {
+  constexpr double goal = 22.0, correction = 5.0, interval = 0.05;
+  LeaderAndFollower parts;
+  Steering steering = parts.keep_level(60.0);
+  steering.limits = {1.0, 10.0, 100.0};
+  steering.longest_interval = interval;
+  double fastest = 0.0;
+  steering.wish =
+      own_law({SeenCoordinate{}, SeenRate{}}, [&](double, std::span<const double> seen) {
+        fastest = std::max(fastest, seen[1]);
+        return (goal - seen[0]) / correction;
+      });
+  parts.operation.add_steering("second", steering);
+  const History history = run_from_rest(parts.build(90.0)).history;
+  const Eigen::VectorXd& length = history.rope("second").unstretched_length;
+  const double left_at_10 = goal - length[sample_near(history, 10.0)];
+  const double left_at_30 = goal - length[sample_near(history, 30.0)];
+  double rate = 1.0 / correction;
+  for (int i = 0; i < 20; ++i) rate = std::exp(rate * 1.5 * interval) / correction;
+  EXPECT_NEAR(std::log(left_at_10 / left_at_30) / 20.0, rate, 1e-3 * rate);
+  EXPECT_NEAR(fastest, history.rope("second").unstretched_rate.maxCoeff(), 1e-3);
+}
+
+// It is asked at even instants from the start to the end, begins anew with each run, and what it
+// gives acts after the reaction.
+TEST(Steering, ALawIsAskedAtItsLooks) {
+  LeaderAndFollower parts;
+  Steering steering = parts.keep_level(3.0);
+  steering.start = 1.0;
+  steering.reaction = 0.5;
+  steering.longest_interval = 0.3;
+  std::vector<double> times;
+  int begun = 0;
+  steering.wish = OwnLaw{"own", {}, [&]() -> SpeedLaw {
+                           ++begun;
+                           return [&](double time, std::span<const double> seen) {
+                             EXPECT_TRUE(seen.empty());
+                             times.push_back(time);
+                             return 0.1;
+                           };
+                         }};
+  parts.operation.add_steering("second", steering);
+  const LiftSystem lift = parts.build(30.0);
+  const History history = run_from_rest(lift).history;
+  ASSERT_EQ(times.size(), 8u);  // every 0.25 s, twice in the reaction
+  for (std::size_t i = 0; i < times.size(); ++i)
+    EXPECT_NEAR(times[i], 1.0 + 0.25 * static_cast<double>(i), 1e-9);
+  const Eigen::VectorXd& length = history.rope("second").unstretched_length;
+  EXPECT_NEAR(length[sample_near(history, 1.5)], 20.0, 1e-12);
+  EXPECT_GT(length[sample_near(history, 1.8)], 20.0 + 1e-6);
+  EXPECT_EQ(begun, 1);
+  run_from_rest(lift);
+  EXPECT_EQ(begun, 2);
+}
+
+TEST(Steering, WhatALawThrowsArrivesUnchanged) {
+  struct Anything {
+    int number;
+  };
+  const auto run = [](SpeedLaw law) {
+    LeaderAndFollower parts;
+    Steering steering = parts.keep_level(3.0);
+    steering.wish = own_law({}, std::move(law));
+    parts.operation.add_steering("second", steering);
+    run_from_rest(parts.build(30.0));
+  };
+  try {
+    run([](double, std::span<const double>) -> double { throw Anything{7}; });
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const Anything& thrown) {
+    EXPECT_EQ(thrown.number, 7);
+  }
+  EXPECT_THAT([&] { run([](double, std::span<const double>) { return not_a_number; }); },
+              ThrowsMessage<SimulationError>(HasSubstr("law \"own\" gave drive \"second\"")));
 }
 
 // A winch between the world and a body on a spring holds the tension that it is asked for, and a
@@ -357,6 +500,9 @@ TEST(Steering, RefusesWhatCannotBe) {
   refuses([](Steering& s) { s.wish = KeptTension{0, 1.0, {}}; }, "its own rope");
   refuses([](Steering& s) { s.wish = KeptShare{1, {}, 0.5, {}}; }, "one of several");
   refuses([](Steering& s) { s.wish = KeptPlumb{}; }, "winches keep heights");
+  refuses([](Steering& s) { s.wish = OwnLaw{}; }, "its law is missing");
+  refuses([](Steering& s) { s.wish = own_law({SeenPlumb{}}, {}); }, "sees no plumb");
+  refuses([](Steering& s) { s.longest_interval = 0.0; }, "must be positive");
   parts.operation.add_steering("second", parts.keep_level(10.0));
   refuses([](Steering&) {}, "steered twice");
 }
