@@ -27,25 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A verdict on a lift is not lost to a run that has none.
-void require_no_assessment(const fs::path& folder) {
-  std::error_code ignored;
-  const fs::path summary = folder / layout::summary_file;
-  if (!fs::is_regular_file(summary, ignored)) return;
-  const auto old = nlohmann::json::parse(read_file(summary), nullptr, false);
-  if (!old.is_object() || !old.contains("verdict")) return;
-  Diagnostics diagnostics;
-  diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
-                    "the folder holds the assessment of a lift, which a simulation would replace",
-                    {"name another folder with --output, or remove this one"});
-  throw InputError(diagnostics);
-}
-
 /// The folder of the results, asked for before the run.
 fs::path result_folder(const SimulateOptions& options, const std::string& name) {
   fs::path folder = options.output ? fs::path(*options.output) : fs::path("results") / name;
   require_writable(folder);
-  require_no_assessment(folder);
+  require_no_verdict(folder);
   return folder;
 }
 
@@ -131,13 +117,7 @@ void print_lift(const LiftSimulation& simulation) {
 
 int simulate_lift_case(const SimulateOptions& options) {
   LiftCase lift_case = read_lift_case(options.path);
-  if (lift_case.load_table) {
-    Diagnostics diagnostics;
-    diagnostics.error(lift_case.load_table->place,
-                      "the case is a load table: it has nothing that moves",
-                      {"blocklift assess computes the block's stress under these loads"});
-    throw InputError(diagnostics);
-  }
+  require_motion(lift_case);
   const fs::path folder = result_folder(options, lift_case.name);
   std::unique_ptr<ProgressBar> bar;
   std::string shown;

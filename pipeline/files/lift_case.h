@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "dynamics/force/wind_field.h"
+#include "dynamics/simulation/steering.h"
 #include "pipeline/files/block_model.h"
 #include "pipeline/files/crane_model.h"
 #include "pipeline/files/hot_spot_format.h"
@@ -130,7 +133,22 @@ struct WindInCase {
   std::shared_ptr<const dynamics::WindField> make_field(bool at_rest) const;
 };
 
-/// What an operator who steers a drive keeps, after what he sees: one wish.
+/// A figure that a law from outside sees: one of height, plumb, tension and share.
+struct SightInCase {
+  Located<std::string> name;
+  std::optional<Located<RopePoint>> level;    ///< whose height it is
+  std::optional<Located<RopePoint>> with;     ///< over this point's; none: in the world
+  std::optional<Located<std::string>> head;   ///< hoist whose upper sheave is plumb or not
+  std::optional<Located<RopePoint>> over;     ///< over this point
+  std::optional<Located<std::string>> pull;   ///< rope, or hoist whose tackle it is
+  std::optional<Located<std::string>> share;  ///< likewise, of what it and the ropes `of` pull
+  std::vector<Located<std::string>> of;       ///< likewise
+  Mark place;
+  // After the look-up; none if it failed.
+  std::optional<ResolvedPoint> level_at, with_at, head_at, over_at;
+};
+
+/// What an operator who steers a drive keeps, after what he sees: one wish, or a law from outside.
 struct KeepInCase {
   std::optional<Located<RopePoint>> level;  ///< whose height a winch keeps
   std::optional<Located<RopePoint>> with;   ///< against this point's; none: in the world
@@ -143,11 +161,17 @@ struct KeepInCase {
   std::vector<Located<std::string>> of;      ///< ropes, or hoists whose tackle it is
   std::optional<Located<double>> stiffness;  ///< of a pull against letting out, N/m
   double reaction = 0;                       ///< s
-  Located<double> correction;                ///< time in which he would take away what he sees, s
+  /// Time in which he would take away what he sees, s; none: the usual one.
+  std::optional<Located<double>> correction;
   std::optional<Located<Quantity>> tolerance;
+  std::optional<Located<std::string>> law;  ///< name of a law from outside (LiftCase::laws)
+  std::vector<SightInCase> sees;            ///< what it is given
+  std::optional<double> every;              ///< time between two of its looks, s; none: the usual
   Mark place;
   // After the look-up; none if it failed.
   std::optional<ResolvedPoint> level_at, with_at, head_at, over_at;
+
+  double correction_time() const { return correction ? correction->value : 5.0; }  ///< s
 };
 
 /// Moves of one or several drives or winches, alike.
@@ -334,6 +358,10 @@ struct ModelText {
   std::string text;
 };
 
+/// Makes a law from outside anew, which is given figures of these names in their order: its drive's
+/// `position` and `speed`, then what it `sees`.
+using LawMaker = std::function<dynamics::SpeedLaw(const std::vector<std::string>& figures)>;
+
 /// A lift case: what is lifted, by what, how, and what is asked. SI units.
 struct LiftCase : MarineParts {
   std::string name;
@@ -363,6 +391,9 @@ struct LiftCase : MarineParts {
   std::string yaml;                    ///< the case file as it stands, or as it was changed
   std::filesystem::path file;          ///< where it is
   std::vector<ModelText> model_texts;  ///< of the models that it is made of
+  /// Laws by which drives are steered, by the names of `keeps: law`: not from the file, but given
+  /// by the program that this one is part of.
+  std::map<std::string, LawMaker> laws = {};
 
   /// Does a rope hang as a catenary by the mass of its model? Ropes over sheaves run straight.
   bool hangs(const RopeInCase& rope) const;

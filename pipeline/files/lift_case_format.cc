@@ -162,11 +162,11 @@ Format<GroundInCase> ground_format() {
 
 void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
   const int wishes = keep.level.has_value() + keep.over.has_value() + keep.tension.has_value() +
-                     keep.share.has_value();
+                     keep.share.has_value() + keep.law.has_value();
   if (wishes != 1)
     reading.error(mark,
                   wishes == 0 ? "the move does not say what is kept" : "the move keeps two things",
-                  {"give one of level, over, tension and share"});
+                  {"give one of level, over, tension, share and law"});
   const auto only_with = [&](bool given, const char* key, bool other, const char* other_key) {
     if (given && !other)
       reading.error(mark, std::string(key) + " goes with " + other_key + ", which is not there");
@@ -179,10 +179,14 @@ void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
   only_with(keep.share.has_value(), "share", !keep.of.empty(), "of");
   only_with(keep.stiffness.has_value(), "stiffness", keep.tension || keep.share,
             "tension or share");
+  only_with(!keep.sees.empty(), "sees", keep.law.has_value(), "law");
+  only_with(keep.every.has_value(), "every", keep.law.has_value(), "law");
+  if (keep.law && (keep.correction || keep.tolerance))
+    reading.error(mark, "a law gives the speed itself and takes no correction or tolerance");
   // What is seen decays as e' = -e(t - reaction) / correction, which grows instead where the
   // correction is shorter than 2 / pi of the reaction; the drive's own lag comes on top.
-  if (keep.correction.value < 2 * keep.reaction)
-    reading.error(keep.correction.mark,
+  if (!keep.law && keep.correction_time() < 2 * keep.reaction)
+    reading.error(keep.correction ? keep.correction->mark : mark,
                   "the correction is shorter than twice the reaction: the operator would steer "
                   "further and further to and fro",
                   {"three times the reaction and more come to rest without overshooting"});
@@ -197,13 +201,66 @@ void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
                       std::string(text_of(due).noun) + " is due");
 }
 
+void check_sight(const SightInCase& sight, Reading& reading, const Mark& mark) {
+  const int figures = sight.level.has_value() + sight.over.has_value() + sight.pull.has_value() +
+                      sight.share.has_value();
+  if (figures != 1)
+    reading.error(mark, figures == 0 ? "nothing is seen" : "two things are seen under one name",
+                  {"give one of level, over, tension and share"});
+  const auto only_with = [&](bool given, const char* key, bool other, const char* other_key) {
+    if (given && !other)
+      reading.error(mark, std::string(key) + " goes with " + other_key + ", which is not there");
+  };
+  only_with(sight.with.has_value(), "with", sight.level.has_value(), "level");
+  only_with(sight.head.has_value(), "head", sight.over.has_value(), "over");
+  only_with(sight.over.has_value(), "over", sight.head.has_value(), "head");
+  only_with(!sight.of.empty(), "of", sight.share.has_value(), "share");
+  only_with(sight.share.has_value(), "share", !sight.of.empty(), "of");
+}
+
+void check_names_of_sights(const KeepInCase& keep, Reading& reading, const Mark&) {
+  for (const SightInCase& sight : keep.sees) {
+    if (sight.name.value == "position" || sight.name.value == "speed")
+      reading.error(sight.name.mark,
+                    "\"" + sight.name.value + "\" is what a law sees of its own drive anyway",
+                    {"give the figure another name"});
+  }
+}
+
+Format<SightInCase> sight_format(const Format<Located<RopePoint>>& point) {
+  Table<SightInCase> table("sight",
+                           "A figure that a law sees: a height (`level`), how far its drive would "
+                           "have to go to bring a head plumb over a point (`head`, `over`), a "
+                           "`tension`, or a `share` of the load.");
+  table
+      .optional("level", &SightInCase::level, point,
+                "the height of a hook (C1.main), lug, eye or point of a body, m")
+      .optional("with", &SightInCase::with, point,
+                "over that of this point; a height in the world if left out")
+      .optional("head", &SightInCase::head, located(reference()),
+                "hoist (C1.main) whose upper sheave a drive of a joint moves")
+      .optional("over", &SightInCase::over, point,
+                "from plumb over this hook, lug, eye or point of a body: travel of the drive, m or "
+                "rad")
+      .optional("tension", &SightInCase::pull, located(reference()),
+                "of this rope, or of this hoist's (C1.main) tackle, N")
+      .optional("share", &SightInCase::share, located(reference()),
+                "that this rope or hoist pulls of what it and those of `of` pull together, 0 to 1")
+      .optional("of", &SightInCase::of, list_of(located(reference()), 1),
+                "ropes, or hoists (C1.main) whose tackle it is")
+      .rule(check_sight)
+      .place(&SightInCase::place);
+  return table.format();
+}
+
 Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
   Table<KeepInCase> table("keeping",
                           "What the operator of a drive keeps while he steers it after what he "
                           "sees: a height (`level`), a head plumb over a point (`head`, `over`), a "
                           "`tension`, or a `share` of the load. He asks for the speed that "
                           "would take away in the time `correction` what he saw a `reaction` ago, "
-                          "and the drive follows within its limits.");
+                          "and the drive follows within its limits. Or a `law`, a function of "
+                          "Python, gives the speed.");
   table
       .optional("level", &KeepInCase::level, point,
                 "a hook (C1.main), lug, eye or point of a body, whose height a winch keeps")
@@ -233,15 +290,24 @@ Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
       .by_default("reaction", &KeepInCase::reaction,
                   quantity(Dimension::time, Range::not_negative()), "1 s",
                   "from what the operator sees to what he does")
-      .by_default("correction", &KeepInCase::correction,
-                  located(quantity(Dimension::time, Range::positive())), "5 s",
-                  "in which he would take away what he sees; behind a wish that moves on evenly he "
-                  "lags by its speed times this")
+      .optional("correction", &KeepInCase::correction,
+                located(quantity(Dimension::time, Range::positive())),
+                "in which he would take away what he sees, 5 s if left out; behind a wish that "
+                "moves on evenly he lags by its speed times this")
       .optional("tolerance", &KeepInCase::tolerance,
                 quantity_of({Dimension::length, Dimension::force, Dimension::ratio},
                             Range::not_negative()),
                 "what he lets be: length, force or share, as the wish is; nothing if left out")
+      .optional("law", &KeepInCase::law, located(reference()),
+                "name of the function of Python that gives the drive's speed in place of a wish: "
+                "such a case is run from Python, by the argument `laws` of Case.simulate")
+      .optional("sees", &KeepInCase::sees, named_tables(sight_format(point)),
+                "what the law is given, by name, beside the `position` and `speed` of its drive")
+      .optional("every", &KeepInCase::every, quantity(Dimension::time, Range::between(0.01, 1)),
+                "time between two looks of the law, shortened so that the reaction is a number of "
+                "them; 0.2 s if left out")
       .rule(check_keep)
+      .rule(check_names_of_sights)
       .place(&KeepInCase::place);
   return table.format();
 }

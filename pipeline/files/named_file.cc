@@ -23,6 +23,12 @@ std::vector<fs::path> folders_of(const std::string& list) {
   return folders;
 }
 
+/// The program in whose place this process reads; empty: it is the program itself.
+fs::path& other_program() {
+  static fs::path program;
+  return program;
+}
+
 bool goes_up(const fs::path& name) {
   return std::any_of(name.begin(), name.end(), [](const fs::path& part) { return part == ".."; });
 }
@@ -33,7 +39,8 @@ std::vector<fs::path> model_path() {
   if (const char* list = std::getenv("BLOCKLIFT_MODELS")) return folders_of(list);
   std::vector<fs::path> folders;
   std::error_code error;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  const fs::path executable = other_program().empty() ? fs::read_symlink("/proc/self/exe", error)
+                                                      : fs::canonical(other_program(), error);
   if (!error) {
     const fs::path place = executable.parent_path();
     folders = {place / "models", place.parent_path() / "share" / "blocklift" / "models",
@@ -46,6 +53,8 @@ std::vector<fs::path> model_path() {
   });
   return folders;
 }
+
+void take_models_of(const fs::path& program) { other_program() = program; }
 
 bool is_within(const fs::path& name, const fs::path& folder, const std::vector<fs::path>& homes,
                const std::vector<fs::path>& models) {

@@ -13,6 +13,10 @@ namespace blocklift::pipeline {
 /// or above the executable, of the installation, and of the source tree.
 std::vector<std::filesystem::path> model_path();
 
+/// Lets models be sought beside that program, for a process of another one (Python's).
+/// @param program its executable file; to be given before any input is read.
+void take_models_of(const std::filesystem::path& program);
+
 /// Whether what is named leads into one of the homes or the folders of models, ".." and symbolic
 /// links followed. Links inside a folder of models are the installation's own, and are trusted.
 /// @param name from `folder` on.

@@ -126,6 +126,42 @@ class FaultCheck {
   bool any_sought_ = false;
 };
 
+/// A head is moved by drives of its own crane.
+void check_head(const std::optional<Located<std::string>>& head, const Mover& mover,
+                Diagnostics& diagnostics) {
+  if (mover.is_winch || !head || before_dot(head->value) == before_dot(mover.name)) return;
+  diagnostics.error(head->mark, fmt::format("{} is on crane {}, and {} does not move it",
+                                            head->value, before_dot(head->value), mover.name));
+}
+
+/// What a law sees is there, and can be seen from its drive.
+void check_sights(const KeepInCase& keep, const Mover& mover, const std::vector<std::string>& ropes,
+                  Diagnostics& diagnostics) {
+  const auto check_rope = [&](const Located<std::string>& rope) {
+    if (std::find(ropes.begin(), ropes.end(), rope.value) == ropes.end())
+      diagnostics.error(
+          rope.mark,
+          fmt::format("a law sees the pull of \"{}\", which is no rope or hoist of the case",
+                      rope.value),
+          {names_hint("its ropes and hoists are", ropes, rope.value)});
+  };
+  for (const SightInCase& sight : keep.sees) {
+    if (sight.pull) check_rope(*sight.pull);
+    if (sight.share) check_rope(*sight.share);
+    for (const Located<std::string>& rope : sight.of) {
+      check_rope(rope);
+      if (sight.share && rope.value == sight.share->value)
+        diagnostics.error(rope.mark, fmt::format("{} shares with itself", rope.value),
+                          {"of: names the others"});
+    }
+    check_head(sight.head, mover, diagnostics);
+    if (sight.head && mover.is_winch)
+      diagnostics.error(sight.head->mark,
+                        fmt::format("{} is a winch and moves no head over a point", mover.name),
+                        {"heads are moved by drives of joints: trolley, travel, slewing, luffing"});
+  }
+}
+
 /// What operators keep is kept by drives that can: winches heights and pulls, joints a plumb.
 void check_keeping(const LiftCase& lift_case, const Schedule& schedule, Diagnostics& diagnostics) {
   const std::vector<std::string> ropes = names_of_ropes(lift_case);
@@ -133,6 +169,8 @@ void check_keeping(const LiftCase& lift_case, const Schedule& schedule, Diagnost
   for (const ScheduledSteering& steering : schedule.steerings) {
     const KeepInCase& keep = steering.keep;
     const Mover& mover = schedule.movers[steering.mover];
+    check_sights(keep, mover, ropes, diagnostics);
+    if (keep.law) continue;
     if (mover.is_winch == keep.over.has_value())
       diagnostics.error(
           steering.mark,
@@ -140,10 +178,7 @@ void check_keeping(const LiftCase& lift_case, const Schedule& schedule, Diagnost
                          : fmt::format("{} is no winch and keeps no height or pull", mover.name),
           {"winches keep level, tension or share; drives of joints keep a head over "
            "a point"});
-    if (!mover.is_winch && keep.head && before_dot(keep.head->value) != before_dot(mover.name))
-      diagnostics.error(keep.head->mark,
-                        fmt::format("{} is on crane {}, and {} does not move it", keep.head->value,
-                                    before_dot(keep.head->value), mover.name));
+    check_head(keep.head, mover, diagnostics);
     for (const Located<std::string>& rope : keep.of) {
       if (std::find(ropes.begin(), ropes.end(), rope.value) == ropes.end())
         diagnostics.error(

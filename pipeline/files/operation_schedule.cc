@@ -439,12 +439,15 @@ class Scheduler {
     steering.start = start;
     steering.end = end;
     steering.reaction = keep.reaction;
-    steering.correction_time = keep.correction.value;
+    steering.correction_time = keep.correction_time();
     steering.tolerance = keep.tolerance ? keep.tolerance->value.value : 0.0;
+    if (keep.every) steering.longest_interval = *keep.every;
     steering.limits = limits;
     steering.lowest = mover.lowest;
     steering.highest = mover.highest;
-    if (!std::isfinite(start + end + keep.reaction + keep.correction.value)) return;
+    if (!std::isfinite(start + end + keep.reaction + keep.correction_time() +
+                       steering.longest_interval))
+      return;
     schedule_.stages.back().end = std::max(schedule_.stages.back().end, steering.stand());
     schedule_.steerings.push_back({index, stage_index_, steering, keep, {}, name.mark});
   }

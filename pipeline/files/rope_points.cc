@@ -189,6 +189,15 @@ class PointResolver {
   std::string subject_;
 };
 
+/// Points of what an operator keeps, or of what a law sees.
+template <class Keeping>
+void resolve_seen(PointResolver& resolver, const std::string& subject, Keeping& keep) {
+  if (keep.level) keep.level_at = resolver.resolve(*keep.level, subject + " the height of");
+  if (keep.with) keep.with_at = resolver.resolve(*keep.with, subject + " level with");
+  if (keep.over) keep.over_at = resolver.resolve(*keep.over, subject + " a head over");
+  if (keep.head) keep.head_at = resolver.resolve_head(*keep.head, subject + " the head of");
+}
+
 }  // namespace
 
 void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics) {
@@ -211,10 +220,10 @@ void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics) {
       if (!move.keeps) continue;
       KeepInCase& keep = *move.keeps;
       const std::string subject = fmt::format("stage \"{}\" keeps", stage.name.value);
-      if (keep.level) keep.level_at = resolver.resolve(*keep.level, subject + " the height of");
-      if (keep.with) keep.with_at = resolver.resolve(*keep.with, subject + " level with");
-      if (keep.over) keep.over_at = resolver.resolve(*keep.over, subject + " a head over");
-      if (keep.head) keep.head_at = resolver.resolve_head(*keep.head, subject + " the head of");
+      resolve_seen(resolver, subject, keep);
+      for (SightInCase& sight : keep.sees)
+        resolve_seen(resolver, fmt::format("stage \"{}\" has a law that sees", stage.name.value),
+                     sight);
     }
   }
 }

@@ -43,6 +43,10 @@ class MissedAt {
     for (const int other : wish.others) sum += tension(history_, other, sample);
     return sum > 0 ? own / sum - wish.share : std::numeric_limits<double>::quiet_NaN();
   }
+  /// What a law from outside is after is its own affair.
+  double operator()(const dynamics::OwnLaw&) const {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 
   Eigen::Index sample = 0;
 
@@ -93,6 +97,7 @@ void take_over(const Eigen::VectorXd& later, Eigen::VectorXd& values) {
 void add_keeping_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   const std::size_t first = measures.size();
   for (const LiftSteering& steering : lift.model.steerings) {
+    if (std::holds_alternative<dynamics::OwnLaw>(steering.wish)) continue;
     LiftMeasure measure = describe(steering);
     measure.at_rest = find_missed(steering, lift.static_history);
     measure.in_motion = find_missed(steering, lift.dynamic_history());

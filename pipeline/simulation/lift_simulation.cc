@@ -1,6 +1,9 @@
 #include "pipeline/simulation/lift_simulation.h"
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -51,6 +54,28 @@ std::vector<OutputSeries> table_of(const LiftSimulation& simulation) {
 }
 
 }  // namespace
+
+void require_motion(const LiftCase& lift_case) {
+  if (!lift_case.load_table) return;
+  Diagnostics diagnostics;
+  diagnostics.error(lift_case.load_table->place,
+                    "the case is a load table: it has nothing that moves",
+                    {"blocklift assess computes the block's stress under these loads"});
+  throw InputError(diagnostics);
+}
+
+void require_no_verdict(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const std::filesystem::path summary = folder / layout::summary_file;
+  if (!std::filesystem::is_regular_file(summary, ignored)) return;
+  const auto old = nlohmann::json::parse(read_file(summary), nullptr, false);
+  if (!old.is_object() || !old.contains("verdict")) return;
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},
+                    "the folder holds the assessment of a lift, which a simulation would replace",
+                    {"name another folder with --output, or remove this one"});
+  throw InputError(diagnostics);
+}
 
 LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   if (!lift_case.has_structure()) {

@@ -17,6 +17,13 @@ struct LiftSimulation {
   LiftRun run;
 };
 
+/// @throws InputError for a case that has nothing that moves, a load table.
+void require_motion(const LiftCase& lift_case);
+
+/// A verdict on a lift is not lost to a run that has none.
+/// @throws InputError if the folder holds the assessment of a lift.
+void require_no_verdict(const std::filesystem::path& folder);
+
 /// Static sweep and time integration of a lift case. The load's mass is that of its mesh, as for
 /// `assess`.
 /// @throws InputError if the block cannot be meshed, dynamics::SimulationError as the stages do.

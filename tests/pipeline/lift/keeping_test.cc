@@ -1,6 +1,8 @@
 // Drives that keep something, and faults at their worst instant, from a case file to the run.
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -141,6 +143,52 @@ TEST(Keeping, AShareAndATension) {
   }
 }
 
+// A law from outside in place of the wish, which asks for the same by the same figure, gives the
+// same motion, with a stage that ends by a condition, too: it begins anew with each of the runs.
+TEST(Keeping, ALawFromOutsideInPlaceOfAWish) {
+  const std::string operation =
+      "  - stage: set down\n"
+      "    moves:\n"
+      "      - {drives: [C1.left], by: 2.5 m, speed: 3 m/min}\n"
+      "      - {drives: [C1.right], keeps: {WISH, reaction: 0.5 s}}\n"
+      "    until: {ground_bears_at_least: 80 %}\n";
+  const std::string ground =
+      "ground: 0 m\n"
+      "ground_contact: {stiffness: 5 MN/m, damping: 200 kN s/m}\n";
+  const LiftRun built_in = run(read_case(
+      test::with(operation, "WISH", "level: C1.right, with: C1.left, correction: 4 s"), ground));
+  LiftCase lift_case = read_case(
+      test::with(operation, "WISH",
+                 "law: level, sees: {height: {level: C1.right, with: C1.left}, pull: {tension: R1},"
+                 " part: {share: C1.left, of: [C1.right]}}"),
+      ground);
+  EXPECT_THAT([&] { run(lift_case); },
+              ThrowsMessage<InputError>(
+                  AllOf(HasSubstr("case.yaml:"), HasSubstr("nobody gives the law \"level\""))));
+  int begun = 0;
+  lift_case.laws["level"] = [&](const std::vector<std::string>& figures) -> dynamics::SpeedLaw {
+    EXPECT_THAT(figures, ::testing::ElementsAre("position", "speed", "height", "pull", "part"));
+    ++begun;
+    return [](double time, std::span<const double> seen) {
+      if (time == 0) {
+        EXPECT_NEAR(seen[0], 5.0, 1e-9);
+        EXPECT_NEAR(seen[1], 0.0, 1e-9);
+        EXPECT_GT(seen[3], 10e3);
+        EXPECT_NEAR(seen[4], 0.5, 0.1);
+      }
+      return seen[2] / 4;
+    };
+  };
+  const LiftRun own = run(lift_case);
+  EXPECT_GE(begun, 2);
+  const Eigen::VectorXd& theirs = built_in.dynamic_history().rope("C1.right").unstretched_length;
+  const Eigen::VectorXd& ours = own.dynamic_history().rope("C1.right").unstretched_length;
+  ASSERT_EQ(ours.size(), theirs.size());
+  EXPECT_LT((ours - theirs).cwiseAbs().maxCoeff(), 1e-9);
+  for (const LiftMeasure& measure : find_measures(lift_case, own))
+    EXPECT_THAT(measure.name(), ::testing::Not(HasSubstr("missed")));
+}
+
 TEST(Keeping, RefusesWhatCannotBe) {
   const auto refuses = [](const std::string& move, const std::string& message) {
     EXPECT_THAT([&] { read_case("  - stage: go\n    moves: [" + move + "]\n"); },
@@ -165,6 +213,24 @@ TEST(Keeping, RefusesWhatCannotBe) {
   refuses("{drives: [C1.left], duration: 9 s, keeps: {tension: 5 kN, reaction: 4 s}}",
           "further and further");
   refuses("{drives: [C1.left], by: 1 m, keeps: {tension: 5 kN}}", "takes no \"by\"");
+  const auto law_refuses = [&](const std::string& drive, const std::string& more,
+                               const std::string& message) {
+    refuses("{drives: [" + drive + "], duration: 9 s, keeps: {law: own, " + more + "}}", message);
+  };
+  law_refuses("C1.left", "tension: 5 kN", "two things");
+  law_refuses("C1.left", "correction: 2 s", "no correction");
+  law_refuses("C1.left", "sees: {height: {}}", "nothing is seen");
+  law_refuses("C1.left", "sees: {height: {level: L1, tension: R1}}", "two things are seen");
+  law_refuses("C1.left", "sees: {height: {level: L9}}", "a law that sees the height of lug \"L9\"");
+  law_refuses("C1.left", "sees: {pull: {tension: R11}}", "did you mean \"R1\"");
+  law_refuses("C1.left", "sees: {pull: {share: R1}}", "share goes with of");
+  law_refuses("C1.left", "sees: {pull: {share: R1, of: [R1]}}", "with itself");
+  law_refuses("C1.left", "sees: {swing: {head: C1.left, over: L1}}", "is a winch");
+  law_refuses("C1.left", "sees: {speed: {tension: R1}}", "of its own drive anyway");
+  law_refuses("C1.lft", "every: 0.1 s", "did you mean \"C1.left\"");
+  law_refuses("C1.left", "every: 5 s", "every");
+  refuses("{drives: [C1.left], duration: 9 s, keeps: {level: C1.left, every: 1 s}}",
+          "every goes with law");
   refuses("{drives: [C1.left], by: 1 m}, {drives: [C1.left], keeps: {tension: 5 kN}}",
           "overlaps itself");
   refuses("{drives: [C1.left], duration: 9 s, keeps: {tension: 5 kN}, speed: 60 m/min}",
