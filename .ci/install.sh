@@ -37,8 +37,16 @@ say "Python"
 dpkg-deb --extract "$place"/python3-blocklift_*.deb "$place/clean"
 BLOCKLIFT="$place/clean/usr/bin/blocklift" PYTHONPATH="$place/clean/usr/lib/python3/dist-packages" \
   /usr/bin/python3 -c "import blocklift; print('blocklift', blocklift.version(), 'from Python')"
+BLOCKLIFT="$place/clean/usr/bin/blocklift" PYTHONPATH="$place/clean/usr/lib/python3/dist-packages" \
+  /usr/bin/python3 -c "
+import blocklift, blocklift.kernel
+result = blocklift.Case('tests/pipeline/cases/small-lift').simulate('$place/in-process', laws={})
+assert blocklift.kernel.load().__file__.startswith('$place/clean/'), blocklift.kernel.load().__file__
+print(result, 'in the process of Python')"
 cp -r pipeline/python "$place/wheel"
+cp build/release/_kernel*.so "$place/wheel/blocklift"
 (cd "$place/wheel" && /usr/bin/python3 -c "from setuptools import build_meta; build_meta.build_wheel('.')" >/dev/null 2>&1 &&
+  test -e blocklift-*-cp3*.whl &&
   /usr/bin/python3 -m zipfile --extract blocklift-*.whl unpacked)
 BLOCKLIFT="$place/clean/usr/bin/blocklift" PYTHONPATH="$place/wheel/unpacked" \
   /usr/bin/python3 -c "import blocklift; print(blocklift.describe('lift case', 'gravity'))"

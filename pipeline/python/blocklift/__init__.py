@@ -9,13 +9,14 @@
     tension = result.history("dynamic").tension.sel(rope="R3")
 
 The package runs the program `blocklift` in a process of its own (see :func:`executable`) and reads
-the files that it writes. All numbers are in SI units; arrays carry theirs in the attribute `units`.
+the files that it writes; lifts whose drives are steered by laws of Python run in this process. All numbers are in SI units; arrays carry theirs in the attribute `units`.
 """
 
 from .case import Case
 from .errors import Complaint, InputError, RunError
 from .hydrodynamics import Hydrodynamics, hydro
 from .keys import describe
+from .kernel import Law
 from .measurements import Measured, measured
 from .program import executable, schema, version
 from .results import Result
@@ -26,6 +27,7 @@ __all__ = [
     "Complaint",
     "Hydrodynamics",
     "InputError",
+    "Law",
     "Measured",
     "Result",
     "RunError",

@@ -8,12 +8,13 @@ import os
 import re
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from ruamel.yaml import YAML
 
+from . import kernel
 from .errors import Complaint, InputError
 from .keys import describe
 from .program import run
@@ -113,16 +114,42 @@ class Case:
             self._run(["assess", file, "--output", folder, *(["--decks"] if decks else [])], file)
         return Result(folder)
 
-    def simulate(self, output: str | os.PathLike[str] | None = None) -> Result:
-        """The motion alone. Raises InputError, RunError."""
+    def simulate(self, output: str | os.PathLike[str] | None = None, *,
+                 laws: Mapping[str, kernel.LawOrClass] | None = None) -> Result:
+        """The motion alone.
+
+        laws: functions that steer drives, by the names under which moves of the case have them
+        (`keeps: {law: NAME}`); the lift then runs in this process. A law is called at each look
+        with the time, s, and a dictionary of what it sees: the drive's own "position" and "speed",
+        and what the case's `sees` names, in m, rad, N and 1. It gives the speed that the drive is
+        asked for a reaction later, m/s or rad/s, of a winch positive where it lets rope out. A
+        class is called at the beginning of each run, once a drive: its objects are laws with a
+        memory.
+
+        Raises InputError, RunError (also where a law gives nan); with laws ImportError if the
+        module for them is not built, TypeError if a law gives no number, and what a law raises.
+        """
         folder = Path(output) if output is not None else Path("results") / self.name
         with self._on_disk() as file:
-            self._run(["simulate", file, "--output", folder], file)
+            if laws is None:
+                self._run(["simulate", file, "--output", folder], file)
+            else:
+                if "mechanism" in self.data:
+                    raise InputError([Complaint(str(self.file), None, None,
+                                                "laws steer drives of lift cases alone, and this "
+                                                "is a mechanism")])
+                with self._naming_own_file(file):
+                    kernel.simulate(file, folder, laws)
         return Result(folder)
 
     def _run(self, arguments: list[str | os.PathLike[str]], file: Path) -> str:
-        try:
+        with self._naming_own_file(file):
             return run(arguments)
+
+    @contextlib.contextmanager
+    def _naming_own_file(self, file: Path) -> Iterator[None]:
+        try:
+            yield
         except InputError as error:
             # Complaints name the case's own file and not the copy that was run.
             own = [Complaint(str(self.file) if Path(one.file) == file else one.file, one.line,

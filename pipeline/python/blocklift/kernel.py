@@ -1,0 +1,60 @@
+"""The module by which lifts run in this process, with laws of drives that are written in Python."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+import sysconfig
+from collections.abc import Callable, Mapping
+from types import ModuleType
+from typing import Union
+
+from .program import executable
+
+#: Gives the speed (m/s or rad/s) that a drive is asked for, of a winch positive where it lets rope
+#: out, after the time (s) and what is seen, by name: the drive's own "position" and "speed", and
+#: what the case's `sees` names. SI units.
+Law = Callable[[float, dict[str, float]], float]
+#: A law, or a class whose objects are laws with a memory: each drive and each run has its own.
+LawOrClass = Union[Law, Callable[[], Law]]
+
+_NAME = "blocklift._kernel"
+
+
+def simulate(case: str | os.PathLike[str], folder: str | os.PathLike[str],
+             laws: Mapping[str, LawOrClass]) -> None:
+    """Simulates a case file in this process and writes its results into a folder.
+
+    Raises ImportError if the module is not built, InputError, RunError, TypeError if a law cannot
+    be called or gives no number, and whatever a law raises.
+    """
+    for name, law in laws.items():
+        if not callable(law):
+            raise TypeError(f'law "{name}" is {law!r}, which cannot be called')
+    load().simulate(os.fspath(case), os.fspath(folder), os.fspath(executable()), dict(laws))
+
+
+def load() -> ModuleType:
+    """The module: that of the package, or of the build that the program is of.
+
+    Raises ImportError, with what to install, if there is none for this Python.
+    """
+    if _NAME in sys.modules:
+        return sys.modules[_NAME]
+    spec = importlib.util.find_spec(_NAME)
+    if spec is None:
+        file = f"_kernel{sysconfig.get_config_var('EXT_SUFFIX')}"
+        beside = executable().parent / file
+        if not beside.is_file():
+            raise ImportError(
+                f"laws of drives need the module {_NAME} for Python {sysconfig.get_python_version()}"
+                f", and there is no {file} in the package or beside {executable()}. Debian's"
+                " package python3-blocklift has it for /usr/bin/python3; a build of the sources"
+                " makes it where python3-dev and pybind11-dev are installed", name=_NAME)
+        spec = importlib.util.spec_from_file_location(_NAME, beside)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    sys.modules[_NAME] = module
+    return module
