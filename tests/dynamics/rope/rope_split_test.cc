@@ -22,7 +22,7 @@ using std::numbers::pi;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr double g = 9.80665;
+constexpr double standard_gravity = 9.80665;
 
 // Friction by which parallel parts of a rope carry that share, and the rest of 100 %.
 double friction_for_share(double larger) { return std::log(larger / (1.0 - larger)) / pi; }
@@ -42,7 +42,7 @@ struct TwoWeights {
 
   LiftSystem build() const {
     MechanismBuilder builder;
-    builder.set_gravity({0, 0, -g});
+    builder.set_gravity({0, 0, -standard_gravity});
     for (const char* name : {"first", "last"}) {
       builder.add_body({.name = name,
                         .joint = {.kind = JointKind::translational},
@@ -157,12 +157,12 @@ TEST(RopeSplit, SticksWithinTheCone) {
   TwoWeights model{.first_mass = 10e3, .last_mass = 11e3, .damping_time = 0.05};
   model.duration = 10.0;
   const LiftSystem lift = model.build();
-  const IntegrationResult run =
-      integrate(lift, model.hang(10.5e3 * g), lift.v_start(), {.relative_tolerance = 1e-9});
+  const IntegrationResult run = integrate(lift, model.hang(10.5e3 * standard_gravity),
+                                          lift.v_start(), {.relative_tolerance = 1e-9});
   EXPECT_EQ(run.statistics.sheave_changes, 0);
   const auto [first, last] = tensions(run);
-  EXPECT_NEAR(first.tail(1)[0] / (model.first_mass * g), 1.0, 1e-6);
-  EXPECT_NEAR(last.tail(1)[0] / (model.last_mass * g), 1.0, 1e-6);
+  EXPECT_NEAR(first.tail(1)[0] / (model.first_mass * standard_gravity), 1.0, 1e-6);
+  EXPECT_NEAR(last.tail(1)[0] / (model.last_mass * standard_gravity), 1.0, 1e-6);
   EXPECT_DOUBLE_EQ(run.history.ropes[0].tension.tail(1)[0], last.tail(1)[0]);
   EXPECT_LT(run.v_end.norm(), 1e-6);
 }
@@ -179,10 +179,10 @@ TEST(RopeSplit, SlipsAtTheSharesOfStandards) {
     model.duration = 1.5;
     const LiftSystem lift = model.build();
     const double ratio = share / (1.0 - share);
-    const double a = g * (model.last_mass - ratio * model.first_mass) /
+    const double a = standard_gravity * (model.last_mass - ratio * model.first_mass) /
                      (model.last_mass + ratio * model.first_mass);
     const IntegrationResult run =
-        integrate(lift, model.hang(model.first_mass * (g + a)), lift.v_start(),
+        integrate(lift, model.hang(model.first_mass * (standard_gravity + a)), lift.v_start(),
                   {.relative_tolerance = 1e-9, .sample_interval = 0.01});
     ASSERT_GE(run.statistics.sheave_changes, 1);
     const auto [first, last] = tensions(run);
@@ -206,8 +206,8 @@ TEST(RopeSplit, ComesToAStandAndSticks) {
   model.axial_stiffness = 400e6;
   model.duration = 3.0;
   const LiftSystem lift = model.build();
-  const double braking = g * (0.55 - 0.45);
-  const double weight = model.first_mass * g;
+  const double braking = standard_gravity * (0.55 - 0.45);
+  const double weight = model.first_mass * standard_gravity;
   const IntegrationResult run = integrate(lift, model.hang(weight), speeds(v, -v),
                                           {.relative_tolerance = 1e-9, .sample_interval = 0.01});
   const double travel = 0.5 * v * v / braking;
@@ -231,13 +231,14 @@ TEST(RopeSplit, SheavesMultiply) {
     model.duration = 1.0;
     if (to_first) std::swap(model.first_mass, model.last_mass);
     const LiftSystem lift = model.build();
-    const IntegrationResult run = integrate(lift, model.hang(7e3 * g), lift.v_start(),
-                                            {.relative_tolerance = 1e-9, .sample_interval = 0.01});
+    const IntegrationResult run =
+        integrate(lift, model.hang(7e3 * standard_gravity), lift.v_start(),
+                  {.relative_tolerance = 1e-9, .sample_interval = 0.01});
     const auto [first, last] = tensions(run);
     const double ratio =
         to_first ? first.tail(1)[0] / last.tail(1)[0] : last.tail(1)[0] / first.tail(1)[0];
     EXPECT_NEAR(ratio, std::exp(0.1 * pi), 1e-9);
-    EXPECT_LT(largest_imbalance(run.history.energy), 1e-5 * 20e3 * g);
+    EXPECT_LT(largest_imbalance(run.history.energy), 1e-5 * 20e3 * standard_gravity);
   }
 }
 
@@ -246,11 +247,12 @@ TEST(RopeSplit, EnergyClosesOverSlackSlipAndStick) {
   TwoWeights model{.first_mass = 10e3, .last_mass = 10.5e3, .friction = 0.05};
   model.payout = 1.0;
   const LiftSystem lift = model.build();
-  const IntegrationResult run = integrate(lift, model.hang(10e3 * g), speeds(1.5, 1.0),
-                                          {.relative_tolerance = 1e-9, .sample_interval = 0.01});
+  const IntegrationResult run =
+      integrate(lift, model.hang(10e3 * standard_gravity), speeds(1.5, 1.0),
+                {.relative_tolerance = 1e-9, .sample_interval = 0.01});
   EXPECT_GE(run.statistics.contact_changes, 2);
   EXPECT_GE(run.statistics.sheave_changes, 2);
-  EXPECT_LT(largest_imbalance(run.history.energy), 1e-5 * 10e3 * g);
+  EXPECT_LT(largest_imbalance(run.history.energy), 1e-5 * 10e3 * standard_gravity);
   const auto [first, last] = tensions(run);
   const double capstan = std::exp(0.05 * pi);
   EXPECT_TRUE((first <= capstan * last * (1.0 + 1e-6) + 10.0).all());
@@ -265,13 +267,14 @@ TEST(RopeSplit, VanishesWithTheFriction) {
   model.friction = 0.0;
   const LiftSystem smooth = model.build();
   const auto run = [&](const LiftSystem& lift) {
-    return integrate(lift, model.hang(8e3 * g), lift.v_start(), {.relative_tolerance = 1e-10});
+    return integrate(lift, model.hang(8e3 * standard_gravity), lift.v_start(),
+                     {.relative_tolerance = 1e-10});
   };
   const IntegrationResult with = run(rubbing), without = run(smooth);
   EXPECT_LT((with.q_end - without.q_end).norm(), 1e-6);
   EXPECT_LT(
       (with.history.ropes[0].tension - without.history.ropes[0].tension).cwiseAbs().maxCoeff(),
-      1e-5 * 8e3 * g);
+      1e-5 * 8e3 * standard_gravity);
   const auto [first, last] = tensions(without);
   EXPECT_TRUE((first == last).all());
   EXPECT_EQ(without.statistics.sheave_changes, 0);
@@ -282,7 +285,7 @@ TEST(RopeSplit, GoesOnFromAnInstant) {
   TwoWeights model{.friction = friction_for_share(0.55), .damping_time = 0.02};
   model.duration = 3.0;
   const LiftSystem lift = model.build();
-  const Eigen::VectorXd start = model.hang(model.first_mass * g);
+  const Eigen::VectorXd start = model.hang(model.first_mass * standard_gravity);
   std::optional<Departure> departure;
   IntegrationSettings settings{.relative_tolerance = 1e-10};
   settings.observe = [&](Eigen::Index, double time, const LiftWorkspace& w) {
@@ -302,7 +305,7 @@ TEST(RopeSplit, AllocatesNothing) {
   const LiftSystem lift = model.build();
   LiftWorkspace w(lift);
   Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
-  get_state(lift, model.hang(8e3 * g), lift.v_start(), y);
+  get_state(lift, model.hang(8e3 * standard_gravity), lift.v_start(), y);
   const Contacts contacts = find_contacts(lift, 0.0, y, w);
   calc_contact_loads(lift, &contacts, w);
   lift.ropes()[0].calc_path(w.kinematics, w.path);
@@ -328,7 +331,7 @@ TEST(RopeSplit, JacobianIsThatOfTheForces) {
   const LiftSystem lift = model.build();
   LiftWorkspace w(lift);
   Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
-  Eigen::VectorXd q = model.hang(8e3 * g);
+  Eigen::VectorXd q = model.hang(8e3 * standard_gravity);
   q[0] += 3.0;
   q[4] += 4.0;
   Eigen::VectorXd v = speeds(0.1, -0.2);
