@@ -152,6 +152,8 @@ double RopeSplit::damp_group(std::size_t first, std::size_t last, double damping
     one.share = one.ratio * compliance / weighted;
     one.damping = damping_over_stiffness / compliance;
     rate += one.share * (one.rate - (i == 0 ? fed_rate : 0.0));
+    // What runs over a sheave stretches nothing.
+    if (i > first) rate -= wraps_[i - 1].slip_rate * (one.share - lengths_[i - 1].share);
   }
   const double force =
       std::max(lengths_[first].damping * rate, -std::max(0.0, stretch / compliance));
@@ -184,7 +186,7 @@ void RopeSplit::divide(const Rope& rope, const Kinematics& kinematics, const Rop
     first = last + 1;
   }
   const auto drive = [&](const Length& one) {
-    return one.elastic + 0.5 * one.elastic * one.elastic / axial_stiffness_;
+    return one.tension + 0.5 * one.elastic * one.elastic / axial_stiffness_;
   };
   load.tension = 0.0;
   for (std::size_t i = 0; i < lengths_.size(); ++i) {
@@ -197,7 +199,7 @@ void RopeSplit::divide(const Rope& rope, const Kinematics& kinematics, const Rop
   const Length& first = lengths_.front();
   split.first_tension = first.tension;
   split.last_tension = lengths_.back().tension;
-  split.feed_force = first.tension + drive(first) - first.elastic;
+  split.feed_force = drive(first);
 }
 
 void RopeSplit::require_lengths(const Rope& rope, std::size_t first, std::size_t last) const {
@@ -294,13 +296,18 @@ void RopeSplit::add_derivatives(const Rope& rope, const RopePath& path,
   };
   for (std::size_t first = 0; first < lengths_.size();) {
     const std::size_t last = end_of_group(first);
-    double compliance = 0.0;
-    for (std::size_t i = first; i <= last; ++i)
-      compliance += lengths_[i].yield * lengths_[i].compliance * lengths_[i].ratio;
+    double compliance = 0.0, weight = 0.0;
+    for (std::size_t i = first; i <= last; ++i) {
+      const double part = lengths_[i].yield * lengths_[i].compliance * lengths_[i].ratio;
+      compliance += part;
+      weight += part * lengths_[i].share;
+    }
     for (std::size_t i = first; i <= last; ++i) {
       for (std::size_t m = first; m <= last; ++m) {
-        add(i, m, lengths_[i].ratio * lengths_[m].yield / compliance,
-            lengths_[i].damping * lengths_[i].share * lengths_[m].share);
+        const Length& by = lengths_[m];
+        const double stretches = by.yield * weight / compliance + (1.0 - by.yield) * by.share;
+        add(i, m, lengths_[i].ratio * by.yield / compliance,
+            lengths_[i].damping * lengths_[i].share * stretches);
       }
     }
     first = last + 1;
