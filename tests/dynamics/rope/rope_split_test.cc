@@ -93,7 +93,7 @@ Tensions tensions(const IntegrationResult& run) {
   return {rope.first_force.rowwise().norm(), rope.last_force.rowwise().norm()};
 }
 
-double largest_imbalance(const EnergyHistory& e) {
+double imbalance_of(const EnergyHistory& e) {
   const Eigen::ArrayXd energy = e.kinetic + e.gravity + e.elastic;
   const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.outside_work - e.dissipated;
   return (energy - energy[0] - work).abs().maxCoeff();
@@ -193,7 +193,7 @@ TEST(RopeSplit, SlipsAtTheSharesOfStandards) {
     const auto velocity = run.history.bodies[1].velocity.col(5);
     EXPECT_NEAR((velocity[150] - velocity[100]) / 0.5, -a, 3e-3 * a);
     const EnergyHistory& energy = run.history.energy;
-    EXPECT_LT(largest_imbalance(energy), 1e-6 * energy.kinetic.maxCoeff());
+    EXPECT_LT(imbalance_of(energy), 1e-6 * energy.kinetic.maxCoeff());
     EXPECT_GT(energy.dissipated.tail(1)[0], 0.0);
   }
 }
@@ -217,7 +217,7 @@ TEST(RopeSplit, ComesToAStandAndSticks) {
   EXPECT_LT(run.statistics.sheave_changes, 60);
   // All of what they had is friction's in the end, but for a bounce.
   const EnergyHistory& energy = run.history.energy;
-  EXPECT_LT(largest_imbalance(energy), 1e-6 * weight);
+  EXPECT_LT(imbalance_of(energy), 1e-6 * weight);
   EXPECT_NEAR(energy.dissipated.tail(1)[0] / energy.kinetic[0], 1.0, 0.01);
   EXPECT_TRUE(
       (energy.dissipated.tail(299).array() >= energy.dissipated.head(299).array() - 1e-6).all());
@@ -240,7 +240,7 @@ TEST(RopeSplit, SheavesMultiply) {
     const double ratio =
         to_first ? first.tail(1)[0] / last.tail(1)[0] : last.tail(1)[0] / first.tail(1)[0];
     EXPECT_NEAR(ratio, std::exp(0.1 * pi), 1e-9);
-    EXPECT_LT(largest_imbalance(run.history.energy), 1e-5 * 20e3 * standard_gravity);
+    EXPECT_LT(imbalance_of(run.history.energy), 1e-5 * 20e3 * standard_gravity);
   }
 }
 
@@ -253,7 +253,7 @@ TEST(RopeSplit, EnergyClosesOverSlackSlipAndStick) {
                 {.relative_tolerance = 1e-9, .sample_interval = 0.01});
   EXPECT_GE(run.statistics.contact_changes, 2);
   EXPECT_GE(run.statistics.sheave_changes, 2);
-  EXPECT_LT(largest_imbalance(run.history.energy), 1e-5 * 10e3 * standard_gravity);
+  EXPECT_LT(imbalance_of(run.history.energy), 1e-5 * 10e3 * standard_gravity);
   const auto [first, last] = tensions(run);
   const double capstan = std::exp(0.05 * pi);
   EXPECT_TRUE((first <= capstan * last * (1.0 + 1e-6) + 10.0).all());
