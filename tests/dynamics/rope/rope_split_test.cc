@@ -199,10 +199,11 @@ TEST(RopeSplit, SlipsAtTheSharesOfStandards) {
 }
 
 // Equal weights set going slow down by the friction alone, stop after v (e + 1) / (g (e - 1)) and
-// half of that times v, and stick.
+// half of that times v, and stick. (The rope sticks for a first millisecond, until the ratio is
+// reached; in it damping c v takes 2 c v^2 0.5 mm / v, 0.8 % of what they have.)
 TEST(RopeSplit, ComesToAStandAndSticks) {
   constexpr double v = 0.5;
-  TwoWeights model{.friction = friction_for_share(0.55), .damping_time = 0.02};
+  TwoWeights model{.friction = friction_for_share(0.55), .damping_time = 0.002};
   model.axial_stiffness = 400e6;
   model.duration = 3.0;
   const LiftSystem lift = model.build();
