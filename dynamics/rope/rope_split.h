@@ -28,12 +28,12 @@ enum class SheaveMotion : signed char {
 /// Lengths joined by slipping sheaves, or one between sheaves at which the rope sticks, are damped
 /// together, as their tensions are to one another, so that the ratios stay and nothing pushes:
 ///   T_i = X_i + rho_i D,   rho_i = X_i / X,   X = sum C_i X_i / sum C_i,
-///   D = max(c R / (k sum C_i), -X),   R = sum rho_i dL_i/dt - rho_1 dL0/dt,
-/// c and k being those of the rope without friction (Rope), and dL0/dt only in the first of them.
-/// The rope is taut or slack as it is without friction.
+///   D = max(c R / (k sum C_i), -X),   R = sum rho_i (dL_i/dt - dl_i/dt),
+/// c and k being those of the rope without friction (Rope). The rope is taut or slack as it is
+/// without friction.
 ///
 /// Energy: stored sum C_i X_i^2 / 2; dissipated sum D R, and
-///   s ((X_b + X_b^2/2EA) - (X_a + X_a^2/2EA))
+///   s ((T_b + X_b^2/2EA) - (T_a + X_a^2/2EA))
 /// at a sheave over which the rope runs from a to b at the rate s (unstretched, m/s); supplied
 /// -dL0/dt (T_1 + X_1^2/2EA). Made once, then used without allocating.
 ///
