@@ -251,6 +251,11 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
   const double change = database.change_from_coarser.maxCoeff(&worst);
   if (change <= acceptable_change) return {};
   const auto body = static_cast<std::size_t>(worst / modes_per_body);
+  if (!std::isfinite(change))
+    return fmt::format(
+        "the panels are coarse: those of twice the size have no solution for {}, and nothing is "
+        "known of the error of these; take smaller panels",
+        database.body_names[body]);
   return fmt::format(
       "the panels are coarse: the radiation force of {} in {} changes by {:.0f} % from panels of "
       "twice the size to these; take smaller panels until that is below {:.0f} %",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -136,8 +137,13 @@ void PartComputation::run(double step, long steps, std::vector<MatrixXd>& retard
     retardation[static_cast<std::size_t>(k)](modes, modes) += share;
     if (k % 16 == 0) progress.march(static_cast<double>(k) / static_cast<double>(steps));
   });
-  // The coarser surface's waves are longer: what the finer one's step suits suits it too.
-  if (coarser_run_) coarser_run_->run(step, steps, [](long, const MatrixXd&) {});
+  // The coarser surface's waves are longer: what the finer one's step suits suits it too. Where not,
+  // the coarser panels have no solution that means anything.
+  if (coarser_run_ && step <= coarser_run_->step_limit()) {
+    coarser_run_->run(step, steps, [](long, const MatrixXd&) {});
+  } else {
+    coarser_run_.reset();
+  }
 }
 
 void PartComputation::add_frequencies(HydrodynamicDatabase& database) const {
@@ -149,8 +155,12 @@ void PartComputation::add_frequencies(HydrodynamicDatabase& database) const {
 }
 
 void PartComputation::add_coarser(std::vector<MatrixXcd>& forces) const {
-  if (!coarser_run_) return;
   const auto& modes = part_.modes();
+  if (!coarser_run_) {
+    for (MatrixXcd& force : forces)
+      force(modes, modes).setConstant(std::numeric_limits<double>::infinity());
+    return;
+  }
   const MatrixXd& volume = part_.coarser()->infinite_frequency_volume();
   for (std::size_t k = 0; k < settings_.frequencies.size(); ++k) {
     const MatrixXd mass = model_.water().density * volume + coarser_run_->added_mass(k);

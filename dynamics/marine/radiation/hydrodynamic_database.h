@@ -39,8 +39,8 @@ struct HydrodynamicDatabase {
   std::vector<Eigen::MatrixXcd> froude_krylov;  ///< for each frequency, 6N x headings; N/m, N
   std::vector<Eigen::MatrixXcd> diffraction;    ///< likewise
   /// For each mode, how much its radiation force on itself, B + i w A, changes at most over the
-  /// frequencies from panels of twice the size to these, relative; empty: unknown. It bounds the
-  /// panels' error: at first order it is the error itself, at second order three times as much.
+  /// frequencies from panels of twice the size to these, relative; infinite: those have no solution;
+  /// empty: unknown. At first order it is the panels' error itself, at second order three times it.
   Eigen::VectorXd change_from_coarser;
   /// Mean forces of second order on each body as it floats, in regular waves of unit amplitude
   /// (calc_mean_drift): 6N x headings for each frequency; N/m2, N m/m2; empty: unknown.

@@ -1,0 +1,43 @@
+// What is said of a database whose panels are not known to be fine enough.
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/hydrodynamics/hydrodynamic_report.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+dynamics::HydrodynamicDatabase two_bodies() {
+  dynamics::HydrodynamicDatabase database;
+  database.body_names = {"pontoon", "ship"};
+  database.change_from_coarser = Eigen::VectorXd::Constant(12, 0.001);
+  return database;
+}
+
+TEST(DoubtAboutPanels, IsNoneWhereTheyAreFineOrNothingIsKnown) {
+  dynamics::HydrodynamicDatabase database = two_bodies();
+  EXPECT_THAT(doubt_about_panels(database), IsEmpty());
+  database.change_from_coarser = {};
+  EXPECT_THAT(doubt_about_panels(database), IsEmpty());
+}
+
+TEST(DoubtAboutPanels, NamesTheWorstMode) {
+  dynamics::HydrodynamicDatabase database = two_bodies();
+  database.change_from_coarser[8] = 0.4;
+  EXPECT_THAT(doubt_about_panels(database), HasSubstr("of ship in heave changes by 40 %"));
+}
+
+TEST(DoubtAboutPanels, SaysThatCoarserOnesHaveNoSolution) {
+  dynamics::HydrodynamicDatabase database = two_bodies();
+  database.change_from_coarser.tail<6>().setConstant(std::numeric_limits<double>::infinity());
+  EXPECT_THAT(doubt_about_panels(database), HasSubstr("have no solution for ship"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
