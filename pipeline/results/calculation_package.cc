@@ -61,8 +61,16 @@ void add_weights(const Assessment& assessment, TextDocument& document) {
                        " m.");
 }
 
+/// What a sling may bear by the rules, its breaking load over their safety factor, t.
+std::string borne_by_rules(const StandardAssessment& standard, const std::string& sling) {
+  for (const Chain& chain : standard.chains)
+    if (chain.kind == "sling" && chain.name == sling && chain.limit) return tonnes(*chain.limit);
+  return "–";
+}
+
 /// Identification and certificate are filled in by hand: the case does not know them.
-void add_rigging(const LiftCase& lift_case, TextDocument& document) {
+void add_rigging(const LiftCase& lift_case, const StandardAssessment& standard,
+                 TextDocument& document) {
   std::vector<Row> slings, shackles, links, sheaves, bars;
   for (const RopeInCase& rope : lift_case.ropes) {
     if (!rope.is_sling()) continue;
@@ -70,7 +78,8 @@ void add_rigging(const LiftCase& lift_case, TextDocument& document) {
                       fmt::format("{:.3f}", rope.length.value), number(rope.rope.diameter, 1e3, 0),
                       rope.rope.material ? rope.rope.material->value : "–",
                       rope.rope.termination ? rope.rope.termination->value : "–",
-                      tonnes(rope.rope.breaking_load), "", ""});
+                      borne_by_rules(standard, rope.name.value), tonnes(rope.rope.breaking_load),
+                      "", ""});
   }
   for (const ShackleInCase& shackle : lift_case.standard->shackles)
     shackles.push_back(
@@ -87,7 +96,7 @@ void add_rigging(const LiftCase& lift_case, TextDocument& document) {
   document.heading("Rigging list");
   if (!slings.empty())
     document.table({"sling", "ends at", "length, m", "diameter, mm", "material", "termination",
-                    "MBL, t", "ID", "certificate"},
+                    "WLL by the rules, t", "MBL, t", "ID", "certificate"},
                    std::move(slings));
   if (!shackles.empty())
     document.table({"shackle at lug", "WLL, t", "MBL, t", "ID", "certificate"},
@@ -216,7 +225,7 @@ TextDocument calculation_package(const Assessment& assessment) {
   document.title("Calculation: " + (lift_case.title.empty() ? lift_case.name : lift_case.title));
   add_basis(assessment, document);
   add_weights(assessment, document);
-  add_rigging(lift_case, document);
+  add_rigging(lift_case, *assessment.standard, document);
   add_geometry(lift_case, document);
   add_load_cases(lift_case, document);
   add_utilisations(*assessment.standard, document);
