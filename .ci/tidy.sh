@@ -38,6 +38,7 @@ fi
 
 rm -rf build/tidy
 cmake --preset tidy >/dev/null
+sed -i 's/ -fno-reorder-blocks-and-partition//' build/tidy/compile_commands.json  # GCC's alone
 mapfile -t bundles < <(find "$PWD"/build/tidy/{dynamics,structure,pipeline} -name 'unity_*.cxx' | sort)
 sed -i -e '/^#include/!d' -e "\\|$PWD/build/tidy/|d" "${bundles[@]}"  # without what the build would generate
 # Sources that CMake leaves alone, for options of their own.
