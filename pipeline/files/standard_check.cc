@@ -1,6 +1,7 @@
 #include "pipeline/files/standard_check.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,8 @@ class StandardCheck {
   }
 
   void sling(const RopeInCase& rope) {
+    // A model that could not be read has been complained of.
+    if (!std::isfinite(rope.rope.axial_stiffness)) return;
     const auto lacks = [&](const char* key, const char* why) {
       diagnostics_.error(
           rope.name.mark,

@@ -16,6 +16,7 @@ using test::TemporaryFolder;
 using test::with;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string sample_rules = R"(kind: standard
 title: A yard's rules
@@ -88,8 +89,7 @@ TEST(StandardRulesTest, ShippedRulesAreSound) {
 }
 
 /// What is said about the sample lift with a standard, and the shipped models.
-std::string complaints_about_standard(const std::string& standard) {
-  SampleLift lift;
+std::string complaints_about_standard(const std::string& standard, SampleLift lift = {}) {
   lift.lift_case += "standard: " + standard + "\n";
   const TemporaryFolder folder;
   lift.write(folder);
@@ -123,6 +123,15 @@ TEST(StandardInCaseTest, AsksForWhatTheRulesNeed) {
   EXPECT_THAT(text, HasSubstr("need a skew"));
   EXPECT_THAT(text, HasSubstr("the model of rope R1 has no material, which the rules 0027/ND need "
                               "for slings"));
+}
+
+TEST(StandardInCaseTest, AsksNothingOfAModelThatIsNotThere) {
+  SampleLift lift;
+  const std::size_t at = lift.lift_case.find("model: ropes/", lift.lift_case.find("R1:"));
+  lift.lift_case.insert(at + std::string("model: ").size(), "no-");
+  const std::string text = complaints_about_standard("{rules: nd-0027}", lift);
+  EXPECT_THAT(text, HasSubstr("there is no rope model \"no-ropes/"));
+  EXPECT_THAT(text, Not(HasSubstr("the model of rope R1 has no")));
 }
 
 TEST(StandardInCaseTest, LooksAtMasterLinksAndSheaves) {
