@@ -119,5 +119,30 @@ TEST(DeckJoints, ForcesOnWhatFollowsByAnEquation) {
   EXPECT_NEAR(motion[6 * space.node_of_vertex(1) + 2], 0.06, 1e-12);
 }
 
+// A bay of a spar: a web that bears shear between two flanges and two posts, held at one post and
+// pressed down at the other. q = P / b in the web; by its corners' forces the flanges have q a / 2
+// all along: P delta = q^2 a b / (G t) + 2 (q a / 2)^2 a / (E A).
+TEST(DeckJoints, AShearPanelInItsFrame) {
+  Deck deck = nastran(
+      "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,.5,0.\nGRID,4,,0.,.5,0.\n"
+      "CSHEAR,1,5,1,2,3,4\nPSHEAR,5,7,.003\nPROD,6,7,.0005\nMAT1,7,70.+9,,.3,2700.,,,\n,275.+6\n"
+      "CROD,2,6,1,2\nCROD,3,6,2,3\nCROD,4,6,3,4\n");
+  const Space space(deck.mesh, {1, {}});
+  std::vector<FixedUnknown> fixed;
+  const auto is_corner = [](const Vector3& x) { return std::abs(x.x() - 1) > 0.5; };
+  testing::hold(space, is_corner, {2, 3, 4, 5}, fixed);
+  testing::hold(
+      space, [](const Vector3& x) { return x.x() < 0.5; }, {0, 1}, fixed);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
+  const double force = 1000;
+  for (const int v : {1, 2}) load[6 * space.node_of_vertex(v) + 1] = -force / 2;
+  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+  const double a = 2, b = 0.5, modulus = 70e9, shear = modulus / 2.6;
+  const double deflection =
+      force * a / (shear * 0.003 * b) + force * a * a * a / (2 * b * b * modulus * 0.0005);
+  for (const int v : {1, 2})
+    EXPECT_NEAR(motion[6 * space.node_of_vertex(v) + 1], -deflection, 1e-9 * deflection);
+}
+
 }  // namespace
 }  // namespace blocklift::structure::test

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/abaqus/generation.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/label_range.h"
 
@@ -62,13 +63,22 @@ class Cells {
     divide(blocks);
     for (std::size_t s = 0; s < model_.scopes.size(); ++s) {
       scope_ = static_cast<int>(s);
-      for (const AbaqusBlock* block : model_.scopes[s].blocks)
+      for (const AbaqusBlock* block : model_.scopes[s].blocks) {
         if (block->name == "NODE") model_.guarded(*block, [&] { add_nodes(*block); });
+        if (block->name == "NGEN" || block->name == "NFILL" || block->name == "NCOPY")
+          model_.guarded(*block, [&] { add_made_nodes(*block); });
+        if (block->name == "NSET") foresee(*block, "NSET", scope().nodes, scope().node_sets);
+      }
     }
     for (std::size_t s = 0; s < model_.scopes.size(); ++s) {
       scope_ = static_cast<int>(s);
-      for (const AbaqusBlock* block : model_.scopes[s].blocks)
+      for (const AbaqusBlock* block : model_.scopes[s].blocks) {
         if (block->name == "ELEMENT") model_.guarded(*block, [&] { add_elements(*block); });
+        if (block->name == "ELGEN" || block->name == "ELCOPY")
+          model_.guarded(*block, [&] { add_made_elements(*block); });
+        if (block->name == "ELSET")
+          foresee(*block, "ELSET", scope().elements, scope().element_sets);
+      }
     }
     number_vertices();
     for (std::size_t s = 0; s < model_.scopes.size(); ++s) {
@@ -161,18 +171,84 @@ class Cells {
                     abaqus_real(fields, 3, "coordinate", 0.0));
       // Abaqus' spherical system counts its last angle from the plane of axes 1 and 2.
       if (local.kind == SystemKind::spherical) given = Vector3(given[0], 90 - given[2], given[1]);
-      const Vector3 place =
-          model_.units.length * (scope().turn * local.place(given) + scope().shift);
-      if (!(place.cwiseAbs().maxCoeff() < 1e7))
-        throw CardError{fmt::format("node {} lies farther than 10,000 km away", label)};
-      const auto vertex = static_cast<int>(model_.deck.mesh.vertices.size());
-      if (!scope().nodes.try_emplace(label, vertex).second)
-        throw CardError{fmt::format("node {} is there twice", label)};
-      model_.deck.mesh.vertices.push_back(place);
-      labels_.push_back(label);
-      scope_of_.push_back(scope_);
-      if (!set.empty()) scope().node_sets[set].push_back(vertex);
+      add_node(label, model_.units.length * (scope().turn * local.place(given) + scope().shift),
+               set);
     });
+  }
+
+  void add_node(long label, const Vector3& place, const std::string& set) {
+    if (!(place.cwiseAbs().maxCoeff() < 1e7))
+      throw CardError{fmt::format("node {} lies farther than 10,000 km away", label)};
+    const auto vertex = static_cast<int>(model_.deck.mesh.vertices.size());
+    if (!scope().nodes.try_emplace(label, vertex).second)
+      throw CardError{fmt::format("node {} is there twice", label)};
+    model_.deck.mesh.vertices.push_back(place);
+    labels_.push_back(label);
+    scope_of_.push_back(scope_);
+    if (!set.empty()) scope().node_sets[set].push_back(vertex);
+  }
+
+  // A node that is there already stays where it is: lines and fields meet.
+  void add_made_nodes(const AbaqusBlock& block) {
+    const MadeNodes made = make_nodes(model_, scope(), block, labels_);
+    if (!made.set.empty()) keep(scope().node_sets[made.set], made.others);
+    for (const auto& [label, place] : made.places) {
+      const auto known = scope().nodes.find(label);
+      if (known == scope().nodes.end())
+        add_node(label, place, made.set);
+      else if (!made.set.empty())
+        scope().node_sets[made.set].push_back(known->second);
+    }
+  }
+
+  void add_made_elements(const AbaqusBlock& block) {
+    const MadeElements made = make_elements(model_, scope(), block);
+    if (!made.set.empty()) keep(scope().element_sets[made.set], made.others);
+    for (const MadeElement& one : made.elements) {
+      AbaqusDeckElement element = model_.elements[at(one.like)];
+      element.label = one.label;
+      for (int& node : element.nodes) {
+        const long label = labels_[at(node)] + one.shift_of_nodes;
+        const auto found = scope().nodes.find(label);
+        if (found == scope().nodes.end())
+          throw CardError{
+              fmt::format("element {} names node {}, which does not exist", element.label, label)};
+        node = found->second;
+      }
+      add_element(std::move(element), made.set);
+    }
+  }
+
+  /// Members of a set that what makes nodes or elements may need before all of these are known;
+  /// what is wrong with it is said when it is read.
+  static void foresee(const AbaqusBlock& block, const char* name,
+                      const std::unordered_map<long, int>& known,
+                      std::map<std::string, std::vector<int>>& sets) {
+    const std::string set = block.value(name);
+    if (set.empty() || block.has("INSTANCE") || (block.name == "NSET" && block.has("ELSET")))
+      return;
+    std::vector<int> members;
+    for (const AbaqusLine& line : block.data) {
+      const auto fields = line.fields();
+      const auto first = to_integer(fields.front());
+      if (block.has("GENERATE") && first && fields.size() > 1) {
+        const auto last = to_integer(fields[1]);
+        const auto step = fields.size() > 2 ? to_integer(fields[2]) : 1;
+        if (!last || !step || *step < 1) continue;
+        for (const long label : known_labels(known, *first, *last, *step))
+          members.push_back(known.at(label));
+        continue;
+      }
+      for (const std::string_view field : fields) {
+        if (const auto label = to_integer(field)) {
+          if (const auto found = known.find(*label); found != known.end())
+            members.push_back(found->second);
+        } else if (const auto other = sets.find(upper(field)); other != sets.end()) {
+          members.insert(members.end(), other->second.begin(), other->second.end());
+        }
+      }
+    }
+    if (!members.empty()) keep(sets[set], members);
   }
 
   /// Numbers are the user's own where one scope has nodes; else each instance's are raised.
@@ -252,6 +328,10 @@ class Cells {
             fmt::format("element {} names node {}, which does not exist", element.label, label)};
       element.nodes.push_back(found->second);
     }
+    add_element(std::move(element), set);
+  }
+
+  void add_element(AbaqusDeckElement element, const std::string& set) {
     const auto place = static_cast<int>(model_.elements.size());
     if (!scope().elements.try_emplace(element.label, place).second)
       throw CardError{fmt::format("element {} is there twice", element.label)};

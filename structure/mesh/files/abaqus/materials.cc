@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "structure/mesh/files/abaqus/model.h"
@@ -31,9 +32,14 @@ class MaterialBlocks {
       return;
     }
     if (block.data.empty()) throw CardError{"a line of data is missing"};
-    if (block.data.size() > (block.value("TYPE").empty() ? 1U : 2U) && block.name != "PLASTIC")
+    if (block.data.size() > lines_of(block.value("TYPE")) && block.name != "PLASTIC")
       model_.log.leave_out("*" + block.name, "values at other temperatures: the first are used");
-    const auto fields = block.data.front().fields();
+    auto fields = block.data.front().fields();
+    if (lines_of(block.value("TYPE")) > 1 && block.data.size() > 1) {
+      fields.resize(8);  // the first line is full
+      const auto more = block.data[1].fields();
+      fields.insert(fields.end(), more.begin(), more.end());
+    }
     if (block.name == "DENSITY")
       material_.isotropic.density = abaqus_real(fields, 0, "density") * model_.units.density();
     else if (block.name == "PLASTIC")
@@ -65,6 +71,12 @@ class MaterialBlocks {
     return names.count(name) > 0;
   }
 
+  /// Lines of data at one temperature.
+  static std::size_t lines_of(const std::string& type) {
+    if (type.starts_with("ANISO")) return 3;
+    return type.starts_with("ENGINEERING") || type.starts_with("ORTHO") ? 2 : 1;
+  }
+
   void read_yield(const std::vector<std::string_view>& fields) {
     material_.isotropic.yield_stress = abaqus_real(fields, 0, "stress") * model_.units.stress();
     model_.log.leave_out("*PLASTIC", "plasticity: its first stress is the yield stress");
@@ -79,9 +91,15 @@ class MaterialBlocks {
       material_.isotropic.poisson_ratio = abaqus_real(fields, 1, "Poisson's ratio", 0.0);
       return;
     }
+    if (without_blanks(type) == "ENGINEERINGCONSTANTS" || type.starts_with("ORTHO")) {
+      read_orthotropic(type.starts_with("ORTHO"), fields);
+      return;
+    }
     if (type != "LAMINA")
       throw CardError{
-          fmt::format("elasticity of type {} is not known; ISOTROPIC and LAMINA are", type)};
+          fmt::format("elasticity of type {} is not known; ISOTROPIC, LAMINA, ORTHOTROPIC and "
+                      "ENGINEERING CONSTANTS are",
+                      type)};
     // E1, E2, nu12, G12, G13, G23
     std::array<double, 6> value{};
     for (std::size_t i = 0; i < 6; ++i)
@@ -93,6 +111,45 @@ class MaterialBlocks {
     material_.isotropic.youngs_modulus = value[0];
     material_.isotropic.poisson_ratio = value[2];
     material_.ply = orthotropic_ply(value[0], value[1], value[2], value[3], value[4], value[5], 0);
+  }
+
+  // E1, E2, E3, nu12, nu13, nu23, G12, G13 / G23, or D1111, D1122, D2222, D1133, D2233, D3333,
+  // D1212, D1313 / D2323. A plate of it is in plane stress; a solid must be the same in all
+  // directions.
+  void read_orthotropic(bool is_by_stiffness, const std::vector<std::string_view>& fields) {
+    const double stress = model_.units.stress();
+    std::array<double, 9> v{};
+    for (std::size_t i = 0; i < v.size(); ++i)
+      v[i] = abaqus_real(fields, i, "elastic constant") *
+             (!is_by_stiffness && i >= 3 && i < 6 ? 1.0 : stress);
+    // Compliance of the direct stresses: epsilon = c sigma.
+    Eigen::Matrix3d c;
+    if (is_by_stiffness) {
+      Eigen::Matrix3d d;
+      d << v[0], v[1], v[3], v[1], v[2], v[4], v[3], v[4], v[5];
+      c = d.inverse();
+    } else {
+      c << 1 / v[0], -v[3] / v[0], -v[4] / v[0], -v[3] / v[0], 1 / v[1], -v[5] / v[1], -v[4] / v[0],
+          -v[5] / v[1], 1 / v[2];
+    }
+    const Eigen::Vector3d shear(v[6], v[7], v[8]);  // G12, G13, G23
+    if (!c.allFinite() || !(shear.minCoeff() > 0) ||
+        !(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c).eigenvalues().minCoeff() > 0))
+      throw CardError{"the elastic constants belong to no material: its energy is not positive"};
+    const double modulus = 3 / c.trace();
+    const double ratio = -modulus * (c(0, 1) + c(0, 2) + c(1, 2)) / 3;
+    Eigen::Matrix3d even = Eigen::Matrix3d::Constant(-ratio / modulus);
+    even.diagonal().setConstant(1 / modulus);
+    constexpr double rounding = 1e-3;
+    material_.is_isotropic =
+        (c - even).cwiseAbs().maxCoeff() < rounding / modulus &&
+        (shear * (2 * (1 + ratio) / modulus) - Eigen::Vector3d::Ones()).cwiseAbs().maxCoeff() <
+            rounding;
+    material_.isotropic.youngs_modulus = material_.is_isotropic ? modulus : 1 / c(0, 0);
+    material_.isotropic.poisson_ratio = material_.is_isotropic ? ratio : -c(0, 1) / c(0, 0);
+    if (!material_.is_isotropic)
+      material_.ply =
+          orthotropic_ply(1 / c(0, 0), 1 / c(1, 1), -c(0, 1) / c(0, 0), v[6], v[7], v[8], 0);
   }
 
   AbaqusModel& model_;

@@ -24,6 +24,12 @@ const std::set<std::string, std::less<>>& keywords_read() {
                                                         "NODE",
                                                         "NODAL THICKNESS",
                                                         "ELEMENT",
+                                                        "NGEN",
+                                                        "NFILL",
+                                                        "NCOPY",
+                                                        "ELGEN",
+                                                        "ELCOPY",
+                                                        "CONTACT PAIR",
                                                         "NSET",
                                                         "ELSET",
                                                         "SURFACE",
@@ -116,7 +122,22 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
                                                         "SURFACE BEHAVIOR",
                                                         "INTEGRATED OUTPUT SECTION",
                                                         "BASE STATE",
-                                                        "MODAL DAMPING"};
+                                                        "MODAL DAMPING",
+                                                        "CONTACT",
+                                                        "CONTACT INCLUSIONS",
+                                                        "CONTACT EXCLUSIONS",
+                                                        "CONTACT PROPERTY ASSIGNMENT",
+                                                        "CONTACT INITIALIZATION DATA",
+                                                        "CONTACT INITIALIZATION ASSIGNMENT",
+                                                        "CONTACT CONTROLS",
+                                                        "CONTACT CONTROLS ASSIGNMENT",
+                                                        "CONTACT FORMULATION",
+                                                        "CONTACT DAMPING",
+                                                        "CONTACT STABILIZATION",
+                                                        "SURFACE PROPERTY ASSIGNMENT",
+                                                        "CLEARANCE",
+                                                        "GAP CONDUCTANCE",
+                                                        "WAVEFRONT MINIMIZATION"};
   return names;
 }
 

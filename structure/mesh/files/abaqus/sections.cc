@@ -110,7 +110,13 @@ class Sections {
           block.data.empty()
               ? model_.units.length
               : abaqus_real(block.data.front().fields(), 0, "thickness") * model_.units.length;
-      section.material = abaqus_material(model_, block.required("MATERIAL"));
+      if (!(section.thickness > 0)) throw CardError{"the thickness must be positive"};
+      const std::string name = block.required("MATERIAL");
+      const auto found = model_.materials.find(name);
+      if (found != model_.materials.end() && !found->second.is_isotropic)
+        laminate({{found->second.ply, section.thickness, 0}}, block, section);
+      else
+        section.material = abaqus_material(model_, name);
     }
     if (!(section.thickness > 0)) throw CardError{"the thickness must be positive"};
     section.offset = -offset_share(block) * section.thickness;
@@ -183,7 +189,6 @@ class Sections {
   void read_layers(const AbaqusBlock& block, ShellSection& section) {
     std::vector<Ply> plies;
     std::vector<std::string> names;
-    double mass = 0;
     for (const AbaqusLine& line : block.data) {
       const Fields fields = line.fields();
       if (fields.size() < 3) throw CardError{"a layer is thickness, points, material, angle"};
@@ -197,7 +202,6 @@ class Sections {
       ply.angle = abaqus_real(fields, 3, "angle", 0.0) * std::numbers::pi / 180;
       if (!(ply.thickness > 0)) throw CardError{"the thickness of a layer must be positive"};
       section.thickness += ply.thickness;
-      mass += ply.material.density * ply.thickness;
       plies.push_back(ply);
     }
     const bool is_one = std::all_of(names.begin(), names.end(),
@@ -206,7 +210,14 @@ class Sections {
       section.material = abaqus_material(model_, names.front());
       return;
     }
+    laminate(plies, block, section);
+  }
+
+  /// Gives a section the stiffness of layers, unless a plate of one material has just that.
+  void laminate(const std::vector<Ply>& plies, const AbaqusBlock& block, ShellSection& section) {
     const Laminate laminate = stack(plies);
+    double mass = 0;
+    for (const Ply& ply : plies) mass += ply.material.density * ply.thickness;
     const NearestPlate nearest = nearest_plate(laminate, section.thickness);
     const std::string name = "layers of " + block.required("ELSET");
     section.material = static_cast<int>(mesh_.materials.size());

@@ -128,6 +128,7 @@ class Ties {
     for (const AbaqusScope& scope : model_.scopes)
       for (const AbaqusBlock* block : scope.blocks) {
         if (block->name == "TIE") model_.guarded(*block, [&] { add(scope, *block); });
+        if (block->name == "CONTACT PAIR") join_or_leave(scope, *block);
         if (block->name == "SHELL TO SOLID COUPLING")
           model_.guarded(*block, [&] { couple(scope, *block); });
       }
@@ -146,6 +147,43 @@ class Ties {
       if (fields.size() < 2) throw CardError{"two surfaces are due: slave and master"};
       fasten(slaves_of(scope, fields[0]), masters_of(fields[1]), tolerance, block.line);
     }
+  }
+
+  // *CONTACT PAIR, INTERACTION = , TIED, ADJUST = / slave, master. Contact that is tied, by itself
+  // or by its interaction (CalculiX), joins; any other is left open.
+  void join_or_leave(const AbaqusScope& scope, const AbaqusBlock& block) {
+    if (!block.has("TIED") && !has_tied_interaction(block)) {
+      model_.log.leave_out("*CONTACT PAIR",
+                           "surfaces that touch are not joined; *TIE, or contact that is tied, "
+                           "joins them");
+      return;
+    }
+    model_.guarded(block, [&] {
+      // A set in place of a distance names the nodes that are moved.
+      const bool has_distance = to_real(block.value("ADJUST")).has_value();
+      const auto tolerance = has_distance ? distance(block, "ADJUST") : std::nullopt;
+      has_rotations_ = true;
+      for (const AbaqusLine& line : block.data) {
+        const auto fields = line.fields();
+        if (fields.size() < 2) throw CardError{"two surfaces are due: slave and master"};
+        fasten(slaves_of(scope, fields[0]), masters_of(fields[1]), tolerance, block.line);
+      }
+    });
+  }
+
+  /// *SURFACE INTERACTION, NAME = with *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE = TIED below it.
+  bool has_tied_interaction(const AbaqusBlock& pair) const {
+    const std::string name = pair.value("INTERACTION");
+    for (const AbaqusScope& scope : model_.scopes) {
+      bool is_meant = false;
+      for (const AbaqusBlock* block : scope.blocks) {
+        if (block->name == "SURFACE INTERACTION") is_meant = block->value("NAME") == name;
+        if (block->name == "SURFACE BEHAVIOR" && is_meant &&
+            block->value("PRESSURE-OVERCLOSURE") == "TIED")
+          return true;
+      }
+    }
+    return false;
   }
 
   std::optional<double> distance(const AbaqusBlock& block, const char* parameter) const {

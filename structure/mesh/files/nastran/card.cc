@@ -48,6 +48,7 @@ std::array<bool, 6> CardView::components(std::size_t i, const char* what) const 
   std::array<bool, 6> bound{};
   if (!has(i)) refuse(i, what, "list of components of 1 to 6");
   for (const char c : text(i)) {
+    if (c == ' ') continue;  // in small fields: "12 456"
     if (c < '1' || c > '6' || bound[at(c - '1')])
       refuse(i, what, "list of components of 1 to 6, each once");
     bound[at(c - '1')] = true;

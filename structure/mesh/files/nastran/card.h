@@ -34,7 +34,7 @@ class CardView {
   long label(std::size_t i, const char* what, long otherwise) const;
   double real(std::size_t i, const char* what) const;
   double real(std::size_t i, const char* what, double otherwise) const;
-  /// Digits 1 to 6, each once.
+  /// Digits 1 to 6, each once; blanks between them do not count.
   std::array<bool, 6> components(std::size_t i, const char* what) const;
 
  private:

@@ -144,10 +144,9 @@ class Shells {
       sum += thickness;
     }
     if (most > 1.01 * least)
-      throw CardError{fmt::format(
-          "{} {} is {:g} to {:g} m thick; plates of one thickness are read (within 1 %, of which "
-          "the mean is taken): divide it",
-          card.name(), card.text(0), least, most)};
+      model_.log.remark(card.line(), card.name() +
+                                         ": plates whose corners are of several "
+                                         "thicknesses have their mean throughout");
     const double mean = sum / static_cast<double>(layout.corners);
     return std::abs(mean - of_property) < 1e-9 * mean ? 0 : mean;
   }

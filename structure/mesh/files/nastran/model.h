@@ -107,9 +107,13 @@ void read_nastran_cells(NastranModel& model);
 void read_nastran_solids(NastranModel& model);
 /// CONM1, CONM2, CMASS1, CMASS2.
 void read_nastran_masses(NastranModel& model);
+/// CSHEAR with PSHEAR.
+void read_nastran_shear_panels(NastranModel& model);
 /// RBE1, RBE2, RBE3, RBAR, RROD, RTRPLT, RJOINT.
 void read_nastran_links(NastranModel& model);
-/// CELAS1, CELAS2, CBUSH.
+/// RSPLINE.
+void read_nastran_splines(NastranModel& model);
+/// CELAS1, CELAS2, CBUSH, CBUSH1D.
 void read_nastran_springs(NastranModel& model);
 /// Spreads the mass of a set (NSM, NSM1, NSML, NSML1, NSMADD) over its cells.
 /// @throws CardError if there is no such set.

@@ -17,15 +17,16 @@ namespace {
 /// Cards that some stage reads.
 const std::set<std::string, std::less<>>& cards_read() {
   static const std::set<std::string, std::less<>> names{
-      "GRID",   "GRDSET",  "CORD1R",  "CORD1C",  "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PARAM",
-      "CQUAD4", "CQUAD8",  "CQUADR",  "CTRIA3",  "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",
-      "CTUBE",  "CONROD",  "CBUSH",   "CELAS1",  "CELAS2", "CONM1",  "CONM2",  "RBE1",   "RBE2",
-      "RBE3",   "RBAR",    "RROD",    "RTRPLT",  "RJOINT", "CMASS1", "CMASS2", "PMASS",  "NSM",
-      "NSM1",   "NSML",    "NSML1",   "NSMADD",  "PSHELL", "PCOMP",  "PCOMPG", "PBAR",   "PBARL",
-      "PBEAM",  "PBEAML",  "PROD",    "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",
-      "BAROR",  "BEAMOR",  "SPC",     "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1",
-      "FORCE2", "MOMENT",  "MOMENT1", "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2",
-      "PLOAD4", "INCLUDE", "CHEXA",   "CPENTA",  "CTETRA", "PSOLID"};
+      "GRID",    "GRDSET",  "CORD1R",  "CORD1C",  "CORD1S", "CORD2R", "CORD2C", "CORD2S", "PARAM",
+      "CQUAD4",  "CQUAD8",  "CQUADR",  "CTRIA3",  "CTRIA6", "CTRIAR", "CBAR",   "CBEAM",  "CROD",
+      "CTUBE",   "CONROD",  "CBUSH",   "CELAS1",  "CELAS2", "CONM1",  "CONM2",  "RBE1",   "RBE2",
+      "RBE3",    "RBAR",    "RROD",    "RTRPLT",  "RJOINT", "CMASS1", "CMASS2", "PMASS",  "NSM",
+      "NSM1",    "NSML",    "NSML1",   "NSMADD",  "PSHELL", "PCOMP",  "PCOMPG", "PBAR",   "PBARL",
+      "PBEAM",   "PBEAML",  "PROD",    "PTUBE",   "PBUSH",  "PELAS",  "MAT1",   "MAT2",   "MAT8",
+      "BAROR",   "BEAMOR",  "SPC",     "SPC1",    "SPCADD", "MPC",    "MPCADD", "FORCE",  "FORCE1",
+      "FORCE2",  "MOMENT",  "MOMENT1", "MOMENT2", "LOAD",   "GRAV",   "PLOAD",  "PLOAD1", "PLOAD2",
+      "PLOAD4",  "INCLUDE", "CHEXA",   "CPENTA",  "CTETRA", "PSOLID", "CSHEAR", "PSHEAR", "RSPLINE",
+      "CBUSH1D", "PBUSH1D"};
   return names;
 }
 
@@ -84,15 +85,15 @@ const std::vector<Reason>& reasons() {
       {"points without a place, on which nothing of the block hangs",
        {"SPOINT", "EPOINT", "CELAS3", "CELAS4", "CMASS3", "CMASS4"}},
       {"properties and materials of elements that are not known, which are told of themselves",
-       {"PBEND",   "PBUSH1D", "PGAP",   "PFAST",  "PWELD",  "PSEAM",  "PBCOMP", "PBMSECT",
-        "PBRSECT", "PLPLANE", "PPLANE", "PBEAM3", "PRAC2D", "PRAC3D", "PACBAR", "PACABS",
-        "PAABSF",  "PSHLN1",  "PSHLN2", "PSLDN1", "PBARN1", "PBEMN1", "PRODN1", "PSHEAR",
-        "MAT10",   "MATHP",   "MATHE",  "MATPOR", "MATF",   "MATG",   "MATT2",  "MATT3",
-        "MATT8",   "MATT9",   "MATS3",  "MATS8",  "CREEP"}},
+       {"PBEND",  "PGAP",   "PFAST",  "PWELD",  "PSEAM",  "PBCOMP", "PBMSECT", "PBRSECT", "PLPLANE",
+        "PPLANE", "PBEAM3", "PRAC2D", "PRAC3D", "PACBAR", "PACABS", "PAABSF",  "PSHLN1",  "PSHLN2",
+        "PSLDN1", "PBARN1", "PBEMN1", "PRODN1", "MAT10",  "MATHP",  "MATHE",   "MATPOR",  "MATF",
+        "MATG",   "MATT2",  "MATT3",  "MATT8",  "MATT9",  "MATS3",  "MATS8",   "CREEP"}},
       {"matrices and tables of the solver", {"DMI", "DTI", "DMIJ", "DMIJI", "DMIK", "DMIAX"}},
       {"what is printed, and how the solver goes about it",
        {"STRESS", "BOLTSEQ", "CBARAO", "ECHOON", "ECHOOFF", "HYPERMESH", "MDLPRM", "OUTRCV",
-        "OUTPUT", "SPCOFF", "SPCOFF1", "NXSTRAT", "AUTOSPC", "SYSSET", "DYNOPT", "PARAMARN"}},
+        "OUTPUT", "DEBUG", "SPCOFF", "SPCOFF1", "NXSTRAT", "AUTOSPC", "SYSSET", "DYNOPT",
+        "PARAMARN"}},
   };
   return all;
 }
@@ -100,9 +101,6 @@ const std::vector<Reason>& reasons() {
 /// How to say what a card that is not known says; empty: nobody asked yet.
 std::string_view what_instead_of(std::string_view card) {
   if (card == "CPYRAM") return "pyramids are not known; make two CTETRA of each";
-  if (card == "CSHEAR")
-    return "a panel that bears shear alone is no plate; make it a CQUAD4, or CRODs across its "
-           "corners";
   return {};
 }
 
@@ -185,7 +183,9 @@ Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
   if (deck.mesh.vertices.empty()) log.complain({}, "the deck has no grids");
   read_nastran_cells(model);
   read_nastran_masses(model);
+  read_nastran_shear_panels(model);
   read_nastran_links(model);
+  read_nastran_splines(model);
   read_nastran_springs(model);
   read_nastran_cases(model);
   log.check_left_out(options);

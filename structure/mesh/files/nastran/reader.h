@@ -11,14 +11,15 @@ namespace blocklift::structure {
 ///
 /// - GRID with input and output systems (CP, CD), CORD1 and CORD2 R, C, S
 /// - CQUAD4, CQUAD8, CQUADR, CTRIA3, CTRIA6, CTRIAR with ZOFFS and thicknesses at corners (their
-///   mean where they differ by up to 1 %), PSHELL, PCOMP; MAT1, MAT2, MAT8. What is not one
+///   mean), PSHELL, PCOMP; MAT1, MAT2, MAT8. What is not one
 ///   isotropic material becomes a laminate, its nearest isotropic plate beside it
 /// - CBAR, CBEAM with offsets and pin flags, CROD, CTUBE, CONROD; PBAR, PBARL, PBEAM, PBEAML (of
 ///   one section from end to end), PROD, PTUBE
 /// - CHEXA, CPENTA, CTETRA with and without middles of edges, PSOLID
 /// - CONM1, CONM2, CMASS1, CMASS2 (of all three directions), NSM, NSM1, NSML, NSML1, NSMADD,
 ///   PARAM WTMASS; RBE1, RBE2, RBE3, RBAR, RROD, RTRPLT, RJOINT; MPC that resists no motion of the
-///   whole, or holds one freedom; CELAS1, CELAS2, CBUSH, PELAS, PBUSH
+///   whole, or holds one freedom; CELAS1, CELAS2, CBUSH, CBUSH1D, PELAS, PBUSH,
+///   PBUSH1D; RSPLINE; CSHEAR with PSHEAR
 /// - SPC, SPC1, SPCADD, permanent constraints; FORCE and MOMENT with 1 and 2, PLOAD, PLOAD1 (even,
 ///   whole length), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
 ///

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -19,18 +20,28 @@ class Springs {
 
   void read() {
     for (const NastranCard& card : model_.bulk.cards)
-      if (card.name == "PELAS" || card.name == "PBUSH") keep(CardView(model_.bulk, card));
+      if (card.name == "PELAS" || card.name == "PBUSH" || card.name == "PBUSH1D")
+        keep(CardView(model_.bulk, card));
     model_.for_each(
         {{"CELAS1", [&](const CardView& card) { add_with_property(card); }},
          {"CELAS2", [&](const CardView& card) { add_spring(card, card.real(1, "stiffness"), 2); }},
-         {"CBUSH", [&](const CardView& card) { add_bush(card); }}});
+         {"CBUSH", [&](const CardView& card) { add_bush(card); }},
+         {"CBUSH1D", [&](const CardView& card) { add_line_bush(card); }}});
+    for (const auto& [number, card] : line_bushes_)
+      if (used_line_bushes_.count(number) == 0)
+        model_.log.leave_out("PBUSH1D", "some are of no element");
   }
 
  private:
   // PELAS PID1 K1 GE1 S1 PID2 K2 GE2 S2
   // PBUSH PID K K1 ... K6 / ...
+  // PBUSH1D PID K C M blank SA SE / ...
   void keep(const CardView& card) {
     try {
+      if (card.name() == "PBUSH1D") {
+        line_bushes_.emplace(card.label(0, "property"), card);
+        return;
+      }
       if (card.name() == "PBUSH") {
         bushes_.emplace(card.label(0, "property"), card);
         return;
@@ -172,10 +183,60 @@ class Springs {
     return stiffness;
   }
 
+  // CBUSH1D EID PID GA GB CID: along the line of its grids, or axis 1 of CID
+  void add_line_bush(const CardView& card) {
+    Spring spring;
+    spring.label = model_.new_element(card);
+    const auto found = line_bushes_.find(card.label(1, "property", spring.label));
+    if (found == line_bushes_.end())
+      throw CardError{fmt::format("property {} does not exist, or is no PBUSH1D", card.text(1))};
+    spring.vertices[0] = model_.vertex(card, 2, "end");
+    const bool has_end = card.has(3) && !card.is(3, "0");
+    if (has_end) spring.vertices[1] = model_.vertex(card, 3, "end");
+    const Vector3 line =
+        has_end ? Vector3(model_.place(spring.vertices[1]) - model_.place(spring.vertices[0]))
+                : Vector3(Vector3::Zero());
+    Vector3 along = line;
+    if (card.has(4))
+      along = model_.axes_at(card.integer(4, "coordinate system"), spring.vertices[0]).col(0);
+    else if (!(line.norm() > 1e-9))
+      throw CardError{
+          fmt::format("CBUSH1D {} has no length and no coordinate system (CID)", card.text(0))};
+    Eigen::Matrix3d axes;
+    axes.col(0) = along.normalized();
+    axes.col(1) = axes.col(0).unitOrthogonal();
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    spring.axes = {axes, axes};
+    // Both act on one line, so that the spring holds no turn of the whole.
+    spring.arms = {line / 2, -line / 2};
+    const CardView& property = found->second;
+    if (used_line_bushes_.insert(found->first).second) model_.log.use("PBUSH1D");
+    if (property.size() > 8)
+      model_.log.leave_out("PBUSH1D", "its tables and equations: K is used, as for small motions");
+    else if (property.has(2))
+      model_.log.leave_out("PBUSH1D", "damping");
+    add_masses(spring, property.real(3, "mass", 0.0) * model_.units.mass() * model_.mass_factor);
+    add(card, spring, property.real(1, "stiffness", 0.0) * unit(0));
+  }
+
+  /// Half of an element's mass at either end; what is on the ground is no block's.
+  void add_masses(const Spring& spring, double mass) {
+    if (!(mass > 0)) return;
+    for (const int vertex : spring.vertices) {
+      if (vertex < 0) continue;
+      PointMass point;
+      point.vertex = vertex;
+      point.mass = mass / 2;
+      point.label = spring.label;
+      mesh_.masses.push_back(point);
+    }
+  }
+
   NastranModel& model_;
   Mesh& mesh_;
   std::unordered_map<long, double> springs_;
-  std::unordered_map<long, CardView> bushes_;
+  std::unordered_map<long, CardView> bushes_, line_bushes_;
+  std::unordered_set<long> used_line_bushes_;
 };
 
 }  // namespace

@@ -381,7 +381,7 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
 11, 1, 1, 1, 1, 1, 1, 1, 1
 *ELEMENT, TYPE=S3, ELSET=Q
 12, 1, 3
-*CONTACT PAIR
+*SUBMODEL
 *SHELL SECTION, ELSET=P, MATERIAL=GONE
 .01
 *BOUNDARY
@@ -392,7 +392,7 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
                            ":7: error: *ELEMENT: element 10 names node 99, which does not exist",
                            ":9: error: *ELEMENT: solids have no *SOLID SECTION",
                            ":11: error: *ELEMENT: element 12 of type S3 has 2 nodes; 3 are due",
-                           ":12: error: the keyword *CONTACT PAIR is not known here",
+                           ":12: error: the keyword *SUBMODEL is not known here",
                            ":13: error: *SHELL SECTION: material GONE does not exist",
                            ":16: error: *BOUNDARY: node 77 does not exist"})
     EXPECT_THAT(text, HasSubstr(line));
@@ -404,9 +404,9 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
 }
 
 TEST(AbaqusReader, LeavesOutUnknownKeywordsThatItsUserNames) {
-  const std::string strange = square_plate + "*CONTACT PAIR, INTERACTION=A\nS1, S2\n";
-  const Deck deck = abaqus(strange, "m-kg-N", {.leave_out = {"CONTACT PAIR"}});
-  EXPECT_THAT(entry(deck, "*CONTACT PAIR").left_out, HasSubstr("as was asked for"));
+  const std::string strange = square_plate + "*SUBMODEL, INTERACTION=A\nS1, S2\n";
+  const Deck deck = abaqus(strange, "m-kg-N", {.leave_out = {"SUBMODEL"}});
+  EXPECT_THAT(entry(deck, "*SUBMODEL").left_out, HasSubstr("as was asked for"));
   EXPECT_THAT(complaints_of_abaqus(strange, "m-kg-N"), HasSubstr("leave_out names what may"));
 }
 
