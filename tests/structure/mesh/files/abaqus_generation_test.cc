@@ -14,7 +14,6 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
