@@ -1,7 +1,6 @@
 #include "pipeline/declaration/key_change.h"
 
 #include <charconv>
-#include <vector>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -75,6 +74,23 @@ bool descend(const KeyStep& step, const std::string& way, const KeyChange& chang
   return false;
 }
 
+/// @returns false after a complaint.
+bool give_new_value(const KeyChange& change, Document& document, Diagnostics& diagnostics) {
+  YAML::Node node = document.root;
+  std::string way;
+  for (const KeyStep& step : steps_of(change.key).value_or(std::vector<KeyStep>{})) {
+    if (!descend(step, way, change, document, node, diagnostics)) return false;
+    way += step.place > 0 ? fmt::format("[{}]", step.place) : (way.empty() ? "" : ".") + step.name;
+  }
+  if (!node.IsScalar() && !node.IsNull()) {
+    diagnostics.error(change.mark, fmt::format("{} is a {}; a key with one value can be changed",
+                                               change.key, node.IsMap() ? "table" : "list"));
+    return false;
+  }
+  node = change.value;
+  return true;
+}
+
 }  // namespace
 
 std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mark,
@@ -97,20 +113,13 @@ std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mar
   return std::nullopt;
 }
 
-void apply_key_change(const KeyChange& change, Document& document, Diagnostics& diagnostics) {
-  YAML::Node node = document.root;
-  std::string way;
-  for (const KeyStep& step : steps_of(change.key).value_or(std::vector<KeyStep>{})) {
-    if (!descend(step, way, change, document, node, diagnostics)) return;
-    way += step.place > 0 ? fmt::format("[{}]", step.place) : (way.empty() ? "" : ".") + step.name;
-  }
-  if (!node.IsScalar() && !node.IsNull()) {
-    diagnostics.error(change.mark, fmt::format("{} is a {}; a key with one value can be changed",
-                                               change.key, node.IsMap() ? "table" : "list"));
-    return;
-  }
-  node = change.value;
-  document.text = YAML::Dump(document.root) + '\n';
+void apply_key_changes(const std::vector<KeyChange>& changes, std::string_view file,
+                       Document& document, Diagnostics& diagnostics) {
+  bool changed = false;
+  for (const KeyChange& change : changes)
+    if (change.file == file) changed |= give_new_value(change, document, diagnostics);
+  // Writing costs as much as reading: once, for all changes.
+  if (changed) document.text = YAML::Dump(document.root) + '\n';
 }
 
 }  // namespace blocklift::pipeline

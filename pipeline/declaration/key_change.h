@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/document.h"
@@ -22,9 +23,10 @@ struct KeyChange {
 std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mark,
                                           Diagnostics& diagnostics);
 
-/// Gives a key of a document its new value; the document's text becomes that of the changed one.
-/// Places that share an anchor change together. Complains, and changes nothing, if the key is not
-/// there or holds a table or a list.
-void apply_key_change(const KeyChange& change, Document& document, Diagnostics& diagnostics);
+/// Gives keys of a document their new values, those of the changes that are of this file; if there
+/// are any, the document's text becomes that of the changed one. Places that share an anchor change
+/// together. Complains about a key that is not there or holds a table or a list, and leaves it.
+void apply_key_changes(const std::vector<KeyChange>& changes, std::string_view file,
+                       Document& document, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

@@ -198,8 +198,7 @@ fs::path ModelLibrary::find_and_note(const Located<std::string>& name, const std
 }
 
 void ModelLibrary::change(const std::string& name, Document& document, Diagnostics& diagnostics) {
-  for (const KeyChange& change : changes_)
-    if (change.file == name) apply_key_change(change, document, diagnostics);
+  apply_key_changes(changes_, name, document, diagnostics);
   changed_.push_back(name);
 }
 

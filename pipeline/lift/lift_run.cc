@@ -1,6 +1,7 @@
 #include "pipeline/lift/lift_run.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/linearisation.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
+#include "pipeline/lift/run_extent.h"
 #include "pipeline/lift/stage_end.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/lift/worst_instant.h"
@@ -38,6 +40,11 @@ void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorksp
 
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
                  NaturalModesOfRun modes) {
+  return run_lift(lift_case, std::move(model), progress, RunExtent{.natural_modes = modes});
+}
+
+LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
+                 const RunExtent& extent) {
   const auto report = [&](const char* stage) {
     return [&progress, stage](double fraction, double time) {
       progress(stage, fraction, fmt::format("t = {:.0f} s", time));
@@ -52,15 +59,17 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   Eigen::VectorXd q = system.q_start();
   dynamics::EquilibriumSolver(at_rest).solve(0, q);
   dynamics::TangentMatrices tangent(at_rest);
-  Eigen::VectorXd righting_height(times.size());
+  Eigen::VectorXd righting_height =
+      Eigen::VectorXd::Constant(times.size(), std::numeric_limits<double>::quiet_NaN());
+  const auto observe = [&](Eigen::Index sample, double time, dynamics::LiftWorkspace& w) {
+    if (extent.righting_height)
+      righting_height[sample] =
+          dynamics::calc_righting_height(at_rest, time, w, model.load, tangent);
+  };
   dynamics::History static_history =
-      dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"),
-                             [&](Eigen::Index sample, double time, dynamics::LiftWorkspace& w) {
-                               righting_height[sample] = dynamics::calc_righting_height(
-                                   at_rest, time, w, model.load, tangent);
-                             });
+      dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"), observe);
   std::vector<NaturalModes> natural_modes;
-  if (modes == NaturalModesOfRun::found)
+  if (extent.natural_modes == NaturalModesOfRun::found)
     natural_modes =
         find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
   const double static_s = watch.lap();
@@ -68,6 +77,7 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   dynamics::IntegrationSettings settings;
   settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
   settings.sample_interval = lift_case.dynamics.sample_interval;
+  settings.works = extent.energy;
   settings.progress = report("time integration");
   std::optional<LugDisplacement> elastic;
   if (!system.elastic_bodies().empty()) {

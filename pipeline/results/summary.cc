@@ -444,7 +444,8 @@ void add_motion(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
   summary["flexibility"] = flexibility_json(lift_case.dynamics, lift);
   const RadiationRecord radiation = record_radiation(lift.model, lift.dynamic_history());
   add_radiation(radiation, summary);
-  summary["energy"] = energy_json(lift);
+  // A member of a study may have left its works out.
+  if (lift.dynamic_history().energy.drive_work.size() > 0) summary["energy"] = energy_json(lift);
   summary["solver"] =
       solver_json(lift.dynamic_result.statistics, lift.simulated_s(), lift.dynamic_s);
 }

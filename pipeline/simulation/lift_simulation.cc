@@ -102,11 +102,11 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
 }
 
 LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
-                             NaturalModesOfRun modes) {
+                             const RunExtent& extent) {
   BuiltLift model = prepare_lift(lift_case, block.mass, progress,
                                  block.flexibility ? &*block.flexibility : nullptr);
   require_memory(lift_case, model);
-  LiftRun run = run_lift(lift_case, std::move(model), progress, modes);
+  LiftRun run = run_lift(lift_case, std::move(model), progress, extent);
   return {std::move(lift_case), std::move(block.lugs), std::move(run)};
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/build/build_lift.h"
-#include "pipeline/lift/lift_run.h"
+#include "pipeline/lift/run_extent.h"
 #include "structure/mesh/mesh.h"
 
 namespace blocklift::pipeline {
@@ -38,7 +38,7 @@ struct KnownBlock {
 
 /// The same of a case whose block is known already.
 LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
-                             NaturalModesOfRun modes = NaturalModesOfRun::found);
+                             const RunExtent& extent = {});
 
 /// Writes results.h5, summary.json and report.html into a folder (made if missing), with the parts
 /// that `assess` writes of the motion, and, if asked, results.csv: time, tension of each rope,

@@ -89,8 +89,8 @@ void take_figures(const StudyFile& study, const Json& summary, Member& member) {
         member.units.emplace_back(path, std::move(unit));
 }
 
-/// Measures cost as much as a third of a motion, natural modes a tenth: they are found where a
-/// figure is one of them.
+/// Measures and works cost as much as a third of a motion each, natural modes a tenth: they are
+/// found where a figure is one of them.
 bool asks_for(const StudyFile& study, const char* beginning) {
   const auto begins_so = [&](const std::string& path) { return path.starts_with(beginning); };
   const std::vector<const Located<std::string>*> sought = figures_of_search(study);
@@ -122,15 +122,18 @@ Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBloc
     if (full) write_results(assessment, *full);
     return make_summary(assessment);
   }
-  // Without a list of figures natural periods are among the usual ones.
-  const bool needs_modes = full || study.figures.empty() || asks_for(study, "natural_periods");
-  const NaturalModesOfRun modes =
-      needs_modes ? NaturalModesOfRun::found : NaturalModesOfRun::left_out;
+  // Without a list of figures natural periods and energies are among the usual ones.
+  const bool needs_all = full || study.figures.empty();
+  RunExtent extent;
+  if (!needs_all && !asks_for(study, "natural_periods"))
+    extent.natural_modes = NaturalModesOfRun::left_out;
+  extent.energy = needs_all || asks_for(study, "energy");
+  extent.righting_height = needs_all || asks_for(study, "measures.");
   const bool has_block = lift_case.has_structure();
   std::optional<KnownBlock> block;
   if (has_block) block = blocks.of(lift_case, values);
   const LiftSimulation simulation =
-      block ? simulate_lift(std::move(lift_case), std::move(*block), nobody_watches, modes)
+      block ? simulate_lift(std::move(lift_case), std::move(*block), nobody_watches, extent)
             : simulate_lift(std::move(lift_case), nobody_watches);
   if (full) write_lift_simulation(simulation, *full, false);
   const std::vector<LiftMeasure> measures =

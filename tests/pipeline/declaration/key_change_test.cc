@@ -30,7 +30,7 @@ std::string changed_by(const std::string& text) {
   const Mark mark{std::make_shared<const std::string>("--set"), 0, 0};
   Document document = document_to_change();
   const auto change = parse_key_change(text, mark, diagnostics);
-  if (change) apply_key_change(*change, document, diagnostics);
+  if (change) apply_key_changes({*change}, change->file, document, diagnostics);
   return diagnostics.has_errors() ? diagnostics.to_text() : document.text;
 }
 
@@ -53,7 +53,7 @@ TEST(KeyChange, ChangesPlacesOfOneAnchorTogether) {
 TEST(KeyChange, KeepsTheLineOfTheKeyForLaterComplaints) {
   Diagnostics diagnostics;
   Document document = document_to_change();
-  apply_key_change({"", "ropes.R1.length", "5 m", {}}, document, diagnostics);
+  apply_key_changes({{"", "ropes.R1.length", "5 m", {}}}, "", document, diagnostics);
   EXPECT_EQ(document.mark_of(document.root["ropes"]["R1"]["length"]).line, 3);
 }
 
