@@ -114,9 +114,13 @@ class Case:
             self._run(["assess", file, "--output", folder, *(["--decks"] if decks else [])], file)
         return Result(folder)
 
-    def simulate(self, output: str | os.PathLike[str] | None = None, *,
+    def simulate(self, output: str | os.PathLike[str] | None = None, *, files: bool = True,
                  laws: Mapping[str, kernel.LawOrClass] | None = None) -> Result:
         """The motion alone.
+
+        output: folder of the results, results/<name> if not given.
+        files: False leaves no folder: the result is in memory. What reads folders (`measured`,
+        `blocklift compare`) cannot have it then.
 
         laws: functions that steer drives, by the names under which moves of the case have them
         (`keeps: {law: NAME}`); the lift then runs in this process. A law is called at each look
@@ -129,18 +133,27 @@ class Case:
         Raises InputError, RunError (also where a law gives nan); with laws ImportError if the
         module for them is not built, TypeError if a law gives no number, and what a law raises.
         """
-        folder = Path(output) if output is not None else Path("results") / self.name
+        if not files and output is not None:
+            raise ValueError("output names a folder, and files=False asks for none")
+        if files:
+            folder = Path(output) if output is not None else Path("results") / self.name
+            self._simulate_into(folder, laws)
+            return Result(folder)
+        with tempfile.TemporaryDirectory(prefix="blocklift-") as aside:
+            self._simulate_into(Path(aside) / "result", laws)
+            return Result(Path(aside) / "result", in_memory=True)
+
+    def _simulate_into(self, folder: Path, laws: Mapping[str, kernel.LawOrClass] | None) -> None:
         with self._on_disk() as file:
             if laws is None:
                 self._run(["simulate", file, "--output", folder], file)
-            else:
-                if "mechanism" in self.data:
-                    raise InputError([Complaint(str(self.file), None, None,
-                                                "laws steer drives of lift cases alone, and this "
-                                                "is a mechanism")])
-                with self._naming_own_file(file):
-                    kernel.simulate(file, folder, laws)
-        return Result(folder)
+                return
+            if "mechanism" in self.data:
+                raise InputError([Complaint(str(self.file), None, None,
+                                            "laws steer drives of lift cases alone, and this "
+                                            "is a mechanism")])
+            with self._naming_own_file(file):
+                kernel.simulate(file, folder, laws)
 
     def _run(self, arguments: list[str | os.PathLike[str]], file: Path) -> str:
         with self._naming_own_file(file):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 from pathlib import Path
@@ -24,15 +25,20 @@ _POSE = ["x", "y", "z", "qw", "qx", "qy", "qz"]
 class Result:
     """A folder of results, of an assessed or simulated lift or of a mechanism."""
 
-    def __init__(self, folder: str | os.PathLike[str]) -> None:
-        """Raises FileNotFoundError if the folder has no results, ValueError if its files belong
+    def __init__(self, folder: str | os.PathLike[str], *, in_memory: bool = False) -> None:
+        """in_memory: read all of it now, so that the folder may go.
+
+        Raises FileNotFoundError if the folder has no results, ValueError if its files belong
         to different runs."""
         self.folder = Path(folder)
+        self._whole: bytes | None = None
         path = self.folder / "summary.json"
         if not path.is_file():
             raise FileNotFoundError(f"{self.folder}: there is no summary.json in it")
         #: All figures, as docs/results.md names them.
         self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        if in_memory:
+            self._whole = (self.folder / "results.h5").read_bytes()
         with self._file() as file:
             run = file["case"].attrs.get("run", "") if "case" in file else ""
             run = run.decode() if isinstance(run, bytes) else run
@@ -41,9 +47,12 @@ class Result:
 
     def __repr__(self) -> str:
         verdict = f", {self.verdict}" if self.verdict else ""
-        return f"<Result of {self.summary.get('case', '?')}{verdict}, {self.folder}>"
+        where = self.folder if self._whole is None else "in memory"
+        return f"<Result of {self.summary.get('case', '?')}{verdict}, {where}>"
 
     def _file(self) -> h5py.File:
+        if self._whole is not None:
+            return h5py.File(io.BytesIO(self._whole), "r")
         return h5py.File(self.folder / "results.h5", "r")
 
     @property

@@ -3,26 +3,13 @@
 import json
 import os
 import shutil
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 
 import blocklift
-
-SMALL_LIFT = Path(os.environ["BLOCKLIFT_SMALL_LIFT"])
-MECHANISMS = Path(os.environ["BLOCKLIFT_MECHANISMS"])
-
-
-class InATemporaryFolder(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self._folder.cleanup)
-        self._before = os.getcwd()
-        self.addCleanup(os.chdir, self._before)
-        os.chdir(self._folder.name)
-        shutil.copytree(SMALL_LIFT, "lift")
+from small_lift import MECHANISMS, InATemporaryFolder
 
 
 class CaseTest(InATemporaryFolder):
@@ -73,6 +60,17 @@ class CaseTest(InATemporaryFolder):
 
 
 class ResultTest(InATemporaryFolder):
+    def test_a_simulation_in_memory_leaves_no_folder(self):
+        kept = blocklift.Case("lift").simulate(files=False)
+        self.assertFalse(kept.folder.exists())
+        self.assertEqual(os.listdir(), ["lift"])
+        written = blocklift.Case("lift").simulate("out")
+        self.assertTrue(kept.history().identical(written.history()))
+        self.assertTrue(kept.ropes.equals(written.ropes))
+        self.assertIn("in memory", repr(kept))
+        with self.assertRaisesRegex(ValueError, "output names a folder"):
+            blocklift.Case("lift").simulate("out", files=False)
+
     def test_an_assessment_as_arrays(self):
         result = blocklift.Case("lift").assess("out")
         self.assertTrue(result.passed)

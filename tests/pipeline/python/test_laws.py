@@ -2,11 +2,9 @@
 
 import math
 import os
-import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import unittest
 from pathlib import Path
@@ -14,24 +12,14 @@ from pathlib import Path
 import numpy as np
 
 import blocklift
-
-SMALL_LIFT = Path(os.environ["BLOCKLIFT_SMALL_LIFT"])
-MECHANISMS = Path(os.environ["BLOCKLIFT_MECHANISMS"])
+from small_lift import MECHANISMS, InATemporaryFolder
 
 # The second hook follows the first, which is lowered.
 FOLLOW = {"law": "follow", "reaction": "0.5 s",
           "sees": {"height": {"level": "C1.right", "with": "C1.left"}}}
 
 
-class LawTest(unittest.TestCase):
-    def setUp(self):
-        self._folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self._folder.cleanup)
-        self._before = os.getcwd()
-        self.addCleanup(os.chdir, self._before)
-        os.chdir(self._folder.name)
-        shutil.copytree(SMALL_LIFT, "lift")
-
+class LawTest(InATemporaryFolder):
     def case(self, *moves):
         case = blocklift.Case("lift")
         case.set("operation", [{"stage": "steer", "moves": list(moves)}])

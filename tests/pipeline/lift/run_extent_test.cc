@@ -1,0 +1,46 @@
+// Runs that leave out what nobody asks for.
+#include "pipeline/lift/run_extent.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/sample_lift.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+LiftRun run(const LiftCase& lift_case, const RunExtent& extent) {
+  LoadMass load;
+  load.mass = 10e3;
+  load.p_BoBcm_B = {2, 0, 0.5};
+  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
+  const auto nobody_watches = [](auto&&...) {};
+  return run_lift(lift_case, prepare_lift(lift_case, load, nobody_watches), nobody_watches, extent);
+}
+
+TEST(RunExtent, LeavesTheMotionAsItIs) {
+  const test::TemporaryFolder folder;
+  test::SampleLift().write(folder);
+  const LiftCase lift_case = read_lift_case("case.yaml");
+  const LiftRun whole = run(lift_case, {});
+  const LiftRun least = run(
+      lift_case,
+      {.natural_modes = NaturalModesOfRun::left_out, .energy = false, .righting_height = false});
+  EXPECT_EQ(least.dynamic_history().time, whole.dynamic_history().time);
+  ASSERT_EQ(least.dynamic_history().ropes.size(), whole.dynamic_history().ropes.size());
+  for (std::size_t i = 0; i < whole.dynamic_history().ropes.size(); ++i) {
+    EXPECT_EQ(least.static_history.ropes[i].tension, whole.static_history.ropes[i].tension);
+    EXPECT_EQ(least.dynamic_history().ropes[i].tension, whole.dynamic_history().ropes[i].tension);
+  }
+  EXPECT_EQ(least.dynamic_result.q_end, whole.dynamic_result.q_end);
+  EXPECT_EQ(least.dynamic_result.statistics.steps, whole.dynamic_result.statistics.steps);
+
+  EXPECT_FALSE(whole.natural_modes.empty());
+  EXPECT_TRUE(least.natural_modes.empty());
+  EXPECT_EQ(whole.dynamic_history().energy.winch_work.size(), whole.dynamic_history().time.size());
+  EXPECT_EQ(least.dynamic_history().energy.winch_work.size(), 0);
+  EXPECT_FALSE(whole.righting_height.hasNaN());
+  EXPECT_TRUE(least.righting_height.array().isNaN().all());
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
