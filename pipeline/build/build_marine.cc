@@ -7,6 +7,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/wetted_body.h"
+#include "dynamics/marine/radiation/distant_groups.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/simulation/marched_surface.h"
 
@@ -137,7 +138,9 @@ dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem
   settings.lids = problem.lids;
   settings.with_coarser = true;
   settings.with_far_field = problem.drifting.has_value();
-  return compute_database(model, settings);
+  const auto groups = find_distant_groups(model, problem.frequencies.back());
+  return groups.size() > 1 ? compute_distant_groups(model, groups, settings)
+                           : compute_database(model, settings);
 }
 
 dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {

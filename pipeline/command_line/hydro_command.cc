@@ -44,7 +44,11 @@ void print_panels(const HydrodynamicState& state) {
       state.bytes / 1e9);
   log_entry(panels);
   if (!is_quiet()) print_wrapped(panels);
-  const std::string doubt = doubt_about_coupling(*state.model, state.settings.frequencies.back());
+  const std::string note = note_on_groups(*state.model, state.groups);
+  if (!note.empty()) log_entry(note);
+  if (!note.empty() && !is_quiet()) print_wrapped(note);
+  const std::string doubt =
+      doubt_about_coupling(*state.model, state.groups, state.settings.frequencies.back());
   if (!doubt.empty()) say_warning(doubt);
   std::fflush(stdout);
 }

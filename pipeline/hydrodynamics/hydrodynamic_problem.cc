@@ -12,6 +12,7 @@
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/files/hull_places.h"
 #include "pipeline/formats/hull_hash.h"
+#include "pipeline/hydrodynamics/hydrodynamic_report.h"
 #include "pipeline/hydrodynamics/mirrored_bodies.h"
 #include "pipeline/version.h"
 
@@ -138,6 +139,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
       problem.symmetry ? keep_symmetry(find_symmetry(bodies), problem.lids) : dynamics::Symmetry{};
   state.model = std::make_shared<const dynamics::PanelModel>(std::move(bodies), surface,
                                                              problem.water, symmetry);
+  state.groups = find_distant_groups(*state.model, problem.frequencies.back());
   state.settings.frequencies = problem.frequencies;
   state.settings.headings = problem.headings;
   state.settings.lids = problem.lids;
@@ -155,6 +157,7 @@ std::string identity_of(const HydrodynamicProblem& problem) {
   ContentHash hash;
   hash.add(std::int64_t{dynamics::panel_method_version});
   hash.add(std::string_view(program_version));
+  if (problem.bodies.size() > 1) hash.add(std::int64_t{dynamics::distant_groups_version});
   hash.add(problem.water.density);
   hash.add(problem.water.gravity);
   hash.add(problem.water.depth);
@@ -184,7 +187,10 @@ std::string identity_of(const HydrodynamicProblem& problem) {
 dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
                                              const HydrodynamicState& state,
                                              dynamics::DatabaseReport* report) {
-  dynamics::HydrodynamicDatabase database = compute_database(*state.model, state.settings, report);
+  dynamics::HydrodynamicDatabase database =
+      state.groups.size() > 1
+          ? compute_distant_groups(*state.model, state.groups, state.settings, report)
+          : compute_database(*state.model, state.settings, report);
   const Eigen::Index modes = database.mode_count();
   database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(modes, modes);
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
@@ -219,7 +225,14 @@ HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
     draughts.push_back(state.draught);
     databases.push_back(compute_state(problem, state));
   }
-  return {identity_of(problem), fmt::format("computed by blocklift {}", program_version),
+  std::string origin = fmt::format("computed by blocklift {}", program_version);
+  for (const HydrodynamicState& state : states) {
+    if (const std::string note = note_on_groups(*state.model, state.groups); !note.empty()) {
+      origin += "; " + note;
+      break;
+    }
+  }
+  return {identity_of(problem), std::move(origin),
           dynamics::make_series(problem.lowered_body(), std::move(draughts), std::move(databases))};
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "dynamics/marine/radiation/distant_groups.h"
 #include "pipeline/files/model_library.h"
 #include "pipeline/files/vessel_model.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
@@ -59,6 +59,7 @@ struct HydrodynamicState {
   std::vector<dynamics::Pose> poses;  ///< X_WB of the bodies at rest
   Eigen::MatrixXd mass;               ///< 6N x 6N about the centres of mass
   std::shared_ptr<const dynamics::PanelModel> model;
+  std::vector<dynamics::BodyGroup> groups;  ///< of bodies far from each other, or one of all
   dynamics::DatabaseSettings settings;
   double bytes = 0.0;  ///< of memory that the computation takes, at most
 };

@@ -1,8 +1,12 @@
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -263,8 +267,43 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
       100.0 * change, 100.0 * acceptable_change);
 }
 
-std::string doubt_about_coupling(const dynamics::PanelModel& model, double highest_frequency) {
-  const std::optional<dynamics::CouplingReach> reach = find_coupling_reach(model);
+std::string note_on_groups(const dynamics::PanelModel& model,
+                           const std::vector<dynamics::BodyGroup>& groups) {
+  if (groups.size() < 2) return {};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 1; b < groups.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a)
+      nearest = std::min(nearest, (groups[a].centre - groups[b].centre).norm());
+  }
+  std::vector<std::string> names;
+  for (const dynamics::BodyGroup& group : groups) {
+    std::string name;
+    for (const int body : group.bodies) {
+      if (!name.empty()) name += " with ";
+      name += model.bodies()[static_cast<std::size_t>(body)].name;
+    }
+    names.push_back(std::move(name));
+  }
+  return fmt::format(
+      "{} lie {:.4g} m apart or more (centres): each on a surface of its own, coupled by the waves "
+      "that go from one to the other, without the local flow about the other",
+      fmt::join(names, ", "), nearest);
+}
+
+std::string doubt_about_coupling(const dynamics::PanelModel& model,
+                                 const std::vector<dynamics::BodyGroup>& groups,
+                                 double highest_frequency) {
+  std::optional<dynamics::CouplingReach> reach;
+  for (const dynamics::CouplingReach& pair : find_coupling_reaches(model)) {
+    const bool together =
+        std::any_of(groups.begin(), groups.end(), [&](const dynamics::BodyGroup& group) {
+          const auto holds = [&](int body) {
+            return std::count(group.bodies.begin(), group.bodies.end(), body) > 0;
+          };
+          return holds(pair.first) && holds(pair.second);
+        });
+    if (together && (!reach || pair.shortest > reach->shortest)) reach = pair;
+  }
   const auto length = [&](double frequency) {
     return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, model.water());
   };

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/marine/radiation/distant_groups.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {
@@ -18,9 +19,15 @@ std::string hydrodynamic_table(const HydrodynamicFile& file,
 /// force changes most from panels of twice the size, where that is more than a tenth; else empty.
 std::string doubt_about_panels(const dynamics::HydrodynamicDatabase& database);
 
-/// A sentence for bodies so far apart that the waves of a frequency (rad/s) are lost between them
-/// on the surface's mesh; else empty.
-std::string doubt_about_coupling(const dynamics::PanelModel& model, double highest_frequency);
+/// What bodies far apart are coupled by: one sentence, for people; empty for a single group.
+std::string note_on_groups(const dynamics::PanelModel& model,
+                           const std::vector<dynamics::BodyGroup>& groups);
+
+/// A sentence for bodies of one group so far apart that the waves of a frequency (rad/s) are lost
+/// between them on the surface's mesh; else empty.
+std::string doubt_about_coupling(const dynamics::PanelModel& model,
+                                 const std::vector<dynamics::BodyGroup>& groups,
+                                 double highest_frequency);
 
 /// A page of HTML that needs nothing else: added mass, damping, retardation functions, excitation
 /// and response of each body and mode.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/distant_groups.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/formats/hull_hash.h"
@@ -54,6 +55,7 @@ fs::path cache_folder() {
 std::string identity_of(const RadiationProblem& problem) {
   ContentHash hash;
   hash.add(std::int64_t{dynamics::panel_method_version});
+  if (problem.bodies.size() > 1) hash.add(std::int64_t{dynamics::distant_groups_version});
   for (const RadiationProblem::Body& body : problem.bodies) {
     hash.add(body.name);
     add(hash, body.vessel->hull);
@@ -149,7 +151,9 @@ dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
   dynamics::HydrodynamicDatabase database =
       compute_or_refuse(problem, [&](const RadiationProblem& p) {
         const dynamics::PanelModel model = make_panel_model(p);
-        const std::string doubt = doubt_about_coupling(model, p.frequencies.back());
+        const auto groups = find_distant_groups(model, p.frequencies.back());
+        if (const std::string note = note_on_groups(model, groups); !note.empty()) say(note);
+        const std::string doubt = doubt_about_coupling(model, groups, p.frequencies.back());
         if (!doubt.empty()) say("warning: " + doubt);
         return compute_radiation(p, model);
       });

@@ -26,7 +26,7 @@ double distance_to(const std::vector<WaterLine>& lines, const Vector3& p) {
 
 }  // namespace
 
-std::optional<CouplingReach> find_coupling_reach(const PanelModel& model) {
+std::vector<CouplingReach> find_coupling_reaches(const PanelModel& model) {
   const PanelMesh surface = expand_symmetry(model.surface_mesh());
   std::vector<std::vector<WaterLine>> lines;
   std::vector<std::vector<double>> distances;
@@ -37,7 +37,7 @@ std::optional<CouplingReach> find_coupling_reach(const PanelModel& model) {
       distance.push_back(distance_to(lines.back(), panel.centroid));
     }
   }
-  std::optional<CouplingReach> worst;
+  std::vector<CouplingReach> reaches;
   for (std::size_t b = 1; b < lines.size(); ++b) {
     for (std::size_t a = 0; a < b; ++a) {
       if (lines[a].empty() || lines[b].empty()) continue;
@@ -51,8 +51,16 @@ std::optional<CouplingReach> find_coupling_reach(const PanelModel& model) {
         reach.shortest = std::max(reach.shortest, panels_in_a_wave * surface.panels[k].diameter());
       }
       reach.shortest = std::min(reach.shortest, reach.gap);
-      if (!worst || reach.shortest > worst->shortest) worst = reach;
+      reaches.push_back(reach);
     }
+  }
+  return reaches;
+}
+
+std::optional<CouplingReach> find_coupling_reach(const PanelModel& model) {
+  std::optional<CouplingReach> worst;
+  for (const CouplingReach& reach : find_coupling_reaches(model)) {
+    if (!worst || reach.shortest > worst->shortest) worst = reach;
   }
   return worst;
 }

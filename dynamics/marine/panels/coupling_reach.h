@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "dynamics/marine/panels/panel_model.h"
 
@@ -18,6 +19,9 @@ struct CouplingReach {
 /// nine tenths of their coupling's damping with 8.5 panels in a wave, half of it with 4.8 and a
 /// third with 3.1 (against B12/B11 = J0(k d), the far field without what is scattered back). Bodies
 /// less than a wave length apart are coupled by the water between them, not by travelling waves.
+/// @returns all pairs of bodies that reach the surface.
+std::vector<CouplingReach> find_coupling_reaches(const PanelModel& model);
+
 /// @returns the pair whose shortest wave is the longest; none for a single body.
 std::optional<CouplingReach> find_coupling_reach(const PanelModel& model);
 

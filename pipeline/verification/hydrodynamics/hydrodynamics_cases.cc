@@ -3,12 +3,24 @@
 namespace blocklift::pipeline {
 
 std::vector<VerificationCase> hydrodynamics_cases() {
-  return {
-      floating_cube(),    righting_arms_of_a_box(), closed_path_of_buoyancy(), panel_integrals(),
-      deep_sphere(),      floating_hemisphere(),    truncated_cylinder(),      two_hemispheres(),
-      haskind_relation(), standing_cylinder(),      mean_drift_of_waves(),     drag_of_a_current(),
-      thousand_periods(), free_decay_of_a_sphere(), sphere_through_files(),    bodies_at_a_joint(),
-      moonpool()};
+  return {floating_cube(),
+          righting_arms_of_a_box(),
+          closed_path_of_buoyancy(),
+          panel_integrals(),
+          deep_sphere(),
+          floating_hemisphere(),
+          truncated_cylinder(),
+          two_hemispheres(),
+          distant_cubes(),
+          haskind_relation(),
+          standing_cylinder(),
+          mean_drift_of_waves(),
+          drag_of_a_current(),
+          thousand_periods(),
+          free_decay_of_a_sphere(),
+          sphere_through_files(),
+          bodies_at_a_joint(),
+          moonpool()};
 }
 
 }  // namespace blocklift::pipeline

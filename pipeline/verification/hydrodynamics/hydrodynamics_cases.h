@@ -26,6 +26,8 @@ VerificationCase floating_hemisphere();
 VerificationCase truncated_cylinder();
 /// Symmetry of two bodies' coefficients.
 VerificationCase two_hemispheres();
+/// Surge and heave of a cube on another one five waves away.
+VerificationCase distant_cubes();
 /// Diffraction directly and by Haskind's relation.
 VerificationCase haskind_relation();
 /// Excitation of a cylinder that stands on the bottom.
