@@ -252,9 +252,11 @@ EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
             .supplied_power = -load.unstretched_rate * load.split.feed_force};
   }
   // Without kinks while the rope stays taut, or slack, by declaration: what lies beyond the change
-  // is interpolated over.
-  const double elastic = load.taut ? load.elastic_force : std::max(0.0, load.elastic_force);
+  // is interpolated over. A slack rope that is stretched while it contracts has yet to lose what
+  // it stores; one that lengthens is stretched beyond the change alone, and stores nothing.
   const double elongation_rate = load.length_rate - load.unstretched_rate;
+  const double elastic =
+      load.taut || (load.elastic_force > 0.0 && elongation_rate < 0.0) ? load.elastic_force : 0.0;
   const double dissipated =
       load.taut ? load.damping_force * elongation_rate : -elastic * std::min(0.0, elongation_rate);
   return {.stored_energy = 0.5 * elastic * elastic / load.stiffness,

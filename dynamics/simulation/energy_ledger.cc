@@ -33,7 +33,21 @@ bool drives_move(const LiftSystem& system, const LiftWorkspace& w) {
   return std::any_of(driven.begin(), driven.end(), [&](int k) { return w.v[k] != 0.0; });
 }
 
+bool is_at_elastic_body(const LiftSystem& system, std::size_t rope) {
+  return std::ranges::any_of(system.elastic_bodies(), [rope](const ElasticBody& body) {
+    return std::ranges::find(body.ropes(), static_cast<int>(rope)) != body.ropes().end();
+  });
+}
+
 }  // namespace
+
+EnergyAccount calc_rope_energy(const LiftSystem& system, std::size_t rope, const LiftWorkspace& w) {
+  const Rope& one = system.ropes()[rope];
+  const RopeLoad& load = w.rope_loads[rope];
+  // Steps look beyond the instant at which a rope becomes taut: nothing may depend on that.
+  if (!load.taut && !one.hangs() && !is_at_elastic_body(system, rope)) return {};
+  return one.calc_energy(load);
+}
 
 EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w) {
   EnergyRates rates;
@@ -42,7 +56,7 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
   }
   rates.dissipated_power = calc_damping_power(system.mechanism(), w.v);
   for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
-    const EnergyAccount account = system.ropes()[i].calc_energy(w.rope_loads[i]);
+    const EnergyAccount account = calc_rope_energy(system, i, w);
     rates.winch_power += account.supplied_power;
     rates.dissipated_power += account.dissipated_power;
   }
@@ -70,7 +84,7 @@ StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWo
   }
   energy.gravity = calc_gravity_potential(system.mechanism(), w.kinematics);
   for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
-    energy.elastic += system.ropes()[i].calc_energy(w.rope_loads[i]).stored_energy;
+    energy.elastic += calc_rope_energy(system, i, w).stored_energy;
   }
   for (const ElasticBody::Workspace& body : w.elastic) energy.elastic += body.energy;
   for (std::size_t i = 0; i < w.support_loads.size(); ++i) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "dynamics/simulation/lift_system.h"
 
 namespace blocklift::dynamics {
@@ -24,6 +26,11 @@ struct StoredEnergy {
   double buoyancy_in_waves = 0.0;
   double sum() const { return kinetic + gravity + elastic; }
 };
+
+/// Energies and powers of a rope whose load is in the workspace. A damped rope that contracts fast
+/// enough is slack while it is still stretched; what it had stored is then lost at once, but for
+/// one at an elastic body, which springs back with it first.
+EnergyAccount calc_rope_energy(const LiftSystem& system, std::size_t rope, const LiftWorkspace& w);
 
 /// Powers at the instant that calc_right_hand_side has just evaluated.
 EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w);

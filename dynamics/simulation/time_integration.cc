@@ -473,19 +473,20 @@ void Integrator::change_contacts(double t) {
 }
 
 void Integrator::change_contact(std::size_t contact, bool acts, double t) {
-  const bool divided = contact < system_.ropes().size() && w_.splits[contact].acts();
+  const bool is_rope = contact < system_.ropes().size();
+  const bool divided = is_rope && w_.splits[contact].acts();
   const auto stored = [&] {
+    if (!is_rope) return 0.0;
     evaluate_contacts(t);
-    return system_.ropes()[contact].calc_energy(w_.rope_loads[contact]).stored_energy;
+    return calc_rope_energy(system_, contact, w_).stored_energy;
   };
-  const double before = divided ? stored() : 0.0;
+  const double before = stored();
   contacts_[contact] = acts ? 1 : 0;
   result_.events.push_back({t, static_cast<int>(contact), acts});
   ++result_.statistics.contact_changes;
   if (acts) set_down(contact, t);
-  if (!divided) return;
-  if (acts) begin_split(contact);
-  // A slack rope has no division: what that had stored beyond its stretch is lost.
+  if (divided && acts) begin_split(contact);
+  // What a rope that becomes slack while it is still stretched had stored is lost.
   sundials::view(work_.get())[3] += before - stored();
 }
 
