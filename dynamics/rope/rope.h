@@ -103,8 +103,8 @@ struct RopeLoad {
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
 /// rope hangs from (N/m). The sheaves are points: the wrap around them is not part of the path.
 ///
-/// Energy: stored 1/2 k (L - L0)^2 while taut; dissipated (T - k (L - L0)) (Ldot - L0dot), which
-/// includes what a slack rope that contracts, though it is still stretched, keeps to itself; fed
+/// Energy: stored 1/2 k (L - L0)^2 while taut, or slack, stretched and contracting; dissipated
+/// (T - k (L - L0)) (Ldot - L0dot), which includes what such a slack rope keeps to itself; supplied
 /// by the winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the
 /// rope that runs onto the drum. Then the power on the bodies, -T Ldot, is exactly supplied -
 /// dissipated - d(stored)/dt, and it equals the power of the point forces. Source: first variation
