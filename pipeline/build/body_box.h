@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/mechanism/mechanism_parts.h"
 
 namespace blocklift::pipeline {

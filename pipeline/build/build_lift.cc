@@ -13,7 +13,7 @@
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/spreader_start.h"
-#include "pipeline/files/crane_pose.h"
+#include "pipeline/files/lift_case/crane_start.h"
 #include "pipeline/mechanism/build_parts.h"
 
 namespace blocklift::pipeline {

@@ -9,8 +9,8 @@
 
 #include "dynamics/simulation/lift_system.h"
 #include "pipeline/build/build_marine.h"
-#include "pipeline/files/lift_case.h"
-#include "pipeline/files/operation_schedule.h"
+#include "pipeline/files/lift_case/lift_case.h"
+#include "pipeline/files/lift_case/operation_schedule.h"
 
 namespace blocklift::pipeline {
 

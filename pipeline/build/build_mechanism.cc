@@ -7,7 +7,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/multibody/assembly.h"
 #include "dynamics/multibody/loop_constraint.h"
-#include "pipeline/files/operation_schedule.h"
+#include "pipeline/files/mechanism/mechanism_schedule.h"
 #include "pipeline/mechanism/build_parts.h"
 #include "pipeline/mechanism/joint_values.h"
 

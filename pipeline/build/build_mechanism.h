@@ -8,7 +8,7 @@
 
 #include "dynamics/simulation/lift_system.h"
 #include "pipeline/build/build_marine.h"
-#include "pipeline/files/mechanism_file.h"
+#include "pipeline/files/mechanism/mechanism_file.h"
 
 namespace blocklift::pipeline {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pipeline/files/block_model.h"
+#include "pipeline/files/structure/block_model.h"
 #include "structure/mesh/plates/block_description.h"
 
 namespace blocklift::pipeline {

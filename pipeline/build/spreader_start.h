@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 
 namespace blocklift::pipeline {
 

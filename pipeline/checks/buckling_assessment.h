@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "pipeline/checks/checks.h"
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/lift/history_assessment.h"
 #include "structure/practice/bar_buckling.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/standards/lift_facts.h"
 #include "pipeline/standards/rigging_balance.h"

@@ -21,7 +21,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/key_change.h"
 #include "pipeline/declaration/quantity.h"
-#include "pipeline/files/input_hash.h"
+#include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_folder.h"

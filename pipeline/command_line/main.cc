@@ -27,7 +27,7 @@
 #include "pipeline/command_line/validate_command.h"
 #include "pipeline/command_line/verify_command.h"
 #include "pipeline/declaration/diagnostics.h"
-#include "pipeline/files/schema.h"
+#include "pipeline/files/schema/schema.h"
 #include "pipeline/formats/hdf5_exit.h"
 #include "pipeline/templates/new_case.h"
 #include "pipeline/terminal/run_log.h"

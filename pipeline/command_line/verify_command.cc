@@ -8,7 +8,7 @@
 
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/diagnostics.h"
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dynamics/marine/radiation/distant_groups.h"
-#include "pipeline/files/model_library.h"
-#include "pipeline/files/vessel_model.h"
+#include "pipeline/files/library/model_library.h"
+#include "pipeline/files/vessel/vessel_model.h"
 #include "pipeline/formats/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {

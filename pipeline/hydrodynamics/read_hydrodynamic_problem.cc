@@ -4,7 +4,7 @@
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/file_kind.h"
-#include "pipeline/files/vessel_group.h"
+#include "pipeline/files/vessel/vessel_group.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 
 namespace blocklift::pipeline {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "structure/response/elastic_model.h"
 
 namespace blocklift::pipeline {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 
 namespace blocklift::pipeline {
 

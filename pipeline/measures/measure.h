@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/lift/lift_run.h"
 
 namespace blocklift::pipeline {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 
 namespace blocklift::pipeline {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files/part_file.h"
+#include "pipeline/files/structure/part_file.h"
 #include "pipeline/part/part_padeye.h"
 #include "structure/elasticity/natural_modes.h"
 #include "structure/mesh/files/part_reader.h"

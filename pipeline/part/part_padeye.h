@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "pipeline/checks/padeye_assessment.h"
-#include "pipeline/files/part_file.h"
+#include "pipeline/files/structure/part_file.h"
 #include "structure/mesh/padeye/padeye.h"
 #include "structure/response/padeye_stress.h"
 

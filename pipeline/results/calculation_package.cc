@@ -8,7 +8,7 @@
 
 #include "pipeline/checks/standard_checks.h"
 #include "pipeline/declaration/quantity.h"
-#include "pipeline/files/input_hash.h"
+#include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/results/assumptions.h"
 #include "pipeline/results/mesh_error.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/lift/lift_run.h"
 
 namespace blocklift::pipeline {

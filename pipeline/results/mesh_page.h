@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pipeline/files/block_mesh.h"
+#include "pipeline/files/structure/block_mesh.h"
 
 namespace blocklift::pipeline {
 

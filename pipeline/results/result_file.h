@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/simulation/history.h"
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/measures/measure.h"

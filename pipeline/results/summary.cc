@@ -10,7 +10,7 @@
 
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/loop_loads.h"
-#include "pipeline/files/input_hash.h"
+#include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/json_values.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/results/assumptions.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/checks/checks.h"
-#include "pipeline/files/lift_case.h"
+#include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/rigging/sling_choice.h"
 #include "pipeline/rigging/stock.h"
 #include "pipeline/standards/lift_facts.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files/model_library.h"
-#include "pipeline/files/rigging_stock.h"
+#include "pipeline/files/library/model_library.h"
+#include "pipeline/files/rigging/rigging_stock.h"
 
 namespace blocklift::pipeline {
 

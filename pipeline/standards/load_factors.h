@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/files/standard_in_case.h"
+#include "pipeline/files/lift_case/standard_in_case.h"
 #include "pipeline/standards/chain.h"
 #include "pipeline/standards/lift_facts.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/files/standard_rules.h"
+#include "pipeline/files/standard/standard_rules.h"
 
 namespace blocklift::pipeline {
 

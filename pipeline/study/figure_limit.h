@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files/study_file.h"
+#include "pipeline/files/study/study_file.h"
 #include "pipeline/study/members.h"
 
 namespace blocklift::pipeline {

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include "pipeline/files/lift_case.h"
-#include "pipeline/files/study_file.h"
+#include "pipeline/files/lift_case/lift_case.h"
+#include "pipeline/files/study/study_file.h"
 #include "pipeline/study/study_blocks.h"
 
 namespace blocklift::pipeline {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/files/study_file.h"
+#include "pipeline/files/study/study_file.h"
 #include "pipeline/study/members.h"
 
 namespace blocklift::pipeline {

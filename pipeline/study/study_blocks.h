@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/files/study_file.h"
+#include "pipeline/files/study/study_file.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "structure/response/stress_basis.h"

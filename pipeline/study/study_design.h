@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "pipeline/files/study_file.h"
+#include "pipeline/files/study/study_file.h"
 
 namespace blocklift::pipeline {
 

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
-#include "pipeline/files/study_file.h"
+#include "pipeline/files/study/study_file.h"
 #include "pipeline/study/limiting_sea.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/search.h"

@@ -1,12 +1,12 @@
 // Cases and models in YAML: read, or refused with messages; never an exception, nor a case that is
 // accepted with messages.
 #include "pipeline/files/file_kind.h"
-#include "pipeline/files/lift_case.h"
-#include "pipeline/files/mechanism_file.h"
-#include "pipeline/files/model_library.h"
-#include "pipeline/files/part_file.h"
-#include "pipeline/files/study_file.h"
-#include "pipeline/files/vessel_model.h"
+#include "pipeline/files/library/model_library.h"
+#include "pipeline/files/lift_case/lift_case.h"
+#include "pipeline/files/mechanism/mechanism_file.h"
+#include "pipeline/files/structure/part_file.h"
+#include "pipeline/files/study/study_file.h"
+#include "pipeline/files/vessel/vessel_model.h"
 #include "tests/fuzz/input_file.h"
 #include "tests/pipeline/sample_lift.h"
 

@@ -8,7 +8,7 @@
 
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_mechanism.h"
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {

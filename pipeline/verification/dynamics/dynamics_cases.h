@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "pipeline/verification/verification.h"
 
 namespace blocklift::pipeline {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "structure/mesh/mass_properties.h"
 #include "tests/pipeline/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/build/describe_block.h"
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/mesh/sections.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/build/describe_block.h"
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "structure/index.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "tests/structure/formulation/gravity.h"

@@ -1,5 +1,5 @@
 // Parts of a block that are repeated and mirrored, beside the same parts written out.
-#include "pipeline/files/copied_parts.h"
+#include "pipeline/files/structure/copied_parts.h"
 
 #include <algorithm>
 #include <set>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/build/describe_block.h"
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "structure/index.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"

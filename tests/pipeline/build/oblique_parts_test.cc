@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/build/describe_block.h"
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/mass_properties.h"

@@ -15,8 +15,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/build/build_mechanism.h"
-#include "pipeline/files/lift_case.h"
-#include "pipeline/files/operation_schedule.h"
+#include "pipeline/files/lift_case/lift_case.h"
+#include "pipeline/files/lift_case/operation_schedule.h"
 #include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/files/lift_case.h"
-#include "pipeline/files/mechanism_file.h"
-#include "pipeline/files/part_file.h"
+#include "pipeline/files/lift_case/lift_case.h"
+#include "pipeline/files/mechanism/mechanism_file.h"
+#include "pipeline/files/structure/part_file.h"
 #include "structure/outside_files.h"
 #include "tests/pipeline/sample_lift.h"
 

@@ -9,7 +9,7 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/build/describe_block.h"
 #include "pipeline/checks/padeye_assessment.h"
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 #include "pipeline/lift/block_preparation.h"
 #include "structure/index.h"
 #include "structure/mesh/files/nastran/writer.h"

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "pipeline/files/model_library.h"
+#include "pipeline/files/library/model_library.h"
 
 namespace blocklift::pipeline::test {
 

@@ -1,0 +1,352 @@
+#include "pipeline/files/library/model_library.h"
+
+#include <algorithm>
+#include <functional>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "pipeline/declaration/document.h"
+#include "pipeline/declaration/reading.h"
+#include "pipeline/files/named_file.h"
+#include "pipeline/files/rigging/rigging_table.h"
+#include "pipeline/terminal/run_log.h"
+#include "structure/outside_files.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return !error && fs::exists(status) && !fs::is_directory(status);
+}
+
+/// Complains if the file is of another kind than the one that is due.
+bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& diagnostics) {
+  if (!document.root.IsMap()) return true;  // the reader will say what is wrong
+  const YAML::Node found = document.root["kind"];
+  const bool is_case = !found && document.root["case"];
+  if (!is_case && (!found || !found.IsScalar() || found.Scalar() == kind)) return true;
+  diagnostics.error(document.mark_of(is_case ? document.root["case"] : found),
+                    fmt::format("this file describes a {}; a {} is due",
+                                is_case ? "lift case" : found.Scalar(), kind));
+  return false;
+}
+
+/// Reads a model file into a value; null if nothing could be read.
+template <class T>
+std::shared_ptr<T> read_model(const std::optional<Document>& document, const std::string& kind,
+                              const Format<T>& format, Diagnostics& diagnostics,
+                              const ParameterValues& parameters = {}) {
+  if (!document || !is_of_kind(*document, kind, diagnostics)) return nullptr;
+  auto model = std::make_shared<T>();
+  Reading reading(*document, diagnostics);
+  std::vector<OutsideParameter> outside;
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    outside.push_back({parameter.name.value, parameter.value.value, parameter.value.mark});
+  }
+  reading.set_outside_parameters(std::move(outside));
+  reading.with_owner("the " + kind, [&] { return format.read(document->root, reading, *model); });
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    if (reading.parameters().find(parameter.name.value)) continue;
+    const std::vector<std::string> known = reading.parameters().names();
+    reading.error(parameter.name.mark,
+                  fmt::format("{} has no parameter \"{}\"", *document->file, parameter.name.value),
+                  {known.empty() ? "it has none at all"
+                                 : names_hint("its parameters are", known, parameter.name.value)});
+  }
+  return model;
+}
+
+/// A place in a table that was made a document: its column says nothing about the table.
+Mark without_column(Mark mark) {
+  mark.column = std::min(mark.column, 1);
+  return mark;
+}
+
+void forget_columns(RiggingStock& stock) {
+  for (StockSling& sling : stock.slings) sling.name.mark = without_column(sling.name.mark);
+  for (StockShackle& shackle : stock.shackles)
+    shackle.name.mark = without_column(shackle.name.mark);
+  for (StockMasterLink& link : stock.master_links) link.name.mark = without_column(link.name.mark);
+  for (StockSheave& sheave : stock.sheaves) sheave.name.mark = without_column(sheave.name.mark);
+}
+
+/// The models of a kind in a folder of models: folders that hold `crane.yaml`, and YAML files below
+/// `cranes`.
+void add_models(const fs::path& folder, const std::string& kind, std::vector<std::string>& names) {
+  constexpr int deepest = 4;
+  constexpr int most_visited = 10000;
+  int visited = 0;
+  std::error_code error;
+  fs::recursive_directory_iterator files(folder, fs::directory_options::skip_permission_denied,
+                                         error);
+  for (; !error && files != fs::recursive_directory_iterator(); files.increment(error)) {
+    if (++visited > most_visited) return;
+    if (files.depth() >= deepest) files.disable_recursion_pending();
+    const fs::path relative = files->path().lexically_relative(folder);
+    if (relative.extension() != ".yaml") continue;
+    if (relative.filename() == kind + ".yaml" && relative.has_parent_path()) {
+      names.push_back(relative.parent_path().string());
+    } else if (*relative.begin() == kind + "s") {
+      names.push_back((relative.parent_path() / relative.stem()).string());
+    }
+  }
+}
+
+/// The name without its folders.
+std::string last_part(const std::string& name) { return fs::path(name).filename().string(); }
+
+}  // namespace
+
+ModelLibrary ModelLibrary::of_installation() { return ModelLibrary(model_path()); }
+
+std::vector<fs::path> ModelLibrary::files_of(const std::string& group,
+                                             const std::string& file_name) const {
+  std::map<std::string, fs::path> by_folder;
+  for (const fs::path& models : model_folders_) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(models / group, error)) {
+      const fs::path file = entry.path() / file_name;
+      if (is_file(file)) by_folder.emplace(entry.path().filename().string(), file);
+    }
+  }
+  std::vector<fs::path> files;
+  for (const auto& [folder, file] : by_folder) files.push_back(file.lexically_normal());
+  return files;
+}
+
+std::string ModelLibrary::hint_of_name(const std::string& name, const std::string& kind,
+                                       const Folders& beside) const {
+  const std::vector<std::string> known = names_of_kind(kind, beside);
+  const bool without_folder = name.find('/') == std::string::npos;
+  std::vector<std::string> shown = known;
+  if (kind == "standard" && without_folder)
+    for (std::string& one : shown)
+      if (one.starts_with("standards/")) one = last_part(one);
+  std::string hint = names_hint(fmt::format("the {} models are", kind), shown, name);
+  if (!nearest_name(name, shown).empty()) return hint;
+  // The folder may be wrong, or missing, and the name right.
+  std::vector<std::string> last_parts;
+  for (const std::string& one : known) last_parts.push_back(last_part(one));
+  const std::string near = nearest_name(last_part(name), last_parts);
+  const auto found = std::find(last_parts.begin(), last_parts.end(), near);
+  if (near.empty() || found == last_parts.end()) return hint;
+  return fmt::format("{}; did you mean \"{}\"?", hint,
+                     known[static_cast<std::size_t>(found - last_parts.begin())]);
+}
+
+fs::path ModelLibrary::find(const Located<std::string>& name, const std::string& kind,
+                            const Folders& beside, Diagnostics& diagnostics) const {
+  std::vector<fs::path> places = beside;
+  places.insert(places.end(), model_folders_.begin(), model_folders_.end());
+  const bool is_short = kind == "standard" && name.value.find('/') == std::string::npos;
+  if (is_short)
+    for (const fs::path& folder : model_folders_) places.push_back(folder / "standards");
+  const bool is_free = structure::are_files_outside_allowed();
+  bool leads_somewhere = false, is_outside = false;
+  for (const fs::path& place : places) {
+    const fs::path named = name.value;
+    for (const fs::path& within :
+         {named, fs::path(named.string() + ".yaml"), named / (kind + ".yaml")}) {
+      const fs::path file = place / within;
+      if (!is_free && !is_within(within, place, beside, model_folders_)) {
+        is_outside |= is_file(file);
+        continue;
+      }
+      leads_somewhere = true;
+      if (!is_file(file)) continue;
+      log_entry(fmt::format("{} model \"{}\" is {}", kind, name.value, shown_path(file)));
+      return file.lexically_normal();
+    }
+  }
+  if (is_outside || !leads_somewhere) {
+    complain_about_outside(name, diagnostics);
+    return {};
+  }
+  std::vector<std::string> looked_in;
+  for (const fs::path& place : places) {
+    const std::string shown = shown_path(place.empty() ? fs::path(".") : place);
+    if (std::find(looked_in.begin(), looked_in.end(), shown) == looked_in.end()) {
+      looked_in.push_back(shown);
+    }
+  }
+  std::vector<std::string> hints = {hint_of_name(name.value, kind, beside),
+                                    "looked for in " + list_of_names(looked_in)};
+  for (const std::string other : {"crane", "block", "rope", "vessel", "standard"}) {
+    if (other == kind) continue;
+    const std::vector<std::string> others = names_of_kind(other, beside);
+    if (std::find(others.begin(), others.end(), name.value) != others.end())
+      hints.push_back(fmt::format("\"{}\" is a {}", name.value, other));
+  }
+  diagnostics.error(name.mark, fmt::format("there is no {} model \"{}\"", kind, name.value),
+                    std::move(hints));
+  return {};
+}
+
+fs::path ModelLibrary::find_and_note(const Located<std::string>& name, const std::string& kind,
+                                     const Folders& beside, Diagnostics& diagnostics) {
+  fs::path file = find(name, kind, beside, diagnostics);
+  const bool is_known = std::any_of(found_.begin(), found_.end(),
+                                    [&](const FoundModel& model) { return model.file == file; });
+  if (!file.empty() && !is_known) found_.push_back({name.value, file, ""});
+  return file;
+}
+
+void ModelLibrary::change(const std::string& name, Document& document, Diagnostics& diagnostics) {
+  apply_key_changes(changes_, name, document, diagnostics);
+  changed_.push_back(name);
+}
+
+void ModelLibrary::complain_about_unused_changes(Diagnostics& diagnostics) const {
+  for (const KeyChange& change : changes_) {
+    if (std::find(changed_.begin(), changed_.end(), change.file) != changed_.end()) continue;
+    std::vector<std::string> models;
+    for (const std::string& name : changed_)
+      if (!name.empty()) models.push_back(name);
+    diagnostics.error(
+        change.mark, fmt::format("the case has no model \"{}\" to change", change.file),
+        {names_hint("its cranes, blocks, ropes and standards are", models, change.file)});
+  }
+}
+
+std::optional<Document> ModelLibrary::load(const fs::path& file, Diagnostics& diagnostics) {
+  std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return document;
+  for (FoundModel& model : found_) {
+    if (model.file != file) continue;
+    const std::string before = document->text;
+    change(model.name, *document, diagnostics);
+    if (document->text != before) model.changed_text = document->text;
+  }
+  return document;
+}
+
+std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
+                                                     const Folders& beside) const {
+  std::vector<std::string> names;
+  for (const fs::path& folder : model_folders_) add_models(folder, kind, names);
+  for (const fs::path& folder : beside)
+    add_models(folder.empty() ? fs::path(".") : folder, kind, names);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::shared_ptr<const CraneModel> ModelLibrary::load_crane(const Located<std::string>& name,
+                                                           const fs::path& beside,
+                                                           Diagnostics& diagnostics,
+                                                           const ParameterValues& parameters) {
+  const fs::path file = find_and_note(name, "crane", {beside}, diagnostics);
+  return file.empty() ? nullptr : read_crane(file, diagnostics, parameters, beside);
+}
+
+std::shared_ptr<const BlockModel> ModelLibrary::load_block(const Located<std::string>& name,
+                                                           const fs::path& beside,
+                                                           Diagnostics& diagnostics) {
+  const fs::path file = find_and_note(name, "block", {beside}, diagnostics);
+  return file.empty() ? nullptr : read_block(file, diagnostics, beside);
+}
+
+std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::string>& name,
+                                                        const fs::path& beside,
+                                                        Diagnostics& diagnostics) {
+  const fs::path file = find_and_note(name, "vessel", {beside}, diagnostics);
+  if (file.empty()) return nullptr;
+  const auto known = vessels_.find(file);
+  if (known != vessels_.end()) return known->second;
+  std::optional<Vessel> vessel = read_vessel(file, diagnostics, {beside});
+  return vessels_[file] = vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
+}
+
+RopeModel ModelLibrary::resolve_among(const RopeChoice& choice, const Folders& beside,
+                                      Diagnostics& diagnostics) {
+  if (choice.keys) return *choice.keys;
+  if (!choice.model_name || choice.model_name->value.empty()) return {};
+  const fs::path file = find_and_note(*choice.model_name, "rope", beside, diagnostics);
+  if (file.empty()) return {};
+  const std::shared_ptr<const RopeModel> rope = read_rope(file, diagnostics);
+  return rope ? *rope : RopeModel{};
+}
+
+std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
+                                                           Diagnostics& diagnostics,
+                                                           const ParameterValues& parameters,
+                                                           const std::optional<fs::path>& of_case) {
+  std::string key = file.string();
+  for (const Named<Located<Measure>>& parameter : parameters) {
+    key += fmt::format("\n{} = {:a}", parameter.name.value, parameter.value.value.value);
+  }
+  const auto known = cranes_.find(key);
+  if (known != cranes_.end()) return known->second;
+  std::shared_ptr<CraneModel> crane =
+      read_model(load(file, diagnostics), "crane", crane_model_format(), diagnostics, parameters);
+  if (crane) {
+    Folders beside = {file.parent_path()};
+    if (of_case) beside.push_back(*of_case);
+    for (HoistModel& hoist : crane->hoists)
+      hoist.rope = resolve_among(hoist.rope_choice, beside, diagnostics);
+  }
+  return cranes_[key] = crane;
+}
+
+std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
+                                                           Diagnostics& diagnostics,
+                                                           const std::optional<fs::path>& of_case) {
+  const auto known = blocks_.find(file);
+  if (known != blocks_.end()) return known->second;
+  const std::shared_ptr<BlockModel> block =
+      read_model(load(file, diagnostics), "block", block_model_format(), diagnostics);
+  if (block) read_block_mesh(*block, file.parent_path(), diagnostics, of_case);
+  return blocks_[file] = block;
+}
+
+std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
+                                                         Diagnostics& diagnostics) {
+  const auto known = ropes_.find(file);
+  if (known != ropes_.end()) return known->second;
+  return ropes_[file] =
+             read_model(load(file, diagnostics), "rope", rope_model_format(), diagnostics);
+}
+
+std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<std::string>& name,
+                                                                 const fs::path& beside,
+                                                                 Diagnostics& diagnostics) {
+  const fs::path file = find_and_note(name, "standard", {beside}, diagnostics);
+  return file.empty() ? nullptr : read_standard(file, diagnostics);
+}
+
+std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path& file,
+                                                                 Diagnostics& diagnostics) {
+  const auto known = standards_.find(file);
+  if (known != standards_.end()) return known->second;
+  return standards_[file] =
+             read_model(load(file, diagnostics), "standard", standard_rules_format(), diagnostics);
+}
+
+std::shared_ptr<const RiggingStock> ModelLibrary::read_rigging(const fs::path& file,
+                                                               Diagnostics& diagnostics) {
+  const bool is_table = file.extension() == ".csv";
+  Diagnostics own;
+  const std::shared_ptr<RiggingStock> stock =
+      read_model(is_table ? load_rigging_table(file, own) : load(file, own), "rigging",
+                 rigging_stock_format(), own);
+  if (stock && is_table) forget_columns(*stock);
+  if (stock) {
+    for (StockSling& sling : stock->slings)
+      sling.rope = resolve(sling.rope_choice, file.parent_path(), own);
+    check_rigging_stock(*stock, own);
+  }
+  for (const Diagnostic& error : own.errors()) {
+    const bool in_table = is_table && error.mark.file && *error.mark.file == shown_path(file);
+    diagnostics.error(in_table ? without_column(error.mark) : error.mark, error.message,
+                      error.hints);
+  }
+  return stock;
+}
+
+}  // namespace blocklift::pipeline

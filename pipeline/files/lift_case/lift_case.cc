@@ -1,0 +1,234 @@
+#include "pipeline/files/lift_case/lift_case.h"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <system_error>
+
+#include "pipeline/declaration/document.h"
+#include "pipeline/declaration/reading.h"
+#include "pipeline/files/lift_case/lift_case_check.h"
+#include "pipeline/files/lift_case/rope_points.h"
+#include "pipeline/files/named_file.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/series_file.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The case file of a path: itself, or `case.yaml` in the folder that it is. Empty and a complaint
+/// if the folder has none.
+fs::path case_file(const fs::path& path, Diagnostics& diagnostics) {
+  std::error_code error;
+  if (path.empty()) {
+    diagnostics.error({}, "the name of the case is empty",
+                      {"a lift case is a file, or a folder with the file case.yaml in it"});
+    return {};
+  }
+  if (!fs::is_directory(path, error)) return path;
+  fs::path file = path / "case.yaml";
+  if (fs::exists(file, error)) return file;
+  diagnostics.error({std::make_shared<const std::string>(shown_path(path)), 0, 0},
+                    "this folder has no case.yaml",
+                    {"a lift case is a file, or a folder with the file case.yaml in it"});
+  return {};
+}
+
+/// Reads the measured tensions of a case; complains at the file's name.
+void read_measured_series(LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (!lift_case.compare) return;
+  for (Named<MeasuredSeries>& named : lift_case.compare->series) {
+    MeasuredSeries& measured = named.value;
+    if (measured.file.value.empty()) continue;
+    const auto path = path_of_named_file(measured.file, lift_case.file.parent_path(), diagnostics);
+    if (!path) continue;
+    try {
+      const SeriesFile file = read_series_file(*path);
+      if (file.columns.size() != 2) {
+        throw SeriesFileError(measured.file.value + " has " + std::to_string(file.columns.size()) +
+                              " columns; time in s and the tension are due");
+      }
+      for (const double time : file.columns[0]) measured.time.push_back(time + measured.offset);
+      for (const double value : file.columns[1]) measured.tension.push_back(value * measured.unit);
+      if (!std::is_sorted(measured.time.begin(), measured.time.end())) {
+        throw SeriesFileError(measured.file.value + ": the times do not ascend");
+      }
+    } catch (const SeriesFileError& error) {
+      diagnostics.error(measured.file.mark, error.what());
+    }
+  }
+}
+
+void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagnostics) {
+  const fs::path folder = lift_case.file.parent_path();
+  for (CraneInCase& crane : lift_case.cranes) {
+    if (crane.model_name.value.empty()) continue;
+    crane.model = library.load_crane(crane.model_name, folder, diagnostics, crane.parameters);
+  }
+  if (!lift_case.load.model_name.value.empty()) {
+    lift_case.load.model = library.load_block(lift_case.load.model_name, folder, diagnostics);
+  }
+  if (lift_case.load.vessel_name && !lift_case.load.vessel_name->value.empty()) {
+    lift_case.load.vessel = library.load_vessel(*lift_case.load.vessel_name, folder, diagnostics);
+  }
+  load_marine_models(lift_case, folder, library, diagnostics);
+  read_measured_series(lift_case, diagnostics);
+  for (RopeInCase& rope : lift_case.ropes) {
+    rope.rope = library.resolve(rope.rope_choice, folder, diagnostics);
+  }
+  if (lift_case.standard) load_rules(*lift_case.standard, folder, library, diagnostics);
+}
+
+}  // namespace
+
+dynamics::Pose LoadInCase::pose_afloat() const {
+  const Eigen::Matrix3d R_start = rotation_of(attitude);
+  const double yaw = afloat ? afloat->heading : std::atan2(R_start(1, 0), R_start(0, 0));
+  const std::array<double, 2> place =
+      afloat ? afloat->position : std::array<double, 2>{position.x(), position.y()};
+  return {dynamics::rotation_about(Vector3::UnitZ(), yaw),
+          {place[0], place[1], -vessel->hull.bounds()[0].z() - draughts->value.back()}};
+}
+
+const Located<Quantity>* CraneInCase::find_start(const std::string& drive_or_hoist) const {
+  const auto* found = find_by_name(start, drive_or_hoist);
+  return found ? &found->value : nullptr;
+}
+
+std::string ResolvedPoint::body_name(const std::vector<CraneInCase>& cranes) const {
+  switch (kind) {
+    case Kind::world:
+      return "world";
+    case Kind::load:
+      return "load";
+    case Kind::vessel:
+    case Kind::spreader:
+      return part;
+    case Kind::crane_body:
+    case Kind::hook:
+      return cranes.at(crane).name.value + "." + part;
+  }
+  return {};
+}
+
+std::shared_ptr<const dynamics::WindField> WindInCase::make_field(bool at_rest) const {
+  dynamics::WindField::Definition definition;
+  definition.speed = speed;
+  definition.heading = towards;
+  definition.air_density = air_density;
+  definition.profile = profile;
+  definition.gusts = gusts;
+  definition.gust_height = gust_height;
+  definition.seed = static_cast<std::uint64_t>(seed);
+  const dynamics::WindField field(definition);
+  return std::make_shared<const dynamics::WindField>(at_rest ? field.mean() : field);
+}
+
+Vector3 LoadTable::direction_at(const std::string& lug) const {
+  if (const Vector3* one = std::get_if<Vector3>(&direction)) return *one;
+  const auto* each = find_by_name(std::get<std::vector<Named<Vector3>>>(direction), lug);
+  if (!each) throw std::out_of_range("the load table has no direction for lug " + lug);
+  return each->value;
+}
+
+std::optional<double> LiftCase::ground_height() const {
+  if (ground || sea) return ground;
+  double lowest = 0;
+  for (const SupportInCase& support : supports) lowest = std::min(lowest, support.ground);
+  return lowest;
+}
+
+double RopeInCase::friction() const {
+  if (sheave_friction) return sheave_friction->value;
+  // exp(-mu pi) is left over half a turn.
+  return sheave_efficiency ? -std::log(sheave_efficiency->value) / std::numbers::pi : 0;
+}
+
+bool LiftCase::hangs(const RopeInCase& rope) const {
+  return rope_weight && rope_weight->value && rope.rope.mass_per_length && rope.through.empty();
+}
+
+bool LiftCase::hangs(const CraneInCase& crane, const HoistModel& hoist) const {
+  if (!rope_weight || !rope_weight->value || !hoist.rope.mass_per_length) return false;
+  if (!crane.equalised) return true;
+  const auto& pair = crane.equalised->value;
+  return pair[0].value != hoist.name.value && pair[1].value != hoist.name.value;
+}
+
+const CraneInCase* LiftCase::find_crane(const std::string& crane) const {
+  return find_by_name(cranes, crane);
+}
+
+const RopeInCase* LiftCase::find_rope(const std::string& rope) const {
+  return find_by_name(ropes, rope);
+}
+
+const SpreaderInCase* LiftCase::find_spreader(const std::string& spreader) const {
+  return find_by_name(spreaders, spreader);
+}
+
+std::string LiftCase::hook_above(const RopeInCase& rope) const {
+  std::string hook;
+  std::set<std::string> passed;  // spreaders; a ring of them hangs on nothing
+  std::vector<const RopeInCase*> open = {&rope};
+  while (!open.empty()) {
+    const ResolvedPoint& first = open.back()->path.front();
+    open.pop_back();
+    if (first.kind == ResolvedPoint::Kind::hook) {
+      const std::string found = first.body_name(cranes);
+      if (!hook.empty() && found != hook) return {};
+      hook = found;
+    } else if (first.kind == ResolvedPoint::Kind::spreader) {
+      if (!passed.insert(first.part).second) continue;
+      for (const RopeInCase& above : ropes)
+        if (above.ends_at_spreader(first.part)) open.push_back(&above);
+    } else {
+      return {};
+    }
+  }
+  return hook;
+}
+
+std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& library,
+                                       Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  library.forget_found();
+  const fs::path file = case_file(path, diagnostics);
+  if (file.empty()) return std::nullopt;
+  std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  library.change("", *document, diagnostics);
+
+  LiftCase lift_case;
+  lift_case.file = file;
+  lift_case.yaml = document->text;
+  Reading reading(*document, diagnostics);
+  lift_case_format().read(document->root, reading, lift_case);
+  load_models(lift_case, library, diagnostics);
+  library.complain_about_unused_changes(diagnostics);
+  if (document->root.IsMap()) {
+    resolve_points(lift_case, diagnostics);
+    check_lift_case(lift_case, diagnostics);
+  }
+  if (diagnostics.error_count() == errors_before && !lift_case.load_table) {
+    check_loops_at_start(lift_case, diagnostics);
+  }
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  for (const FoundModel& model : library.found())
+    lift_case.model_texts.push_back(
+        {model.name, model.changed_text.empty() ? read_file(model.file) : model.changed_text});
+  return lift_case;
+}
+
+LiftCase read_lift_case(const fs::path& path, std::vector<KeyChange> changes) {
+  Diagnostics diagnostics;
+  ModelLibrary library = ModelLibrary::of_installation();
+  library.set_changes(std::move(changes));
+  std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
+  if (!lift_case) throw InputError(diagnostics);
+  return std::move(*lift_case);
+}
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,405 @@
+#include "pipeline/files/lift_case/marine_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_diagnosis.h"
+#include "dynamics/marine/loads/draught_shares.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "dynamics/marine/waves/wave_spectrum.h"
+#include "pipeline/files/library/model_library.h"
+#include "pipeline/files/lift_case/vessel_database.h"
+#include "pipeline/files/named_file.h"
+#include "pipeline/formats/series_file.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::Sea;
+using dynamics::WaveField;
+using dynamics::WaveSpectrum;
+
+WaveSpectrum make_spectrum(const SpectrumInCase& s) {
+  switch (s.shape) {
+    case SpectrumShape::jonswap:
+      return WaveSpectrum::jonswap(s.significant_height->value, s.peak_period->value, s.peakedness);
+    case SpectrumShape::pierson_moskowitz:
+      return WaveSpectrum::pierson_moskowitz(s.significant_height->value, s.peak_period->value);
+    case SpectrumShape::issc:
+      return WaveSpectrum::issc(s.significant_height->value, s.mean_period->value);
+    case SpectrumShape::table:
+      break;
+  }
+  std::vector<double> omega, density;
+  for (const auto& point : s.table->value) {
+    omega.push_back(point[0].value);
+    density.push_back(point[1].value);
+  }
+  return WaveSpectrum::table(std::move(omega), std::move(density));
+}
+
+/// The frequencies for which radiation is computed bound those of an irregular sea.
+std::array<double, 2> frequencies_of(const SeaInCase& sea, const WaveSpectrum& spectrum) {
+  const std::array<double, 2> all = spectrum.range(1e-3);
+  return {std::max(all[0], sea.radiation.lowest), std::min(all[1], sea.radiation.highest)};
+}
+
+WaveField make_waves(const SeaInCase& sea, const dynamics::Water& water) {
+  const WavesInCase& waves = *sea.waves;
+  const dynamics::WaveRamp ramp{0.0, waves.ramp};
+  if (waves.regular) {
+    std::vector<dynamics::WaveComponent> components;
+    for (const RegularWaveInCase& wave : *waves.regular) {
+      components.push_back({wave.amplitude, wave.omega(), wave.heading, wave.phase});
+    }
+    return WaveField(water, components, ramp);
+  }
+  if (waves.spectrum) {
+    const SpectrumInCase& s = *waves.spectrum;
+    const WaveSpectrum spectrum = make_spectrum(s);
+    dynamics::SeaRealisation how;
+    how.heading = s.heading;
+    how.spreading_exponent = s.spreading;
+    how.components = s.components;
+    how.seed = static_cast<std::uint64_t>(s.seed);
+    how.frequencies = frequencies_of(sea, spectrum);
+    how.ramp = ramp;
+    return realise(spectrum, water, how);
+  }
+  const WaveRecordInCase& r = *waves.record;
+  dynamics::WaveRecord record;
+  record.elevation = r.elevation;
+  record.time_step = r.time_step;
+  record.start_time = r.start_time;
+  record.heading = r.heading;
+  record.frequencies = {r.lowest.value_or(sea.radiation.lowest),
+                        r.highest.value_or(sea.radiation.highest)};
+  record.ramp = ramp;
+  return realise(record, water);
+}
+
+dynamics::Current make_current(const CurrentInCase& current, const dynamics::Water& water) {
+  switch (current.profile) {
+    case CurrentProfile::tidal:
+      return dynamics::Current::tidal(current.speed, current.towards, water.depth);
+    case CurrentProfile::wind_driven:
+      return dynamics::Current::wind_driven(current.speed, current.towards);
+    case CurrentProfile::uniform:
+      break;
+  }
+  return dynamics::Current::uniform(current.speed, current.towards);
+}
+
+void read_record(WaveRecordInCase& record, const std::filesystem::path& folder,
+                 Diagnostics& diagnostics) {
+  const auto path = path_of_named_file(record.file, folder, diagnostics);
+  if (!path) return;
+  try {
+    const SeriesFile series = read_series_file(*path);
+    if (series.columns.size() != 2 || series.row_count() < 4) {
+      throw SeriesFileError(fmt::format(
+          "{} has {} columns and {} rows; a record has two columns, time in s and elevation in m, "
+          "and at least four rows",
+          record.file.value, series.columns.size(), series.row_count()));
+    }
+    const std::vector<double>& time = series.columns[0];
+    const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+    for (std::size_t i = 1; i < time.size(); ++i) {
+      if (step > 0 && std::abs(time[i] - time[i - 1] - step) < 1e-3 * step) continue;
+      throw SeriesFileError(
+          fmt::format("{}: the times {} s and {} s are not one step of {:.6g} s apart",
+                      record.file.value, time[i - 1], time[i], step));
+    }
+    record.elevation = series.columns[1];
+    record.time_step = step;
+    record.start_time = time.front();
+  } catch (const SeriesFileError& error) {
+    diagnostics.error(record.file.mark, error.what(),
+                      {"resample the record at even steps of time"});
+  }
+}
+
+/// Complains if a hull's panels are too large for the shortest wave.
+void check_panels(const VesselInCase& vessel, const WaveField& waves, const Mark& mark,
+                  Diagnostics& diagnostics) {
+  const double water_level = vessel.draught
+                                 ? vessel.draught->value
+                                 : dynamics::find_floating_position(
+                                       dynamics::HullClusters(vessel.model->hull),
+                                       {vessel.model->model.mass,
+                                        vessel.model->model.centre_of_mass, waves.water().density})
+                                           .X_WB.p.z() *
+                                       -1.0;
+  dynamics::HullDemands demands;
+  demands.largest_warp = 0.5;
+  demands.water_level = water_level;
+  demands.shortest_wave_length = waves.shortest_wave_length();
+  demands.most_of_a_kind = 1;
+  for (const dynamics::HullDefect& defect : diagnose(vessel.model->hull, demands)) {
+    diagnostics.error(mark, fmt::format("vessel {}: {}", vessel.name.value, defect.message),
+                      {"smaller panels (panel_size of the model), a longer wave, or a lower "
+                       "highest_frequency under radiation"});
+  }
+}
+
+void check_sea(const MarineParts& parts, double gravity, Diagnostics& diagnostics) {
+  const SeaInCase& sea = *parts.sea;
+  if (sea.current && sea.current->profile == CurrentProfile::tidal && !sea.depth) {
+    diagnostics.error(sea.current->place, "a tidal current needs the depth of the sea");
+    return;
+  }
+  const Mark& mark = sea.waves ? sea.waves->place : sea.place;
+  try {
+    const Sea made = make_sea(sea, gravity);
+    if (!sea.waves) return;
+    require_not_breaking(made.waves);
+    for (const VesselInCase& vessel : parts.vessels) {
+      if (vessel.model) check_panels(vessel, made.waves, mark, diagnostics);
+    }
+  } catch (const dynamics::ModelError& error) {
+    diagnostics.error(mark, error.what());
+  }
+}
+
+/// Of the vessel's frame, upright, by its own weight, m.
+double floating_height(const VesselInCase& vessel, const SeaInCase& sea) {
+  return dynamics::find_floating_height(dynamics::HullClusters(vessel.model->hull),
+                                        dynamics::Matrix3::Identity(),
+                                        vessel.model->model.mass / sea.density);
+}
+
+void check_floating(const VesselInCase& vessel, const SeaInCase& sea, Diagnostics& diagnostics) {
+  if (!vessel.model || vessel.draught) return;
+  try {
+    floating_height(vessel, sea);
+  } catch (const dynamics::ModelError& error) {
+    diagnostics.error(vessel.name.mark, error.what());
+  }
+}
+
+void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
+  if (vessel.name.value == "world" || vessel.name.value == "load") {
+    diagnostics.error(vessel.name.mark,
+                      fmt::format("a vessel cannot be named \"{}\"", vessel.name.value));
+  }
+  if (vessel.model && vessel.draughts) {
+    check_draughts("vessel " + vessel.name.value, *vessel.draughts, *vessel.model, diagnostics);
+  }
+  if (!vessel.model || !vessel.draught) return;
+  const auto [low, high] = vessel.model->hull.bounds();
+  if (vessel.draught->value > low.z() && vessel.draught->value < high.z()) return;
+  diagnostics.error(
+      vessel.draught->mark,
+      fmt::format("vessel {} would float at a draught of {:.4g} m, and its hull reaches "
+                  "from {:.4g} m to {:.4g} m above its base",
+                  vessel.name.value, vessel.draught->value, low.z(), high.z()));
+}
+
+/// Draughts belong to databases, and to one vessel.
+void check_lowered(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+  const VesselInCase* lowered = nullptr;
+  for (const VesselInCase& vessel : vessels) {
+    if (!vessel.draughts) continue;
+    const std::string& name = vessel.name.value;
+    if (vessel.radiation.value != RadiationMethod::database) {
+      diagnostics.error(
+          vessel.draughts->mark,
+          fmt::format("vessel {} has draughts, and its radiation is {}", name,
+                      vessel.radiation.value == RadiationMethod::direct ? "direct" : "none"),
+          {"draughts are interpolated between databases: radiation: database"});
+    }
+    if (lowered) {
+      diagnostics.error(vessel.draughts->mark,
+                        fmt::format("vessel {} has draughts, as {} has", name, lowered->name.value),
+                        {"one body may be lowered into the water that they share"});
+    }
+    lowered = &vessel;
+  }
+}
+
+/// There is one surface of the water.
+void check_radiation(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+  check_lowered(vessels, diagnostics);
+  const VesselInCase* first = nullptr;
+  for (const VesselInCase& vessel : vessels) {
+    if (vessel.radiation.value == RadiationMethod::none) continue;
+    if (!first) first = &vessel;
+    if (vessel.radiation.value == first->radiation.value) continue;
+    diagnostics.error(
+        vessel.radiation.mark,
+        fmt::format("vessels {} and {} radiate in different ways", first->name.value,
+                    vessel.name.value),
+        {"they share one water: give all that make waves radiation: database, or all direct"});
+    return;
+  }
+}
+
+/// Drift needs mean forces: of one vessel alone from its far field, or of its database.
+void check_drift(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+  const auto radiating = std::count_if(vessels.begin(), vessels.end(), [](const auto& vessel) {
+    return vessel.radiation.value != RadiationMethod::none;
+  });
+  for (const VesselInCase& vessel : vessels) {
+    if (vessel.drift.value == DriftMethod::none) continue;
+    const std::string& name = vessel.name.value;
+    const auto refuse = [&](const std::string& why, const std::string& hint) {
+      diagnostics.error(vessel.drift.mark, fmt::format("vessel {} drifts, {}", name, why), {hint});
+    };
+    if (vessel.radiation.value != RadiationMethod::database) {
+      refuse("and its radiation is " +
+                 std::string(vessel.radiation.value == RadiationMethod::none ? "none" : "direct"),
+             "mean drift forces come with a database: radiation: database");
+    } else if (vessel.draughts) {
+      refuse("and is lowered: its draughts have no mean drift forces",
+             "leave out one of drift and draughts");
+    } else if (vessel.database) {
+      if (vessel.hydrodynamics && vessel.hydrodynamics->mean_drift.empty()) {
+        refuse(
+            fmt::format("and the database {} holds no mean drift forces", vessel.database->value),
+            "blocklift hydro computes them where the vessel's hydrodynamics say mean_drift: "
+            "true; other programs' files have them in .7, .8, .9 or mean_drift");
+      }
+    } else if (radiating > 1) {
+      refuse("and shares its water: the waves far away tell the drift of all vessels together only",
+             "name a database that holds mean drift forces of each, or leave out drift");
+    }
+  }
+}
+
+class LineChecker {
+ public:
+  LineChecker(const MarineParts& parts, const std::vector<std::string>& bodies,
+              Diagnostics& diagnostics)
+      : known_(bodies), diagnostics_(diagnostics) {
+    for (const VesselInCase& vessel : parts.vessels) known_.push_back(vessel.name.value);
+  }
+
+  void check(const std::string& line, const PointModel& from, const PointModel& to) {
+    for (const PointModel* point : {&from, &to}) {
+      const std::string& body = point->body.value;
+      if (body.empty() || body == "world" ||
+          std::find(known_.begin(), known_.end(), body) != known_.end()) {
+        continue;
+      }
+      diagnostics_.error(point->body.mark,
+                         fmt::format("{} ends at body \"{}\", which does not exist", line, body),
+                         {names_hint("the bodies are \"world\" and", known_, body)});
+    }
+    if (!from.body.value.empty() && from.body.value == to.body.value) {
+      diagnostics_.error(from.body.mark, fmt::format("{} has both ends on one body", line));
+    }
+  }
+
+ private:
+  std::vector<std::string> known_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+double RegularWaveInCase::omega() const {
+  if (frequency) return frequency->value;
+  return period ? 2.0 * std::numbers::pi / period->value : std::numeric_limits<double>::quiet_NaN();
+}
+
+Eigen::Matrix<double, 6, 1> DampingInCase::vector() const {
+  Eigen::Matrix<double, 6, 1> values;
+  values << roll, pitch, yaw, surge, sway, heave;
+  return values;
+}
+
+void check_draughts(const std::string& who, const Located<std::vector<double>>& draughts,
+                    const Vessel& vessel, Diagnostics& diagnostics) {
+  if (draughts.value.empty()) return;  // the reader has complained
+  const auto [low, high] = vessel.hull.bounds();
+  const double depth = high.z() - low.z(), deepest = draughts.value.back();
+  if (deepest >= depth) {
+    diagnostics.error(
+        draughts.mark,
+        fmt::format("the deepest draught of {} is {:.4g} m, and its hull is {:.4g} m deep", who,
+                    deepest, depth),
+        {"draughts count from the lowest point of the hull, and end below its deck"});
+  }
+  constexpr std::size_t most = dynamics::most_draughts - 1;
+  if (draughts.value.size() > most) {
+    diagnostics.error(draughts.mark, fmt::format("{} has {} draughts; at most {} are interpolated",
+                                                 who, draughts.value.size(), most));
+  }
+}
+
+const VesselInCase* MarineParts::find_vessel(const std::string& name) const {
+  const auto found = std::find_if(vessels.begin(), vessels.end(), [&](const VesselInCase& vessel) {
+    return vessel.name.value == name;
+  });
+  return found == vessels.end() ? nullptr : &*found;
+}
+
+void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
+                        ModelLibrary& library, Diagnostics& diagnostics) {
+  for (VesselInCase& vessel : parts.vessels) {
+    if (vessel.model_name.value.empty()) continue;
+    vessel.model = library.load_vessel(vessel.model_name, beside, diagnostics);
+  }
+  load_vessel_databases(parts.vessels, beside, diagnostics);
+  if (parts.sea && parts.sea->waves && parts.sea->waves->record) {
+    read_record(*parts.sea->waves->record, beside, diagnostics);
+  }
+}
+
+void check_marine_parts(const MarineParts& parts, double gravity,
+                        const std::vector<std::string>& bodies, Diagnostics& diagnostics) {
+  const bool sound_so_far = !diagnostics.has_errors();
+  if (!parts.vessels.empty() && !parts.sea) {
+    diagnostics.error(parts.vessels.front().name.mark,
+                      fmt::format("vessel {} floats in no sea", parts.vessels.front().name.value),
+                      {"add sea: {} for calm deep sea water"});
+  }
+  for (const VesselInCase& vessel : parts.vessels) check_vessel(vessel, diagnostics);
+  check_radiation(parts.vessels, diagnostics);
+  check_vessel_databases(parts, gravity, diagnostics);
+  check_drift(parts.vessels, diagnostics);
+  check_linear_buoyancy(parts.vessels, parts.sea && parts.sea->waves, diagnostics);
+  if (parts.sea && sound_so_far) {
+    check_sea(parts, gravity, diagnostics);
+    for (const VesselInCase& vessel : parts.vessels) {
+      check_floating(vessel, *parts.sea, diagnostics);
+    }
+  }
+  LineChecker lines(parts, bodies, diagnostics);
+  for (const MooringInCase& mooring : parts.moorings) {
+    lines.check("mooring " + mooring.name.value, mooring.anchor, mooring.fairlead);
+  }
+  for (const TuggerInCase& tugger : parts.tuggers) {
+    lines.check("tugger line " + tugger.name.value, tugger.from, tugger.to);
+  }
+}
+
+std::vector<PlacedHull> place_hulls(const MarineParts& parts) {
+  std::vector<PlacedHull> hulls;
+  for (const VesselInCase& vessel : parts.vessels) {
+    const dynamics::Hull& hull = vessel.model->hull;
+    const double height =
+        vessel.draught ? -vessel.draught->value : floating_height(vessel, *parts.sea);
+    hulls.push_back({"vessel " + vessel.name.value,
+                     vessel.name.mark,
+                     &hull,
+                     {dynamics::rotation_about(Vector3::UnitZ(), vessel.heading),
+                      {vessel.position[0], vessel.position[1], height}}});
+  }
+  return hulls;
+}
+
+Sea make_sea(const SeaInCase& sea, double gravity, bool at_rest) {
+  dynamics::Water water;
+  water.density = sea.density;
+  water.gravity = gravity;
+  if (sea.depth) water.depth = *sea.depth;
+  return {sea.waves && !at_rest ? make_waves(sea, water) : WaveField(water),
+          sea.current ? make_current(*sea.current, water) : dynamics::Current()};
+}
+
+}  // namespace blocklift::pipeline

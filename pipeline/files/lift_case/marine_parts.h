@@ -1,0 +1,246 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/marine/waves/sea.h"
+#include "pipeline/declaration/table.h"
+#include "pipeline/files/lift_case/linear_buoyancy.h"
+#include "pipeline/files/vessel/hull_places.h"
+#include "pipeline/files/vessel/hydrodynamic_settings.h"
+#include "pipeline/files/vessel/vessel_model.h"
+#include "pipeline/mechanism/mechanism_parts.h"
+
+namespace blocklift::dynamics {
+struct HydrodynamicDatabase;
+}
+
+namespace blocklift::pipeline {
+
+/// A regular wave: by its frequency or its period.
+struct RegularWaveInCase {
+  double amplitude = std::numeric_limits<double>::quiet_NaN();  ///< m
+  std::optional<Located<double>> frequency;                     ///< rad/s
+  std::optional<Located<double>> period;                        ///< s
+  double heading = 0;                                           ///< direction of travel, rad
+  double phase = 0;                                             ///< rad
+
+  double omega() const;  ///< rad/s; NaN if neither is given
+};
+
+enum class SpectrumShape { jonswap, pierson_moskowitz, issc, table };
+
+/// An irregular sea.
+struct SpectrumInCase {
+  SpectrumShape shape = SpectrumShape::jonswap;
+  std::optional<Located<double>> significant_height;                   ///< m
+  std::optional<Located<double>> peak_period;                          ///< s
+  std::optional<Located<double>> mean_period;                          ///< s
+  double peakedness = std::numeric_limits<double>::quiet_NaN();        ///< gamma of JONSWAP
+  std::optional<Located<std::vector<std::array<Quantity, 2>>>> table;  ///< rad/s, m2 s/rad
+  double heading = 0;                                                  ///< direction of travel, rad
+  std::optional<double> spreading;                                     ///< exponent n of cos^n
+  int components = 0;
+  int seed = 1;
+  Mark place;
+};
+
+/// A measured elevation.
+struct WaveRecordInCase {
+  Located<std::string> file;                                    ///< CSV: time in s, elevation in m
+  double heading = 0;                                           ///< direction of travel, rad
+  std::vector<double> elevation;                                ///< after the file has been read, m
+  double time_step = std::numeric_limits<double>::quiet_NaN();  ///< s
+  double start_time = 0;                                        ///< s
+  std::optional<double> lowest, highest;  ///< frequencies that are kept, rad/s
+};
+
+/// Waves: regular ones, a spectrum, or a record.
+struct WavesInCase {
+  std::optional<std::vector<RegularWaveInCase>> regular;
+  std::optional<SpectrumInCase> spectrum;
+  std::optional<WaveRecordInCase> record;
+  double ramp = 0;  ///< s
+  Mark place;
+};
+
+enum class CurrentProfile { uniform, tidal, wind_driven };
+
+struct CurrentInCase {
+  double speed = 0;    ///< m/s
+  double towards = 0;  ///< rad
+  CurrentProfile profile = CurrentProfile::uniform;
+  Mark place;
+};
+
+/// For what the radiation of floating bodies is computed.
+struct RadiationSettings {
+  double lowest = 0, highest = 0;  ///< frequencies, rad/s
+  int frequencies = 0;
+  /// Where water in gaps and moonpools is damped.
+  std::optional<Located<std::vector<LidModel>>> lids;
+  Mark place;
+};
+
+/// The water and what moves it.
+struct SeaInCase {
+  double density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m^3
+  std::optional<double> depth;                                ///< m; none: deep
+  std::optional<WavesInCase> waves;
+  std::optional<CurrentInCase> current;
+  RadiationSettings radiation;
+  Mark place;
+};
+
+/// Damping of a vessel's six motions.
+struct DampingInCase {
+  double surge = 0, sway = 0, heave = 0;  ///< N s/m, or N s2/m2
+  double roll = 0, pitch = 0, yaw = 0;    ///< N m s, or N m s2
+
+  /// roll, pitch, yaw, surge, sway, heave.
+  Eigen::Matrix<double, 6, 1> vector() const;
+};
+
+/// A slender member in the water.
+struct MemberInCase {
+  Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< in the vessel's frame, m
+  double diameter = 0;                                   ///< m
+  double drag_coefficient = 0;
+};
+
+/// Spring and damper of six freedoms that hold a vessel at its place.
+struct RestraintInCase {
+  std::optional<Located<MatrixInCase>> stiffness, damping;
+  std::optional<Vector3> about;  ///< in the vessel's frame, m; none: its centre of mass
+  bool symmetric = true;
+
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  /// (moment; force) by (turn; displacement), SI; zero if it is not given.
+  static Matrix6 matrix(const std::optional<Located<MatrixInCase>>& given);
+};
+
+/// Drag of the current by coefficients over the heading.
+struct CurrentLoadInCase {
+  double area = std::numeric_limits<double>::quiet_NaN();    ///< m2
+  double length = std::numeric_limits<double>::quiet_NaN();  ///< of the yawing moment, m
+  /// Angle of the relative flow (rad), C_X, C_Y, C_N.
+  Located<std::vector<std::array<Quantity, 4>>> coefficients;
+  std::optional<Vector3> about;  ///< in the vessel's frame, m; none: half way down its draught
+  Mark place;
+};
+
+enum class DriftMethod { none, newman };
+
+enum class RadiationMethod { none, database, direct };
+
+/// A vessel afloat.
+struct VesselInCase {
+  Located<std::string> name;
+  Located<std::string> model_name;
+  std::shared_ptr<const Vessel> model;     ///< after the look-up; null if it failed
+  std::array<double, 2> position{};        ///< of its frame's origin, level, m
+  double heading = 0;                      ///< of its x axis from the world's, rad
+  std::optional<Located<double>> draught;  ///< of its frame's origin, m
+  Located<RadiationMethod> radiation{RadiationMethod::database, {}};
+  /// Of one that is lowered or lifted: from its lowest point, ascending, m.
+  std::optional<Located<std::vector<double>>> draughts;
+  std::optional<Located<std::string>> database;       ///< file beside the case
+  std::optional<Located<std::string>> database_body;  ///< its name in the file
+  /// After the look-up, and which of its bodies it is; null: computed by the panel method.
+  std::shared_ptr<const dynamics::HydrodynamicDatabase> hydrodynamics;
+  int hydrodynamic_body = 0;
+  Located<DriftMethod> drift{DriftMethod::none, {}};
+  std::string database_content;  ///< fingerprint of the file
+  DampingInCase damping, quadratic_damping;
+  std::optional<CurrentLoadInCase> current_load;
+  std::optional<RestraintInCase> restraint;
+  std::optional<LinearBuoyancyInCase> linear_buoyancy;  ///< none: of the hull as it lies
+  std::vector<MemberInCase> members;
+};
+
+/// A heavy line from an anchor.
+struct MooringInCase {
+  Located<std::string> name;
+  PointModel anchor;
+  PointModel fairlead;
+  Located<double> length;                                             ///< unstretched, m
+  double submerged_mass = std::numeric_limits<double>::quiet_NaN();   ///< kg/m
+  double axial_stiffness = std::numeric_limits<double>::quiet_NaN();  ///< N
+  bool on_seabed = true;
+  std::optional<double> breaking_load;  ///< N
+};
+
+/// A light straight line, of a winch that stands or of one that holds a tension.
+struct TuggerInCase {
+  Located<std::string> name;
+  PointModel from;
+  PointModel to;
+  std::optional<Located<double>> length;   ///< unstretched, m; none where a tension is held
+  std::optional<double> stiffness;         ///< N/m; likewise
+  std::optional<Located<double>> tension;  ///< that is held, N; none: the winch stands
+  double damping = 0;                      ///< N s/m
+  std::optional<double> breaking_load;     ///< N
+};
+
+/// What floats, in what, and how it is held; part of lift cases and of mechanism files. SI units.
+struct MarineParts {
+  std::optional<SeaInCase> sea;
+  std::vector<VesselInCase> vessels;
+  std::vector<MooringInCase> moorings;
+  std::vector<TuggerInCase> tuggers;
+
+  const VesselInCase* find_vessel(const std::string& name) const;
+};
+
+Format<SeaInCase> sea_format();
+Format<DampingInCase> vessel_damping_format();
+Format<DampingInCase> vessel_quadratic_damping_format();
+Format<VesselInCase> vessel_in_case_format();
+Format<MooringInCase> mooring_format();
+Format<TuggerInCase> tugger_format();
+
+/// Declares the keys of the marine parts in the table of a case or mechanism.
+template <class T>
+void add_marine_keys(Table<T>& table) {
+  table.optional("sea", &T::sea, sea_format(), "the water in which vessels float; none if left out")
+      .optional("vessels", &T::vessels, named_tables(vessel_in_case_format()),
+                "floating bodies, by name")
+      .optional("moorings", &T::moorings, named_tables(mooring_format()),
+                "heavy lines from anchors, by name")
+      .optional("tuggers", &T::tuggers, named_tables(tugger_format()),
+                "light straight lines of winches that stand, or hold a tension, by name");
+}
+
+class ModelLibrary;
+
+/// Reads the vessels' models and databases and the record of the waves.
+void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
+                        ModelLibrary& library, Diagnostics& diagnostics);
+
+/// Complains about vessels without a sea, seas that cannot be (waves that break, or are too short
+/// for a hull's panels), vessels that do not float at their draught, and lines to bodies that do
+/// not exist.
+/// @param bodies names of all bodies besides the vessels; "world" exists always.
+void check_marine_parts(const MarineParts& parts, double gravity,
+                        const std::vector<std::string>& bodies, Diagnostics& diagnostics);
+
+/// Complains about draughts (m, ascending, from the hull's lowest point) that the hull of `who`
+/// does not reach, or too many of them.
+void check_draughts(const std::string& who, const Located<std::vector<double>>& draughts,
+                    const Vessel& vessel, Diagnostics& diagnostics);
+
+/// The vessels' hulls where they lie at the start, upright, at their draught or by their own
+/// weight. The parts are sound.
+std::vector<PlacedHull> place_hulls(const MarineParts& parts);
+
+/// The sea of the file; its waves at rest if `at_rest`. The parts are sound.
+/// @throws dynamics::ModelError if they are not.
+dynamics::Sea make_sea(const SeaInCase& sea, double gravity, bool at_rest = false);
+
+}  // namespace blocklift::pipeline

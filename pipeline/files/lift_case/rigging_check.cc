@@ -1,0 +1,195 @@
+#include "pipeline/files/lift_case/rigging_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace blocklift::pipeline {
+namespace {
+
+bool same_point(const ResolvedPoint& a, const ResolvedPoint& b) {
+  return a.kind == b.kind && a.crane == b.crane && a.part == b.part && a.point == b.point;
+}
+
+/// Complains about sheaves on the load or a spreader: only the forces of rope ends reach its stress.
+void check_sheaves(const RopeInCase& rope, Diagnostics& diagnostics) {
+  for (std::size_t i = 1; i + 1 < rope.path.size(); ++i) {
+    const bool on_load = rope.path[i].kind == ResolvedPoint::Kind::load;
+    if (!on_load && rope.path[i].kind != ResolvedPoint::Kind::spreader) continue;
+    diagnostics.error(
+        rope.through[i - 1].mark,
+        fmt::format("rope {} runs over a sheave on {}, whose force on the {} would be "
+                    "missing from its stress",
+                    rope.name.value, on_load ? "the load" : "spreader " + rope.path[i].part,
+                    on_load ? "block" : "bar"),
+        {on_load ? "ropes begin or end at lugs; sheaves stand on cranes, hooks or the world"
+                 : "ropes begin or end at the eyes of a spreader"});
+  }
+}
+
+/// Slings from one hook to both ends of a bar must reach around it.
+void check_reach(const LiftCase& lift_case, const SpreaderInCase& bar, Diagnostics& diagnostics) {
+  for (const RopeInCase& one : lift_case.ropes) {
+    if (!one.ends_at_spreader(bar.name.value)) continue;
+    for (const RopeInCase& other : lift_case.ropes) {
+      if (&other <= &one || !other.ends_at_spreader(bar.name.value)) continue;
+      const double apart = (one.path.back().point - other.path.back().point).norm();
+      if (!same_point(one.path.front(), other.path.front()) ||
+          one.length.value + other.length.value > apart)
+        continue;
+      diagnostics.error(
+          one.length.mark,
+          fmt::format("slings {} and {} are too short: {:g} m and {:g} m from one point do not "
+                      "reach the eyes of spreader {}, which are {:g} m apart",
+                      one.name.value, other.name.value, one.length.value, other.length.value,
+                      bar.name.value, apart));
+    }
+  }
+}
+
+void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const SpreaderInCase& bar : lift_case.spreaders) {
+    int above = 0, below = 0;
+    bool all_known = true;
+    for (const RopeInCase& rope : lift_case.ropes) {
+      all_known &= !rope.path.empty();
+      if (rope.path.empty()) continue;
+      above += int{rope.ends_at_spreader(bar.name.value)};
+      const ResolvedPoint& first = rope.path.front();
+      below += int{first.kind == ResolvedPoint::Kind::spreader && first.part == bar.name.value};
+    }
+    if (all_known && (above == 0 || below == 0))
+      diagnostics.error(bar.name.mark,
+                        fmt::format("no sling {} spreader {}", above == 0 ? "ends at" : "begins at",
+                                    bar.name.value),
+                        {fmt::format("slings from above end at {0}.upper_a and {0}.upper_b, those "
+                                     "to the load begin at {0}.lower_a and {0}.lower_b",
+                                     bar.name.value)});
+    check_reach(lift_case, bar, diagnostics);
+  }
+}
+
+void check_bend(const RopeInCase& rope, Diagnostics& diagnostics) {
+  if (!rope.bend_diameter) return;
+  const auto& [bend, mark] = *rope.bend_diameter;
+  if (!rope.rope.diameter) {
+    // A model that could not be read has been complained of.
+    if (std::isfinite(rope.rope.axial_stiffness))
+      diagnostics.error(mark,
+                        fmt::format("the model of rope {} has no diameter, which its bend diameter "
+                                    "is held against",
+                                    rope.name.value),
+                        {"add diameter to the rope's model"});
+  } else if (bend < *rope.rope.diameter) {
+    diagnostics.error(mark,
+                      fmt::format("rope {} of {} is bent round {}", rope.name.value,
+                                  format_quantity(*rope.rope.diameter, Dimension::length),
+                                  format_quantity(bend, Dimension::length)),
+                      {"a rope is not bent round less than its own diameter"});
+  }
+}
+
+void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  bool all_known = true;
+  bool load_hangs = false;
+  for (const RopeInCase& rope : lift_case.ropes) {
+    all_known &= !rope.path.empty();
+    check_sheaves(rope, diagnostics);
+    check_bend(rope, diagnostics);
+    for (std::size_t i = 0; i < rope.path.size(); ++i) {
+      load_hangs |= rope.path[i].kind == ResolvedPoint::Kind::load;
+      if (i > 0 && same_point(rope.path[i - 1], rope.path[i])) {
+        diagnostics.error(rope.name.mark,
+                          fmt::format("rope {} runs from a point to itself", rope.name.value));
+      }
+    }
+    if (rope.winch && rope.winch->range[0].value >= rope.winch->range[1].value) {
+      diagnostics.error(
+          rope.name.mark,
+          fmt::format("the range of the winch of rope {} does not ascend", rope.name.value));
+    }
+  }
+  if (all_known && !lift_case.ropes.empty() && !load_hangs) {
+    diagnostics.error(lift_case.load.vessel_name ? lift_case.load.vessel_name->mark
+                                                 : lift_case.load.model_name.mark,
+                      "no rope holds the load", {"a rope that ends at one of its lugs does"});
+  }
+}
+
+/// Two hoists of one kind of rope can be reeved with one.
+void check_equalised(const CraneInCase& crane, Diagnostics& diagnostics) {
+  if (!crane.equalised) return;
+  std::array<const HoistModel*, 2> hoists{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Located<std::string>& name = crane.equalised->value[i];
+    hoists[i] = crane.model->find_hoist(name.value);
+    if (hoists[i]) continue;
+    diagnostics.error(name.mark,
+                      fmt::format("crane {} has no hoist \"{}\"", crane.name.value, name.value),
+                      {names_hint("its hoists are", names_of(crane.model->hoists), name.value)});
+  }
+  if (!hoists[0] || !hoists[1]) return;
+  if (hoists[0] == hoists[1]) {
+    diagnostics.error(crane.equalised->mark,
+                      fmt::format("hoist {}.{} cannot be equalised with itself", crane.name.value,
+                                  hoists[0]->name.value),
+                      {"two hoists are due: equalised: [left, right]"});
+    return;
+  }
+  const RopeModel &a = hoists[0]->rope, &b = hoists[1]->rope;
+  if (a.axial_stiffness != b.axial_stiffness || a.breaking_load != b.breaking_load ||
+      a.damping_time != b.damping_time) {
+    diagnostics.error(
+        crane.equalised->mark,
+        fmt::format("hoists {} and {} of crane {} have different tackles", hoists[0]->name.value,
+                    hoists[1]->name.value, crane.name.value),
+        {"one rope runs through both where they are equalised, so both name the same rope"});
+  }
+}
+
+/// Ropes that hang by their weight have some, and end at bodies that do not give way.
+void check_rope_weight(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (!lift_case.rope_weight || !lift_case.rope_weight->value) return;
+  const Mark& mark = lift_case.rope_weight->mark;
+  if (lift_case.dynamics.flexibility != Flexibility::rigid)
+    diagnostics.error(mark, "ropes hang by their weight, and the block is flexible",
+                      {"ropes to a block that gives way run straight: leave one of the two out"});
+  bool any = false;
+  for (const RopeInCase& rope : lift_case.ropes) any = any || lift_case.hangs(rope);
+  for (const CraneInCase& crane : lift_case.cranes) {
+    if (!crane.model) return;
+    for (const HoistModel& hoist : crane.model->hoists) any = any || lift_case.hangs(crane, hoist);
+  }
+  if (!any)
+    diagnostics.error(mark, "no rope has a mass by which it would hang",
+                      {"add mass to the models of slings and tackles that run from point to "
+                       "point"});
+}
+
+/// Ropes with friction end at bodies that do not give way.
+void check_friction(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  if (lift_case.dynamics.flexibility == Flexibility::rigid) return;
+  for (const RopeInCase& rope : lift_case.ropes) {
+    const auto& given = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
+    if (!given || rope.friction() == 0) continue;
+    diagnostics.error(
+        given->mark,
+        fmt::format("rope {} has friction at its sheaves, and the block is flexible",
+                    rope.name.value),
+        {"ropes to a block that gives way have one tension all along: leave one of the two out"});
+  }
+}
+
+}  // namespace
+
+void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const CraneInCase& crane : lift_case.cranes)
+    if (crane.model && !lift_case.load_table) check_equalised(crane, diagnostics);
+  check_ropes(lift_case, diagnostics);
+  check_spreaders(lift_case, diagnostics);
+  check_rope_weight(lift_case, diagnostics);
+  check_friction(lift_case, diagnostics);
+}
+
+}  // namespace blocklift::pipeline

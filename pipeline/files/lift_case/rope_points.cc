@@ -1,0 +1,231 @@
+#include "pipeline/files/lift_case/rope_points.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/files/lift_case/case_names.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+/// Looks up points: of ropes, and of what operators keep.
+class PointResolver {
+ public:
+  PointResolver(const LiftCase& lift_case, Diagnostics& diagnostics)
+      : case_(lift_case), diagnostics_(diagnostics) {}
+
+  /// @param subject what is at that point, for messages: "rope R1 ends at".
+  std::optional<ResolvedPoint> resolve(const Located<RopePoint>& point, std::string subject) {
+    const RopePoint& p = point.value;
+    subject_ = std::move(subject);
+    if (p.body) return resolve_body(*p.body, p.point);
+    if (p.name.value.empty()) return std::nullopt;
+    if (const SpreaderInCase* bar = case_.find_spreader(before_dot(p.name.value)))
+      return resolve_eye(p.name, *bar);
+    if (p.name.value.find('.') != std::string::npos && !is_lug(p.name.value)) {
+      return resolve_part(p.name, false, Vector3::Zero());
+    }
+    return resolve_lug(p.name);
+  }
+
+  /// The upper sheave of a hoist.
+  std::optional<ResolvedPoint> resolve_head(const Located<std::string>& hoist,
+                                            std::string subject) {
+    subject_ = std::move(subject);
+    std::optional<ResolvedPoint> head = resolve_part(hoist, false, Vector3::Zero());
+    if (!head) return head;
+    const HoistModel& model = *case_.cranes[head->crane].model->find_hoist(head->part);
+    head->kind = ResolvedPoint::Kind::crane_body;
+    head->part = model.body.value;
+    head->point = model.sheave;
+    return head;
+  }
+
+ private:
+  std::optional<ResolvedPoint> resolve_body(const Located<std::string>& body,
+                                            const Vector3& point) {
+    if (body.value.empty()) return std::nullopt;
+    ResolvedPoint resolved;
+    resolved.point = point;
+    if (body.value == "world") return resolved;
+    if (body.value == "load") {
+      resolved.kind = ResolvedPoint::Kind::load;
+      return resolved;
+    }
+    if (case_.find_vessel(body.value)) {
+      resolved.kind = ResolvedPoint::Kind::vessel;
+      resolved.part = body.value;
+      return resolved;
+    }
+    if (case_.find_spreader(body.value)) {
+      resolved.kind = ResolvedPoint::Kind::spreader;
+      resolved.part = body.value;
+      return resolved;
+    }
+    if (body.value.find('.') == std::string::npos) {
+      fail_body(body);
+      return std::nullopt;
+    }
+    return resolve_part(body, true, point);
+  }
+
+  void fail_body(const Located<std::string>& body) {
+    const std::string kinds =
+        "a body is \"world\", \"load\", a vessel, a spreader, or crane and body, for example "
+        "C1.gantry";
+    std::vector<std::string> known = names_of(case_.vessels);
+    for (const SpreaderInCase& bar : case_.spreaders) known.push_back(bar.name.value);
+    fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
+         known.empty() ? kinds
+                       : names_hint(kinds + "; the vessels and spreaders are", known, body.value));
+  }
+
+  std::optional<ResolvedPoint> resolve_eye(const Located<std::string>& name,
+                                           const SpreaderInCase& bar) {
+    ResolvedPoint resolved;
+    resolved.kind = ResolvedPoint::Kind::spreader;
+    resolved.part = bar.name.value;
+    const std::size_t dot = name.value.find('.');
+    const std::optional<Vector3> eye =
+        bar.eye(dot == std::string::npos ? std::string() : name.value.substr(dot + 1));
+    if (eye) {
+      resolved.point = *eye;
+      return resolved;
+    }
+    std::vector<std::string> known;
+    for (const std::string& one : spreader_eyes) known.push_back(bar.name.value + "." + one);
+    fail(name,
+         fmt::format("{} \"{}\", which is no eye of spreader {}", subject_, name.value,
+                     bar.name.value),
+         names_hint("its eyes are", known, name.value));
+    return std::nullopt;
+  }
+
+  std::optional<ResolvedPoint> resolve_part(const Located<std::string>& name, bool bodies_too,
+                                            const Vector3& point) {
+    const std::size_t dot = name.value.find('.');
+    const std::string crane_name = name.value.substr(0, dot);
+    const std::string part = name.value.substr(dot + 1);
+    const CraneInCase* crane = case_.find_crane(crane_name);
+    if (!crane) {
+      fail(name,
+           fmt::format("{} \"{}\", but the case has no crane \"{}\"", subject_, name.value,
+                       crane_name),
+           names_hint("its cranes are", names_of(case_.cranes), crane_name));
+      return std::nullopt;
+    }
+    if (!crane->model) return std::nullopt;
+    ResolvedPoint resolved;
+    resolved.crane = static_cast<std::size_t>(crane - case_.cranes.data());
+    resolved.part = part;
+    resolved.point = point;
+    if (crane->model->find_hoist(part)) {
+      resolved.kind = ResolvedPoint::Kind::hook;
+      return resolved;
+    }
+    if (bodies_too && crane->model->find_body(part)) {
+      resolved.kind = ResolvedPoint::Kind::crane_body;
+      return resolved;
+    }
+    if (crane->model->find_body(part)) {
+      fail(name, fmt::format("{} body \"{}\" without saying where", subject_, name.value),
+           fmt::format("give the point: {{body: {}, point: [0 m, 0 m, 0 m]}}", name.value));
+      return std::nullopt;
+    }
+    fail(name,
+         fmt::format("{} \"{}\", but crane {} has no {} \"{}\"", subject_, name.value, crane_name,
+                     bodies_too ? "body or hoist" : "hoist", part),
+         names_hint(bodies_too ? "its bodies and hoists are" : "its hoists are",
+                    parts_of(*crane, bodies_too), name.value));
+    return std::nullopt;
+  }
+
+  /// Lugs that are copies have a point in their names, too: L1.mirrored.
+  bool is_lug(const std::string& name) const {
+    return case_.load.model && case_.load.model->find_lug(name);
+  }
+
+  std::optional<ResolvedPoint> resolve_lug(const Located<std::string>& name) {
+    if (case_.load.model_name.value.empty()) return resolve_vessel_lug(name);
+    if (!case_.load.model) return std::nullopt;
+    const LugModel* lug = case_.load.model->find_lug(name.value);
+    if (!lug) {
+      fail(name,
+           fmt::format("{} lug \"{}\", which block {} does not have", subject_, name.value,
+                       short_name(case_.load.model_name.value)),
+           names_hint("its lugs are", case_.load.model->lug_names(), name.value));
+      return std::nullopt;
+    }
+    ResolvedPoint resolved;
+    resolved.kind = ResolvedPoint::Kind::load;
+    resolved.lug = name.value;
+    resolved.point = lug->pin.value;
+    return resolved;
+  }
+
+  std::optional<ResolvedPoint> resolve_vessel_lug(const Located<std::string>& name) {
+    for (const Named<Vector3>& lug : case_.load.lugs) {
+      if (lug.name.value != name.value) continue;
+      ResolvedPoint resolved;
+      resolved.kind = ResolvedPoint::Kind::load;
+      resolved.lug = name.value;
+      resolved.point = lug.value;
+      return resolved;
+    }
+    fail(name, fmt::format("{} lug \"{}\", which the load does not have", subject_, name.value),
+         names_hint("its lugs are", names_of(case_.load.lugs), name.value));
+    return std::nullopt;
+  }
+
+  void fail(const Located<std::string>& name, std::string message, std::string hint) {
+    diagnostics_.error(name.mark, std::move(message), {std::move(hint)});
+  }
+
+  const LiftCase& case_;
+  Diagnostics& diagnostics_;
+  std::string subject_;
+};
+
+/// Points of what an operator keeps, or of what a law sees.
+template <class Keeping>
+void resolve_seen(PointResolver& resolver, const std::string& subject, Keeping& keep) {
+  if (keep.level) keep.level_at = resolver.resolve(*keep.level, subject + " the height of");
+  if (keep.with) keep.with_at = resolver.resolve(*keep.with, subject + " level with");
+  if (keep.over) keep.over_at = resolver.resolve(*keep.over, subject + " a head over");
+  if (keep.head) keep.head_at = resolver.resolve_head(*keep.head, subject + " the head of");
+}
+
+}  // namespace
+
+void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics) {
+  PointResolver resolver(lift_case, diagnostics);
+  for (RopeInCase& rope : lift_case.ropes) {
+    std::vector<std::optional<ResolvedPoint>> points;
+    const std::string name = "rope " + rope.name.value;
+    points.push_back(resolver.resolve(rope.from, name + " begins at"));
+    for (const auto& sheave : rope.through) {
+      points.push_back(resolver.resolve(sheave, name + " runs over"));
+    }
+    points.push_back(resolver.resolve(rope.to, name + " ends at"));
+    if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.has_value(); })) {
+      continue;
+    }
+    for (auto& point : points) rope.path.push_back(std::move(*point));
+  }
+  for (StageInCase& stage : lift_case.operation) {
+    for (MoveInCase& move : stage.moves) {
+      if (!move.keeps) continue;
+      KeepInCase& keep = *move.keeps;
+      const std::string subject = fmt::format("stage \"{}\" keeps", stage.name.value);
+      resolve_seen(resolver, subject, keep);
+      for (SightInCase& sight : keep.sees)
+        resolve_seen(resolver, fmt::format("stage \"{}\" has a law that sees", stage.name.value),
+                     sight);
+    }
+  }
+}
+
+}  // namespace blocklift::pipeline

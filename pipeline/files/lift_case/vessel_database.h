@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "pipeline/files/lift_case/marine_parts.h"
+
+namespace blocklift::pipeline {
+
+/// Reads the databases that vessels name, each file once, and finds the vessels' bodies in them.
+/// Complains about files that cannot be used and bodies that they do not hold.
+void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesystem::path& beside,
+                           Diagnostics& diagnostics);
+
+/// Complains about databases that cannot stand for the water of these vessels: some vessels with
+/// and some without, several files, bodies of a file that no vessel is or two are, vessels that are
+/// lowered or make no waves, water of another density, depth or gravity (m/s2), and in waves
+/// headings that do not go all around. Complains about lids beside a database, or without waves.
+void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostics& diagnostics);
+
+}  // namespace blocklift::pipeline

@@ -1,0 +1,138 @@
+#include "pipeline/files/vessel/vessel_model.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_diagnosis.h"
+#include "dynamics/marine/hull/symmetric_hull.h"
+#include "pipeline/declaration/document.h"
+#include "pipeline/files/named_file.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+/// Even numbers of panels along and across, so that none lies across a plane of symmetry.
+template <class Shape>
+dynamics::PanelDivision division_of(const Shape& shape, double panel_size) {
+  auto division =
+      dynamics::PanelDivision::of_size(panel_size, shape.length, shape.breadth, shape.depth);
+  division.along += division.along % 2;
+  division.across += division.across % 2;
+  return division;
+}
+
+/// Complains before panels are made that nobody could wait for.
+template <class Shape>
+void require_few_panels(const Shape& shape, double panel_size) {
+  constexpr double most = 60000;
+  const double faces =
+      2 * (shape.length * shape.breadth + (shape.length + shape.breadth) * shape.depth);
+  const double panels = faces / (panel_size * panel_size);
+  if (panels <= most) return;
+  throw dynamics::ModelError(fmt::format(
+      "a hull of {:.6g} x {:.6g} x {:.6g} m with panels of {:.4g} m would have about {:.3g} "
+      "panels; "
+      "at most {:.0f} are made: are all dimensions right? Else give a larger panel_size",
+      shape.length, shape.breadth, shape.depth, panel_size, panels, most));
+}
+
+/// A hull that ends at z = 0 goes on upright above it, by as much as it is deep, and is closed
+/// there; panels in z = 0 (lids) are left out. A hull that reaches higher stays as it is.
+dynamics::Hull with_freeboard(const dynamics::Hull& wetted) {
+  const std::array<Vector3, 2> bounds = wetted.bounds();
+  const Vector3 &low = bounds[0], &high = bounds[1];
+  const double tolerance = 1e-5 * (high - low).norm();
+  if (high.z() > tolerance) return wetted;
+  dynamics::Hull hull(wetted.name());
+  for (const Vector3& vertex : wetted.vertices()) hull.add_vertex(vertex);
+  const auto at_surface = [&](int vertex) { return wetted.vertex(vertex).z() > -tolerance; };
+  std::set<std::pair<int, int>> edges;
+  for (int k = 0; k < wetted.panel_count(); ++k) {
+    const std::span<const int> panel = wetted.panel(k);
+    if (std::all_of(panel.begin(), panel.end(), at_surface)) continue;
+    hull.add_panel(panel);
+    for (std::size_t i = 0; i < panel.size(); ++i) {
+      edges.insert({panel[i], panel[(i + 1) % panel.size()]});
+    }
+  }
+  std::map<int, int> raised;
+  const auto raise = [&](int vertex) {
+    const auto [known, is_new] = raised.try_emplace(vertex, 0);
+    if (is_new) {
+      const Vector3& p = wetted.vertex(vertex);
+      known->second = hull.add_vertex({p.x(), p.y(), -low.z()});
+    }
+    return known->second;
+  };
+  for (const auto& [from, to] : edges) {
+    if (edges.contains({to, from}) || !at_surface(from) || !at_surface(to)) continue;
+    hull.add_panel({to, from, raise(from), raise(to)});
+  }
+  return with_lids(hull, tolerance);
+}
+
+}  // namespace
+
+dynamics::Hull make_vessel_hull(const VesselModel& model, const std::filesystem::path& folder,
+                                double panel_size) {
+  if (model.hull.barge) {
+    require_few_panels(*model.hull.barge, panel_size);
+    return make_barge(*model.hull.barge, division_of(*model.hull.barge, panel_size));
+  }
+  if (model.hull.ship) {
+    require_few_panels(*model.hull.ship, panel_size);
+    return make_ship(*model.hull.ship, division_of(*model.hull.ship, panel_size));
+  }
+  dynamics::Hull hull =
+      read_hull(folder / model.hull.file->path.value,
+                {.close_openings = model.hull.file->close_openings, .panel_size = panel_size});
+  const std::vector<int>& axes = model.hull.file->symmetric_in;
+  if (!axes.empty()) hull = made_symmetric(hull, axes);
+  return model.hydrodynamics.as_meshed ? with_freeboard(hull) : hull;
+}
+
+std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics& diagnostics,
+                                  const std::vector<std::filesystem::path>& homes) {
+  const std::optional<Document> document = load_document(file, diagnostics);
+  if (!document) return std::nullopt;
+  const std::size_t errors_before = diagnostics.error_count();
+  Vessel vessel;
+  Reading reading(*document, diagnostics);
+  const Format<VesselModel> format = vessel_model_format();
+  reading.with_owner("the vessel",
+                     [&] { return format.read(document->root, reading, vessel.model); });
+  if (vessel.model.hull.file)
+    path_of_named_file(vessel.model.hull.file->path, file.parent_path(), diagnostics, homes);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  const Mark mark = vessel.model.hull.file ? vessel.model.hull.file->path.mark : vessel.model.place;
+  try {
+    vessel.hull = make_vessel_hull(vessel.model, file.parent_path(), vessel.model.panel_size);
+    vessel.hull.set_name(file.parent_path().filename().string());
+    dynamics::HullDemands demands{.largest_warp = 0.5};
+    if (vessel.model.hydrodynamics.as_meshed) demands.water_level = 0.0;
+    for (const dynamics::HullDefect& defect : dynamics::diagnose(vessel.hull, demands)) {
+      diagnostics.error(mark, defect.message);
+    }
+    if (diagnostics.error_count() == errors_before && !vessel.model.hydrodynamics.as_meshed) {
+      find_floating_position(dynamics::HullClusters(vessel.hull), vessel.body());
+    }
+  } catch (const dynamics::ModelError& error) {
+    diagnostics.error(mark, error.what());
+  } catch (const dynamics::SimulationError& error) {
+    diagnostics.error(mark, error.what());
+  } catch (const HullFileError& error) {
+    diagnostics.error(mark, error.what());
+  }
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return vessel;
+}
+
+}  // namespace blocklift::pipeline

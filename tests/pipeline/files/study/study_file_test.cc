@@ -1,0 +1,124 @@
+#include "pipeline/files/study/study_file.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// What is said of a study with these lines behind the first two.
+std::string complaints(const std::string& lines) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "study.yaml";
+  folder.write(file, "study: s\ncase: lift\n" + lines);
+  Diagnostics diagnostics;
+  const auto study = read_study_file(file, diagnostics);
+  EXPECT_EQ(study.has_value(), !diagnostics.has_errors());
+  return diagnostics.to_text();
+}
+
+/// What is said of a study whose one variable has this spread.
+std::string complaints_about_spread(const std::string& spread) {
+  return complaints("members: 10\nvary: {a: {keys: [x], spread: {" + spread + "}}}\n");
+}
+
+TEST(StudyFile, ReadsWhatVaries) {
+  EXPECT_EQ(complaints("members: 10\n"
+                       "vary:\n"
+                       "  a: {keys: [load.mass], spread: {law: normal, mean: 3 t, deviation: 5 kg, "
+                       "lowest: 2 t}}\n"
+                       "  b: {keys: [x, 'm:y'], values: [1, 2]}\n"),
+            "");
+}
+
+TEST(StudyFile, RefusesLawsThatMakeNoSense) {
+  EXPECT_THAT(complaints_about_spread("law: normal, mean: 3 t"),
+              HasSubstr("error: the law lacks its deviation"));
+  EXPECT_THAT(complaints_about_spread("law: uniform, lowest: 3 t, highest: 2 t"),
+              HasSubstr("highest is not above lowest"));
+  EXPECT_THAT(complaints_about_spread("law: uniform, lowest: 3 t, highest: 4 m"),
+              HasSubstr("not all of one dimension"));
+  EXPECT_THAT(complaints_about_spread("law: uniform, lowest: 3 t, highest: 4 t, mean: 3 t"),
+              HasSubstr("mean is no parameter of this law"));
+  EXPECT_THAT(complaints_about_spread("law: normal, mean: 3 t, deviation: -1 t"),
+              HasSubstr("the deviation is not above zero"));
+  EXPECT_THAT(complaints_about_spread("law: gumble"), HasSubstr("did you mean \"gumbel\""));
+}
+
+TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
+  EXPECT_THAT(complaints("vary: {a: {keys: [x], values: [1]}}\n"),
+              HasSubstr("the number of members is missing"));
+  EXPECT_THAT(complaints("design: grid\n"
+                         "vary: {a: {keys: [x], spread: {law: uniform, lowest: 3, highest: 4}}}\n"),
+              HasSubstr("a grid takes values and no spread"));
+  EXPECT_THAT(complaints("design: sensitivity\nmembers: 4\nvary: {a: {keys: [x], values: [1]}}\n"),
+              HasSubstr("Sobol' indices need a spread"));
+  EXPECT_THAT(complaints("members: 4\nvary: {a: {keys: [x]}}\n"),
+              HasSubstr("one of values, spread and between is due"));
+}
+
+TEST(StudyFile, RefusesCorrelationsThatMakeNoSense) {
+  const std::string laws =
+      "members: 9\nvary:\n"
+      "  a: {keys: [x], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  b: {keys: [y], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  c: {keys: [z], spread: {law: uniform, lowest: 3, highest: 4}}\n"
+      "  d: {keys: [w], values: [1, 2]}\n"
+      "correlations:\n";
+  EXPECT_EQ(complaints(laws + "  - {of: [a, b], is: 0.5}\n  - {of: [c, b], is: -0.5}\n"), "");
+  EXPECT_THAT(complaints(laws + "  - {of: [a, e], is: 0.5}\n"),
+              HasSubstr("no variable with a spread is called e"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, d], is: 0.5}\n"),
+              HasSubstr("no variable with a spread is called d"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, a], is: 0.5}\n"),
+              HasSubstr("not correlated with itself"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.5}\n  - {of: [b, a], is: 0.5}\n"),
+              HasSubstr("these two have a correlation already"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 1.5}\n"), HasSubstr("error"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b, c], is: 0.5}\n"), HasSubstr("error"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.9}\n  - {of: [b, c], is: 0.9}\n"
+                                "  - {of: [a, c], is: -0.9}\n"),
+              HasSubstr("contradict each other"));
+  EXPECT_THAT(complaints("design: sensitivity\n" + laws + "  - {of: [a, b], is: 0.5}\n"),
+              HasSubstr("correlations go with design: random"));
+}
+
+TEST(StudyFile, RefusesCopulasThatMakeNoSense) {
+  const std::string laws =
+      "members: 9\nvary:\n"
+      "  a: {keys: [x], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  b: {keys: [y], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  c: {keys: [z], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "correlations:\n";
+  EXPECT_EQ(complaints(laws + "  - {of: [a, b], copula: student, kendall: -0.5, degrees: 4}\n"),
+            "");
+  EXPECT_EQ(complaints(laws + "  - {of: [a, b], copula: gumbel, kendall: 0.5}\n"), "");
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b]}\n"), HasSubstr("either is or kendall is due"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.5, kendall: 0.5}\n"),
+              HasSubstr("either is or kendall is due"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: clayton, is: 0.5}\n"),
+              HasSubstr("this copula takes kendall, and no is"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: gumbel, kendall: -0.5}\n"),
+              HasSubstr("kendall is above zero"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: frank, kendall: 0}\n"),
+              HasSubstr("need no correlation"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: student, is: 0.5}\n"),
+              HasSubstr("Student's copula lacks its degrees"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], is: 0.5, degrees: 4}\n"),
+              HasSubstr("degrees go with copula: student"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: joe, kendall: 0.5}\n"),
+              HasSubstr("error"));
+  EXPECT_THAT(complaints(laws + "  - {of: [a, b], copula: frank, kendall: 0.5}\n"
+                                "  - {of: [c, b], is: 0.5}\n"),
+              HasSubstr("b has another correlation: only normal copulas join more than two"));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
