@@ -10,7 +10,6 @@
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/linearisation.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
-#include "pipeline/lift/run_extent.h"
 #include "pipeline/lift/stage_end.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/lift/worst_instant.h"
@@ -39,11 +38,6 @@ void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorksp
 }  // namespace
 
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
-                 NaturalModesOfRun modes) {
-  return run_lift(lift_case, std::move(model), progress, RunExtent{.natural_modes = modes});
-}
-
-LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
                  const RunExtent& extent) {
   const auto report = [&](const char* stage) {
     return [&progress, stage](double fraction, double time) {
@@ -69,7 +63,7 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   dynamics::History static_history =
       dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"), observe);
   std::vector<NaturalModes> natural_modes;
-  if (extent.natural_modes == NaturalModesOfRun::found)
+  if (extent.natural_modes)
     natural_modes =
         find_natural_modes(model, static_history, q, lift_case.dynamics.static_interval);
   const double static_s = watch.lap();

@@ -38,14 +38,23 @@ struct LiftRun {
   double simulated_s() const { return model.system.operation().duration(); }
 };
 
-/// Whether a run finds natural modes, which cost as much as the sweep at rest.
-enum class NaturalModesOfRun { found, left_out };
+/// What a run finds besides the motion and the loads, each at a cost of its own. The motion is the
+/// same bit for bit, whatever is left out.
+struct RunExtent {
+  /// They cost as much as the sweep at rest.
+  bool natural_modes = true;
+  /// Works of drives, winches and surroundings at every step, as much as a third of the motion.
+  /// Left out: the energy history has no works, and a summary no `energy`.
+  bool energy = true;
+  /// Left out: not a number at each sample.
+  bool righting_height = true;
+};
 
 /// Sweeps the operation at rest, finds the natural modes on the way, then integrates it in time
 /// from the first equilibrium.
 /// @throws dynamics::SimulationError when an equilibrium or the integration fails.
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
-                 NaturalModesOfRun modes = NaturalModesOfRun::found);
+                 const RunExtent& extent = {});
 
 /// Builds the dynamics of a case: the radiation of its vessels, from the cache or computed, and the
 /// rest. Where stages end by a condition, or drives are steered after what is seen, the lift is run

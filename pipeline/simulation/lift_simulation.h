@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/build/build_lift.h"
-#include "pipeline/lift/run_extent.h"
+#include "pipeline/lift/lift_run.h"
 #include "structure/mesh/mesh.h"
 
 namespace blocklift::pipeline {

@@ -171,7 +171,8 @@ struct KeepInCase {
   // After the look-up; none if it failed.
   std::optional<ResolvedPoint> level_at, with_at, head_at, over_at;
 
-  double correction_time() const { return correction ? correction->value : 5.0; }  ///< s
+  static constexpr double usual_correction = 5.0;  ///< s
+  double correction_time() const { return correction ? correction->value : usual_correction; }
 };
 
 /// Moves of one or several drives or winches, alike.

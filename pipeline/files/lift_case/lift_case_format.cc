@@ -292,8 +292,9 @@ Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
                   "from what the operator sees to what he does")
       .optional("correction", &KeepInCase::correction,
                 located(quantity(Dimension::time, Range::positive())),
-                "in which he would take away what he sees, 5 s if left out; behind a wish that "
-                "moves on evenly he lags by its speed times this")
+                fmt::format("in which he would take away what he sees, {} s if left out; behind a "
+                            "wish that moves on evenly he lags by its speed times this",
+                            KeepInCase::usual_correction))
       .optional("tolerance", &KeepInCase::tolerance,
                 quantity_of({Dimension::length, Dimension::force, Dimension::ratio},
                             Range::not_negative()),

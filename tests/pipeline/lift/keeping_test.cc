@@ -42,7 +42,7 @@ LiftCase read_case(const std::string& operation, const std::string& more = "") {
 LiftRun run(const LiftCase& lift_case) {
   return run_lift(
       lift_case, prepare_lift(lift_case, sample_mass(), [](auto&&...) {}), [](auto&&...) {},
-      NaturalModesOfRun::left_out);
+      RunExtent{.natural_modes = false});
 }
 
 /// A measure in motion at a time (s).

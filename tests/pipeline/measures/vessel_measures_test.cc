@@ -55,7 +55,7 @@ TEST(VesselMeasures, AVesselHeelsToTheOtherSideWhenItsLoadIsLost) {
   const LiftCase lift_case = read_lift_case("case.yaml");
   const LiftRun run = run_lift(
       lift_case, build_lift(lift_case, load_mass(lift_case.load.vessel->model)), [](auto&&...) {},
-      NaturalModesOfRun::left_out);
+      RunExtent{.natural_modes = false});
   std::vector<LiftMeasure> measures;
   add_vessel_measures(lift_case, run, measures);
   ASSERT_EQ(measures.size(), 3u);
