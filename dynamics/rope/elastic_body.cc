@@ -51,6 +51,7 @@ ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ro
     if (!rope.definition().left_out.empty())
       refuse(d_, "rope \"" + rope.name() + "\" leaves a segment out");
     if (rope.hangs()) refuse(d_, "rope \"" + rope.name() + "\" has weight");
+    if (!rope.edges().empty()) refuse(d_, "rope \"" + rope.name() + "\" may touch edges");
     if (rope.definition().sheave_friction > 0.0)
       refuse(d_, "rope \"" + rope.name() + "\" has friction at its sheaves");
     for (std::size_t other = 0; other < e; ++other) {

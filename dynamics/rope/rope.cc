@@ -47,7 +47,9 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
       throw ModelError("rope \"" + d.name + "\": point " + std::to_string(i) +
                        " is not a point of a body of the mechanism");
     }
-    if (i > 0 && runs(i - 1) && d.points[i - 1].body == point.body &&
+    const bool bends =
+        std::ranges::any_of(d.edges, [i](const RopeEdge& edge) { return edge.after + 1 == i; });
+    if (i > 0 && runs(i - 1) && !bends && d.points[i - 1].body == point.body &&
         (d.points[i - 1].p_BoQ_B - point.p_BoQ_B).norm() < shortest_segment) {
       throw ModelError("rope \"" + d.name + "\": points " + std::to_string(i - 1) + " and " +
                        std::to_string(i) + " are the same point of \"" +
@@ -72,11 +74,22 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
         "rope \"" + d.name +
         "\" has friction at its sheaves; it must run over one, and along its whole path");
   }
+  check_edges(mechanism);
+  for (const RopeEdge& edge : d.edges) {
+    const Vector3 along = (edge.end_B - edge.begin_B).normalized();
+    edge_axes_.push_back(
+        {along, (edge.outside_B - edge.outside_B.dot(along) * along).normalized()});
+  }
 }
 
 void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
                      const RopeEndShifts* shifts) const {
+  if (!definition_.edges.empty()) {
+    calc_path_over_edges(kinematics, path);
+    return;
+  }
   const std::vector<BodyPoint>& points = definition_.points;
+  path.count = points.size();
   double length = 0.0;
   double rate = 0.0;
   Vector3 p_previous = Vector3::Zero();
@@ -95,6 +108,7 @@ void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
     const Vector3 p = X_WB.p + r;
     const Vector3 v = V_WB.linear + V_WB.angular.cross(r) + v_in_body;
     path.r_W[i] = r;
+    path.body[i] = points[i].body;
     if (i == 0) path.first_height = p.z();
     if (i > 0 && !runs(i - 1)) {
       path.direction_W[i - 1].setZero();
@@ -158,13 +172,12 @@ RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed, bool taut) 
 
 void Rope::add_forces(const RopePath& path, double tension,
                       std::vector<ForceVector>& F_Bo_W) const {
-  const std::vector<BodyPoint>& points = definition_.points;
-  const std::size_t last = points.size() - 1;
+  const std::size_t last = path.count - 1;
   for (std::size_t i = 0; i <= last; ++i) {
     Vector3 f = i < last ? path.direction_W[i] : Vector3(Vector3::Zero());
     if (i > 0) f -= path.direction_W[i - 1];
     f *= tension;
-    ForceVector& F = F_Bo_W[static_cast<std::size_t>(points[i].body)];
+    ForceVector& F = F_Bo_W[static_cast<std::size_t>(path.body[i])];
     F.moment += path.r_W[i].cross(f);
     F.force += f;
   }
@@ -215,6 +228,10 @@ void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, c
     return;
   }
   if (!load.taut) return;
+  if (!definition_.edges.empty()) {
+    add_derivatives_over_edges(kinematics, path, load, derivatives);
+    return;
+  }
   const std::vector<BodyPoint>& points = definition_.points;
   const double k = load.stiffness;
   const double c = damping(k);
@@ -266,9 +283,15 @@ EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
 }
 
 RopePath make_rope_path(const std::vector<Rope>& ropes) {
-  std::size_t most = 2;
-  for (const Rope& rope : ropes) most = std::max(most, rope.points().size());
+  std::size_t most = 2, most_edges = 0;
+  for (const Rope& rope : ropes) {
+    most = std::max(most, rope.most_path_points());
+    most_edges = std::max(most_edges, rope.edges().size());
+  }
   RopePath path;
+  path.body.assign(most, world_index);
+  path.edge.assign(most, -1);
+  path.touches.resize(most_edges);
   path.r_W.assign(most, Vector3::Zero());
   path.direction_W.assign(most - 1, Vector3::Zero());
   return path;

@@ -1,11 +1,26 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "dynamics/force/force_element.h"
 #include "dynamics/rope/catenary.h"
+#include "dynamics/rope/edge_wrap.h"
 
 namespace blocklift::dynamics {
+
+/// A straight edge of a body, or a cylinder about it, that a rope may touch.
+struct RopeEdge {
+  std::string name;
+  BodyIndex body = world_index;
+  std::size_t after = 0;  ///< the rope meets it between this one of its points and the next
+  Vector3 begin_B = Vector3::Constant(not_a_number);  ///< of its axis, m
+  Vector3 end_B = Vector3::Constant(not_a_number);    ///< m
+  /// Away from what it is an edge of; of any length, its part across the axis counts. The rope stays
+  /// on that side.
+  Vector3 outside_B = Vector3::Constant(not_a_number);
+  double radius = 0.0;  ///< m; zero: sharp
+};
 
 /// What a modeller says about a rope.
 struct RopeDefinition {
@@ -24,6 +39,8 @@ struct RopeDefinition {
   double weight_per_length = 0.0;
   /// mu between the rope and each of its sheaves (RopeSplit); zero: its tension is one all along.
   double sheave_friction = 0.0;
+  /// Edges that it may touch, in the order of its path; without friction.
+  std::vector<RopeEdge> edges = {};
 };
 
 /// What the winch leaves out: unstretched length of the rope (m) and its rate (m/s).
@@ -44,10 +61,17 @@ struct RopeEndShifts {
 };
 
 /// Where a rope runs at one instant. Made once for the longest rope, filled without allocating.
+///
+/// Its points are those of the rope, and between them those at which it comes to an edge that it
+/// touches and leaves it; one alone where the edge has no radius.
 struct RopePath {
+  std::size_t count = 0;              ///< of its points at this instant
+  std::vector<BodyIndex> body;        ///< for each point
+  std::vector<int> edge;              ///< for each point, of the rope's edges; -1: none
   std::vector<Vector3> r_W;           ///< for each point, from its body's origin, in W, m
   std::vector<Vector3> direction_W;   ///< for each segment, unit, towards the next point; zero
-                                      ///< where the rope does not run
+                                      ///< where the rope does not run, or goes round an edge
+  std::vector<EdgeTouch> touches;     ///< for each edge of the rope
   double length = not_a_number;       ///< m
   double length_rate = not_a_number;  ///< m/s
   double first_height = 0.0;          ///< of the first point over z = 0, m
@@ -110,6 +134,13 @@ struct RopeLoad {
 /// dissipated - d(stored)/dt, and it equals the power of the point forces. Source: first variation
 /// of the path length; SIMO theory manual for stiffness in series.
 ///
+/// Edges that the rope touches are smooth: between two of its points it runs along the shortest line
+/// round them (find_shortest_line), whose arcs belong to L. Since that line is the shortest, the
+/// places where it touches may be held for the first variation: an edge's body bears the pulls of
+/// the two straight parts at the points where they come and leave. L and its rate are continuous
+/// where it begins or ceases to touch, so that the tension is, without an event; only the stiffness
+/// jumps.
+///
 /// A rope with weight w between two points is an elastic catenary at rest at each instant, with EA
 /// = k L0 (catenary.h): it always pulls, its ends do not pull alike, and its weight is in what they
 /// bear. Its inertia is left out. Damping acts along the chord on the part of its rate that
@@ -127,7 +158,10 @@ class Rope {
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
   /// point of one body, segments are left out at an end or all or not told for each, a stiffness or
   /// length is not positive, a damping, the weight or the friction is negative, a rope with weight
-  /// has more than two points, or one with friction has no sheave or leaves segments out.
+  /// has more than two points, or one with friction has no sheave or leaves segments out; or if an
+  /// edge is not one of a body of the mechanism, has no length, no side outside or a negative
+  /// radius, if the edges are not in order or too many between two points, or if a rope with edges
+  /// has weight, friction at sheaves or leaves segments out.
   Rope(const Mechanism& mechanism, RopeDefinition definition);
 
   const std::string& name() const { return definition_.name; }
@@ -137,6 +171,12 @@ class Rope {
   /// Does the rope run along the segment from point i to the next?
   bool runs(std::size_t segment) const {
     return definition_.left_out.empty() || definition_.left_out[segment] == 0;
+  }
+
+  const std::vector<RopeEdge>& edges() const { return definition_.edges; }
+  /// The most points that its path has.
+  std::size_t most_path_points() const {
+    return definition_.points.size() + 2 * definition_.edges.size();
   }
 
   /// Does it hang by its weight? Else it runs straight.
@@ -154,7 +194,8 @@ class Rope {
 
   /// Geometry and its rate.
   /// @param shifts of the ends within their bodies; null: none.
-  /// @throws ModelError if a point lies on its neighbour (the direction of the pull is undefined).
+  /// @throws ModelError if a point lies on its neighbour (the direction of the pull is undefined),
+  /// or within the round of an edge.
   void calc_path(const Kinematics& kinematics, RopePath& path,
                  const RopeEndShifts* shifts = nullptr) const;
 
@@ -189,10 +230,16 @@ class Rope {
     return tension * path.direction_W.front();
   }
   Vector3 last_force(const RopePath& path, double tension) const {
-    return -tension * path.direction_W[definition_.points.size() - 2];
+    return -tension * path.direction_W[path.count - 2];
   }
 
  private:
+  void check_edges(const Mechanism& mechanism) const;
+  std::size_t place_chain(const Kinematics& kinematics, std::size_t after, std::size_t begin,
+                          std::span<PlacedEdge> placed) const;
+  void calc_path_over_edges(const Kinematics& kinematics, RopePath& path) const;
+  void add_derivatives_over_edges(const Kinematics& kinematics, const RopePath& path,
+                                  const RopeLoad& load, ForceDerivatives& derivatives) const;
   RopeLoad calc_elastic_and_damping(const RopePath& path, const RopeFeed& feed) const;
   void hang(const RopePath& path, const RopeFeed& feed, RopeLoad& load) const;
   Catenary calc_catenary_of(const RopePath& path, double unstretched_length) const;
@@ -201,6 +248,11 @@ class Rope {
 
   RopeDefinition definition_;
   double crane_compliance_;  ///< 1/k_crane, m/N
+  /// Of each edge: its frame's axes (along, outside) in its body.
+  struct EdgeAxes {
+    Vector3 along_B, outside_B;
+  };
+  std::vector<EdgeAxes> edge_axes_;
 };
 
 /// Path workspace large enough for each of the ropes.

@@ -11,7 +11,7 @@ namespace {
 
 std::size_t most_points(const LiftSystem& system) {
   std::size_t most = 2;
-  for (const Rope& rope : system.ropes()) most = std::max(most, rope.points().size());
+  for (const Rope& rope : system.ropes()) most = std::max(most, rope.most_path_points());
   for (const ElasticBody& body : system.elastic_bodies()) most = std::max(most, body.point_count());
   return most;
 }
