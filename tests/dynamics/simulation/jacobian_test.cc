@@ -292,6 +292,62 @@ TEST(JacobianOfALift, IsThatOfDifferencesWhileItSwings) {
   EXPECT_LT(error(difference_jacobian(lift, 20.0, y, &contacts, w, 1e-5), J), 1e-7);
 }
 
+// A block that turns on a sling round its two lower edges, which are not parallel, so that the
+// sling slides along them; its hook moves, too.
+LiftSystem cradle(double radius) {
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -9.80665});
+  builder.add_body({.name = "block",
+                    .joint = {.kind = JointKind::free},
+                    .mass = 2,
+                    .I_BBcm_B = Vector3(4, 5, 6).asDiagonal()});
+  builder.add_body({.name = "hook", .joint = {.kind = JointKind::translational}, .mass = 1});
+  Mechanism mechanism = builder.build();
+  const RopeDefinition sling{.name = "sling",
+                             .points = {{2, {-0.5, 0, 10}}, {2, {0.7, 0, 10}}},
+                             .axial_stiffness = 400,
+                             .damping_time = 0.1,
+                             .unstretched_length = 22,
+                             .edges = {{.name = "port",
+                                        .body = 1,
+                                        .begin_B = {-3, -2, -1.7},
+                                        .end_B = {3, -2, -1},
+                                        .outside_B = {0, -1, -1},
+                                        .radius = radius},
+                                       {.name = "starboard",
+                                        .body = 1,
+                                        .begin_B = {-3, 2, -1},
+                                        .end_B = {3, 2.4, -1},
+                                        .outside_B = {0, 1, -1},
+                                        .radius = radius}}};
+  std::vector<Rope> ropes{Rope(mechanism, sling)};
+  const Eigen::VectorXd q = mechanism.zero_configuration();
+  return LiftSystem({.mechanism = std::move(mechanism),
+                     .ropes = std::move(ropes),
+                     .supports = {},
+                     .elements = {},
+                     .operation = OperationBuilder().build(1.0),
+                     .q_start = q,
+                     .v_start = {}});
+}
+
+TEST(JacobianOfALift, IsThatOfDifferencesOverEdges) {
+  for (const double radius : {0.0, 0.4}) {
+    const LiftSystem lift = cradle(radius);
+    LiftWorkspace w(lift);
+    Random random(5);
+    Eigen::VectorXd q(lift.mechanism().nq());
+    lift.mechanism().integrate(lift.q_start(), random.values(lift.mechanism().nv(), 0.2), 1.0, q);
+    Eigen::VectorXd y(lift.state_size());
+    get_state(lift, q, random.values(lift.mechanism().nv(), 0.5), y);
+    const Contacts contacts(static_cast<std::size_t>(lift.contact_count()), 1);
+    JacobianWorkspace workspace(lift);
+    Eigen::MatrixXd J(lift.state_size(), lift.state_size());
+    calc_jacobian(lift, 0.0, y, &contacts, w, workspace, J);
+    EXPECT_LT(error(difference_jacobian(lift, 0.0, y, &contacts, w, 1e-5), J), 1e-7) << radius;
+  }
+}
+
 // Slack ropes and pads in the air have no part in it.
 TEST(JacobianOfALift, LeavesOutWhatDoesNotAct) {
   samples::SingleRopeLift lift;
