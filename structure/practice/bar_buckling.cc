@@ -14,6 +14,7 @@
 #include "structure/index.h"
 #include "structure/practice/bar_chains.h"
 #include "structure/practice/stiffener_chains.h"
+#include "structure/practice/tripping.h"
 #include "structure/response/beam_stress.h"
 
 namespace blocklift::structure {
@@ -23,6 +24,8 @@ namespace {
 const double parallel_cosine = std::cos(5 * std::numbers::pi / 180);
 constexpr double straight = 5 * std::numbers::pi / 180;
 constexpr std::array<double, 3> places_in_cell{0, 0.5, 1};
+/// Of a station: N, M_y, M_z, stresses of a stiffener's centroid and of its farthest fibre.
+constexpr Eigen::Index rows_of_station = 5;
 
 bool are_one_bar(const Beam& a, const Beam& b) {
   return a.section == b.section && a.end_section < 0 && b.end_section < 0 &&
@@ -106,10 +109,10 @@ Column weaker_of(const Column& a, const Column& b) {
   return weaker;
 }
 
-/// A place on a bar, and the rows of its forces N, M_y, M_z for each motion.
+/// A place on a bar, and its rows for each motion.
 struct BarStation {
   double share = 0;
-  Eigen::MatrixXd forces;
+  Eigen::MatrixXd rows;
 };
 
 /// What happens in the bars of a block under its motions.
@@ -147,13 +150,13 @@ class BarForces {
   /// Of a bar alone, moments about the given axes of its section.
   Eigen::MatrixXd of_bar(int cell, double xi, const Eigen::Matrix2d& axes) const {
     const Eigen::MatrixXd forces = beam_forces(space_, cell, xi, motions_);
-    Eigen::MatrixXd rows(3, motions_.cols());
-    rows << forces.row(0), axes.transpose() * forces.bottomRows<2>();
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(rows_of_station, motions_.cols());
+    rows.topRows<3>() << forces.row(0), axes.transpose() * forces.bottomRows<2>();
     return rows;
   }
 
-  /// Of a bar with its plates: their force with the bar's own, and the moment of the curvature
-  /// along the plate's normal in the section of both.
+  /// Of a bar with its plates: their force with the bar's own, the moment of the curvature along the
+  /// plate's normal in the section of both, and the bar's stresses.
   Eigen::MatrixXd of_stiffener(int cell, double xi, const PlateAlong& plate) const {
     const Beam& beam = mesh_.beams[at(space_.beams()[at(cell)].beam)];
     const double share = share_at(cell, xi);
@@ -164,18 +167,27 @@ class BarForces {
     const Eigen::MatrixXd scaled_curvatures =  // times the modulus of elasticity
         bending_law(section).inverse() * forces.bottomRows<2>();
     const std::array<PlateStrip, 2> strips = strips_beside(beam, plate);
-    const StiffenedSection both =
-        join_sections(stiffener_section(mesh_, beam, plate.normal, share), strips);
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, motions_.cols());
+    const StiffenerSection alone = stiffener_section(mesh_, beam, plate.normal, share);
+    const StiffenedSection both = join_sections(alone, strips);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(rows_of_station, motions_.cols());
     rows.row(0) = forces.row(0);
     for (std::size_t side = 0; side < 2; ++side)
       rows.row(0) +=
           strips[side].width * strips[side].thickness *
           panels_.stress_beside(panel_of(plate, side), e_1, mesh_.vertices[at(beam.vertices[0])]);
-    rows.row(1) =
-        both.second_moment * (plate.normal.dot(e_1.cross(e_2)) * scaled_curvatures.row(0) -
-                              plate.normal.dot(e_2) * scaled_curvatures.row(1));
+    // By which the stress grows along the normal.
+    const Eigen::RowVectorXd growth = plate.normal.dot(e_1.cross(e_2)) * scaled_curvatures.row(0) -
+                                      plate.normal.dot(e_2) * scaled_curvatures.row(1);
+    rows.row(1) = both.second_moment * growth;
+    const double farthest = alone.height >= height_of(strips) ? alone.highest : alone.lowest;
+    rows.row(3) = forces.row(0) / section.area;
+    rows.row(4) = rows.row(3) + (farthest - alone.height) * growth;
     return rows;
+  }
+
+  /// Of the plate on both sides of a stiffener, from the line of the vertices, m.
+  static double height_of(const std::array<PlateStrip, 2>& strips) {
+    return (strips[0].height + strips[1].height) / 2;
   }
 
   std::array<PlateStrip, 2> strips_beside(const Beam& beam, const PlateAlong& plate) const {
@@ -243,6 +255,27 @@ Column stiffener_column_of(const Mesh& mesh, const BarChain& chain,
   return *weakest;
 }
 
+/// Sets the stress at which a stiffener trips: of the weakest section along its chain.
+void set_tripping(const Mesh& mesh, const BarChain& chain, const StiffenerChains& stiffeners,
+                  const BarForces& bars, BarSpan& span) {
+  double elastic = std::numeric_limits<double>::infinity(), strength = elastic;
+  for (const auto& [number, reversed] : chain.beams) {
+    const Beam& beam = mesh.beams[at(number)];
+    const PlateAlong& plate = stiffeners.plates[at(number)];
+    const Material& material = mesh.materials[at(mesh.section_of(beam).material)];
+    const double plate_at = BarForces::height_of(bars.strips_beside(beam, plate));
+    for (const double share : {0.0, 1.0}) {
+      const TrippingSection section = tripping_section(mesh, beam, plate.normal, plate_at, share);
+      if (!(section.torsion > 0)) return;
+      const double here = tripping_stress(material, section, chain.length);
+      elastic = std::min(elastic, here);
+      strength = std::min(strength, tripping_strength(here, material.yield_stress));
+    }
+  }
+  span.tripping_stress = elastic;
+  span.tripping_strength = strength;
+}
+
 bool resists_bending(const Mesh& mesh, const BarChain& chain) {
   return std::all_of(chain.beams.begin(), chain.beams.end(), [&](const auto& beam) {
     return bending_law(mesh.section_of(mesh.beams[at(beam.first)])).determinant() > 0;
@@ -282,6 +315,7 @@ BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::Ma
       continue;
     BarSpan& span = spans_.emplace_back(span_of(mesh, chain));
     span.column = stiffener_column_of(mesh, chain, stiffeners, bars);
+    set_tripping(mesh, chain, stiffeners, bars, span);
     const int first = chain.beams.front().first;
     for (const PlateStrip& strip : bars.strips_beside(mesh.beams[at(first)], plate_of(first)))
       span.plate_width += strip.width;
@@ -291,40 +325,69 @@ BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::Ma
   }
   Eigen::Index rows = 0;
   for (const std::vector<BarStation>& stations : found)
-    rows += 3 * static_cast<Eigen::Index>(stations.size());
+    rows += rows_of_station * static_cast<Eigen::Index>(stations.size());
   forces_.resize(rows, motions.cols());
   for (const std::vector<BarStation>& stations : found) {
     Stations& kept = stations_.emplace_back();
     kept.first_row = forces_.rows() - rows;
     for (const BarStation& station : stations) {
       kept.shares.push_back(station.share);
-      forces_.middleRows<3>(forces_.rows() - rows) = station.forces;
-      rows -= 3;
+      forces_.middleRows<rows_of_station>(forces_.rows() - rows) = station.rows;
+      rows -= rows_of_station;
     }
+  }
+}
+
+template <class See>
+void BlockBars::look_at(std::size_t span, const Eigen::MatrixXd& factors, const See& see) const {
+  constexpr Eigen::Index instants_at_once = 512;
+  const Stations& of = stations_[span];
+  const Eigen::MatrixXd rows = forces_.middleRows(
+      of.first_row, rows_of_station * static_cast<Eigen::Index>(of.shares.size()));
+  for (Eigen::Index start = 0; start < factors.cols(); start += instants_at_once) {
+    const Eigen::Index instants = std::min(instants_at_once, factors.cols() - start);
+    const Eigen::MatrixXd all = rows * factors.middleCols(start, instants);
+    for (Eigen::Index t = 0; t < instants; ++t)
+      for (std::size_t place = 0; place < of.shares.size(); ++place) {
+        const Eigen::Index first = rows_of_station * static_cast<Eigen::Index>(place);
+        see(place, static_cast<int>(start + t), all.block<rows_of_station, 1>(first, t));
+      }
   }
 }
 
 std::vector<BlockBars::Worst> BlockBars::find_worst(const Eigen::MatrixXd& factors, double factor,
                                                     int threads) const {
-  constexpr Eigen::Index instants_at_once = 512;
   std::vector<Worst> result(spans_.size());
   in_batches(static_cast<int>(spans_.size()), 1, threads, [&](int first, int count) {
-    for (int s = first; s < first + count; ++s) {
-      const Stations& of = stations_[at(s)];
-      const Eigen::MatrixXd rows =
-          forces_.middleRows(of.first_row, 3 * static_cast<Eigen::Index>(of.shares.size()));
-      for (Eigen::Index start = 0; start < factors.cols(); start += instants_at_once) {
-        const Eigen::Index instants = std::min(instants_at_once, factors.cols() - start);
-        const Eigen::MatrixXd forces = rows * factors.middleCols(start, instants);
-        for (Eigen::Index t = 0; t < instants; ++t)
-          for (std::size_t place = 0; place < of.shares.size(); ++place) {
-            const auto here = forces.block<3, 1>(3 * static_cast<Eigen::Index>(place), t);
-            const ColumnForces bears{-here[0], {here[1], here[2]}};
-            const double utilisation = column_utilisation(spans_[at(s)].column, bears, factor);
-            if (utilisation > result[at(s)].utilisation)
-              result[at(s)] = {utilisation, bears, of.shares[place], static_cast<int>(start + t)};
-          }
-      }
+    for (std::size_t s = at(first); s < at(first + count); ++s)
+      look_at(s, factors, [&](std::size_t place, int instant, const auto& here) {
+        const ColumnForces bears{-here[0], {here[1], here[2]}};
+        const double utilisation = column_utilisation(spans_[s].column, bears, factor);
+        if (utilisation > result[s].utilisation)
+          result[s] = {utilisation, bears, stations_[s].shares[place], instant};
+      });
+  });
+  return result;
+}
+
+std::vector<BlockBars::WorstTripping> BlockBars::find_worst_tripping(const Eigen::MatrixXd& factors,
+                                                                     double factor,
+                                                                     int threads) const {
+  std::vector<WorstTripping> result(spans_.size());
+  in_batches(static_cast<int>(spans_.size()), 1, threads, [&](int first, int count) {
+    for (std::size_t s = at(first); s < at(first + count); ++s) {
+      if (!(spans_[s].tripping_strength > 0)) continue;
+      const double critical = euler_load(spans_[s].column, 0);
+      look_at(s, factors, [&](std::size_t place, int instant, const auto& here) {
+        const double left = 1 - std::max(0.0, -factor * here[0]) / critical;
+        const double grown =
+            left > 0 ? -here[3] + (here[3] - here[4]) / left
+                     : std::numeric_limits<double>::infinity();  // it has buckled as a column
+        const double compression = factor * std::max(-here[3], grown);
+        const double utilisation = compression / spans_[s].tripping_strength;
+        if (utilisation > result[s].utilisation)
+          result[s] = {utilisation, compression, stations_[s].shares[place], instant};
+      });
     }
   });
   return result;

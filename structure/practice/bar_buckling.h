@@ -22,6 +22,9 @@ struct BarSpan {
   std::string group;                                   ///< name of that region's group
   Vector3 p_BFrom = Vector3::Zero(), p_BTo = p_BFrom;  ///< m
   double plate_width = 0;  ///< of the plate that buckles with it, m; 0: it stands free
+  /// Of a stiffener: stress at which it turns about its toe between the span's ends, elastic and as
+  /// it may bear (tripping.h), Pa; 0: it is none, or has no torsion constant.
+  double tripping_stress = 0, tripping_strength = 0;
   /// As a column that is pinned at its joints; twice as long as it is where an end is free. Its
   /// axes y and z are the section's principal ones, about which it bends; of a stiffener with its
   /// plate y is the one in the plate.
@@ -33,7 +36,10 @@ struct BarSpan {
 /// A bar is a stiffener where just two shells meet along it which go on from one another by less
 /// than 30 degrees: it buckles with half of either panel (stiffener_column); its compression is its
 /// own and that of these halves by their mean stress along it, its moment that of the curvature
-/// which it has in the mesh. Other bars along plates (faces of girders, edges of brackets) are left
+/// which it has in the mesh. It trips by the larger compression of its centroid and of its fibre
+/// farthest from the plate, where bending grows with the compression of the column: no less than the
+/// mean over the section that counts, which is weighted by the square of the distance from the toe
+/// (Bleich 1952, chapter 3). Other bars along plates (faces of girders, edges of brackets) are left
 /// out, and rods without second moments, which are counted. Of a bar whose section changes along a
 /// piece the smallest figures count.
 class BlockBars {
@@ -52,17 +58,32 @@ class BlockBars {
     double share = 0;        ///< of the span's length, where that is
     int instant = 0;
   };
+  /// Of a stiffener's tripping.
+  struct WorstTripping {
+    double utilisation = 0;  ///< compression times the factor over BarSpan::tripping_strength
+    double compression = 0;  ///< with the factor, Pa
+    double share = 0;
+    int instant = 0;
+  };
   /// The largest utilisation of each span over instants (a column of factors of the motions each),
   /// forces multiplied by `factor`.
   std::vector<Worst> find_worst(const Eigen::MatrixXd& factors, double factor,
                                 int threads = 0) const;
+  /// The same of tripping; utilisation 0 of spans that do not trip.
+  std::vector<WorstTripping> find_worst_tripping(const Eigen::MatrixXd& factors, double factor,
+                                                 int threads = 0) const;
 
  private:
-  /// Of a span: their places, and where their rows N, M_y, M_z begin in forces_.
+  /// Of a span: their places, and where their rows begin in forces_: N, M_y, M_z, and of a
+  /// stiffener the stresses of its centroid and its farthest fibre.
   struct Stations {
     std::vector<double> shares;
     Eigen::Index first_row = 0;
   };
+
+  /// Calls see(place, instant, rows of the station) for a span at all places and instants.
+  template <class See>
+  void look_at(std::size_t span, const Eigen::MatrixXd& factors, const See& see) const;
 
   std::vector<BarSpan> spans_;
   std::vector<Stations> stations_;

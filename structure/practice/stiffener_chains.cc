@@ -123,6 +123,26 @@ StiffenerSection stiffener_section(const Mesh& mesh, const Beam& beam, const Vec
   return seen;
 }
 
+TrippingSection tripping_section(const Mesh& mesh, const Beam& beam, const Vector3& normal,
+                                 double plate_height, double share) {
+  const BeamSection section = section_at(mesh, beam, share);
+  const StiffenerSection seen = stiffener_section(mesh, beam, normal, share);
+  const Vector3 e_1 = reach_of(mesh, beam).normalized();
+  const Vector3 e_2 = (beam.axis_2 - e_1 * e_1.dot(beam.axis_2)).normalized();
+  const Vector3 shear_centre =
+      section.shear_centre[0] * e_2 + section.shear_centre[1] * e_1.cross(e_2);
+  const Vector3 offset = (1 - share) * beam.offset[0] + share * beam.offset[1];
+  const double toe = seen.height >= plate_height ? seen.lowest : seen.highest;
+  const double rise = seen.height - toe, aside = offset.dot(e_1.cross(normal));
+  const double both = section.second_moment_2 + section.second_moment_3;
+  TrippingSection tripping;
+  tripping.torsion = section.torsion;
+  tripping.polar_moment = both + section.area * (rise * rise + aside * aside);
+  tripping.shear_height = rise + normal.dot(shear_centre);
+  tripping.second_moment = both - seen.second_moment;
+  return tripping;
+}
+
 double plate_height(const Mesh& mesh, const Shell& shell, const Vector3& normal) {
   const double side = normal_of(mesh, shell).dot(normal) < 0 ? -1 : 1;
   return side * mesh.section_of(shell).offset;

@@ -5,6 +5,7 @@
 
 #include "structure/practice/bar_chains.h"
 #include "structure/practice/stiffened_plate.h"
+#include "structure/practice/tripping.h"
 
 namespace blocklift::structure {
 
@@ -29,6 +30,12 @@ StiffenerChains find_stiffeners(const Mesh& mesh, const MeetingPoints& points);
 /// @param share place on the beam from its first vertex, 0 to 1.
 StiffenerSection stiffener_section(const Mesh& mesh, const Beam& beam, const Vector3& normal,
                                    double share);
+
+/// A beam's section as it turns about its toe on its plate: the section's own end on the plate's
+/// side of its centroid, above the line of the beam's vertices.
+/// @param plate_height of the plate's mid-surface from the line of the vertices, m.
+TrippingSection tripping_section(const Mesh& mesh, const Beam& beam, const Vector3& normal,
+                                 double plate_height, double share);
 
 /// Height of the mid-surface of a shell above its vertices, along a normal, m.
 double plate_height(const Mesh& mesh, const Shell& shell, const Vector3& normal);

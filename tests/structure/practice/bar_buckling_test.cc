@@ -11,6 +11,7 @@
 
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/mesh/sections.h"
+#include "structure/practice/tripping.h"
 #include "structure/response/unit_responses.h"
 #include "tests/structure/motions.h"
 
@@ -177,6 +178,40 @@ TEST(BarBuckling, StiffenersBearWithTheirPlates) {
                 1e-3 * modulus * web * 1e-6);
     EXPECT_NEAR(std::abs(worst.forces.moments[0]), 1e-3 * modulus * second_moment,
                 1e-9 * modulus * second_moment);
+  }
+}
+
+// A stiffener trips by the compression of its centroid, and bent by that of its outer fibre, whose
+// bending grows with the column's compression; pulled it does not.
+TEST(BarBuckling, StiffenersTrip) {
+  const ElasticModel model(stiffened_deck(), {.degree = 2, .largest_edge = {}});
+  Eigen::MatrixXd motions(model.freedoms(), 2);
+  motions << testing::motion_of(model.space(), deck_motion(-1e-3, 0)),
+      testing::motion_of(model.space(), deck_motion(0, 1e-3));
+  const BlockBars bars = bars_of(model, motions);
+  const double modulus = column_steel.youngs_modulus, shear = column_steel.shear_modulus();
+  const double elastic =
+      tripping_stress(column_steel,
+                      {flat_bar(0.2, 0.012).section.torsion,
+                       0.012 * std::pow(0.2, 3) / 3 + 0.2 * std::pow(0.012, 3) / 12, 0.1,
+                       0.2 * std::pow(0.012, 3) / 12},
+                      2);
+  EXPECT_GT(elastic, shear * std::pow(0.012 / 0.2, 2) * 0.95);
+  const double strength = tripping_strength(elastic, column_steel.yield_stress);
+  const auto pressed = bars.find_worst_tripping(Eigen::Vector2d(0.5, 0), 1.5);
+  const auto bent = bars.find_worst_tripping(Eigen::Vector2d(0, -0.5), 1.5);
+  const auto pulled = bars.find_worst_tripping(Eigen::Vector2d(-1, 0), 1.5);
+  for (std::size_t s = 0; s < bars.spans().size(); ++s) {
+    EXPECT_NEAR(bars.spans()[s].tripping_stress, elastic, 1e-9 * elastic);
+    EXPECT_NEAR(bars.spans()[s].tripping_strength, strength, 1e-9 * strength);
+    const double even = 0.75e-3 * modulus;
+    EXPECT_NEAR(pressed[s].compression, even, 1e-6 * even);
+    EXPECT_NEAR(pressed[s].utilisation, even / strength, 1e-6 * even / strength);
+    const double force = 0.75e-3 * modulus * 0.2 * 0.012 * 0.105;
+    const double left = 1 - force / euler_load(bars.spans()[s].column, 0);
+    const double outer = 0.75e-3 * modulus * (0.105 + 0.1 / left);
+    EXPECT_NEAR(bent[s].compression, outer, 1e-5 * outer);
+    EXPECT_EQ(pulled[s].utilisation, 0);
   }
 }
 
