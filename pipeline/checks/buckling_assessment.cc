@@ -58,11 +58,21 @@ void find_bars(const structure::UnitResponses& responses, const BlockPanels& pan
   result.unknown_rods = bars.unknown_rods();
   const auto at_rest = bars.find_worst(static_states.factors, result.bar_factor);
   const auto in_motion = bars.find_worst(dynamic_states.factors, result.bar_factor);
+  const auto tripping_at_rest = bars.find_worst_tripping(static_states.factors, result.bar_factor);
+  const auto tripping_in_motion =
+      bars.find_worst_tripping(dynamic_states.factors, result.bar_factor);
+  const auto time_of = [&](bool moving, int instant) -> std::optional<double> {
+    const Eigen::VectorXd* time = (moving ? dynamic_states : static_states).time;
+    return time ? std::optional((*time)[instant]) : std::nullopt;
+  };
   for (std::size_t b = 0; b < bars.spans().size(); ++b) {
     const bool moving = in_motion[b].utilisation >= at_rest[b].utilisation;
+    const bool trips_moving = tripping_in_motion[b].utilisation >= tripping_at_rest[b].utilisation;
     BuckledBar bar{bars.spans()[b], moving ? in_motion[b] : at_rest[b], moving, {}};
-    if (const Eigen::VectorXd* time = (moving ? dynamic_states : static_states).time)
-      bar.time = (*time)[bar.worst.instant];
+    bar.time = time_of(moving, bar.worst.instant);
+    bar.tripping = trips_moving ? tripping_in_motion[b] : tripping_at_rest[b];
+    bar.trips_in_motion = trips_moving;
+    bar.tripping_time = time_of(trips_moving, bar.tripping.instant);
     result.bars.push_back(std::move(bar));
   }
   sort_by(result.bars, [](const BuckledBar& bar) { return bar.worst.utilisation; });
@@ -98,17 +108,43 @@ std::string field_text(const structure::Panel& panel) {
                      1000 * panel.size.thickness);
 }
 
+std::string ends_text(const structure::BarSpan& span) {
+  return fmt::format("{} from ({:.2f}, {:.2f}, {:.2f}) m to ({:.2f}, {:.2f}, {:.2f}) m", span.bar,
+                     span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z(), span.p_BTo.x(),
+                     span.p_BTo.y(), span.p_BTo.z());
+}
+
 std::string span_text(const BuckledBar& bar) {
   const structure::BarSpan& span = bar.span;
   const std::string rule =
       span.plate_width > 0
           ? fmt::format("with {:.0f} mm of plate, EN 1993-1-5, 4.5.3", 1000 * span.plate_width)
           : "EN 1993-1-1, 6.3.1.1, curve c";
-  return fmt::format(
-      "{} from ({:.2f}, {:.2f}, {:.2f}) m to ({:.2f}, {:.2f}, {:.2f}) m; {}, moments growing by "
-      "EN 1993-1-1, 5.2.2(5)",
-      span.bar, span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z(), span.p_BTo.x(),
-      span.p_BTo.y(), span.p_BTo.z(), rule);
+  return fmt::format("{}; {}, moments growing by EN 1993-1-1, 5.2.2(5)", ends_text(span), rule);
+}
+
+std::string tripping_text(const BuckledBar& bar) {
+  return fmt::format("{}; DNV-RP-C201, 7.5.2: elastic {:.0f} MPa, strength {:.0f} MPa",
+                     ends_text(bar.span), bar.span.tripping_stress / 1e6,
+                     bar.span.tripping_strength / 1e6);
+}
+
+/// A line for each name of stiffeners: the span that is nearest to tripping.
+void check_tripping(const BucklingAssessment& buckling, std::vector<Check>& checks) {
+  std::vector<BuckledBar> bars = buckling.bars;
+  std::erase_if(bars, [](const BuckledBar& bar) { return !(bar.span.tripping_strength > 0); });
+  sort_by(bars, [](const BuckledBar& bar) { return bar.tripping.utilisation; });
+  std::set<std::string> seen;
+  for (const BuckledBar& bar : bars) {
+    if (!seen.insert(bar.span.group).second) continue;
+    Check check = check_at_most(fmt::format("tripping of stiffeners in {}: compression, times {:g}",
+                                            bar.span.group, buckling.bar_factor),
+                                bar.tripping.utilisation, 1, "1");
+    check.time = bar.tripping_time;
+    check.note = tripping_text(bar);
+    check.is_by_mesh = true;
+    checks.push_back(std::move(check));
+  }
 }
 
 }  // namespace
@@ -156,6 +192,7 @@ std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAsses
     check.is_by_mesh = true;
     checks.push_back(std::move(check));
   }
+  check_tripping(buckling, checks);
   return checks;
 }
 
@@ -200,6 +237,12 @@ nlohmann::ordered_json buckling_json(const BucklingAssessment& buckling) {
              {"utilisation", bar.worst.utilisation},
              {"state", bar.in_motion ? "dynamic" : "static"}};
     if (bar.time) row["time_s"] = *bar.time;
+    if (span.tripping_strength > 0) {
+      row["tripping_stress_Pa"] = span.tripping_stress;
+      row["tripping_strength_Pa"] = span.tripping_strength;
+      row["tripping_compression_Pa"] = bar.tripping.compression;
+      row["tripping_utilisation"] = bar.tripping.utilisation;
+    }
     json["bars"].push_back(std::move(row));
   }
   return json;
@@ -210,7 +253,7 @@ namespace {
 void write_bars(ResultsWriter& file, const BucklingAssessment& buckling) {
   const auto rows = static_cast<Eigen::Index>(buckling.bars.size());
   if (rows == 0) return;
-  RowMajorMatrix table(rows, 15);
+  RowMajorMatrix table(rows, 19);
   std::vector<std::string> names;
   for (Eigen::Index b = 0; b < rows; ++b) {
     const BuckledBar& bar = buckling.bars[static_cast<std::size_t>(b)];
@@ -220,7 +263,9 @@ void write_bars(ResultsWriter& file, const BucklingAssessment& buckling) {
     table.row(b) << span.p_BFrom.x(), span.p_BFrom.y(), span.p_BFrom.z(), span.p_BTo.x(),
         span.p_BTo.y(), span.p_BTo.z(), span.plate_width, span.column.length, forces.compression,
         forces.moments[0], forces.moments[1], structure::buckling_resistance(span.column),
-        bar.worst.utilisation, bar.in_motion ? 1.0 : 0.0, bar.time.value_or(0);
+        bar.worst.utilisation, bar.in_motion ? 1.0 : 0.0, bar.time.value_or(0),
+        span.tripping_stress, span.tripping_strength, bar.tripping.compression,
+        bar.tripping.utilisation;
   }
   file.write_texts(layout::join(layout::columns_group, "bars"), names,
                    "name of the bar or stiffener of each span, the nearest to buckling first");
@@ -230,7 +275,9 @@ void write_bars(ResultsWriter& file, const BucklingAssessment& buckling) {
        "SI units, a span a row: its ends x, y, z in the block frame; width of the plate that "
        "buckles with it, 0 of a free bar; buckling length; compression "
        "(negative: pulled); moments about the section's principal axes; buckling resistance; "
-       "utilisation under forces times the factor; 1 in motion, 0 at rest; time"});
+       "utilisation under forces times the factor; 1 in motion, 0 at rest; time; of a stiffener "
+       "its elastic stress of tripping, its strength, its compression times the factor and their "
+       "ratio, 0 of a free bar"});
 }
 
 }  // namespace

@@ -30,6 +30,10 @@ struct BuckledBar {
   structure::BlockBars::Worst worst;
   bool in_motion = false;      ///< in the dynamic history, else in the static one
   std::optional<double> time;  ///< s; none for a load table
+  /// Of a stiffener that trips, likewise at its own instant.
+  structure::BlockBars::WorstTripping tripping = {};
+  bool trips_in_motion = false;
+  std::optional<double> tripping_time = {};
 };
 
 /// Every panel, stiffener and bar that stands free of plates over the whole lift.
@@ -54,7 +58,7 @@ BucklingAssessment assess_buckling(const LiftCase& lift_case,
 /// A line for each name of plates: its panel that is nearest to buckling, critical stresses by
 /// Johnson and Ostenfeld, against 1 over the case's buckling factor. Then one for each name of bars
 /// and of stiffeners: what its worst span bears over what it may bear as a column, forces times
-/// that factor.
+/// that factor. Last one for each name of stiffeners that trip.
 std::vector<Check> check_buckling(const LiftCase& lift_case, const BucklingAssessment& buckling);
 
 /// `structure.buckling` of summary.json: the first panels and bars; all of them are in results.h5.

@@ -236,13 +236,15 @@ Rule buckling() {
                                  {"state", text()}}),
                           numbers({"thickness_m", "s11_Pa", "s22_Pa", "s12_Pa", "utilisation",
                                    "elastic_utilisation", "time_s"}));
-  const Rule bar = with(table({{"bar", text(), true},
-                               {"from_m", point()},
-                               {"to_m", point()},
-                               {"moments_Nm", list(number())},
-                               {"state", text()}}),
-                        numbers({"plate_width_m", "buckling_length_m", "compression_N",
-                                 "buckling_resistance_N", "utilisation", "time_s"}));
+  const Rule bar =
+      with(table({{"bar", text(), true},
+                  {"from_m", point()},
+                  {"to_m", point()},
+                  {"moments_Nm", list(number())},
+                  {"state", text()}}),
+           numbers({"plate_width_m", "buckling_length_m", "compression_N", "buckling_resistance_N",
+                    "utilisation", "time_s", "tripping_stress_Pa", "tripping_strength_Pa",
+                    "tripping_compression_Pa", "tripping_utilisation"}));
   return with(table({{"panels", list(panel)}, {"bars", list(bar)}}),
               numbers({"panels_looked_at", "bars_looked_at", "bar_factor"}));
 }

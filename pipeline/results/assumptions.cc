@@ -262,10 +262,12 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
       block.buckling.panels.size()));
   if (!block.buckling.bars.empty())
     list.push_back(fmt::format(
-        "Bars as columns: {} spans from joint to joint, pinned there, that no plate holds; bars "
-        "that "
-        "cross in a joint hold each other. Buckling curve c of EN 1993-1-1 about the weaker "
-        "principal axis; open sections may also twist, which is not checked.{}",
+        "Bars and stiffeners as columns: {} spans from joint to joint, pinned there; bars "
+        "that cross in a joint hold each other. Buckling curve c of EN 1993-1-1 about the weaker "
+        "principal axis; open sections may also twist, which is not checked. Stiffeners are "
+        "checked together with their plates (EN 1993-1-5, 4.5.3) and against tripping about their "
+        "toes "
+        "(DNV-RP-C201, 7.5.2, without tripping brackets, beta = 1).{}",
         block.buckling.bars.size(),
         block.buckling.unknown_rods > 0
             ? fmt::format(" {} rods without second moments are not looked at.",

@@ -55,6 +55,33 @@ TEST(BucklingAssessment, ChecksTheWorstOfEachName) {
   EXPECT_EQ(checks[2].name, "buckling of bars in bulbs: compression with bending, times 1.5");
 }
 
+// Tripping has a line of its own, of the span that is nearest to it, and rows in the summary.
+TEST(BucklingAssessment, ChecksTripping) {
+  BucklingAssessment buckling = four_bars();
+  for (BuckledBar& bar : buckling.bars) bar.span.group = "bulbs";
+  for (std::size_t b : {1U, 2U}) {
+    BuckledBar& bar = buckling.bars[b];
+    bar.span.tripping_stress = 300e6;
+    bar.span.tripping_strength = 200e6;
+    bar.tripping = {b == 1 ? 0.4 : 1.1, 220e6, 0.5, 3};
+    bar.tripping_time = 7.5;
+  }
+  const std::vector<Check> checks = check_buckling(LiftCase{}, buckling);
+  ASSERT_EQ(checks.size(), 3U);
+  const Check& check = checks.back();
+  EXPECT_EQ(check.name, "tripping of stiffeners in bulbs: compression, times 1.5");
+  EXPECT_DOUBLE_EQ(check.demand, 1.1);
+  EXPECT_FALSE(check.pass);
+  EXPECT_EQ(check.time, 7.5);
+  EXPECT_NE(check.note.find("bulb at y = 1 m from"), std::string::npos) << check.note;
+  EXPECT_NE(check.note.find("7.5.2: elastic 300 MPa, strength 200 MPa"), std::string::npos)
+      << check.note;
+  const nlohmann::ordered_json json = buckling_json(buckling);
+  EXPECT_FALSE(json["bars"][0].contains("tripping_utilisation"));
+  EXPECT_EQ(json["bars"][2]["tripping_utilisation"], 1.1);
+  EXPECT_EQ(json["bars"][2]["tripping_strength_Pa"], 200e6);
+}
+
 TEST(BucklingAssessment, TheSummaryHasBarsAndRods) {
   const nlohmann::ordered_json json = buckling_json(four_bars());
   EXPECT_EQ(json["bars_looked_at"], 4);
