@@ -25,17 +25,11 @@ void refuse(const AbaqusBlock& block, std::initializer_list<const char*> unknown
 }
 
 long whole(const Fields& fields, std::size_t i, const char* what, long otherwise) {
-  if (i >= fields.size() || fields[i].empty()) return otherwise;
-  const auto value = to_integer(fields[i]);
-  if (!value) throw CardError{fmt::format("{} \"{}\" is no whole number", what, fields[i])};
-  return *value;
+  return i < fields.size() && !fields[i].empty() ? abaqus_integer(fields[i], what) : otherwise;
 }
 
 long whole(const AbaqusBlock& block, const char* parameter) {
-  const std::string text = block.required(parameter);
-  const auto value = to_integer(text);
-  if (!value) throw CardError{fmt::format("{} = {} is no whole number", parameter, text)};
-  return *value;
+  return abaqus_integer(block.required(parameter), parameter);
 }
 
 Vector3 point(const Fields& fields, std::size_t first) {

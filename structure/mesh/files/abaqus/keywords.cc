@@ -164,6 +164,12 @@ long abaqus_label(std::string_view text, const char* what) {
   return *value;
 }
 
+long abaqus_integer(std::string_view text, const char* what) {
+  const auto value = to_integer(text);
+  if (!value) throw CardError{fmt::format("\"{}\" as {} is no whole number", text, what)};
+  return *value;
+}
+
 double abaqus_real(const std::vector<std::string_view>& fields, std::size_t i, const char* what) {
   if (i >= fields.size() || fields[i].empty())
     throw CardError{fmt::format("the {} is missing", what)};

@@ -49,6 +49,8 @@ std::vector<AbaqusBlock> read_abaqus_keywords(DeckFiles& files, const std::files
 
 /// The number in a field. @throws CardError if there is none.
 long abaqus_label(std::string_view text, const char* what);
+/// Any whole number.
+long abaqus_integer(std::string_view text, const char* what);
 double abaqus_real(const std::vector<std::string_view>& fields, std::size_t i, const char* what);
 /// 0 or another value where the field is empty.
 double abaqus_real(const std::vector<std::string_view>& fields, std::size_t i, const char* what,

@@ -112,18 +112,31 @@ class Springs {
     if (stiffness > 0) mesh_.springs.push_back(spring);
   }
 
+  // ... EID PID GA GB: reads label and ends, and finds the property.
+  const CardView& read_bush(const CardView& card, const std::unordered_map<long, CardView>& known,
+                            const char* kind, Spring& spring) {
+    spring.label = model_.new_element(card);
+    const auto found = known.find(card.label(1, "property", spring.label));
+    if (found == known.end())
+      throw CardError{fmt::format("property {} does not exist, or is no {}", card.text(1), kind)};
+    spring.vertices[0] = model_.vertex(card, 2, "end");
+    if (card.has(3) && !card.is(3, "0")) spring.vertices[1] = model_.vertex(card, 3, "end");
+    return found->second;
+  }
+
+  /// From its first end to the second; zero where it ends on the ground, m.
+  Vector3 line_of(const Spring& spring) const {
+    if (spring.vertices[1] < 0) return Vector3::Zero();
+    return model_.place(spring.vertices[1]) - model_.place(spring.vertices[0]);
+  }
+
   // CBUSH EID PID GA GB X1/G0 X2 X3 CID / S OCID S1 S2 S3
   void add_bush(const CardView& card) {
     Spring spring;
-    spring.label = model_.new_element(card);
-    const auto found = bushes_.find(card.label(1, "property", spring.label));
-    if (found == bushes_.end())
-      throw CardError{fmt::format("property {} does not exist", card.text(1))};
-    spring.vertices[0] = model_.vertex(card, 2, "end");
-    const bool has_end = card.has(3) && !card.is(3, "0");
-    if (has_end) spring.vertices[1] = model_.vertex(card, 3, "end");
+    const CardView& property = read_bush(card, bushes_, "PBUSH", spring);
+    const bool has_end = spring.vertices[1] >= 0;
     const Vector3 from = model_.place(spring.vertices[0]);
-    const Vector3 to = has_end ? model_.place(spring.vertices[1]) : from;
+    const Vector3 to = from + line_of(spring);
     spring.axes[0] = spring.axes[1] = bush_axes(card, spring, from, to);
     Vector3 place = from + card.real(8, "place of the spring", 0.5) * (to - from);
     if (const long system = card.integer(9, "system of its place", -1); system >= 0) {
@@ -133,7 +146,7 @@ class Springs {
     }
     spring.arms[0] = place - from;
     if (has_end) spring.arms[1] = place - to;
-    const std::array<double, 6> stiffness = bush_stiffness(found->second);
+    const std::array<double, 6> stiffness = bush_stiffness(property);
     for (int i = 0; i < 6; ++i) {
       spring.components = {i, i};
       add(card, spring, stiffness[at(i)] * unit(i));
@@ -186,16 +199,8 @@ class Springs {
   // CBUSH1D EID PID GA GB CID: along the line of its grids, or axis 1 of CID
   void add_line_bush(const CardView& card) {
     Spring spring;
-    spring.label = model_.new_element(card);
-    const auto found = line_bushes_.find(card.label(1, "property", spring.label));
-    if (found == line_bushes_.end())
-      throw CardError{fmt::format("property {} does not exist, or is no PBUSH1D", card.text(1))};
-    spring.vertices[0] = model_.vertex(card, 2, "end");
-    const bool has_end = card.has(3) && !card.is(3, "0");
-    if (has_end) spring.vertices[1] = model_.vertex(card, 3, "end");
-    const Vector3 line =
-        has_end ? Vector3(model_.place(spring.vertices[1]) - model_.place(spring.vertices[0]))
-                : Vector3(Vector3::Zero());
+    const CardView& property = read_bush(card, line_bushes_, "PBUSH1D", spring);
+    const Vector3 line = line_of(spring);
     Vector3 along = line;
     if (card.has(4))
       along = model_.axes_at(card.integer(4, "coordinate system"), spring.vertices[0]).col(0);
@@ -209,8 +214,8 @@ class Springs {
     spring.axes = {axes, axes};
     // Both act on one line, so that the spring holds no turn of the whole.
     spring.arms = {line / 2, -line / 2};
-    const CardView& property = found->second;
-    if (used_line_bushes_.insert(found->first).second) model_.log.use("PBUSH1D");
+    if (used_line_bushes_.insert(card.label(1, "property", spring.label)).second)
+      model_.log.use("PBUSH1D");
     if (property.size() > 8)
       model_.log.leave_out("PBUSH1D", "its tables and equations: K is used, as for small motions");
     else if (property.has(2))

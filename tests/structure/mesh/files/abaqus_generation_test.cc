@@ -73,6 +73,8 @@ TEST(AbaqusGeneration, WhatIsWrongIsSaidAtItsLine) {
   EXPECT_THAT(complaint("*NGEN\n1, 5, 3\n"),
               HasSubstr(":4: error: *NGEN: steps of 3 do not lead from node 1 to 5"));
   EXPECT_THAT(complaint("*NGEN\n1, 7\n"), HasSubstr(":4: error: *NGEN: node 7 does not exist"));
+  EXPECT_THAT(complaint("*NGEN\n1, 5, two\n"),
+              HasSubstr("*NGEN: \"two\" as the step of numbers is no whole number"));
   EXPECT_THAT(complaint("*NGEN, LINE=P\n1, 5\n"), HasSubstr("*NGEN: LINE = P is not known"));
   EXPECT_THAT(complaint("*NFILL, BIAS=.5\nENDS, ENDS, 2, 10\n"),
               HasSubstr("*NFILL: BIAS is not known"));

@@ -210,6 +210,10 @@ TEST(NastranSprings, AlongALine) {
   // Half of 400 kg at either end; at the ground it is no block's.
   EXPECT_NEAR(mass_properties(mesh).mass, 600, 1e-9);
   EXPECT_THAT(entry(deck, "PBUSH1D").left_out, HasSubstr("damping"));
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nCBUSH1D,8,6,1\nPBUSH1D,5,2000.\n"),
+              HasSubstr("CBUSH1D: property 6 does not exist, or is no PBUSH1D"));
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nCBUSH,8,5,1,,,,,0\nPBUSH1D,5,2000.\n"),
+              HasSubstr("CBUSH: property 5 does not exist, or is no PBUSH"));
   EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nCBUSH1D,8,5,1\nPBUSH1D,5,2000.\n"),
               HasSubstr("CBUSH1D 8 has no length and no coordinate system (CID)"));
 }
