@@ -327,6 +327,13 @@ class Bars {
   Defaults bar_defaults_, beam_defaults_;
 };
 
+/// Cards that a material's number may stand for; what is none of plates and beams is told of where
+/// an element needs it.
+bool is_material(const std::string& card) {
+  return card == "MAT1" || card == "MAT2" || card == "MAT3" || card == "MAT8" || card == "MAT9" ||
+         card == "MAT11";
+}
+
 }  // namespace
 
 void read_nastran_cells(NastranModel& model) {
@@ -342,7 +349,7 @@ void read_nastran_cells(NastranModel& model) {
   for (const NastranCard& card : model.bulk.cards) {
     const CardView view(model.bulk, card);
     try {
-      if (card.name == "MAT1" || card.name == "MAT2" || card.name == "MAT8") materials(view);
+      if (is_material(card.name)) materials(view);
       if (card.name == "PSHELL" || card.name == "PCOMP" || card.name == "PCOMPG" ||
           card.name == "PBAR" || card.name == "PBARL" || card.name == "PBEAM" ||
           card.name == "PBEAML" || card.name == "PROD" || card.name == "PTUBE" ||

@@ -287,8 +287,10 @@ const NastranMaterial& nastran_material(NastranModel& model, long number) {
     if (card.name() == "MAT1") return read_isotropic(model, card);
     if (card.name() == "MAT8") return read_orthotropic(model, card);
     if (card.name() == "MAT2") return read_anisotropic(model, card);
-    throw CardError{fmt::format("{} {} is not known for plates and beams; MAT1, MAT2, MAT8 are",
-                                card.name(), number)};
+    throw CardError{fmt::format(
+        "material {} depends on the direction in a solid, which is not known; give it a MAT1 that "
+        "is as stiff along what it bears, or leave solids out (leave_solids_out: true)",
+        number)};
   });
   model.log.use(card.name());
   return model.material_read[number] = material;

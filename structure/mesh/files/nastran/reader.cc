@@ -101,6 +101,9 @@ const std::vector<Reason>& reasons() {
 /// How to say what a card that is not known says; empty: nobody asked yet.
 std::string_view what_instead_of(std::string_view card) {
   if (card == "CPYRAM") return "pyramids are not known; make two CTETRA of each";
+  if (card == "CBEND")
+    return "curved bars are not known; make straight CBAR or CBEAM of each: six to a quarter of a "
+           "circle bend as it does within 1.5 %, eight within 1 %";
   return {};
 }
 

@@ -719,6 +719,8 @@ SPC1,1,789,1
 }
 
 TEST(NastranReader, LeavesOutUnknownCardsThatItsUserNames) {
+  EXPECT_THAT(complaints_of_nastran(square + "CBEND,9,9,1,2,0.,0.,1.,1\n"),
+              HasSubstr("CBEND: curved bars are not known; make straight CBAR or CBEAM"));
   const std::string strange = square + "BCTABLE,1\nBCTABLE,2\nCPYRAM,9,9,1,2,3,4\n";
   const DeckOptions options{.leave_out = {"BCTABLE", "CPYRAM"}};
   const Deck deck = nastran(strange, "m-kg-N", options);

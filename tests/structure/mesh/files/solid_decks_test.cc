@@ -211,6 +211,10 @@ TEST(SolidDecks, SaysWhatIsWrong) {
               HasSubstr("a solid has property 6, which is a PSHELL"));
   EXPECT_THAT(complaints_of_nastran(grids + "CPYRAM,103,6,1,2,3,4,5\n"),
               HasSubstr("CPYRAM: pyramids are not known"));
+  const std::string in_directions = complaints_of_nastran(
+      grids + "CTETRA,103,6,2,12,3,6\nPSOLID,6,7\nMAT9,7,2.+11,6.+10,6.+10\n");
+  EXPECT_THAT(in_directions, HasSubstr("MAT9: material 7 depends on the direction in a solid"));
+  EXPECT_THAT(in_directions, ::testing::Not(HasSubstr("does not exist")));
   std::string without = abaqus_solids;
   without.erase(without.find("*SOLID SECTION"), 43);
   EXPECT_THAT(complaints_of_abaqus(without), HasSubstr("solids have no *SOLID SECTION"));
