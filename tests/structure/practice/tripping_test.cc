@@ -2,7 +2,6 @@
 #include "structure/practice/tripping.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
