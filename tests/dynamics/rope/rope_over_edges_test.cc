@@ -14,7 +14,6 @@ namespace blocklift::dynamics {
 namespace {
 
 using std::numbers::pi;
-constexpr double standard_gravity = 9.80665;
 
 double length_of(const Vector3& first, const Vector3& last, std::span<const PlacedEdge> edges,
                  std::span<const EdgeTouch> touches) {
@@ -98,7 +97,7 @@ struct Cradle {
   double hook_at = 0.0;  // m
   Mechanism mechanism = [] {
     MechanismBuilder builder;
-    builder.set_gravity({0, 0, -standard_gravity});
+    builder.set_gravity({0, 0, -9.80665});
     builder.add_body({.name = "load",
                       .joint = {.kind = JointKind::free},
                       .mass = 10e3,
