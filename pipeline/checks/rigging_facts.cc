@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/lift/history_figures.h"
+#include "pipeline/lift/sling_ends.h"
 
 namespace blocklift::pipeline {
 
@@ -46,9 +47,7 @@ RiggingFacts::RiggingFacts(const LiftCase& lift_case, const LiftRun& lift, Matri
 }
 
 VectorXd RiggingFacts::hook_load(const dynamics::History& history) const {
-  VectorXd sum = VectorXd::Zero(history.sample_count());
-  for (const LiftRope& sling : slings_) sum += history_of(history, sling.rope).last_force.col(2);
-  return sum;
+  return load_on_slings(lift_.model, history);
 }
 
 std::optional<double> RiggingFacts::weight_of(const LiftRope& sling) const {
@@ -230,10 +229,11 @@ std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index s
     Vector3d moment = Vector3d::Zero();
   };
   std::map<std::string, Group> hooks, cranes;
-  for (const LiftRope& sling : slings_) {
+  for (const SlingEnd& end : find_sling_ends(lift_.model)) {
+    const LiftRope& sling = lift_.model.ropes[end.sling];
     if (sling.hoist.empty()) return {};
-    const double load = history_of(history, sling.rope).last_force(sample, 2);
-    const Vector3d lug = X_WB.p + X_WB.R * case_.find_rope(sling.name)->path.back().point;
+    const double load = end.pull(history)(sample, 2);
+    const Vector3d lug = X_WB.p + X_WB.R * end.p_BoQ_B;
     for (Group* group : {&hooks[sling.hoist], &cranes[crane_of(sling.hoist)]}) {
       group->load += load;
       group->moment += load * lug;

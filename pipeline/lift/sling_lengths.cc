@@ -8,6 +8,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/simulation/equilibrium.h"
+#include "pipeline/lift/sling_ends.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -18,13 +19,9 @@ std::optional<Eigen::Index> first_hanging(const LiftCase& lift_case, const LiftR
   const double weight =
       lift.model.system.mechanism().body(lift.model.load).inertia.mass * lift_case.gravity;
   const dynamics::History& history = lift.static_history;
-  for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
-    double borne = 0;
-    for (const LiftRope& rope : lift.model.ropes)
-      if (!rope.lug.empty())
-        borne += history.ropes[static_cast<std::size_t>(rope.rope)].last_force(i, 2);
-    if (std::abs(borne - weight) < close * weight) return i;
-  }
+  const Eigen::VectorXd borne = load_on_slings(lift.model, history);
+  for (Eigen::Index i = 0; i < borne.size(); ++i)
+    if (std::abs(borne[i] - weight) < close * weight) return i;
   return std::nullopt;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "pipeline/lift/sling_ends.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -56,14 +58,6 @@ class StageMaxima {
   const dynamics::History& in_motion_;
   Window still_, moving_;
 };
-
-Eigen::VectorXd load_on_slings(const BuiltLift& model, const dynamics::History& history) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(history.sample_count());
-  for (const LiftRope& rope : model.ropes)
-    if (!rope.lug.empty())
-      sum += history.ropes[static_cast<std::size_t>(rope.rope)].last_force.col(2);
-  return sum;
-}
 
 }  // namespace
 

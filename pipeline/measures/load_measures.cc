@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/lift/sling_ends.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -21,11 +23,6 @@ LiftMeasure make_measure(const LiftRun& lift, LiftMeasure measure, const Series&
   measure.at_rest = series(lift.static_history);
   measure.in_motion = series(lift.dynamic_history());
   return measure;
-}
-
-const dynamics::RopeHistory& history_of_rope(const dynamics::History& history,
-                                             const LiftRope& rope) {
-  return history.ropes[static_cast<std::size_t>(rope.rope)];
 }
 
 void add_attitude(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
@@ -57,36 +54,35 @@ void add_attitude(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   add_rise("list", 1, "angle of the load's y axis above the level");
 }
 
+/// Against the level, of a pull upwards, rad; no number where there is none.
+double angle_of(const Eigen::Vector3d& pull) {
+  return pull.norm() > 0 ? std::atan2(pull.z(), pull.head<2>().norm()) : nothing;
+}
+
 void add_sling_angles(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
-  for (const LiftRope& rope : lift.model.ropes) {
-    if (rope.lug.empty()) continue;
+  const std::vector<SlingEnd> ends = find_sling_ends(lift.model);
+  for (std::size_t i = 0; i < lift.model.ropes.size(); ++i) {
+    if (lift.model.ropes[i].lug.empty()) continue;
     measures.push_back(make_measure(
         lift,
-        {.subject = rope.name,
+        {.subject = lift.model.ropes[i].name,
          .kind = "sling angle",
          .unit = "rad",
          .extreme = Extreme::smallest,
-         .meaning = "angle of the sling at its lug against the level, while it pulls"},
+         .meaning = "angle of the sling at its lug against the level, while it pulls; of a sling "
+                    "from lug to lug the lesser one"},
         [&](const dynamics::History& history, Eigen::Index sample) {
-          const Eigen::Vector3d pull = history_of_rope(history, rope).last_force.row(sample);
-          return pull.norm() > 0 ? std::atan2(pull.z(), pull.head<2>().norm()) : nothing;
+          double least = nothing;
+          for (const SlingEnd& end : ends)
+            if (end.sling == i) least = std::fmin(least, angle_of(end.pull(history).row(sample)));
+          return least;
         }));
   }
 }
 
-/// Places of the lugs in the load's frame, by the ropes that end there.
-std::vector<std::pair<const LiftRope*, Vector3>> lugs_of_ropes(const LiftCase& lift_case,
-                                                               const LiftRun& lift) {
-  std::vector<std::pair<const LiftRope*, Vector3>> lugs;
-  for (const LiftRope& rope : lift.model.ropes)
-    if (!rope.lug.empty())
-      lugs.emplace_back(&rope, lift_case.find_rope(rope.name)->path.back().point);
-  return lugs;
-}
-
 void add_margin(const LiftCase& lift_case, const LiftRun& lift,
                 std::vector<LiftMeasure>& measures) {
-  const auto lugs = lugs_of_ropes(lift_case, lift);
+  const std::vector<SlingEnd> ends = find_sling_ends(lift.model);
   const auto& inertia = lift.model.system.mechanism().body(lift.model.load).inertia;
   const Vector3 centre_B = inertia.p_BoBcm;
   const double weight = inertia.mass * lift_case.gravity;
@@ -103,24 +99,16 @@ void add_margin(const LiftCase& lift_case, const LiftRun& lift,
             history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample);
         std::vector<Eigen::Vector2d> carrying;
         double borne = 0;
-        for (const auto& [rope, p_B] : lugs) {
-          const dynamics::RopeHistory& one = history_of_rope(history, *rope);
-          borne += one.last_force(sample, 2);
-          if (one.tension[sample] > 0) carrying.push_back((X_WB.R * p_B).head<2>());
+        for (const SlingEnd& end : ends) {
+          borne += end.pull(history)(sample, 2);
+          if (history.ropes[static_cast<std::size_t>(end.rope)].tension[sample] > 0)
+            carrying.push_back((X_WB.R * end.p_BoQ_B).head<2>());
         }
         if (borne < 0.9 * weight) return nothing;
         return distance_within(carrying, (X_WB.R * centre_B).head<2>());
       });
   // Two lugs, or lugs in a line, span no area.
   if (!margin.at_rest.array().isNaN().all()) measures.push_back(std::move(margin));
-}
-
-/// Vertical force of all slings on the load at a sample, N.
-double borne_by_slings(const LiftRun& lift, const dynamics::History& history, Eigen::Index sample) {
-  double borne = 0;
-  for (const LiftRope& rope : lift.model.ropes)
-    if (!rope.lug.empty()) borne += history_of_rope(history, rope).last_force(sample, 2);
-  return borne;
 }
 
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
@@ -173,6 +161,7 @@ LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift) {
   const double weight =
       lift.model.system.mechanism().body(lift.model.load).inertia.mass * lift_case.gravity;
   const Eigen::VectorXd& times = lift.static_history.time;
+  const Eigen::VectorXd borne = load_on_slings(lift.model, lift.static_history);
   return make_measure(
       lift,
       {.subject = "load",
@@ -187,7 +176,7 @@ LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift) {
         const double* after =
             std::upper_bound(times.data(), times.data() + times.size(), history.time[sample]);
         const Eigen::Index at = std::max<Eigen::Index>(after - times.data() - 1, 0);
-        if (borne_by_slings(lift, lift.static_history, at) < 0.9 * weight) return nothing;
+        if (borne[at] < 0.9 * weight) return nothing;
         return lift.righting_height[at];
       });
 }

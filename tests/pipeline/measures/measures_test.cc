@@ -8,6 +8,7 @@
 
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/measure_checks.h"
+#include "pipeline/lift/sling_ends.h"
 #include "pipeline/lift/stage_loads.h"
 #include "pipeline/measures/chart_derating.h"
 #include "pipeline/measures/clearance.h"
@@ -288,6 +289,37 @@ TEST(SheaveMeasures, SharesOfAnEndlessSlingStayWithinTheFriction) {
   EXPECT_LT(share.in_motion.maxCoeff(), capstan / (1 + capstan));
   EXPECT_GT(share.in_motion.maxCoeff(), 0.5 + 1e-6);
   EXPECT_GT(lift.run.dynamic_history().energy.dissipated.tail(1)[0], 0);
+}
+
+// A sling from lug to lug over the left hook, the other lug held by the right hook too: by statics
+// both ends and R2 bear the weight, L1 half of it.
+TEST(SlingEnds, OfASlingFromLugToLugBothCount) {
+  const WatchedLift lift =
+      watch("{}", "", "", "", "from: L1, through: [C1.left], to: L2, length: 6.4 m");
+  const dynamics::History& history = lift.run.static_history;
+  const std::vector<SlingEnd> ends = find_sling_ends(lift.run.model);
+  ASSERT_EQ(ends.size(), 3U);
+  EXPECT_TRUE(ends[0].first);
+  EXPECT_LT((ends[0].p_BoQ_B - Vector3(0, 0, 1.2)).norm(), 1e-12);
+  EXPECT_LT((ends[1].p_BoQ_B - Vector3(4, 0, 1.2)).norm(), 1e-12);
+  const double weight = 10e3 * g;
+  EXPECT_LT((load_on_slings(lift.run.model, history).array() / weight - 1).abs().maxCoeff(), 1e-6);
+  EXPECT_NEAR(find_stage_loads(lift.run)[0].load.at_rest, weight, 1e-6 * weight);
+  // The load tilts, so that its halves are not quite the levers of the pins.
+  EXPECT_NEAR(ends[0].pull(history)(0, 2), weight / 2, 0.15 * weight);
+  EXPECT_TRUE(std::isfinite(lift.measure("load: righting height").at_rest[0]));
+
+  const auto place = [&](dynamics::BodyIndex body, const Vector3& p_B) {
+    return history.bodies[static_cast<std::size_t>(body - 1)].X_WB(0).apply(p_B);
+  };
+  const auto hook = lift.run.model.system.mechanism().body_index("C1.left");
+  double least = 4;
+  for (const std::size_t end : {0U, 1U}) {
+    const Vector3 leg =
+        place(hook, Vector3::Zero()) - place(lift.run.model.load, ends[end].p_BoQ_B);
+    least = std::min(least, std::atan2(leg.z(), leg.head<2>().norm()));
+  }
+  EXPECT_NEAR(lift.measure("R1: sling angle").at_rest[0], least, 1e-9);
 }
 
 TEST(TackleMeasures, RememberTheWayOfTheRope) {

@@ -1,0 +1,25 @@
+#include "pipeline/lift/sling_ends.h"
+
+namespace blocklift::pipeline {
+
+std::vector<SlingEnd> find_sling_ends(const BuiltLift& model) {
+  std::vector<SlingEnd> ends;
+  for (std::size_t i = 0; i < model.ropes.size(); ++i) {
+    const LiftRope& sling = model.ropes[i];
+    if (sling.lug.empty()) continue;
+    const std::vector<dynamics::BodyPoint>& points =
+        model.system.ropes()[static_cast<std::size_t>(sling.rope)].points();
+    if (points.front().body == model.load)
+      ends.push_back({i, sling.rope, true, points.front().p_BoQ_B});
+    ends.push_back({i, sling.rope, false, points.back().p_BoQ_B});
+  }
+  return ends;
+}
+
+Eigen::VectorXd load_on_slings(const BuiltLift& model, const dynamics::History& history) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(history.sample_count());
+  for (const SlingEnd& end : find_sling_ends(model)) sum += end.pull(history).col(2);
+  return sum;
+}
+
+}  // namespace blocklift::pipeline

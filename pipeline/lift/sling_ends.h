@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "dynamics/simulation/history.h"
+#include "pipeline/build/build_lift.h"
+
+namespace blocklift::pipeline {
+
+/// An end of a sling at the load. A sling from lug to lug over a hook has two.
+struct SlingEnd {
+  std::size_t sling = 0;                              ///< its place among the lift's ropes
+  int rope = -1;                                      ///< index in the system
+  bool first = false;                                 ///< the rope begins here, else it ends here
+  Eigen::Vector3d p_BoQ_B = Eigen::Vector3d::Zero();  ///< in the load's frame, m
+
+  /// On the load at each sample, in W, N.
+  const dynamics::RopeHistory::Rows3& pull(const dynamics::History& history) const {
+    const dynamics::RopeHistory& one = history.ropes[static_cast<std::size_t>(rope)];
+    return first ? one.first_force : one.last_force;
+  }
+};
+
+/// Both ends at the load of each rope that ends at a lug, in the order of the ropes.
+std::vector<SlingEnd> find_sling_ends(const BuiltLift& model);
+
+/// Vertical part of all slings' forces on the load, at each sample, N.
+Eigen::VectorXd load_on_slings(const BuiltLift& model, const dynamics::History& history);
+
+}  // namespace blocklift::pipeline
