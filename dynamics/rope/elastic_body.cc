@@ -12,6 +12,8 @@ namespace blocklift::dynamics {
 namespace {
 
 constexpr int direction_passes = 4;
+// Tension laws are linearised about the pass before: Newton's method, from the rigid body on.
+constexpr int passes_with_laws = 8;
 
 std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
@@ -38,7 +40,7 @@ void require_compliance(const ElasticBody::Definition& d) {
 
 ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ropes,
                          Definition definition)
-    : d_(std::move(definition)) {
+    : d_(std::move(definition)), passes_(direction_passes) {
   if (d_.ends.empty()) refuse(d_, "no rope ends at it");
   require_compliance(d_);
   for (std::size_t e = 0; e < d_.ends.size(); ++e) {
@@ -54,6 +56,7 @@ ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ro
     if (!rope.edges().empty()) refuse(d_, "rope \"" + rope.name() + "\" may touch edges");
     if (rope.definition().sheave_friction > 0.0)
       refuse(d_, "rope \"" + rope.name() + "\" has friction at its sheaves");
+    if (rope.definition().tension_law) passes_ = passes_with_laws;
     for (std::size_t other = 0; other < e; ++other) {
       if (d_.ends[other].rope == end.rope && d_.ends[other].last == end.last)
         refuse(d_, "an end of rope \"" + rope.name() + "\" is named twice");
@@ -132,7 +135,9 @@ void ElasticBody::take_geometry(const Kinematics& kinematics, const Ropes& ropes
     w.length[local] = load.length;
     w.length_rate[local] = load.length_rate;
     const RopeFeed& feed = ropes.feeds[index];
-    w.elongation[local] = feed.parted ? -feed.unstretched_length : load.elongation();
+    w.elongation[local] = feed.parted                     ? -feed.unstretched_length
+                          : rope.definition().tension_law ? load.elastic_force / load.stiffness
+                                                          : load.elongation();
     w.rate[local] = load.length_rate - load.unstretched_rate;
     w.flexibility[local] = 1.0 / load.stiffness;
     w.rope_damping[local] = rope.damping(load.stiffness);
@@ -216,7 +221,7 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
   }
   std::fill(w.stretched.begin(), w.stretched.end(), static_cast<char>(1));
   w.u.setZero();
-  for (int pass = 0; pass < direction_passes; ++pass) {
+  for (int pass = 0; pass < passes_; ++pass) {
     take_geometry(kinematics, ropes, w);
     solve(w);
     for (std::size_t change = 0; change < 3 * ropes_.size(); ++change) {
@@ -224,7 +229,7 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
       solve(w);
     }
     // The last pass's forces belong to the displacement that its directions were found at.
-    if (pass + 1 < direction_passes) w.u = w.next_u;
+    if (pass + 1 < passes_) w.u = w.next_u;
   }
   w.energy = 0.5 * w.force.dot(w.u);
   for (std::size_t i = 0; i < ropes_.size(); ++i) {

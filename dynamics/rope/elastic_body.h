@@ -26,8 +26,10 @@ namespace blocklift::dynamics {
 /// ropes that are stretched, L > L0, make Pi = sum k (L - L0)^2 / 2 + F^T C F / 2 stationary over
 /// u, so that they are conservative. They are found by  (1/k + g^T C g) T = L - L0 - g^T u,  g =
 /// dL/du, with the direction of the pull improved four times, each of which reduces its error by
-/// the displacement over the length of the last segment. Damping acts on each rope's own share of
-/// the elongation's rate:
+/// the displacement over the length of the last segment. A rope with a tension law has its tangent
+/// at the elongation of the pass before in place of k, and the elastic force over that tangent in
+/// place of its elongation: Newton's method, in eight passes. Damping acts on each rope's own share
+/// of the elongation's rate:
 ///   T_d = W^T c W (Ldot - L0dot),   W = 1/k (1/k + g^T C g)^-1,
 /// which is Rayleigh's dissipation condensed as the stiffness is: exact to the first order in c/k
 /// times the frequency. A rope pulls with T + T_d, or not at all where that would push. The ends
@@ -113,7 +115,7 @@ class ElasticBody {
                   const Ropes& ropes, Workspace& w, std::vector<ForceVector>& F_Bo_W,
                   VectorRef tau) const;
   /// Derivatives of the same at what add_forces has left: exact but for the damping's change by the
-  /// direction of the pull, which vanishes at rest.
+  /// direction of the pull and by a tension law, which vanishes at rest.
   void add_derivatives(const Kinematics& kinematics, const Ropes& ropes, Workspace& w,
                        ForceDerivatives& derivatives) const;
 
@@ -134,6 +136,7 @@ class ElasticBody {
   void add_turning(const Kinematics& kinematics, const Ropes& ropes, Workspace& w) const;
 
   Definition d_;
+  int passes_;  // over the directions of the pulls, and the tension laws
   std::vector<int> ropes_;
   std::vector<std::size_t> first_point_;  // of each rope
   std::size_t points_ = 0;

@@ -56,7 +56,11 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
                        mechanism.body(point.body).name + "\"");
     }
   }
-  require_positive(d.name, "axial stiffness", d.axial_stiffness, true);
+  if (d.tension_law) {
+    require_sound_law();
+  } else {
+    require_positive(d.name, "axial stiffness", d.axial_stiffness, true);
+  }
   require_positive(d.name, "crane stiffness", d.crane_stiffness, false);
   require_positive(d.name, "unstretched length", d.unstretched_length, true);
   require_not_negative(d.name, "damping time", d.damping_time);
@@ -80,6 +84,25 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
     edge_axes_.push_back(
         {along, (edge.outside_B - edge.outside_B.dot(along) * along).normalized()});
   }
+}
+
+void Rope::require_sound_law() const {
+  const RopeDefinition& d = definition_;
+  const auto refuse = [&](const char* what) {
+    throw ModelError("rope \"" + d.name + "\" has a curve of tension over strain and " + what);
+  };
+  if (!std::isnan(d.axial_stiffness)) refuse("an axial stiffness; one of the two is due");
+  if (hangs()) refuse("weight; only a rope of one stiffness hangs as a catenary");
+  if (d.sheave_friction > 0.0)
+    refuse("friction at its sheaves; ropes with friction have one stiffness");
+}
+
+double Rope::stiffness(double unstretched_length, double tension) const {
+  const double EA =
+      definition_.tension_law
+          ? definition_.tension_law->slope(definition_.tension_law->find_strain(tension))
+          : definition_.axial_stiffness;
+  return 1.0 / (unstretched_length / EA + crane_compliance_);
 }
 
 void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
@@ -132,6 +155,18 @@ void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
   path.length_rate = rate;
 }
 
+// Elastic force, stiffness and its slope at the length and unstretched length of a load.
+void Rope::stretch_by_law(RopeLoad& load) const {
+  const TensionLaw& law = *definition_.tension_law;
+  const double L0 = load.unstretched_length;
+  const double strain = law.find_strain(load.elongation(), L0, crane_compliance_);
+  const double EA = law.slope(strain);
+  const double whole = L0 + EA * crane_compliance_;  // dL/de
+  load.elastic_force = law.tension(strain);
+  load.stiffness = EA / whole;
+  load.stiffness_slope = law.curvature(strain) * L0 / (whole * whole * whole);
+}
+
 RopeLoad Rope::calc_elastic_and_damping(const RopePath& path, const RopeFeed& feed) const {
   if (!(feed.unstretched_length > 0.0)) {
     throw ModelError("rope \"" + definition_.name + "\": the winch has pulled it in to " +
@@ -143,8 +178,12 @@ RopeLoad Rope::calc_elastic_and_damping(const RopePath& path, const RopeFeed& fe
   load.length_rate = path.length_rate;
   load.unstretched_length = feed.unstretched_length;
   load.unstretched_rate = feed.rate;
-  load.stiffness = stiffness(feed.unstretched_length);
-  load.elastic_force = load.stiffness * (path.length - feed.unstretched_length);
+  if (definition_.tension_law) {
+    stretch_by_law(load);
+  } else {
+    load.stiffness = stiffness(feed.unstretched_length);
+    load.elastic_force = load.stiffness * (path.length - feed.unstretched_length);
+  }
   load.damping_force = damping(load.stiffness) * (path.length_rate - feed.rate);
   if (feed.parted) {
     load.elastic_force = -load.stiffness * feed.unstretched_length;
@@ -221,6 +260,12 @@ struct PathGradient {
 
 }  // namespace
 
+// dT/dL of a load that is taut: where the stiffness grows with the stretch the damping does.
+double Rope::calc_tension_slope(const RopeLoad& load) const {
+  return load.stiffness + definition_.damping_time * load.stiffness_slope *
+                              (load.length_rate - load.unstretched_rate);
+}
+
 void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, const RopeLoad& load,
                            ForceDerivatives& derivatives) const {
   if (hangs()) {
@@ -233,8 +278,8 @@ void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, c
     return;
   }
   const std::vector<BodyPoint>& points = definition_.points;
-  const double k = load.stiffness;
-  const double c = damping(k);
+  const double c = damping(load.stiffness);
+  const double k = calc_tension_slope(load);
   for (std::size_t i = 0; i < points.size(); ++i) {
     derivatives.locate(i, points[i].body, path.r_W[i]);
   }
@@ -253,6 +298,24 @@ void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, c
                             c * pull * g.of_length.transpose());
     }
   }
+}
+
+// Elastic energy of the rope and of what it hangs from, J.
+double Rope::calc_stored(double elastic_force, double unstretched_length, double stiffness) const {
+  const double F = elastic_force;
+  if (!definition_.tension_law) return 0.5 * F * F / stiffness;
+  const TensionLaw& law = *definition_.tension_law;
+  return unstretched_length * law.strain_energy(law.find_strain(F)) +
+         0.5 * F * F * crane_compliance_;
+}
+
+// int e dF, what the winch takes in with each metre beside the tension, N.
+double Rope::calc_complementary(double elastic_force) const {
+  const double F = elastic_force;
+  if (!definition_.tension_law) return 0.5 * F * F / definition_.axial_stiffness;
+  const TensionLaw& law = *definition_.tension_law;
+  const double strain = law.find_strain(F);
+  return strain * F - law.strain_energy(strain);
 }
 
 EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
@@ -276,10 +339,9 @@ EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
       load.taut || (load.elastic_force > 0.0 && elongation_rate < 0.0) ? load.elastic_force : 0.0;
   const double dissipated =
       load.taut ? load.damping_force * elongation_rate : -elastic * std::min(0.0, elongation_rate);
-  return {.stored_energy = 0.5 * elastic * elastic / load.stiffness,
+  return {.stored_energy = calc_stored(elastic, load.unstretched_length, load.stiffness),
           .dissipated_power = dissipated,
-          .supplied_power = -load.unstretched_rate *
-                            (load.tension + 0.5 * elastic * elastic / definition_.axial_stiffness)};
+          .supplied_power = -load.unstretched_rate * (load.tension + calc_complementary(elastic))};
 }
 
 RopePath make_rope_path(const std::vector<Rope>& ropes) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "dynamics/force/force_element.h"
 #include "dynamics/rope/catenary.h"
 #include "dynamics/rope/edge_wrap.h"
+#include "dynamics/rope/tension_law.h"
 
 namespace blocklift::dynamics {
 
@@ -30,6 +32,9 @@ struct RopeDefinition {
   /// One rope that is reeved through two tackles has such a segment between their upper sheaves.
   std::vector<char> left_out = {};
   double axial_stiffness = not_a_number;  ///< EA of all falls together, N
+  /// In place of EA: tension over strain, of all falls together. Such a rope has neither weight nor
+  /// friction.
+  std::optional<TensionLaw> tension_law = {};
   /// Stiffness of what the rope hangs from, in series with it, N/m; infinite: rigid.
   double crane_stiffness = std::numeric_limits<double>::infinity();
   double damping_time = 0.0;  ///< Kelvin-Voigt: this time the stiffness is the damping, s
@@ -104,7 +109,8 @@ struct RopeLoad {
   double length_rate = not_a_number;         ///< m/s
   double unstretched_length = not_a_number;  ///< L0, m
   double unstretched_rate = not_a_number;    ///< m/s
-  double stiffness = not_a_number;           ///< k at this L0, N/m
+  double stiffness = not_a_number;           ///< k at this L0, with a tension law dT/dL, N/m
+  double stiffness_slope = 0.0;              ///< dk/dL, of a tension law, N/m^2
   double elastic_force = not_a_number;       ///< k (L - L0), N; negative when slack
   double damping_force = not_a_number;       ///< c (Ldot - L0dot), N
   double tension = not_a_number;  ///< T, N; the largest of a rope with weight or friction
@@ -134,6 +140,11 @@ struct RopeLoad {
 /// dissipated - d(stored)/dt, and it equals the power of the point forces. Source: first variation
 /// of the path length; SIMO theory manual for stiffness in series.
 ///
+/// With a tension law F in place of EA (tension_law.h) the strain e solves
+///   L - L0 = e L0 + F(e)/k_crane,
+/// F(e) stands for k (L - L0), and k is the tangent 1/(L0/F'(e) + 1/k_crane), by which it is damped
+/// as well. Stored is L0 W(e) + F^2/(2 k_crane) with W = int F de, supplied -L0dot (T + e F - W).
+///
 /// Edges that the rope touches are smooth: between two of its points it runs along the shortest line
 /// round them (find_shortest_line), whose arcs belong to L. Since that line is the shortest, the
 /// places where it touches may be held for the first variation: an edge's body bears the pulls of
@@ -158,7 +169,8 @@ class Rope {
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
   /// point of one body, segments are left out at an end or all or not told for each, a stiffness or
   /// length is not positive, a damping, the weight or the friction is negative, a rope with weight
-  /// has more than two points, or one with friction has no sheave or leaves segments out; or if an
+  /// has more than two points, one with friction has no sheave or leaves segments out, or one with
+  /// a tension law has a stiffness, a weight or friction besides; or if an
   /// edge is not one of a body of the mechanism, has no length, no side outside or a negative
   /// radius, if the edges are not in order or too many between two points, or if a rope with edges
   /// has weight, friction at sheaves or leaves segments out.
@@ -182,10 +194,8 @@ class Rope {
   /// Does it hang by its weight? Else it runs straight.
   bool hangs() const { return definition_.weight_per_length > 0.0; }
 
-  /// k at an unstretched length (m), N/m.
-  double stiffness(double unstretched_length) const {
-    return 1.0 / (unstretched_length / definition_.axial_stiffness + crane_compliance_);
-  }
+  /// k at an unstretched length (m), N/m; with a tension law the tangent at a tension (N).
+  double stiffness(double unstretched_length, double tension = 0.0) const;
 
   /// Kelvin-Voigt and further damping c at a stiffness (N/m), N s/m.
   double damping(double stiffness) const {
@@ -241,6 +251,11 @@ class Rope {
   void add_derivatives_over_edges(const Kinematics& kinematics, const RopePath& path,
                                   const RopeLoad& load, ForceDerivatives& derivatives) const;
   RopeLoad calc_elastic_and_damping(const RopePath& path, const RopeFeed& feed) const;
+  void require_sound_law() const;
+  void stretch_by_law(RopeLoad& load) const;
+  double calc_tension_slope(const RopeLoad& load) const;
+  double calc_stored(double elastic_force, double unstretched_length, double stiffness) const;
+  double calc_complementary(double elastic_force) const;
   void hang(const RopePath& path, const RopeFeed& feed, RopeLoad& load) const;
   Catenary calc_catenary_of(const RopePath& path, double unstretched_length) const;
   void add_hanging_derivatives(const Kinematics& kinematics, const RopePath& path,

@@ -246,7 +246,7 @@ void Rope::add_derivatives_over_edges(const Kinematics& kinematics, const RopePa
     begin += count;
     from = to;
   }
-  const double k = load.stiffness, c = damping(k);
+  const double k = calc_tension_slope(load), c = damping(load.stiffness);
   const auto gradient = [&](std::size_t i) {
     Vector3 g = Vector3::Zero();
     if (i > 0) g += path.direction_W[i - 1];

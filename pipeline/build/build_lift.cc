@@ -12,6 +12,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/build/body_box.h"
+#include "pipeline/build/rope_stretch.h"
 #include "pipeline/build/spreader_start.h"
 #include "pipeline/files/lift_case/crane_start.h"
 #include "pipeline/mechanism/build_parts.h"
@@ -288,8 +289,7 @@ class LiftBuilder {
 
   void set_rope(dynamics::RopeDefinition& rope, const RopeModel& model, double stiffness_in_series,
                 double length, bool hangs) const {
-    rope.axial_stiffness = model.axial_stiffness;
-    rope.damping_time = model.damping_time;
+    set_stretch(rope, model);
     rope.crane_stiffness = stiffness_in_series;
     rope.unstretched_length = length;
     if (hangs) rope.weight_per_length = *model.mass_per_length * case_.gravity;

@@ -7,6 +7,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/multibody/assembly.h"
 #include "dynamics/multibody/loop_constraint.h"
+#include "pipeline/build/rope_stretch.h"
 #include "pipeline/files/mechanism/mechanism_schedule.h"
 #include "pipeline/mechanism/build_parts.h"
 #include "pipeline/mechanism/joint_values.h"
@@ -126,8 +127,7 @@ class MechanismAssembler {
       add(rope.from);
       for (const Located<RopePoint>& sheave : rope.through) add(sheave);
       add(rope.to);
-      definition.axial_stiffness = rope.rope.axial_stiffness;
-      definition.damping_time = rope.rope.damping_time;
+      set_stretch(definition, rope.rope);
       definition.crane_stiffness = rope.end_stiffness;
       definition.unstretched_length = rope.length.value;
       definition.sheave_friction = rope.friction();

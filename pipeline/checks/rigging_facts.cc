@@ -94,7 +94,7 @@ RiggingRope RiggingFacts::rigging_rope(int rope, const Vector3d& pull_up, Index 
   result.direction_W = pull_up.norm() > 0 ? Vector3d(pull_up.normalized()) : Vector3d::UnitZ();
   result.length = r.unstretched_length[sample] + r.elongation[sample];
   result.compliance = 1 / lift_.model.system.ropes()[static_cast<std::size_t>(rope)].stiffness(
-                              r.unstretched_length[sample]);
+                              r.unstretched_length[sample], result.tension);
   return result;
 }
 

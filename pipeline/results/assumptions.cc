@@ -30,6 +30,19 @@ std::string names_of_rubbing(const LiftCase& lift_case) {
   return names;
 }
 
+/// Ropes and tackles with a curve of tension over strain.
+std::string names_of_curved(const LiftCase& lift_case) {
+  std::string names;
+  const auto add = [&](const std::string& name, const RopeModel& rope) {
+    if (rope.tension_curve) names += (names.empty() ? "" : ", ") + name;
+  };
+  for (const RopeInCase& rope : lift_case.ropes) add(rope.name.value, rope.rope);
+  for (const CraneInCase& crane : lift_case.cranes)
+    for (const HoistModel& hoist : crane.model->hoists)
+      add(crane.name.value + "." + hoist.name.value, hoist.rope);
+  return names;
+}
+
 void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
   list.emplace_back(
       "Cranes, hook blocks and the block are rigid bodies; a crane's elasticity acts in series "
@@ -53,6 +66,14 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
                     "two sides differ by exp(mu x angle of wrap), and slip at that ratio (Euler, "
                     "Eytelwein). They begin with one tension all along, which they have at rest.",
                     rubbing));
+  }
+  const std::string curved = names_of_curved(lift_case);
+  if (!curved.empty()) {
+    list.push_back(
+        fmt::format("{} stretch by a curve of tension over strain, the same way back: elastic, "
+                    "without hysteresis, and straight on beyond its last point. Standards' steps "
+                    "for wrong lengths take the stiffness of the curve at the tension at rest.",
+                    curved));
   }
   if (!lift_case.spreaders.empty()) {
     list.emplace_back(

@@ -21,7 +21,7 @@ bool is_found_from(const fs::path& folder, const RopeChoice& choice, const RopeM
   Diagnostics ignored;
   const RopeModel found = ModelLibrary::of_installation().resolve(choice, folder, ignored);
   return !ignored.has_errors() && found.breaking_load == rope.breaking_load &&
-         found.axial_stiffness == rope.axial_stiffness;
+         found.stretches_like(rope);
 }
 
 YAML::Node model_node(const fs::path& folder, const StockSling& sling) {
@@ -31,7 +31,14 @@ YAML::Node model_node(const fs::path& folder, const StockSling& sling) {
     node = sling.rope_choice.model_name->value;
     return node;
   }
-  node["axial_stiffness"] = fmt::format("{:.10g} MN", rope.axial_stiffness / 1e6);
+  if (!rope.tension_curve)
+    node["axial_stiffness"] = fmt::format("{:.10g} MN", rope.axial_stiffness / 1e6);
+  for (const auto& [strain, tension] : rope.curve()) {
+    YAML::Node point;
+    point.push_back(fmt::format("{:.10g} %", strain * 100));
+    point.push_back(fmt::format("{:.10g} kN", tension / 1e3));
+    node["tension_curve"].push_back(point);
+  }
   node["damping_time"] = fmt::format("{:.10g} ms", rope.damping_time * 1e3);
   node["breaking_load"] = fmt::format("{:.10g} kN", rope.breaking_load / 1e3);
   if (rope.diameter) node["diameter"] = fmt::format("{:.10g} mm", *rope.diameter * 1e3);

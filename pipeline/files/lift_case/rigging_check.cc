@@ -1,7 +1,6 @@
 #include "pipeline/files/lift_case/rigging_check.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -75,7 +74,7 @@ void check_bend(const RopeInCase& rope, Diagnostics& diagnostics) {
   const auto& [bend, mark] = *rope.bend_diameter;
   if (!rope.rope.diameter) {
     // A model that could not be read has been complained of.
-    if (std::isfinite(rope.rope.axial_stiffness))
+    if (rope.rope.stretches())
       diagnostics.error(mark,
                         fmt::format("the model of rope {} has no diameter, which its bend diameter "
                                     "is held against",
@@ -138,8 +137,7 @@ void check_equalised(const CraneInCase& crane, Diagnostics& diagnostics) {
     return;
   }
   const RopeModel &a = hoists[0]->rope, &b = hoists[1]->rope;
-  if (a.axial_stiffness != b.axial_stiffness || a.breaking_load != b.breaking_load ||
-      a.damping_time != b.damping_time) {
+  if (!a.stretches_like(b) || a.breaking_load != b.breaking_load) {
     diagnostics.error(
         crane.equalised->mark,
         fmt::format("hoists {} and {} of crane {} have different tackles", hoists[0]->name.value,
@@ -156,10 +154,21 @@ void check_rope_weight(const LiftCase& lift_case, Diagnostics& diagnostics) {
     diagnostics.error(mark, "ropes hang by their weight, and the block is flexible",
                       {"ropes to a block that gives way run straight: leave one of the two out"});
   bool any = false;
-  for (const RopeInCase& rope : lift_case.ropes) any = any || lift_case.hangs(rope);
+  const auto look_at = [&](const std::string& name, const RopeModel& rope, bool hangs) {
+    any = any || hangs;
+    if (hangs && rope.tension_curve)
+      diagnostics.error(
+          mark, fmt::format("{} hangs by its weight, and has a tension_curve", name),
+          {"a catenary has one stiffness: give axial_stiffness, leave the mass of its "
+           "model out, or rope_weight"});
+  };
+  for (const RopeInCase& rope : lift_case.ropes)
+    look_at("rope " + rope.name.value, rope.rope, lift_case.hangs(rope));
   for (const CraneInCase& crane : lift_case.cranes) {
     if (!crane.model) return;
-    for (const HoistModel& hoist : crane.model->hoists) any = any || lift_case.hangs(crane, hoist);
+    for (const HoistModel& hoist : crane.model->hoists)
+      look_at("tackle " + crane.name.value + "." + hoist.name.value, hoist.rope,
+              lift_case.hangs(crane, hoist));
   }
   if (!any)
     diagnostics.error(mark, "no rope has a mass by which it would hang",
@@ -167,8 +176,9 @@ void check_rope_weight(const LiftCase& lift_case, Diagnostics& diagnostics) {
                        "point"});
 }
 
-/// Ropes with friction end at bodies that do not give way.
+/// Ropes with friction have one stiffness, and end at bodies that do not give way.
 void check_friction(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const RopeInCase& rope : lift_case.ropes) check_curve_without_friction(rope, diagnostics);
   if (lift_case.dynamics.flexibility == Flexibility::rigid) return;
   for (const RopeInCase& rope : lift_case.ropes) {
     const auto& given = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
@@ -182,6 +192,15 @@ void check_friction(const LiftCase& lift_case, Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+void check_curve_without_friction(const RopeInCase& rope, Diagnostics& diagnostics) {
+  const auto& given = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
+  if (!given || rope.friction() == 0 || !rope.rope.tension_curve) return;
+  diagnostics.error(
+      given->mark,
+      fmt::format("rope {} has friction at its sheaves, and a tension_curve", rope.name.value),
+      {"ropes with friction have one stiffness: leave the friction out, or give axial_stiffness"});
+}
 
 void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {
   for (const CraneInCase& crane : lift_case.cranes)

@@ -8,4 +8,7 @@ namespace blocklift::pipeline {
 /// that could not be read are passed over.
 void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics);
 
+/// Complains about a rope that has a curve of tension and friction at its sheaves.
+void check_curve_without_friction(const RopeInCase& rope, Diagnostics& diagnostics);
+
 }  // namespace blocklift::pipeline

@@ -1,7 +1,6 @@
 #include "pipeline/files/lift_case/standard_check.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -47,7 +46,7 @@ class StandardCheck {
 
   void sling(const RopeInCase& rope) {
     // A model that could not be read has been complained of.
-    if (!std::isfinite(rope.rope.axial_stiffness)) return;
+    if (!rope.rope.stretches()) return;
     const auto lacks = [&](const char* key, const char* why) {
       diagnostics_.error(
           rope.name.mark,

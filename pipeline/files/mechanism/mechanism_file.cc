@@ -10,6 +10,7 @@
 
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/file_kind.h"
+#include "pipeline/files/lift_case/rigging_check.h"
 #include "pipeline/files/mechanism/urdf_import.h"
 #include "pipeline/files/named_file.h"
 
@@ -215,6 +216,7 @@ std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibr
   }
   for (RopeInCase& rope : mechanism.ropes) {
     rope.rope = library.resolve(rope.rope_choice, file.parent_path(), diagnostics);
+    check_curve_without_friction(rope, diagnostics);
   }
   load_marine_models(mechanism, file.parent_path(), library, diagnostics);
   add_vessels(mechanism, diagnostics);

@@ -17,14 +17,17 @@ LiftSystem SingleRopeLift::build() const {
   const BodyIndex load =
       builder.add_body({.name = "load", .joint = {.kind = JointKind::translational}, .mass = mass});
   Mechanism mechanism = builder.build();
+  RopeDefinition rope{.name = "rope",
+                      .points = {{world_index, Vector3::Zero()}, {load, Vector3::Zero()}},
+                      .crane_stiffness = crane_stiffness,
+                      .damping_time = damping_time,
+                      .unstretched_length = length};
+  if (tension_points.empty())
+    rope.axial_stiffness = axial_stiffness;
+  else
+    rope.tension_law = TensionLaw(tension_points);
   std::vector<Rope> ropes;
-  ropes.emplace_back(
-      mechanism, RopeDefinition{.name = "rope",
-                                .points = {{world_index, Vector3::Zero()}, {load, Vector3::Zero()}},
-                                .axial_stiffness = axial_stiffness,
-                                .crane_stiffness = crane_stiffness,
-                                .damping_time = damping_time,
-                                .unstretched_length = length});
+  ropes.emplace_back(mechanism, std::move(rope));
   OperationBuilder operation;
   operation.add_winch("winch", 0, length);
   if (payout != 0.0) operation.add_move("winch", {payout_start, payout, limits});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "dynamics/simulation/lift_system.h"
 
@@ -18,6 +19,7 @@ struct SingleRopeLift {
   double mass = 10e3;                                                ///< kg
   double length = 20.0;                                              ///< unstretched, m
   double axial_stiffness = 40e6;                                     ///< N
+  std::vector<TensionPoint> tension_points = {};                     ///< in place of it
   double damping_time = 0.0;                                         ///< s
   double crane_stiffness = std::numeric_limits<double>::infinity();  ///< N/m
   double duration = 2.0;                                             ///< s

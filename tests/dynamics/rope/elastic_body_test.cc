@@ -30,6 +30,7 @@ struct Sample {
   double damping_time = 0;
   double inclination = 0;  ///< sideways distance of the ropes' upper ends, m
   double lean = 0.3;       ///< of each further rope, across the beam, m
+  bool curved = false;     ///< ropes that grow stiffer with their load
 };
 
 double place(int rope) { return 4.0 * rope; }
@@ -73,7 +74,10 @@ LiftSystem hang(const Sample& sample) {
     rope.points = {
         {world_index, Vector3(place(i) + sample.inclination * (i - 1), sample.lean * i, 20)},
         {body, Vector3(place(i), 0, 0)}};
-    rope.axial_stiffness = stiffness * rope_length;
+    if (sample.curved)
+      rope.tension_law = TensionLaw({{0, 0}, {0.002, 1e3}, {0.004, 4e3}, {0.008, 16e3}});
+    else
+      rope.axial_stiffness = stiffness * rope_length;
     rope.damping_time = sample.damping_time;
     rope.unstretched_length = rope_length;
     ropes.emplace_back(mechanism, rope);
@@ -123,6 +127,19 @@ TEST(ElasticBody, RopeAndLugAreSpringsInSeries) {
   const Eigen::VectorXd tension = tensions_at_rest(hang(sample), &elastic_q);
   EXPECT_NEAR(tension[0], mass * gravity, 1e-6 * mass * gravity);
   EXPECT_NEAR(rigid_q[2] - elastic_q[2], mass * gravity * c, 1e-7);
+}
+
+// The same with a rope that grows stiffer with its load: it stretches by its law at the weight.
+TEST(ElasticBody, RopeWithATensionLawAndLugAreSpringsInSeries) {
+  const double c = 3e-6;
+  Eigen::VectorXd q;
+  const Sample sample{.ropes = 1, .compliance = c * Eigen::Matrix3d::Identity(), .curved = true};
+  const LiftSystem system = hang(sample);
+  const Eigen::VectorXd tension = tensions_at_rest(system, &q);
+  const double weight = mass * gravity;
+  EXPECT_NEAR(tension[0], weight, 1e-9 * weight);
+  const double strain = system.ropes()[0].definition().tension_law->find_strain(weight);
+  EXPECT_NEAR(20 - q[2], rope_length * (1 + strain) + weight * c, 1e-8);
 }
 
 // A stiff beam level on three upright ropes: with a lug in the middle that gives way, loads share
@@ -186,6 +203,41 @@ TEST(ElasticBody, EnergyIsKept) {
       EXPECT_GT(energy.dissipated.tail<1>()[0], 0.01 * exchanged);
     }
   }
+}
+
+// As above, without damping: the balance tells whether stored energy, tension and stiffness of the
+// ropes' law belong together on a body that gives way.
+TEST(ElasticBody, EnergyIsKeptWithTensionLaws) {
+  Sample sample{.inclination = 1, .curved = true};
+  sample.compliance = coupled_compliance(3, 4e-6);
+  const LiftSystem system = hang(sample);
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(system.mechanism().nv());
+  v.head<6>() << 0.02, -0.01, 0.01, 0.05, 0.05, -0.1;
+  const EnergyHistory energy =
+      integrate(system, system.q_start(), v, {.relative_tolerance = 1e-9, .sample_interval = 0.1})
+          .history.energy;
+  const Eigen::VectorXd sum = energy.kinetic + energy.gravity + energy.elastic;
+  const double exchanged = energy.elastic.maxCoeff() - energy.elastic.minCoeff();
+  ASSERT_GT(exchanged, 50);
+  EXPECT_LT((sum.array() - sum[0]).abs().maxCoeff(), 1e-5 * exchanged);
+}
+
+TEST(ElasticBody, DerivativesOfTensionLawsAreThoseOfDifferences) {
+  Sample sample{.damping_time = 0.02, .inclination = 2, .curved = true};
+  sample.compliance = coupled_compliance(3, 4e-6);
+  const LiftSystem system = hang(sample);
+  Eigen::VectorXd q;
+  tensions_at_rest(system, &q);
+  LiftWorkspace w(system);
+  JacobianWorkspace workspace(system);
+  Eigen::MatrixXd jacobian(system.state_size(), system.state_size());
+  Eigen::VectorXd y(system.state_size());
+  const Contacts contacts(3, 1);
+  get_state(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), y);
+  calc_jacobian(system, 0, y, &contacts, w, workspace, jacobian);
+  const Eigen::MatrixXd by_differences = difference_jacobian(system, 0, y, &contacts, w, 1e-6);
+  EXPECT_LT((jacobian - by_differences).cwiseAbs().maxCoeff(),
+            2e-6 * by_differences.cwiseAbs().maxCoeff());
 }
 
 // Central differences with a step h are good to h^2 and to the rounding over h.

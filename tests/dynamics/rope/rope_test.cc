@@ -190,6 +190,14 @@ TEST(Rope, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal([](auto& d) { d.unstretched_length = 0; }), HasSubstr("unstretched length"));
   EXPECT_THAT(refusal([](auto& d) { d.left_out = {1}; }), HasSubstr("left out"));
   EXPECT_THAT(refusal([](auto& d) { d.left_out = {0, 0}; }), HasSubstr("left out"));
+  const TensionLaw law({{0, 0}, {0.01, 1e5}});
+  EXPECT_THAT(refusal([&](auto& d) { d.tension_law = law; }), HasSubstr("an axial stiffness"));
+  EXPECT_THAT(refusal([&](auto& d) {
+                d.tension_law = law;
+                d.axial_stiffness = not_a_number;
+                d.weight_per_length = 10.0;
+              }),
+              HasSubstr("catenary"));
   EXPECT_THAT(refusal([](auto&) {}), HasSubstr("accepted"));
 }
 

@@ -98,6 +98,29 @@ TEST(BuildLiftTest, EqualisedHoistsCarryAlike) {
   EXPECT_NEAR(tackles, 10 + load * 10 / 200e6 + load / 10e6, 2e-5);
 }
 
+// Slings and the left tackle with a curve of tension, given as shares of the breaking load: they
+// stretch by the curve at what they carry.
+TEST(BuildLiftTest, RopesStretchByTheirCurves) {
+  SampleLift parts;
+  parts.rope = with(parts.rope, "axial_stiffness: 200 MN\n",
+                    "tension_curve: [[0 %, 0 %], [1 %, 2 %], [2 %, 8 %]]\n");
+  const BuiltLift lift = build_sample(parts);
+  dynamics::EquilibriumSolver solver(lift.system);
+  Eigen::VectorXd q = lift.system.q_start();
+  solver.solve(0, q);
+  const dynamics::TensionLaw law({{0, 0}, {0.01, 20e3}, {0.02, 80e3}});
+  for (const char* rope : {"R1", "R2"}) {
+    const auto index = static_cast<std::size_t>(lift.system.rope_index(rope));
+    const dynamics::RopeLoad& load = solver.workspace().rope_loads[index];
+    EXPECT_NEAR(load.tension, 5e3 * 9.81, 1e3);
+    EXPECT_NEAR(load.elongation(), 2 * law.find_strain(load.tension), 1e-12);
+  }
+  const dynamics::RopeLoad& tackle =
+      solver.workspace().rope_loads[static_cast<std::size_t>(lift.system.rope_index("C1.left"))];
+  EXPECT_NEAR(tackle.elongation(), 5 * law.find_strain(tackle.tension) + tackle.tension / 10e6,
+              1e-12);
+}
+
 // Each sling carries half of the load but for a tilt: the crane gives way under the left tackle
 // only, by T/k, and the centre of mass hangs 0.7 m below the pins, so that the left sling carries W
 // 0.7 tilt / 4 m less.

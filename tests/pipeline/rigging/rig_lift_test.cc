@@ -36,12 +36,12 @@ std::string quick_case() {
   return text.substr(0, text.find("compare:"));
 }
 
-RiggedLift rig_sample(const TemporaryFolder& folder, const std::string& lift_case,
-                      const std::vector<double>& breaking_loads) {
+RiggedLift rig_from(const TemporaryFolder& folder, const std::string& lift_case,
+                    const std::string& slings) {
   SampleLift lift;
   lift.lift_case = lift_case;
   lift.write(folder);
-  folder.write("loft/slings.yaml", sling_file(breaking_loads));
+  folder.write("loft/slings.yaml", slings);
   folder.write("loft/shackles.yaml", shackle_file({2, 4, 7}));
   ModelLibrary library({BLOCKLIFT_MODELS});
   Diagnostics diagnostics;
@@ -49,6 +49,11 @@ RiggedLift rig_sample(const TemporaryFolder& folder, const std::string& lift_cas
   auto read = read_lift_case("case.yaml", library, diagnostics);
   if (!read) throw InputError(diagnostics);
   return rig_lift(std::move(*read), std::move(stock), ignore_progress);
+}
+
+RiggedLift rig_sample(const TemporaryFolder& folder, const std::string& lift_case,
+                      const std::vector<double>& breaking_loads) {
+  return rig_from(folder, lift_case, sling_file(breaking_loads));
 }
 
 // Slings that lean by 2 m in 1.5 m over the bar's eyes carry 5 / 3 of those below them.
@@ -201,6 +206,22 @@ TEST(RigLiftTest, WritesACaseThatReadsAsItWasChosen) {
   std::filesystem::create_directory("elsewhere");
   EXPECT_THROW(write_rigged_case(rigged, "elsewhere/rigged.yaml"), InputError);
   EXPECT_TRUE(std::filesystem::is_empty("elsewhere"));
+}
+
+TEST(RigLiftTest, WritesTheCurvesOfItsSlings) {
+  const TemporaryFolder folder;
+  const RiggedLift rigged =
+      rig_from(folder, quick_case(),
+               with(sling_file({270}), "axial_stiffness: 27000 kN",
+                    "tension_curve: [[0 %, 0 %], [1.5 %, 20 %], [3 %, 100 %]]"));
+  ASSERT_TRUE(rigged.pass());
+  write_rigged_case(rigged, "rigged.yaml");
+  const LiftCase again = read_lift_case("rigged.yaml");
+  const std::vector<RopeModel::CurvePoint> curve = again.find_rope("R1")->rope.curve();
+  ASSERT_EQ(curve.size(), 3U);
+  EXPECT_NEAR(curve[1].strain, 0.015, 1e-12);
+  EXPECT_NEAR(curve[1].tension, 54e3, 1e-6);
+  EXPECT_NEAR(curve[2].tension, 270e3, 1e-6);
 }
 
 TEST(RigLiftTest, RefusesACaseWithoutSlings) {

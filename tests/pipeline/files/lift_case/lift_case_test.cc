@@ -599,6 +599,50 @@ TEST(LiftCaseTest, FrictionAsksForSheavesAndComesOnce) {
               HasSubstr("error: the rope has both a friction and an efficiency of its sheaves"));
 }
 
+/// The sample's slings and left tackle with that in place of their stiffness.
+std::string complaints_about_stretch(const std::string& keys, const std::string& case_lines = "") {
+  SampleLift lift;
+  lift.rope = with(lift.rope, "axial_stiffness: 200 MN\n", keys);
+  lift.lift_case += case_lines;
+  return complaints_about(lift);
+}
+
+TEST(LiftCaseTest, RopesStretchByOneStiffnessOrACurve) {
+  const auto curve = [](const std::string& points) {
+    return complaints_about_stretch("tension_curve: " + points + "\n");
+  };
+  EXPECT_EQ(curve("[[0 %, 0 t], [1 %, 20 t], [2 %, 60 t]]"), "");
+  EXPECT_EQ(curve("[[0, 0], [1 %, 10 %], [4 %, 100 %]]"), "");
+  EXPECT_THAT(complaints_about_stretch(""),
+              HasSubstr("the rope has neither axial_stiffness nor tension_curve"));
+  EXPECT_THAT(complaints_about_stretch(
+                  "axial_stiffness: 200 MN\ntension_curve: [[0 %, 0 t], [1 %, 20 t]]\n"),
+              HasSubstr("the rope has both axial_stiffness and tension_curve"));
+  EXPECT_THAT(curve("[[0 %, 1 t], [1 %, 20 t]]"),
+              HasSubstr("tackle.yaml:2:16: error: tension_curve does not begin at no strain"));
+  EXPECT_THAT(curve("[[0 %, 0 t], [1 %, 20 t], [2 %, 20 t]]"),
+              HasSubstr("tension_curve does not rise from point 2 to the next"));
+  EXPECT_THAT(curve("[[0 %, 0 t], [1 %, 20 t], [2 %, 30 t]]"),
+              HasSubstr("tension_curve is less steep from point 2 on than before"));
+  EXPECT_THAT(curve("[[0 %, 0 t], [20 t, 1 %]]"),
+              HasSubstr("a point begins with a strain from 0 to 100 %"));
+  EXPECT_THAT(curve("[[0 %, 0 %], [1 %, 120 %]]"),
+              HasSubstr("a share of the breaking load from 0 to 100 %"));
+}
+
+TEST(LiftCaseTest, ACurveStandsForNeitherCatenariesNorFriction) {
+  const std::string curve = "tension_curve: [[0 %, 0 t], [1 %, 20 t], [2 %, 60 t]]\n";
+  EXPECT_THAT(complaints_about_stretch(curve + "mass: 5 kg/m\n", "rope_weight: true\n"),
+              HasSubstr("rope R1 hangs by its weight, and has a tension_curve"));
+  SampleLift lift;
+  lift.rope = with(lift.rope, "axial_stiffness: 200 MN\n", curve);
+  lift.lift_case = with(lift.lift_case, "from: C1.left, to: L1",
+                        "sheave_friction: 0.1, through: [{body: C1.gantry, point: [1 m, 5 m, 8 "
+                        "m]}], from: C1.left, to: L1");
+  EXPECT_THAT(complaints_about(lift),
+              HasSubstr("rope R1 has friction at its sheaves, and a tension_curve"));
+}
+
 TEST(LiftCaseTest, OperationMustLastAndNotForEver) {
   SampleLift lift;
   lift.lift_case = with(lift.lift_case, "settle: 10 s", "settle: 0 s");

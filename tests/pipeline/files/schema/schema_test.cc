@@ -12,7 +12,7 @@ TEST(SchemaTest, IsJsonWithEveryKindOfFile) {
   const auto schema = nlohmann::json::parse(json_schema());
   EXPECT_EQ(schema.at("anyOf").size(), input_file_kinds().size());
   const auto rope = nlohmann::json::parse(json_schema("rope"));
-  EXPECT_EQ(rope.at("required"), nlohmann::json({"kind", "axial_stiffness", "breaking_load"}));
+  EXPECT_EQ(rope.at("required"), nlohmann::json({"kind", "breaking_load"}));
   EXPECT_EQ(rope.at("additionalProperties"), false);
   EXPECT_EQ(rope.at("properties").at("damping_time").at("$comment"), "default: 5 ms");
 }
