@@ -82,7 +82,8 @@
 ///   checks             [{name, demand, limit, unit, utilisation, pass, time_s (o), note (o)}]
 ///                      unit as given is turned into the report's: N -> kN, Pa -> MPa, m -> mm, rad -> deg
 ///   ropes              [{name, lug (o), hoist (o), breaking_load_N (o), bend_efficiency (o): what
-///                      a bend leaves of it, max_static_tension_N,
+///                      a bend leaves of it, largest_strain (o): of a rope with a tension_curve at its
+///                      largest dynamic tension, max_static_tension_N,
 ///                      time_of_max_static_s, max_dynamic_tension_N, time_of_max_dynamic_s, dynamic_over_static,
 ///                      linked_static_N (o), linked_dynamic_N (o)}]; linked: {rope: tension} at that instant
 ///   stages         (o) [{name, start_s, end_s, ropes and hoists: [{name, max_static_tension_N, ... as of ropes}],

@@ -88,10 +88,10 @@ Rule loads() {
                      {"linked_dynamic_N", by_name(number())}}),
               numbers({"max_static_tension_N", "time_of_max_static_s", "max_dynamic_tension_N",
                        "time_of_max_dynamic_s", "dynamic_over_static", "breaking_load_N",
-                       "bend_efficiency", "capacity_N", "max_swing_rad", "max_static_load_N",
-                       "max_dynamic_load_N", "max_static_load_Nm", "max_dynamic_load_Nm",
-                       "max_static_moment_Nm", "max_dynamic_moment_Nm", "min_static_tension_N",
-                       "min_dynamic_tension_N", "largest_residual"}));
+                       "bend_efficiency", "largest_strain", "capacity_N", "max_swing_rad",
+                       "max_static_load_N", "max_dynamic_load_N", "max_static_load_Nm",
+                       "max_dynamic_load_Nm", "max_static_moment_Nm", "max_dynamic_moment_Nm",
+                       "min_static_tension_N", "min_dynamic_tension_N", "largest_residual"}));
 }
 
 Rule stages() {

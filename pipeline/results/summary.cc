@@ -77,6 +77,10 @@ class LoadTables {
       row["breaking_load_N"] = rope.breaking_load;
       if (const RopeInCase& in_case = *case_.find_rope(rope.name); in_case.bend_diameter)
         row["bend_efficiency"] = bend_efficiency(in_case);
+      if (const auto& rope_of = lift_.model.system.ropes()[static_cast<std::size_t>(rope.rope)];
+          rope_of.definition().tension_law)
+        row["largest_strain"] = rope_of.definition().tension_law->find_strain(
+            row["max_dynamic_tension_N"].get<double>());
       row["linked_static_N"] = linked(static_maxima_, rope.rope);
       row["linked_dynamic_N"] = linked(dynamic_maxima_, rope.rope);
       rows.push_back(row);

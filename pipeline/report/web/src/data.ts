@@ -38,7 +38,7 @@ export interface Check {
 }
 export interface LoadMaxima {
   name: string; lug?: string; hoist?: string; crane?: string;
-  breaking_load_N?: Maybe<number>; bend_efficiency?: Maybe<number>; capacity_N?: Maybe<number>; max_swing_rad?: Maybe<number>;
+  breaking_load_N?: Maybe<number>; bend_efficiency?: Maybe<number>; largest_strain?: Maybe<number>; capacity_N?: Maybe<number>; max_swing_rad?: Maybe<number>;
   max_static_tension_N?: Maybe<number>; max_dynamic_tension_N?: Maybe<number>;
   max_static_load_N?: Maybe<number>; max_dynamic_load_N?: Maybe<number>;
   time_of_max_static_s?: Maybe<number>; time_of_max_dynamic_s?: Maybe<number>;

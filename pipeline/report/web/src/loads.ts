@@ -24,12 +24,14 @@ function ropeTable(data: PageData, clock: Clock): Child {
   const timed = ropes.some((rope) => known(rope.time_of_max_dynamic_s));
   const broken = ropes.some((rope) => known(rope.breaking_load_N));
   const lugs = ropes.some((rope) => rope.lug);
+  const curved = ropes.some((rope) => known(rope.largest_strain));
   const columns: Column[] = [
     { head: "Rope", align: "left" }, ...(lugs ? [{ head: "Lug", align: "left" } as Column] : []),
     { head: "Static, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
     { head: "Dynamic, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
     { head: "Dynamic / static" },
     ...(broken ? [{ head: "Share of breaking load", title: "largest dynamic tension over breaking load, less what bends take of it" }] : []),
+    ...(curved ? [{ head: "Strain, %", title: "of ropes that stretch by a curve, at the largest dynamic tension" }] : []),
   ];
   const instant = (time: unknown): Child[] => timed
     ? [timeCell(data, clock, time), h("span", { class: "stage" }, known(time) ? stageAt(data.stages, time) : missing)] : [];
@@ -40,6 +42,7 @@ function ropeTable(data: PageData, clock: Clock): Child {
     ratio(rope.dynamic_over_static),
     ...(broken ? [share(known(rope.max_dynamic_tension_N) && known(rope.breaking_load_N)
       ? rope.max_dynamic_tension_N / (rope.breaking_load_N * (rope.bend_efficiency ?? 1)) : null)] : []),
+    ...(curved ? [known(rope.largest_strain) ? fixed(100 * rope.largest_strain, 2) : missing] : []),
   ]);
   return table("Largest rope loads", columns, rows);
 }
