@@ -125,8 +125,7 @@ Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBloc
   // Without a list of figures natural periods and energies are among the usual ones.
   const bool needs_all = full || study.figures.empty();
   RunExtent extent;
-  if (!needs_all && !asks_for(study, "natural_periods"))
-    extent.natural_modes = false;
+  if (!needs_all && !asks_for(study, "natural_periods")) extent.natural_modes = false;
   extent.energy = needs_all || asks_for(study, "energy");
   extent.righting_height = needs_all || asks_for(study, "measures.");
   const bool has_block = lift_case.has_structure();
