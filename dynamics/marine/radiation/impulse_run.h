@@ -33,9 +33,7 @@ class ImpulseRun {
   /// included), and its share of A - A_inf.
   Eigen::MatrixXd damping(std::size_t frequency) const;
   Eigen::MatrixXd added_mass(std::size_t frequency) const;
-  /// After run(): integral of W^1/2 eta e^{-i w t} for a frequency (index), panels x modes.
-  Eigen::MatrixXcd elevation(std::size_t frequency) const;
-  /// Likewise W^1/2 phi, of the elevation and the loss of short waves.
+  /// After run(): integral of W^1/2 phi e^{-i w t} for a frequency (index), panels x modes.
   Eigen::MatrixXcd potential(std::size_t frequency) const;
 
  private:
@@ -45,11 +43,10 @@ class ImpulseRun {
 
   const RankinePart& part_;
   double density_, gravity_;
-  SurfaceDamping damping_;
   std::vector<double> frequencies_;
   FreeSurfaceMarch march_;
   double step_ = not_a_number;
-  std::vector<Eigen::MatrixXd> cosine_, sine_;
+  std::vector<Eigen::MatrixXd> cosine_, sine_;  ///< of the pressure head
 };
 
 }  // namespace blocklift::dynamics
