@@ -62,11 +62,10 @@ FreeSurfaceMarch::FreeSurfaceMarch(const RankinePart& part, const SurfaceDamping
     : gravity_(gravity),
       operator_(part.surface_operator().cast<float>()),
       damping_(damping),
-      takes_short_waves_(!damping.short_waves.isZero(0.0)),
-      head_of_velocity_(damping.short_waves / gravity) {
+      takes_short_waves_(!damping.short_waves.isZero(0.0)) {
   const Eigen::Index n = operator_.rows();
   operator_.diagonal() += (damping.rates.array().square() / gravity).matrix().cast<float>();
-  elevation_ = potential_ = head_ = Eigen::MatrixXd::Zero(n, columns);
+  elevation_ = potential_ = Eigen::MatrixXd::Zero(n, columns);
   single_potential_ = single_velocity_ = Eigen::MatrixXf::Zero(n, columns);
   step_limit_ = find_step_limit();
 }
@@ -127,13 +126,18 @@ void FreeSurfaceMarch::start(const Eigen::MatrixXd& elevation, double step) {
   step_ = step;
   before_ = 1.0 - step * damping_.rates.array();
   after_ = (1.0 + step * damping_.rates.array()).inverse();
-  elevation_ = head_ = elevation;
+  elevation_ = elevation;
+  single_velocity_.setZero();
   // Half a step back, so that the potential is zero now to the second order.
   potential_ = 0.5 * step * gravity_ * elevation;
 }
 
 void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
-  potential_.noalias() -= (step_ * gravity_) * head();
+  potential_.noalias() -= (step_ * gravity_) * elevation_;
+  if (takes_short_waves_) {
+    potential_.noalias() -=
+        (step_ * damping_.short_waves).asDiagonal() * single_velocity_.cast<double>();
+  }
   single_potential_ = potential_.cast<float>();
   multiply_symmetric(operator_, single_potential_, single_velocity_);
   for (Eigen::Index j = 0; j < elevation_.cols(); ++j) {
@@ -144,9 +148,6 @@ void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
                        step_ * (static_cast<double>(single_velocity_(i, j)) + added));
     }
   }
-  if (!takes_short_waves_) return;
-  head_ = elevation_;
-  head_.noalias() += head_of_velocity_.asDiagonal() * single_velocity_.cast<double>();
 }
 
 }  // namespace blocklift::dynamics

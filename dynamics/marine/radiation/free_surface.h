@@ -78,10 +78,10 @@ DampingZone damping_zone(double lowest_frequency);
 ///
 /// eta at t, phi half a step later (leapfrog, second order, no damping of its own); the damping
 /// term 2 nu eta by Crank and Nicolson's rule, the loss of short waves with N phi of the step
-/// before. N being symmetric and positive, either takes energy out alone. All quantities carry the
-/// factor W^1/2 of RankinePart, the operator is held in single precision: that is what a step has
-/// to read. Several histories (columns) are marched at once at little more than the cost of one. No
-/// allocation in a step.
+/// before. N being symmetric and positive, either takes energy out alone. All quantities carry the factor W^1/2 of
+/// RankinePart, the operator is held in single precision: that is what a step has to read. Several
+/// histories (columns) are marched at once at little more than the cost of one. No allocation in a
+/// step.
 class FreeSurfaceMarch {
  public:
   /// `columns` is the number of histories.
@@ -95,9 +95,6 @@ class FreeSurfaceMarch {
   /// Elevation W^1/2 eta now (m2); potential W^1/2 phi half a step ago (m3/s).
   const Eigen::MatrixXd& elevation() const { return elevation_; }
   const Eigen::MatrixXd& potential() const { return potential_; }
-  /// Pressure head -(d phi/dt)/g now, W^1/2 (eta + mu N phi/g), m2: what the surface's motion
-  /// exerts on the bodies follows from it.
-  const Eigen::MatrixXd& head() const { return takes_short_waves_ ? head_ : elevation_; }
 
   /// Starts from an elevation (W^1/2 eta) and no potential.
   void start(const Eigen::MatrixXd& elevation, double step);
@@ -117,8 +114,7 @@ class FreeSurfaceMarch {
   SurfaceDamping damping_;
   bool takes_short_waves_;
   Eigen::VectorXd before_, after_;
-  Eigen::VectorXd head_of_velocity_;  ///< mu/g for each panel, s
-  Eigen::MatrixXd elevation_, potential_, head_;
+  Eigen::MatrixXd elevation_, potential_;
   Eigen::MatrixXf single_potential_, single_velocity_;
 };
 

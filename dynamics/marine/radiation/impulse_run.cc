@@ -29,14 +29,15 @@ ImpulseRun::ImpulseRun(const RankinePart& part, const SurfaceDamping& damping, c
     : part_(part),
       density_(water.density),
       gravity_(water.gravity),
+      damping_(damping),
       frequencies_(std::move(frequencies)),
       march_(part, damping, water.gravity, part.surface_columns().cols()) {}
 
 void ImpulseRun::accumulate(double time, double weight) {
   for (std::size_t k = 0; k < frequencies_.size(); ++k) {
     const double angle = 2.0 / step_ * std::asin(0.5 * frequencies_[k] * step_) * time;
-    cosine_[k] += weight * std::cos(angle) * march_.head();
-    sine_[k] -= weight * std::sin(angle) * march_.head();
+    cosine_[k] += weight * std::cos(angle) * march_.elevation();
+    sine_[k] -= weight * std::sin(angle) * march_.elevation();
   }
 }
 
@@ -49,7 +50,7 @@ void ImpulseRun::run(double step, long steps, const Receiver& receive) {
   march_.start(q, step);
   for (long k = 0;; ++k) {
     const double reduction = taper(k, steps);
-    receive(k, symmetric_part(factor * reduction * (q.transpose() * march_.head())));
+    receive(k, symmetric_part(factor * reduction * (q.transpose() * march_.elevation())));
     accumulate(static_cast<double>(k) * step, (k == 0 ? 0.5 : 1.0) * step * reduction);
     if (k == steps) break;
     march_.advance();
@@ -72,11 +73,25 @@ MatrixXd ImpulseRun::added_mass(std::size_t frequency) const {
                         (part_.surface_columns().transpose() * sine_[frequency]));
 }
 
+Eigen::MatrixXcd ImpulseRun::elevation(std::size_t frequency) const {
+  Eigen::MatrixXcd elevation(cosine_[frequency].rows(), cosine_[frequency].cols());
+  elevation.real() = scale(frequency) * cosine_[frequency];
+  elevation.imag() = scale(frequency) * sine_[frequency];
+  return elevation;
+}
+
+// i w phi = -g eta - mu N phi, N phi = (i w + 2 nu) eta - q.
 Eigen::MatrixXcd ImpulseRun::potential(std::size_t frequency) const {
-  Eigen::MatrixXcd head(cosine_[frequency].rows(), cosine_[frequency].cols());
-  head.real() = scale(frequency) * cosine_[frequency];
-  head.imag() = scale(frequency) * sine_[frequency];
-  return -gravity_ / std::complex<double>(0.0, frequencies_[frequency]) * head;
+  using Complex = std::complex<double>;
+  const MatrixXd& q = part_.surface_columns();
+  Eigen::MatrixXcd potential = elevation(frequency);
+  for (Eigen::Index i = 0; i < potential.rows(); ++i) {
+    const Complex rate(0.0, frequencies_[frequency]);
+    const double mu = damping_.short_waves[i];
+    const Complex factor = gravity_ + mu * (rate + 2.0 * damping_.rates[i]);
+    potential.row(i) = (mu * q.row(i).cast<Complex>() - factor * potential.row(i)) / rate;
+  }
+  return potential;
 }
 
 }  // namespace blocklift::dynamics

@@ -33,7 +33,9 @@ class ImpulseRun {
   /// included), and its share of A - A_inf.
   Eigen::MatrixXd damping(std::size_t frequency) const;
   Eigen::MatrixXd added_mass(std::size_t frequency) const;
-  /// After run(): integral of W^1/2 phi e^{-i w t} for a frequency (index), panels x modes.
+  /// After run(): integral of W^1/2 eta e^{-i w t} for a frequency (index), panels x modes.
+  Eigen::MatrixXcd elevation(std::size_t frequency) const;
+  /// Likewise W^1/2 phi, of the elevation and the loss of short waves.
   Eigen::MatrixXcd potential(std::size_t frequency) const;
 
  private:
@@ -43,10 +45,11 @@ class ImpulseRun {
 
   const RankinePart& part_;
   double density_, gravity_;
+  SurfaceDamping damping_;
   std::vector<double> frequencies_;
   FreeSurfaceMarch march_;
   double step_ = not_a_number;
-  std::vector<Eigen::MatrixXd> cosine_, sine_;  ///< of the pressure head
+  std::vector<Eigen::MatrixXd> cosine_, sine_;
 };
 
 }  // namespace blocklift::dynamics

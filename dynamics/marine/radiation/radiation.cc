@@ -301,7 +301,7 @@ VectorXd DirectRadiation::calc_force() const {
   VectorXd force = VectorXd::Zero(infinite_added_mass_.rows());
   for (const Part& part : parts_) {
     VectorXd share = -part.force_factor *
-                     (part.rankine.surface_columns().transpose() * part.march.head().col(0));
+                     (part.rankine.surface_columns().transpose() * part.march.elevation().col(0));
     if (!waves_.empty()) {
       share += sum(part, &WaveColumns::potential, amplitude_rates(time_));
       if (with_froude_krylov_) share += sum(part, &WaveColumns::force, amplitudes(time_));
