@@ -119,7 +119,6 @@ MarchedWater make_marched_water(const RadiationProblem& problem) {
   dynamics::DirectRadiation::Settings settings;
   settings.damping_strength = dynamics::damping_zone(problem.frequencies.front()).strength;
   settings.lids = problem.lids;
-  settings.shortest_wave = wave_length(problem.frequencies.back(), problem.water);
   settings.waves = problem.waves;
   settings.with_froude_krylov = false;  // HullForce's
   settings.ramp = problem.ramp;

@@ -43,52 +43,24 @@ Eigen::VectorXd DampingZone::rates(const SurfaceMesh& surface) const {
   return rates;
 }
 
-Eigen::VectorXd DampingZone::short_waves(const SurfaceMesh& surface, double gravity) const {
-  Eigen::VectorXd losses(surface.mesh.size());
-  for (int k = 0; k < surface.mesh.size(); ++k) {
-    const Panel& panel = surface.mesh.panels[static_cast<std::size_t>(k)];
-    const double size = std::sqrt(panel.area), in_wave = 4.0 * size / shortest_wave;
-    const double distance = (panel.centroid - surface.centre).norm() - surface.inner_radius;
-    losses[k] = 0.1 * std::sqrt(gravity * size) * std::min(1.0, in_wave * in_wave) *
-                std::clamp(distance / shortest_wave, 0.0, 1.0);
-  }
-  return losses;
-}
-
 DampingZone damping_zone(double lowest_frequency) { return {1.1 * lowest_frequency}; }
 
-FreeSurfaceMarch::FreeSurfaceMarch(const RankinePart& part, const SurfaceDamping& damping,
+FreeSurfaceMarch::FreeSurfaceMarch(const RankinePart& part, const Eigen::VectorXd& damping,
                                    double gravity, Eigen::Index columns)
-    : gravity_(gravity),
-      operator_(part.surface_operator().cast<float>()),
-      damping_(damping),
-      takes_short_waves_(!damping.short_waves.isZero(0.0)) {
+    : gravity_(gravity), operator_(part.surface_operator().cast<float>()), damping_(damping) {
   const Eigen::Index n = operator_.rows();
-  operator_.diagonal() += (damping.rates.array().square() / gravity).matrix().cast<float>();
+  operator_.diagonal() += (damping.array().square() / gravity).matrix().cast<float>();
   elevation_ = potential_ = Eigen::MatrixXd::Zero(n, columns);
   single_potential_ = single_velocity_ = Eigen::MatrixXf::Zero(n, columns);
-  step_limit_ = find_step_limit();
-}
-
-// S^2 is between the first and the second power of the step: a step that is too long by the
-// eigenvalue lambda is stable once it is lambda times shorter.
-double FreeSurfaceMarch::find_step_limit() const {
-  const Eigen::Index n = operator_.rows();
-  const double without_loss =
-      2.0 / std::sqrt(gravity_ * find_largest_eigenvalue(Eigen::VectorXd::Ones(n)));
-  if (!takes_short_waves_) return without_loss;
-  const Eigen::ArrayXd square = 0.25 * gravity_ * without_loss * without_loss +
-                                0.5 * without_loss * damping_.short_waves.array();
-  return without_loss / std::max(1.0, find_largest_eigenvalue(square.sqrt().matrix()));
+  step_limit_ = 2.0 / std::sqrt(gravity * find_largest_eigenvalue());
 }
 
 /// Lanczos' iteration: the largest eigenvalue of its small tridiagonal matrix.
-double FreeSurfaceMarch::find_largest_eigenvalue(const Eigen::VectorXd& S) const {
+double FreeSurfaceMarch::find_largest_eigenvalue() const {
   const Eigen::Index n = operator_.rows(), steps = std::min<Eigen::Index>(n, 50);
   if (n == 0) return 1.0;
   // Rough fields hold the largest eigenvalue: start from one that changes sign at random.
   Eigen::MatrixXf x(n, 1), y(n, 1), last = Eigen::MatrixXf::Zero(n, 1);
-  const Eigen::MatrixXf scale = S.cast<float>();
   unsigned state = 1;
   for (Eigen::Index i = 0; i < n; ++i) {
     state = state * 1664525U + 1013904223U;
@@ -98,8 +70,7 @@ double FreeSurfaceMarch::find_largest_eigenvalue(const Eigen::VectorXd& S) const
   Eigen::VectorXd diagonal(steps), off_diagonal = Eigen::VectorXd::Zero(steps);
   Eigen::Index k = 0;
   for (float beta = 0.0F; k < steps; ++k) {
-    multiply_symmetric(operator_, scale.cwiseProduct(x), y);
-    y = scale.cwiseProduct(y);
+    multiply_symmetric(operator_, x, y);
     const float alpha = x.col(0).dot(y.col(0));
     diagonal[k] = static_cast<double>(alpha);
     y -= alpha * x + beta * last;
@@ -124,20 +95,15 @@ void FreeSurfaceMarch::start(const Eigen::MatrixXd& elevation, double step) {
                      std::to_string(step_limit_) + " s: take a shorter step or wider panels");
   }
   step_ = step;
-  before_ = 1.0 - step * damping_.rates.array();
-  after_ = (1.0 + step * damping_.rates.array()).inverse();
+  before_ = 1.0 - step * damping_.array();
+  after_ = (1.0 + step * damping_.array()).inverse();
   elevation_ = elevation;
-  single_velocity_.setZero();
   // Half a step back, so that the potential is zero now to the second order.
   potential_ = 0.5 * step * gravity_ * elevation;
 }
 
 void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
   potential_.noalias() -= (step_ * gravity_) * elevation_;
-  if (takes_short_waves_) {
-    potential_.noalias() -=
-        (step_ * damping_.short_waves).asDiagonal() * single_velocity_.cast<double>();
-  }
   single_potential_ = potential_.cast<float>();
   multiply_symmetric(operator_, single_potential_, single_velocity_);
   for (Eigen::Index j = 0; j < elevation_.cols(); ++j) {

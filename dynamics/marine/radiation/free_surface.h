@@ -1,8 +1,5 @@
 #pragma once
 
-#include <limits>
-#include <utility>
-
 #include "dynamics/marine/panels/rankine_problem.h"
 
 namespace blocklift::dynamics {
@@ -28,44 +25,15 @@ struct DampingLid {
 /// The planes of symmetry in which each lid, too, is its own image or that of another.
 Symmetry keep_symmetry(const Symmetry& symmetry, const std::vector<DampingLid>& lids);
 
-/// What the surface takes out of waves, for each of its panels.
-struct SurfaceDamping {
-  /// Of the panels' rates, and no loss of short waves.
-  SurfaceDamping(Eigen::VectorXd rates)  // NOLINT(google-explicit-constructor)
-      : rates(std::move(rates)), short_waves(Eigen::VectorXd::Zero(this->rates.size())) {}
-  SurfaceDamping(Eigen::VectorXd rates, Eigen::VectorXd short_waves)
-      : rates(std::move(rates)), short_waves(std::move(short_waves)) {}
-
-  Eigen::VectorXd rates;        ///< nu, rad/s: all waves fade as exp(-nu t)
-  Eigen::VectorXd short_waves;  ///< mu, m/s: waves of the number k fade as exp(-mu k t/2)
-};
-
 /// Numerical beach: where waves that leave the bodies are damped before they reach the edge of the
 /// surface mesh. The rate nu (rad/s) of the paper's equation (26) grows with the square of the
 /// distance from the circle that holds the bodies.
-///
-/// Rings that widen outwards carry short waves only so far, and throw them back where a panel is
-/// half their length. Before they come there they are taken away by a pressure against the
-/// surface's vertical velocity, mu dphi/dz, which waves that the rings carry hardly feel:
-///
-///   mu = 0.1 sqrt(g h) min(1, (4 h/L)^2) min(1, d/L),
-///
-/// h being the size of the panel, d its distance from the circle that holds the bodies, L the
-/// shortest wave that is of interest. A short wave is left with exp(-7.8) of its amplitude when it
-/// is back from rings that widen by a tenth each.
 struct DampingZone {
   double strength = 0.0;              ///< nu at the outer edge, rad/s
   std::vector<DampingLid> lids = {};  ///< where more than that of the beach
-  /// L, m; infinite: short waves are thrown back.
-  double shortest_wave = std::numeric_limits<double>::infinity();
 
   /// nu for each panel of the surface, rad/s.
   Eigen::VectorXd rates(const SurfaceMesh& surface) const;
-  /// mu for each panel of the surface, m/s.
-  Eigen::VectorXd short_waves(const SurfaceMesh& surface, double gravity) const;
-  SurfaceDamping damping(const SurfaceMesh& surface, double gravity) const {
-    return {rates(surface), short_waves(surface, gravity)};
-  }
 };
 
 /// Damping zone for waves down to a frequency (rad/s): 1.1 times that frequency at the edge.
@@ -74,22 +42,20 @@ DampingZone damping_zone(double lowest_frequency);
 
 /// Free surface of one part, marched in time (the paper's equations 26 and 27):
 ///
-///   d eta/dt = N phi + q v - 2 nu eta,      d phi/dt = -g eta - mu N phi,      N = M + nu^2/g,
+///   d eta/dt = M phi + q v - 2 nu eta + (nu^2/g) phi,      d phi/dt = -g eta,
 ///
 /// eta at t, phi half a step later (leapfrog, second order, no damping of its own); the damping
-/// term 2 nu eta by Crank and Nicolson's rule, the loss of short waves with N phi of the step
-/// before. N being symmetric and positive, either takes energy out alone. All quantities carry the factor W^1/2 of
+/// term 2 nu eta by Crank and Nicolson's rule. All quantities carry the factor W^1/2 of
 /// RankinePart, the operator is held in single precision: that is what a step has to read. Several
 /// histories (columns) are marched at once at little more than the cost of one. No allocation in a
 /// step.
 class FreeSurfaceMarch {
  public:
-  /// `columns` is the number of histories.
-  FreeSurfaceMarch(const RankinePart& part, const SurfaceDamping& damping, double gravity,
+  /// `damping` is nu for each panel (rad/s), `columns` the number of histories.
+  FreeSurfaceMarch(const RankinePart& part, const Eigen::VectorXd& damping, double gravity,
                    Eigen::Index columns);
 
-  /// Largest stable step dt, s: the largest eigenvalue of S N S is 1, S^2 = g dt^2/4 + mu dt/2. By
-  /// Lanczos' iteration; it falls short of it where the loss of short waves has a say.
+  /// Largest stable step 2/sqrt(largest eigenvalue of g M + nu^2), by Lanczos' iteration, s.
   double step_limit() const { return step_limit_; }
 
   /// Elevation W^1/2 eta now (m2); potential W^1/2 phi half a step ago (m3/s).
@@ -103,17 +69,13 @@ class FreeSurfaceMarch {
   void advance(const Eigen::MatrixXd& supply = {});
 
  private:
-  double find_step_limit() const;
-  /// Of S N S.
-  double find_largest_eigenvalue(const Eigen::VectorXd& S) const;
+  double find_largest_eigenvalue() const;
 
   double gravity_;
   double step_ = not_a_number;
   double step_limit_ = not_a_number;
   Eigen::MatrixXf operator_;  ///< W^1/2 M W^-1/2 + nu^2/g
-  SurfaceDamping damping_;
-  bool takes_short_waves_;
-  Eigen::VectorXd before_, after_;
+  Eigen::VectorXd damping_, before_, after_;
   Eigen::MatrixXd elevation_, potential_;
   Eigen::MatrixXf single_potential_, single_velocity_;
 };

@@ -7,21 +7,16 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 FrequencyDomain::FrequencyDomain(const PanelModel& model, const RankinePart& part,
-                                 const SurfaceDamping& damping)
+                                 const Eigen::VectorXd& damping)
     : model_(model), part_(part), damping_(damping) {}
 
 MatrixXcd FrequencyDomain::solve(double frequency, const MatrixXcd& supply) const {
   const double g = model_.water().gravity;
   MatrixXcd matrix = (g * part_.surface_operator()).cast<Complex>();
-  const Complex rate(0.0, frequency);
-  Eigen::VectorXcd gain(matrix.rows());
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    const double nu = damping_.rates[i];
-    matrix(i, i) += nu * nu;
-    gain[i] = 1.0 + damping_.short_waves[i] / g * (rate + 2.0 * nu);
+    const Complex rate(damping_[i], frequency);
+    matrix(i, i) += rate * rate;
   }
-  matrix = gain.asDiagonal() * matrix;
-  matrix.diagonal().array() += rate * (rate + 2.0 * damping_.rates.cast<Complex>().array());
   MatrixXcd potentials = -g * supply;
   solve_in_place(matrix, potentials, "the matrix of the oscillating surface");
   return potentials;

@@ -75,7 +75,7 @@ RankineSettings rankine_settings(const PanelModel& model, const DatabaseSettings
 class PartComputation {
  public:
   PartComputation(const PanelModel& model, const Parity& parity, const DatabaseSettings& settings,
-                  const RankineSettings& rankine, const DampingZone& zone);
+                  const RankineSettings& rankine, double damping_strength);
 
   const RankinePart& part() const { return part_; }
   double step_limit() const { return run_.step_limit(); }
@@ -93,7 +93,7 @@ class PartComputation {
 
   const PanelModel& model_;
   const DatabaseSettings& settings_;
-  SurfaceDamping damping_;
+  Eigen::VectorXd damping_rates_;
   RankinePart part_;
   ImpulseRun run_;
   std::optional<ImpulseRun> coarser_run_;
@@ -101,17 +101,16 @@ class PartComputation {
 
 PartComputation::PartComputation(const PanelModel& model, const Parity& parity,
                                  const DatabaseSettings& settings, const RankineSettings& rankine,
-                                 const DampingZone& zone)
+                                 double damping_strength)
     : model_(model),
       settings_(settings),
-      damping_(zone.damping(model.surface(), model.water().gravity)),
+      damping_rates_(DampingZone{damping_strength, settings.lids}.rates(model.surface())),
       part_(model, parity, rankine),
-      run_(part_, damping_, model.water(), settings.frequencies) {
+      run_(part_, damping_rates_, model.water(), settings.frequencies) {
   if (part_.coarser() == nullptr) return;
-  const PanelClusters& surface = rankine.coarser->surface;
-  const SurfaceDamping damping(surface.average(model.surface_areas(), damping_.rates),
-                               surface.average(model.surface_areas(), damping_.short_waves));
-  coarser_run_.emplace(*part_.coarser(), damping, model.water(), settings.frequencies);
+  const Eigen::VectorXd rates =
+      rankine.coarser->surface.average(model.surface_areas(), damping_rates_);
+  coarser_run_.emplace(*part_.coarser(), rates, model.water(), settings.frequencies);
 }
 
 double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) const {
@@ -172,7 +171,10 @@ void PartComputation::add_coarser(std::vector<MatrixXcd>& forces) const {
 
 /// Potentials on the bodies per unit velocity of the modes.
 MatrixXcd PartComputation::mode_potentials(std::size_t frequency) const {
-  const MatrixXcd surface = run_.potential(frequency);
+  // phi on the surface per unit velocity is -g eta/(i w); then on the bodies.
+  const MatrixXcd surface = -model_.water().gravity /
+                            Complex(0.0, settings_.frequencies[frequency]) *
+                            run_.elevation(frequency);
   MatrixXcd bodies(part_.body_columns().rows(), part_.body_columns().cols());
   bodies.real() = part_.body_columns() + part_.body_from_surface() * surface.real();
   bodies.imag() = part_.body_from_surface() * surface.imag();
@@ -215,7 +217,7 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
 void PartComputation::add_far_field(HydrodynamicDatabase& database) const {
   const Water& water = model_.water();
   const Parity& parity = part_.parity();
-  const FrequencyDomain scattering(model_, part_, damping_);
+  const FrequencyDomain scattering(model_, part_, damping_rates_);
   FarField& far = database.far_field;
   const auto waves_of = [&](double w, const std::vector<double>& angles, double turn,
                             MatrixXcd& potentials, MatrixXcd& velocities) {
@@ -360,10 +362,8 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   const double lowest = settings.frequencies.front(), highest = settings.frequencies.back();
   const double duration =
       settings.duration > 0.0 ? settings.duration : 3.0 * 2.0 * std::numbers::pi / lowest;
-  DampingZone zone = damping_zone(lowest);
-  if (settings.damping_strength > 0.0) zone.strength = settings.damping_strength;
-  zone.lids = settings.lids;
-  zone.shortest_wave = 2.0 * std::numbers::pi / calc_wave_number(highest, model.water());
+  const double strength =
+      settings.damping_strength > 0.0 ? settings.damping_strength : damping_zone(lowest).strength;
   DatabaseReport unused;
   DatabaseReport& account = report != nullptr ? *report : unused;
   account = {};
@@ -382,7 +382,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     if (!settings.with_far_field && model.normal_velocities(parity).isZero(0.0)) continue;
     progress.part(p);
     progress.solve();
-    PartComputation computation(model, parity, settings, rankine, zone);
+    PartComputation computation(model, parity, settings, rankine, strength);
     if (!(step > 0.0)) step = std::min(0.8 * computation.step_limit(), 0.25 / highest);
     if (!(0.5 * highest * step < 1.0)) {
       throw ModelError("the highest frequency, " + std::to_string(highest) +

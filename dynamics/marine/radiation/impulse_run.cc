@@ -24,14 +24,13 @@ MatrixXd symmetric_part(const MatrixXd& matrix) { return 0.5 * (matrix + matrix.
 
 }  // namespace
 
-ImpulseRun::ImpulseRun(const RankinePart& part, const SurfaceDamping& damping, const Water& water,
-                       std::vector<double> frequencies)
+ImpulseRun::ImpulseRun(const RankinePart& part, const Eigen::VectorXd& damping_rates,
+                       const Water& water, std::vector<double> frequencies)
     : part_(part),
       density_(water.density),
       gravity_(water.gravity),
-      damping_(damping),
       frequencies_(std::move(frequencies)),
-      march_(part, damping, water.gravity, part.surface_columns().cols()) {}
+      march_(part, damping_rates, water.gravity, part.surface_columns().cols()) {}
 
 void ImpulseRun::accumulate(double time, double weight) {
   for (std::size_t k = 0; k < frequencies_.size(); ++k) {
@@ -78,20 +77,6 @@ Eigen::MatrixXcd ImpulseRun::elevation(std::size_t frequency) const {
   elevation.real() = scale(frequency) * cosine_[frequency];
   elevation.imag() = scale(frequency) * sine_[frequency];
   return elevation;
-}
-
-// i w phi = -g eta - mu N phi, N phi = (i w + 2 nu) eta - q.
-Eigen::MatrixXcd ImpulseRun::potential(std::size_t frequency) const {
-  using Complex = std::complex<double>;
-  const MatrixXd& q = part_.surface_columns();
-  Eigen::MatrixXcd potential = elevation(frequency);
-  for (Eigen::Index i = 0; i < potential.rows(); ++i) {
-    const Complex rate(0.0, frequencies_[frequency]);
-    const double mu = damping_.short_waves[i];
-    const Complex factor = gravity_ + mu * (rate + 2.0 * damping_.rates[i]);
-    potential.row(i) = (mu * q.row(i).cast<Complex>() - factor * potential.row(i)) / rate;
-  }
-  return potential;
 }
 
 }  // namespace blocklift::dynamics

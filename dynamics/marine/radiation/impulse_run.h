@@ -15,9 +15,9 @@ namespace blocklift::dynamics {
 /// damping zone. The part must outlive the run.
 class ImpulseRun {
  public:
-  /// @param damping of the part's surface.
+  /// @param damping_rates nu for each panel of the part's surface, rad/s.
   /// @param frequencies rad/s.
-  ImpulseRun(const RankinePart& part, const SurfaceDamping& damping, const Water& water,
+  ImpulseRun(const RankinePart& part, const Eigen::VectorXd& damping_rates, const Water& water,
              std::vector<double> frequencies);
 
   /// Largest stable step, s.
@@ -35,8 +35,6 @@ class ImpulseRun {
   Eigen::MatrixXd added_mass(std::size_t frequency) const;
   /// After run(): integral of W^1/2 eta e^{-i w t} for a frequency (index), panels x modes.
   Eigen::MatrixXcd elevation(std::size_t frequency) const;
-  /// Likewise W^1/2 phi, of the elevation and the loss of short waves.
-  Eigen::MatrixXcd potential(std::size_t frequency) const;
 
  private:
   void accumulate(double time, double weight);
@@ -45,7 +43,6 @@ class ImpulseRun {
 
   const RankinePart& part_;
   double density_, gravity_;
-  SurfaceDamping damping_;
   std::vector<double> frequencies_;
   FreeSurfaceMarch march_;
   double step_ = not_a_number;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -72,9 +71,6 @@ class DirectRadiation {
   struct Settings {
     double damping_strength = not_a_number;  ///< nu at the edge of the surface, rad/s
     std::vector<DampingLid> lids;
-    /// Of interest, m: shorter ones are lost where the surface's rings cannot carry them
-    /// (DampingZone); infinite: they are thrown back.
-    double shortest_wave = std::numeric_limits<double>::infinity();
     std::vector<RegularWave> waves;  ///< that the bodies diffract
     bool with_froude_krylov = true;  ///< exert their own pressure as well
     /// How the waves grow; none: over the first two periods of the longest.

@@ -138,17 +138,13 @@ std::vector<VerificationRow> haskind_rows() {
   settings.duration = 60.0;
   settings.damping_strength = 0.8;
   const HydrodynamicDatabase database = compute_database(sphere.model, settings);
-  const DampingZone zone{
-      settings.damping_strength,
-      {},
-      2.0 * std::numbers::pi / calc_wave_number(settings.frequencies.back(), sphere.model.water())};
   RankineSettings rankine;
   rankine.keep_factors = true;
   std::vector<VerificationRow> rows;
   for (const Parity parity : {Parity{1, 1}, Parity{-1, 1}}) {
     const RankinePart part(sphere.model, parity, rankine);
-    const FrequencyDomain direct(
-        sphere.model, part, zone.damping(sphere.model.surface(), sphere.model.water().gravity));
+    const FrequencyDomain direct(sphere.model, part,
+                                 DampingZone{0.8}.rates(sphere.model.surface()));
     const int mode = parity.x > 0 ? heave : surge;
     for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
       const double w = settings.frequencies[k];
