@@ -25,8 +25,8 @@ struct PlacedEdge {
   Vector3 point_W(double angle, double place) const;
 };
 
-/// How a line runs round one edge: it comes straight to the surface, goes round it on a helix, which
-/// is its geodesic, and leaves straight along the tangent.
+/// How a line runs round one edge: it comes straight to the surface, goes round it on a helix,
+/// which is its geodesic, and leaves straight along the tangent.
 struct EdgeTouch {
   bool touches = false;
   /// theta, rad: by which the line turns about the edge; where it does not touch, negative: by as
@@ -65,8 +65,8 @@ inline constexpr int most_edges_in_chain = 6;
 void find_shortest_line(const Vector3& first_W, const Vector3& last_W,
                         std::span<const PlacedEdge> edges, std::span<EdgeTouch> touches);
 
-/// What makes a line round edges the shortest, linearised: how the places of its touch move with the
-/// bodies.
+/// What makes a line round edges the shortest, linearised: how the places of its touch move with
+/// the bodies.
 ///
 /// Of each touched edge the unknowns z are (angle, place) where the line comes and (angle, place)
 /// where it leaves, or the place alone of an edge without radius. With u the directions of the

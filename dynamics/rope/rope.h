@@ -18,8 +18,8 @@ struct RopeEdge {
   std::size_t after = 0;  ///< the rope meets it between this one of its points and the next
   Vector3 begin_B = Vector3::Constant(not_a_number);  ///< of its axis, m
   Vector3 end_B = Vector3::Constant(not_a_number);    ///< m
-  /// Away from what it is an edge of; of any length, its part across the axis counts. The rope stays
-  /// on that side.
+  /// Away from what it is an edge of; of any length, its part across the axis counts. The rope
+  /// stays on that side.
   Vector3 outside_B = Vector3::Constant(not_a_number);
   double radius = 0.0;  ///< m; zero: sharp
 };
@@ -145,9 +145,9 @@ struct RopeLoad {
 /// F(e) stands for k (L - L0), and k is the tangent 1/(L0/F'(e) + 1/k_crane), by which it is damped
 /// as well. Stored is L0 W(e) + F^2/(2 k_crane) with W = int F de, supplied -L0dot (T + e F - W).
 ///
-/// Edges that the rope touches are smooth: between two of its points it runs along the shortest line
-/// round them (find_shortest_line), whose arcs belong to L. Since that line is the shortest, the
-/// places where it touches may be held for the first variation: an edge's body bears the pulls of
+/// Edges that the rope touches are smooth: between two of its points it runs along the shortest
+/// line round them (find_shortest_line), whose arcs belong to L. Since that line is the shortest,
+/// the places where it touches may be held for the first variation: an edge's body bears the pulls of
 /// the two straight parts at the points where they come and leave. L and its rate are continuous
 /// where it begins or ceases to touch, so that the tension is, without an event; only the stiffness
 /// jumps.

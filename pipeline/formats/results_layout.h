@@ -67,7 +67,7 @@
 ///                                      patches/plates, texts
 ///   /structure/panels              (o) plates   texts [p]   table   [p x 15], a panel a row, the nearest to
 ///                                      buckling first; what the columns are stands in its description
-///   /structure/columns             (o) bars   texts [b]   table   [b x 14], a free span of a bar a row, likewise
+///   /structure/columns             (o) bars   texts [b]   table   [b x 19], a free span of a bar a row, likewise
 ///   /structure/padeyes/<lug>       (o) the governing state of a padeye; attributes state, rope, time (o)
 ///     corners                          m [c x 8], x y of four corners of a column of elements, padeye's frame
 ///     plate                            [c]  0 main plate, 1, 2 cheek plates in front and behind

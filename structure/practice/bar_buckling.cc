@@ -155,8 +155,8 @@ class BarForces {
     return rows;
   }
 
-  /// Of a bar with its plates: their force with the bar's own, the moment of the curvature along the
-  /// plate's normal in the section of both, and the bar's stresses.
+  /// Of a bar with its plates: their force with the bar's own, the moment of the curvature along
+  /// the plate's normal in the section of both, and the bar's stresses.
   Eigen::MatrixXd of_stiffener(int cell, double xi, const PlateAlong& plate) const {
     const Beam& beam = mesh_.beams[at(space_.beams()[at(cell)].beam)];
     const double share = share_at(cell, xi);
