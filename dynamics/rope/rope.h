@@ -147,8 +147,8 @@ struct RopeLoad {
 ///
 /// Edges that the rope touches are smooth: between two of its points it runs along the shortest
 /// line round them (find_shortest_line), whose arcs belong to L. Since that line is the shortest,
-/// the places where it touches may be held for the first variation: an edge's body bears the pulls of
-/// the two straight parts at the points where they come and leave. L and its rate are continuous
+/// the places where it touches may be held for the first variation: an edge's body bears the pulls
+/// of the two straight parts at the points where they come and leave. L and its rate are continuous
 /// where it begins or ceases to touch, so that the tension is, without an event; only the stiffness
 /// jumps.
 ///

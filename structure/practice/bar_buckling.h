@@ -38,10 +38,10 @@ struct BarSpan {
 /// own and that of these halves by their mean stress along it, its moment that of the curvature
 /// which it has in the mesh. It trips by the larger compression of its centroid and of its fibre
 /// farthest from the plate, where bending grows with the compression of the column: no less than
-/// the mean over the section that counts, which is weighted by the square of the distance from
-/// the toe (Bleich 1952, chapter 3). Other bars along plates (faces of girders, edges of brackets) are left
-/// out, and rods without second moments, which are counted. Of a bar whose section changes along a
-/// piece the smallest figures count.
+/// the mean over the section that counts, which is weighted by the square of the distance from the
+/// toe (Bleich 1952, chapter 3). Other bars along plates (faces of girders, edges of brackets) are
+/// left out, and rods without second moments, which are counted. Of a bar whose section changes
+/// along a piece the smallest figures count.
 class BlockBars {
  public:
   /// @param motions freedoms x m, m and rad; those of the panels.
