@@ -21,9 +21,8 @@ TEST(RunExtent, LeavesTheMotionAsItIs) {
   test::SampleLift().write(folder);
   const LiftCase lift_case = read_lift_case("case.yaml");
   const LiftRun whole = run(lift_case, {});
-  const LiftRun least = run(
-      lift_case,
-      {.natural_modes = false, .energy = false, .righting_height = false});
+  const LiftRun least =
+      run(lift_case, {.natural_modes = false, .energy = false, .righting_height = false});
   EXPECT_EQ(least.dynamic_history().time, whole.dynamic_history().time);
   ASSERT_EQ(least.dynamic_history().ropes.size(), whole.dynamic_history().ropes.size());
   for (std::size_t i = 0; i < whole.dynamic_history().ropes.size(); ++i) {
