@@ -3,6 +3,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "pipeline/declaration/document.h"
+#include "pipeline/declaration/format_once.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/vessel/vessel_group.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
@@ -76,7 +77,7 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
   if (!document) return std::nullopt;
   VesselGroup group;
   Reading reading(*document, diagnostics);
-  const Format<VesselGroup> format = vessel_group_format();
+  const Format<VesselGroup>& format = format_once<vessel_group_format>();
   reading.with_owner("the file", [&] { return format.read(document->root, reading, group); });
   if (diagnostics.error_count() > before) return std::nullopt;
   HydrodynamicProblem problem;

@@ -8,6 +8,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/declaration/document.h"
+#include "pipeline/declaration/format_once.h"
 #include "pipeline/declaration/reading.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/files/rigging/rigging_table.h"
@@ -283,8 +284,8 @@ std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
   }
   const auto known = cranes_.find(key);
   if (known != cranes_.end()) return known->second;
-  std::shared_ptr<CraneModel> crane =
-      read_model(load(file, diagnostics), "crane", crane_model_format(), diagnostics, parameters);
+  std::shared_ptr<CraneModel> crane = read_model(
+      load(file, diagnostics), "crane", format_once<crane_model_format>(), diagnostics, parameters);
   if (crane) {
     Folders beside = {file.parent_path()};
     if (of_case) beside.push_back(*of_case);
@@ -300,7 +301,7 @@ std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
   const auto known = blocks_.find(file);
   if (known != blocks_.end()) return known->second;
   const std::shared_ptr<BlockModel> block =
-      read_model(load(file, diagnostics), "block", block_model_format(), diagnostics);
+      read_model(load(file, diagnostics), "block", format_once<block_model_format>(), diagnostics);
   if (block) read_block_mesh(*block, file.parent_path(), diagnostics, of_case);
   return blocks_[file] = block;
 }
@@ -309,8 +310,8 @@ std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
                                                          Diagnostics& diagnostics) {
   const auto known = ropes_.find(file);
   if (known != ropes_.end()) return known->second;
-  return ropes_[file] =
-             read_model(load(file, diagnostics), "rope", rope_model_format(), diagnostics);
+  return ropes_[file] = read_model(load(file, diagnostics), "rope",
+                                   format_once<rope_model_format>(), diagnostics);
 }
 
 std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<std::string>& name,
@@ -324,8 +325,8 @@ std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path&
                                                                  Diagnostics& diagnostics) {
   const auto known = standards_.find(file);
   if (known != standards_.end()) return known->second;
-  return standards_[file] =
-             read_model(load(file, diagnostics), "standard", standard_rules_format(), diagnostics);
+  return standards_[file] = read_model(load(file, diagnostics), "standard",
+                                       format_once<standard_rules_format>(), diagnostics);
 }
 
 std::shared_ptr<const RiggingStock> ModelLibrary::read_rigging(const fs::path& file,
@@ -334,7 +335,7 @@ std::shared_ptr<const RiggingStock> ModelLibrary::read_rigging(const fs::path& f
   Diagnostics own;
   const std::shared_ptr<RiggingStock> stock =
       read_model(is_table ? load_rigging_table(file, own) : load(file, own), "rigging",
-                 rigging_stock_format(), own);
+                 format_once<rigging_stock_format>(), own);
   if (stock && is_table) forget_columns(*stock);
   if (stock) {
     for (StockSling& sling : stock->slings)

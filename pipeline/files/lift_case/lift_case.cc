@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "pipeline/declaration/document.h"
+#include "pipeline/declaration/format_once.h"
 #include "pipeline/declaration/reading.h"
 #include "pipeline/files/lift_case/lift_case_check.h"
 #include "pipeline/files/lift_case/rope_points.h"
@@ -205,7 +206,7 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   lift_case.file = file;
   lift_case.yaml = document->text;
   Reading reading(*document, diagnostics);
-  lift_case_format().read(document->root, reading, lift_case);
+  format_once<lift_case_format>().read(document->root, reading, lift_case);
   load_models(lift_case, library, diagnostics);
   library.complain_about_unused_changes(diagnostics);
   if (document->root.IsMap()) {

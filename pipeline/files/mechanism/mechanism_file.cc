@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/declaration/document.h"
+#include "pipeline/declaration/format_once.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case/rigging_check.h"
 #include "pipeline/files/mechanism/urdf_import.h"
@@ -204,7 +205,7 @@ std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibr
   mechanism.file = file;
   mechanism.yaml = document->text;
   Reading reading(*document, diagnostics);
-  mechanism_file_format().read(document->root, reading, mechanism);
+  format_once<mechanism_file_format>().read(document->root, reading, mechanism);
   if (!document->root.IsMap()) return std::nullopt;
   if (mechanism.urdf && !mechanism.urdf->value.empty()) {
     const Mark& mark = mechanism.urdf->mark;

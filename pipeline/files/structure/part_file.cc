@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/declaration/format_once.h"
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/named_file.h"
 
@@ -403,7 +404,7 @@ std::optional<PartFile> read_part_file(const std::filesystem::path& path,
   part.file = file;
   part.yaml = document->text;
   Reading reading(*document, diagnostics);
-  part_file_format().read(document->root, reading, part);
+  format_once<part_file_format>().read(document->root, reading, part);
   if (part.mesh.file) path_of_named_file(*part.mesh.file, file.parent_path(), diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   return part;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/declaration/document.h"
+#include "pipeline/declaration/format_once.h"
 #include "pipeline/declaration/reading.h"
 #include "pipeline/declaration/table.h"
 
@@ -433,7 +434,7 @@ std::optional<StudyFile> read_study_file(const fs::path& path, Diagnostics& diag
   study.file = file;
   study.yaml = document->text;
   Reading reading(*document, diagnostics);
-  study_file_format().read(document->root, reading, study);
+  format_once<study_file_format>().read(document->root, reading, study);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   return study;
 }

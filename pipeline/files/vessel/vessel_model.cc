@@ -13,6 +13,7 @@
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "dynamics/marine/hull/symmetric_hull.h"
 #include "pipeline/declaration/document.h"
+#include "pipeline/declaration/format_once.h"
 #include "pipeline/files/named_file.h"
 
 namespace blocklift::pipeline {
@@ -106,7 +107,7 @@ std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics
   const std::size_t errors_before = diagnostics.error_count();
   Vessel vessel;
   Reading reading(*document, diagnostics);
-  const Format<VesselModel> format = vessel_model_format();
+  const Format<VesselModel>& format = format_once<vessel_model_format>();
   reading.with_owner("the vessel",
                      [&] { return format.read(document->root, reading, vessel.model); });
   if (vessel.model.hull.file)
