@@ -1,0 +1,159 @@
+#include "dynamics/simulation/event_sources.h"
+
+#include <cmath>
+#include <utility>
+
+#include "dynamics/simulation/energy_ledger.h"
+
+namespace blocklift::dynamics {
+
+EventSources::EventSources(const LiftSystem& system, const AwaitedCondition* awaited,
+                           LiftWorkspace& w, MoveTo move_to)
+    : system_(system), awaited_(awaited), w_(w), move_to_(std::move(move_to)) {
+  using Kind = Source::Kind;
+  const std::size_t ropes = system.ropes().size();
+  for (std::size_t i = 0; i < ropes; ++i) sources_.push_back({Kind::rope, i});
+  for (std::size_t i = 0; i < system.supports().size(); ++i)
+    sources_.push_back({Kind::pad, ropes + i});
+  contacts_end_ = sources_.size();
+  for (std::size_t i = 0; i < w.splits.size(); ++i) {
+    for (std::size_t j = 0; j < w.splits[i].sheave_count(); ++j)
+      sources_.push_back({Kind::sheave, i, j});
+  }
+  sheaves_end_ = sources_.size();
+  if (awaited) sources_.push_back({Kind::condition});
+  values_.setZero(count());
+  if (awaited) values_[count() - 1] = -1.0;
+}
+
+bool EventSources::release(int rope) {
+  return std::exchange(contacts_[static_cast<std::size_t>(rope)], 0) != 0;
+}
+
+void EventSources::begin_splits(double t) {
+  if (!has_sheaves()) return;
+  load(t);
+  for (std::size_t i = 0; i < w_.splits.size(); ++i) {
+    if (w_.splits[i].rubs()) begin_split(i);
+  }
+}
+
+// At the workspace's kinematics.
+void EventSources::begin_split(std::size_t rope) {
+  const Rope& one = system_.ropes()[rope];
+  one.calc_path(w_.kinematics, w_.path);
+  w_.splits[rope].begin(one, w_.kinematics, w_.path,
+                        one.calc_load(w_.path, w_.feeds[rope], contacts_[rope] != 0));
+}
+
+void EventSources::load(double t) {
+  move_to_(t);
+  calc_contact_loads(system_, &contacts_, w_);
+}
+
+double EventSources::sheave_value(const Source& source) const {
+  // Where nothing is taut nothing slips.
+  return w_.rope_loads[source.index].split.acts ? w_.splits[source.index].indicator(source.sheave)
+                                                : 1.0;
+}
+
+void EventSources::find_values(bool may_be_met, double* values) {
+  calc_contact_indicators(w_, values_.head(system_.contact_count()));
+  for (std::size_t k = contacts_end_; k < sheaves_end_; ++k)
+    values_[static_cast<Eigen::Index>(k)] = sheave_value(sources_[k]);
+  if (awaited_) values_[count() - 1] = may_be_met ? awaited_->indicator(system_, w_) : -1.0;
+  Eigen::Map<Eigen::VectorXd>(values, count()) = values_;
+}
+
+// Is the value positive as long as nothing changes?
+bool EventSources::stands(const Source& source) const {
+  switch (source.kind) {
+    case Source::Kind::rope:
+    case Source::Kind::pad:
+      return contacts_[source.index] != 0;
+    case Source::Kind::sheave:
+      return true;
+    case Source::Kind::condition:
+      break;
+  }
+  return false;  // what has been met may not change any more
+}
+
+bool EventSources::may_change(const Source& source, double t,
+                              const IntegrationResult& result) const {
+  if (source.kind == Source::Kind::sheave) return w_.rope_loads[source.index].split.acts;
+  if (source.kind != Source::Kind::condition) return true;
+  return !result.met && t >= awaited_->from - beside && t <= awaited_->until + beside;
+}
+
+// By a root, or by a value at the step's end.
+bool EventSources::is_due(std::size_t k, const std::vector<int>* found) const {
+  constexpr double beyond = 1e-4;  // kN, kN/s
+  const Source& source = sources_[k];
+  const int root = found ? (*found)[k] : 0;
+  if (root != 0 && (root > 0) != stands(source)) return true;
+  // Behind a root the values of the others are not those of that instant.
+  const bool is_sheave = source.kind == Source::Kind::sheave;
+  if (found && !is_sheave) return false;
+  const double value = is_sheave ? sheave_value(source) : values_[static_cast<Eigen::Index>(k)];
+  const double least = source.kind == Source::Kind::condition ? 0.0 : beyond;
+  return !(std::abs(value) < least) && (value > 0.0) != stands(source);
+}
+
+bool EventSources::change(double t, const std::vector<int>* found, Ledger ledger) {
+  bool anew = false;
+  for (std::size_t k = 0; k < sources_.size(); ++k) {
+    // What sheaves do depends on which ropes are taut from now on.
+    if (k == contacts_end_ && has_sheaves()) load(t);
+    const Source& source = sources_[k];
+    if (is_due(k, found) && may_change(source, t, ledger.result))
+      anew |= switch_over(source, t, ledger);
+  }
+  return anew;
+}
+
+// Must the integration start anew?
+bool EventSources::switch_over(const Source& source, double t, Ledger ledger) {
+  if (source.kind == Source::Kind::condition) {
+    ledger.result.met = t;
+    return false;
+  }
+  if (source.kind == Source::Kind::sheave) {
+    RopeSplit& split = w_.splits[source.index];
+    split.set_motion(source.sheave, split.motion(source.sheave) == SheaveMotion::sticks
+                                        ? split.tendency(source.sheave)
+                                        : SheaveMotion::sticks);
+    ++ledger.result.statistics.sheave_changes;
+  } else {
+    switch_contact(source, t, ledger);
+  }
+  return true;
+}
+
+void EventSources::switch_contact(const Source& source, double t, Ledger ledger) {
+  const std::size_t contact = source.index;
+  const bool is_rope = source.kind == Source::Kind::rope;
+  const bool acts = contacts_[contact] == 0;
+  const auto stored = [&] {
+    if (!is_rope) return 0.0;
+    load(t);
+    return calc_rope_energy(system_, contact, w_).stored_energy;
+  };
+  const double before = stored();
+  contacts_[contact] = acts ? 1 : 0;
+  ledger.result.events.push_back({t, static_cast<int>(contact), acts});
+  ++ledger.result.statistics.contact_changes;
+  if (acts && !is_rope) set_down(contact - system_.ropes().size(), t);
+  if (acts && is_rope && w_.splits[contact].acts()) begin_split(contact);
+  // What a rope that becomes slack while it is still stretched had stored is lost.
+  ledger.dissipated += before - stored();
+}
+
+// Friction holds a point of the load where it touches the ground.
+void EventSources::set_down(std::size_t pad, double t) {
+  move_to_(t);
+  compute_kinematics(system_.mechanism(), w_.q, w_.v, w_.kinematics);
+  set_down_pad(system_, pad, w_);
+}
+
+}  // namespace blocklift::dynamics
