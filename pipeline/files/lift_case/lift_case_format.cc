@@ -1,6 +1,5 @@
 #include "pipeline/declaration/table.h"
-#include "pipeline/files/lift_case/lift_case.h"
-#include "structure/practice/fatigue.h"
+#include "pipeline/files/lift_case/case_formats.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -102,22 +101,6 @@ Format<LoadInCase> load_format() {
   return table.format();
 }
 
-Format<Located<RopePoint>> rope_point_format() {
-  Table<RopePoint> table("point", "A point of a body of the lift.");
-  table
-      .required("body", &RopePoint::body, reference(),
-                "\"world\", \"load\", a vessel, a spreader, or crane and body (C1.gantry)")
-      .by_default("point", &RopePoint::point, position_format(), zero_position,
-                  "in the body's frame");
-  const auto by_name = converted<Located<std::string>, RopePoint>(located(reference()),
-                                                                  [](Located<std::string> name) {
-                                                                    RopePoint point;
-                                                                    point.name = std::move(name);
-                                                                    return point;
-                                                                  });
-  return located(by_shape<RopePoint>(by_name, std::nullopt, table.format()));
-}
-
 Format<SupportInCase> support_format() {
   Table<SupportInCase> table("support", "A pad under the load, from which it lifts off.");
   table
@@ -157,350 +140,6 @@ Format<GroundInCase> ground_format() {
                   quantity(Dimension::stiffness, Range::positive()), "1 MN/m",
                   "against sliding from where the corner touched down, up to the friction")
       .place(&GroundInCase::place);
-  return table.format();
-}
-
-void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
-  const int wishes = keep.level.has_value() + keep.over.has_value() + keep.tension.has_value() +
-                     keep.share.has_value() + keep.law.has_value();
-  if (wishes != 1)
-    reading.error(mark,
-                  wishes == 0 ? "the move does not say what is kept" : "the move keeps two things",
-                  {"give one of level, over, tension, share and law"});
-  const auto only_with = [&](bool given, const char* key, bool other, const char* other_key) {
-    if (given && !other)
-      reading.error(mark, std::string(key) + " goes with " + other_key + ", which is not there");
-  };
-  only_with(keep.with.has_value(), "with", keep.level.has_value(), "level");
-  only_with(keep.above.has_value(), "above", keep.level.has_value(), "level");
-  only_with(keep.head.has_value(), "head", keep.over.has_value(), "over");
-  only_with(keep.over.has_value(), "over", keep.head.has_value(), "head");
-  only_with(!keep.of.empty(), "of", keep.share.has_value(), "share");
-  only_with(keep.share.has_value(), "share", !keep.of.empty(), "of");
-  only_with(keep.stiffness.has_value(), "stiffness", keep.tension || keep.share,
-            "tension or share");
-  only_with(!keep.sees.empty(), "sees", keep.law.has_value(), "law");
-  only_with(keep.every.has_value(), "every", keep.law.has_value(), "law");
-  if (keep.law && (keep.correction || keep.tolerance))
-    reading.error(mark, "a law gives the speed itself and takes no correction or tolerance");
-  // What is seen decays as e' = -e(t - reaction) / correction, which grows instead where the
-  // correction is shorter than 2 / pi of the reaction; the drive's own lag comes on top.
-  if (!keep.law && keep.correction_time() < 2 * keep.reaction)
-    reading.error(keep.correction ? keep.correction->mark : mark,
-                  "the correction is shorter than twice the reaction: the operator would steer "
-                  "further and further to and fro",
-                  {"three times the reaction and more come to rest without overshooting"});
-  if (!keep.tolerance) return;
-  const Dimension due = keep.tension ? Dimension::force
-                        : keep.share ? Dimension::ratio
-                                     : Dimension::length;
-  if (wishes == 1 && keep.tolerance->value.dimension != due)
-    reading.error(keep.tolerance->mark,
-                  std::string("the tolerance is ") +
-                      std::string(text_of(keep.tolerance->value.dimension).noun) + "; " +
-                      std::string(text_of(due).noun) + " is due");
-}
-
-void check_sight(const SightInCase& sight, Reading& reading, const Mark& mark) {
-  const int figures = sight.level.has_value() + sight.over.has_value() + sight.pull.has_value() +
-                      sight.share.has_value();
-  if (figures != 1)
-    reading.error(mark, figures == 0 ? "nothing is seen" : "two things are seen under one name",
-                  {"give one of level, over, tension and share"});
-  const auto only_with = [&](bool given, const char* key, bool other, const char* other_key) {
-    if (given && !other)
-      reading.error(mark, std::string(key) + " goes with " + other_key + ", which is not there");
-  };
-  only_with(sight.with.has_value(), "with", sight.level.has_value(), "level");
-  only_with(sight.head.has_value(), "head", sight.over.has_value(), "over");
-  only_with(sight.over.has_value(), "over", sight.head.has_value(), "head");
-  only_with(!sight.of.empty(), "of", sight.share.has_value(), "share");
-  only_with(sight.share.has_value(), "share", !sight.of.empty(), "of");
-}
-
-void check_names_of_sights(const KeepInCase& keep, Reading& reading, const Mark&) {
-  for (const SightInCase& sight : keep.sees) {
-    if (sight.name.value == "position" || sight.name.value == "speed")
-      reading.error(sight.name.mark,
-                    "\"" + sight.name.value + "\" is what a law sees of its own drive anyway",
-                    {"give the figure another name"});
-  }
-}
-
-Format<SightInCase> sight_format(const Format<Located<RopePoint>>& point) {
-  Table<SightInCase> table("sight",
-                           "A figure that a law sees: a height (`level`), how far its drive would "
-                           "have to go to bring a head plumb over a point (`head`, `over`), a "
-                           "`tension`, or a `share` of the load.");
-  table
-      .optional("level", &SightInCase::level, point,
-                "the height of a hook (C1.main), lug, eye or point of a body, m")
-      .optional("with", &SightInCase::with, point,
-                "over that of this point; a height in the world if left out")
-      .optional("head", &SightInCase::head, located(reference()),
-                "hoist (C1.main) whose upper sheave a drive of a joint moves")
-      .optional("over", &SightInCase::over, point,
-                "from plumb over this hook, lug, eye or point of a body: travel of the drive, m or "
-                "rad")
-      .optional("tension", &SightInCase::pull, located(reference()),
-                "of this rope, or of this hoist's (C1.main) tackle, N")
-      .optional("share", &SightInCase::share, located(reference()),
-                "that this rope or hoist pulls of what it and those of `of` pull together, 0 to 1")
-      .optional("of", &SightInCase::of, list_of(located(reference()), 1),
-                "ropes, or hoists (C1.main) whose tackle it is")
-      .rule(check_sight)
-      .place(&SightInCase::place);
-  return table.format();
-}
-
-Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
-  Table<KeepInCase> table("keeping",
-                          "What the operator of a drive keeps while he steers it after what he "
-                          "sees: a height (`level`), a head plumb over a point (`head`, `over`), a "
-                          "`tension`, or a `share` of the load. He asks for the speed that "
-                          "would take away in the time `correction` what he saw a `reaction` ago, "
-                          "and the drive follows within its limits. Or a `law`, a function of "
-                          "Python, gives the speed.");
-  table
-      .optional("level", &KeepInCase::level, point,
-                "a hook (C1.main), lug, eye or point of a body, whose height a winch keeps")
-      .optional("with", &KeepInCase::with, point,
-                "as high as this point; a height in the world if left out")
-      .optional("above", &KeepInCase::above, located(quantity(Dimension::length)),
-                "of level over with; if left out 0 m, or without `with` the height at which the "
-                "keeping begins")
-      .optional("head", &KeepInCase::head, located(reference()),
-                "hoist (C1.main) whose upper sheave the drive of a joint keeps plumb")
-      .optional("over", &KeepInCase::over, point,
-                "over this hook, lug, eye or point of a body, as near as the drive alone can")
-      .optional("tension", &KeepInCase::tension,
-                located(quantity(Dimension::force, Range::positive())),
-                "of the winch's own rope, or of the hoist's tackle")
-      .optional("share", &KeepInCase::share,
-                located(quantity(Dimension::ratio, Range::between(0, 1))),
-                "that it pulls of what it and the ropes of `of` pull together")
-      .optional("of", &KeepInCase::of, list_of(located(reference()), 1),
-                "ropes, or hoists (C1.main) whose tackle it is")
-      .optional("stiffness", &KeepInCase::stiffness,
-                located(quantity(Dimension::stiffness, Range::positive())),
-                "by how much the tension, or what is pulled above the share, falls for each metre "
-                "that is let out. That of the rope alone if left out, which is never too little to "
-                "come to rest; a load that follows its hook changes its share far less, and is "
-                "brought to it sooner with its own figure")
-      .by_default("reaction", &KeepInCase::reaction,
-                  quantity(Dimension::time, Range::not_negative()), "1 s",
-                  "from what the operator sees to what he does")
-      .optional("correction", &KeepInCase::correction,
-                located(quantity(Dimension::time, Range::positive())),
-                fmt::format("in which he would take away what he sees, {} s if left out; behind a "
-                            "wish that moves on evenly he lags by its speed times this",
-                            KeepInCase::usual_correction))
-      .optional("tolerance", &KeepInCase::tolerance,
-                quantity_of({Dimension::length, Dimension::force, Dimension::ratio},
-                            Range::not_negative()),
-                "what he lets be: length, force or share, as the wish is; nothing if left out")
-      .optional("law", &KeepInCase::law, located(reference()),
-                "name of the function of Python that gives the drive's speed in place of a wish: "
-                "such a case is run from Python, by the argument `laws` of Case.simulate")
-      .optional("sees", &KeepInCase::sees, named_tables(sight_format(point)),
-                "what the law is given, by name, beside the `position` and `speed` of its drive")
-      .optional("every", &KeepInCase::every, quantity(Dimension::time, Range::between(0.01, 1)),
-                "time between two looks of the law, shortened so that the reaction is a number of "
-                "them; 0.2 s if left out")
-      .rule(check_keep)
-      .rule(check_names_of_sights)
-      .place(&KeepInCase::place);
-  return table.format();
-}
-
-/// @param may_keep whether drives may be steered after a wish.
-Format<MoveInCase> move_format(bool may_keep) {
-  const auto limit = [](Dimension linear, Dimension angular) {
-    return quantity_of({linear, angular}, Range::positive());
-  };
-  Table<MoveInCase> table(
-      "move", may_keep ? "What one or several drives or winches do, alike. It goes `by` a "
-                         "distance or `to` a place, from rest to rest, `follows` another "
-                         "one, or `keeps` something."
-                       : "What one or several drives or winches do, alike. It goes `by` a "
-                         "distance or `to` a place, from rest to rest, or `follows` "
-                         "another one.");
-  table
-      .required("drives", &MoveInCase::drives, list_of(located(reference()), 1),
-                "crane and drive or hoist (C1.travel, C1.upper_1), or a rope with its own winch")
-      .optional("by", &MoveInCase::by, quantity_of(travels),
-                "distance or angle; of a winch the change of rope length, negative to hoist")
-      .optional("to", &MoveInCase::to, quantity_of(travels),
-                "in place of by: the coordinate or rope length at the end")
-      .optional("speed", &MoveInCase::speed, limit(Dimension::speed, Dimension::angular_speed),
-                "below the drive's own limit, which holds if left out")
-      .optional("acceleration", &MoveInCase::acceleration,
-                limit(Dimension::acceleration, Dimension::angular_acceleration),
-                "below the drive's own limit, which holds if left out")
-      .optional("jerk", &MoveInCase::jerk, limit(Dimension::jerk, Dimension::angular_jerk),
-                "below the drive's own limit, which holds if left out")
-      .optional("duration", &MoveInCase::duration, quantity(Dimension::time, Range::positive()),
-                "stretches the move to last that long; as short as the limits allow if left out")
-      .by_default("delay", &MoveInCase::delay, quantity(Dimension::time, Range::not_negative()),
-                  "0 s", "after the start of the stage")
-      .optional("follows", &MoveInCase::follows, reference(),
-                "the drive or winch whose travel in this stage leads this one")
-      .optional("table", &MoveInCase::table,
-                list_of(array_of<Quantity, 2>(quantity_of(travels)), 2),
-                "own travel over the leader's travel, a smooth curve through these points: "
-                "[[leader, own], ...]")
-      .place(&MoveInCase::place);
-  if (may_keep)
-    table.optional("keeps", &MoveInCase::keeps, keep_format(rope_point_format()),
-                   "the drive is steered after what its operator sees, until the other moves of "
-                   "the stage have ended, or for the duration");
-  return table.format();
-}
-
-Format<DynamicsSettings> dynamics_format() {
-  Table<DynamicsSettings> table("dynamics settings", "How the motion is computed.");
-  table
-      .by_default("relative_tolerance", &DynamicsSettings::relative_tolerance,
-                  number(Range::between(1e-12, 1e-3)), "1e-6", "of the time integration")
-      .by_default("sample_interval", &DynamicsSettings::sample_interval,
-                  quantity(Dimension::time, Range::between(1e-4, 0.2)), "0.05 s",
-                  "between two recorded samples of the motion, among which the largest loads are "
-                  "sought: a small part of the load's bounce on its ropes")
-      .by_default("static_interval", &DynamicsSettings::static_interval,
-                  quantity(Dimension::time, Range::between(1e-3, 30)), "1 s",
-                  "between two static equilibria")
-      .by_default("flexibility", &DynamicsSettings::flexibility,
-                  choice<Flexibility>({{"rigid", Flexibility::rigid},
-                                       {"static", Flexibility::static_},
-                                       {"modal", Flexibility::modal}}),
-                  "rigid",
-                  "how the block gives way where ropes pull at its lugs: not at all; at once, by "
-                  "the compliance of its structure; or by its lowest natural modes, which vibrate, "
-                  "and at once by what they leave of the compliance")
-      .optional("elastic_modes", &DynamicsSettings::elastic_modes,
-                located(integer(Range::between(1, 60))),
-                "number of natural modes of the free block where the flexibility is modal; 10 if "
-                "left out")
-      .optional("modal_damping", &DynamicsSettings::modal_damping,
-                located(number(Range::between(0, 0.5))),
-                "damping of each of these modes over the critical one; 0.01 if left out");
-  return table.format();
-}
-
-Format<std::string> fatigue_curve_format() {
-  std::vector<std::pair<std::string, std::string>> words;
-  for (const std::string& curve : structure::fatigue_curve_names())
-    words.emplace_back(curve, curve);
-  return choice(words);
-}
-
-Format<FatigueSettings> fatigue_format() {
-  Table<FatigueSettings> table("fatigue settings",
-                               "Wear by repeated lifts: rainflow counts of the stress at each "
-                               "followed point against an S-N curve.");
-  table
-      .by_default("curve", &FatigueSettings::curve, fatigue_curve_format(), "F",
-                  "detail category of DNV-RP-C203, in air; F is class 71 MPa, for plates with "
-                  "attachments")
-      .by_default("stress_concentration", &FatigueSettings::stress_concentration,
-                  number(Range::at_least(1)), "1",
-                  "by which stress ranges are multiplied before the curve is read")
-      .by_default("hot_spot_curve", &FatigueSettings::hot_spot_curve, fatigue_curve_format(), "D",
-                  "for the structural stress at named weld toes, without stress_concentration; D "
-                  "is class 90 MPa, as DNV-RP-C203 has it for that stress")
-      .by_default("lifts", &FatigueSettings::lifts, number(Range::at_least(1)), "1",
-                  "lifts of this kind that the block sees");
-  return table.format();
-}
-
-Format<StructureSettings> structure_format() {
-  Table<StructureSettings> table("structure settings", "How the stress is computed.");
-  table
-      .by_default("element_degree", &StructureSettings::element_degree,
-                  integer(Range::between(1, 4)), "3", "polynomial degree of shells and beams")
-      .by_default("largest_element", &StructureSettings::largest_element,
-                  quantity(Dimension::length, Range::between(0.01, 100)), "2 m",
-                  "longest edge of an element, before any are divided for accuracy")
-      .by_default(
-          "accuracy", &StructureSettings::accuracy,
-          quantity(Dimension::ratio, Range::between(0.001, 1)), "3 %",
-          "elements about the largest checked stresses are divided until these, at rest and "
-          "in motion, and the increase between them change by less; the report says by how "
-          "much they still moved")
-      .by_default("most_unknowns", &StructureSettings::most_unknowns,
-                  integer(Range::between(1000, 100000000)), "1000000",
-                  "no finer elements are tried than make so many unknowns")
-      .optional("stress_points", &StructureSettings::stress_points, names_to(position_format()),
-                "places in the block's frame whose stress is followed in time, each at the nearest "
-                "square of the checked stress; if left out, the hot spot of the lift and that of "
-                "each lug")
-      .optional("hot_spots", &StructureSettings::hot_spots, hot_spots_format(),
-                "weld toes of the block, by name, in its frame: structural stress in time, cycles "
-                "and damage")
-      .by_default("fatigue", &StructureSettings::fatigue, fatigue_format(), "{}",
-                  "wear by repeated lifts")
-      .rule([](const StructureSettings& settings, Reading& reading, const Mark&) {
-        for (const Named<Vector3>& point : settings.stress_points)
-          check_name(point.name.mark, point.name.value, reading);
-      });
-  return table.format();
-}
-
-Format<CheckSettings> checks_format() {
-  Table<CheckSettings> table("check settings", "What the lift must meet.");
-  table
-      .by_default("rope_safety_factor", &CheckSettings::rope_safety_factor,
-                  number(Range::at_least(1)), "5", "breaking load over the largest rope load")
-      .by_default("crane_capacity", &CheckSettings::crane_capacity, boolean(), "true",
-                  "hook and crane loads against the cranes' capacities")
-      .by_default("yield_factor", &CheckSettings::yield_factor, number(Range::at_least(1)), "1.5",
-                  "yield stress over the largest checked stress")
-      .by_default("lug_consequence_factor", &CheckSettings::lug_consequence_factor,
-                  number(Range::at_least(1)), "1.3",
-                  "on the forces at padeyes (GL Noble Denton 0027/ND, lift points)")
-      .by_default("lug_side_load", &CheckSettings::lug_side_load,
-                  quantity(Dimension::ratio, Range::between(0, 1)), "5 %",
-                  "of the rope's force, along the pin, that hand formulae of padeyes take at least "
-                  "(API RP 2A)")
-      .optional("buckling_factor", &CheckSettings::buckling_factor, number(Range::at_least(1)),
-                "critical stress of a plate panel over the stress in it, and on the forces in bars "
-                "as columns; the yield factor if left out")
-      .optional("spreader_factor", &CheckSettings::spreader_factor, number(Range::at_least(1)),
-                "on the forces in spreaders, against yield and buckling; the yield factor if left "
-                "out")
-      .by_default("smallest_tension", &CheckSettings::smallest_tension,
-                  quantity(Dimension::load, Range::not_negative()), "0 kN",
-                  "below which a rope counts as slack")
-      .optional("swing", &CheckSettings::largest_swing,
-                quantity(Dimension::angle, Range::positive()),
-                "largest angle of a hoist's tackle against the vertical; not checked if left out")
-      .optional("tilt", &CheckSettings::largest_tilt, quantity(Dimension::angle, Range::positive()),
-                "largest angle of the load's z axis against the plumb; not checked if left out")
-      .optional("sling_angle", &CheckSettings::smallest_sling_angle,
-                quantity(Dimension::angle, Range::not_negative()),
-                "smallest angle of a sling against the level; not checked if left out")
-      .optional(
-          "offlead", &CheckSettings::largest_offlead, quantity(Dimension::angle, Range::positive()),
-          "largest angle of a tackle out of the plumb in the plane of the crane's radius; not "
-          "checked if left out")
-      .optional("sidelead", &CheckSettings::largest_sidelead,
-                quantity(Dimension::angle, Range::positive()), "the same across that plane")
-      .optional("clearance", &CheckSettings::smallest_clearance,
-                quantity(Dimension::length, Range::not_negative()),
-                "smallest distance of load, hooks, spreaders, tackles and cranes from one another, "
-                "of hanging "
-                "loads from the ground; usual are 0.5 m ashore and 3 m afloat; not checked if left "
-                "out")
-      .optional("righting_height", &CheckSettings::smallest_righting_height,
-                quantity(Dimension::length),
-                "least moment against a tilt of the hanging load over its weight and the tilt, "
-                "0 m or more; not checked if left out")
-      .optional(
-          "heel", &CheckSettings::largest_heel, quantity(Dimension::angle, Range::positive()),
-          "largest heel of a vessel, also behind a load that is lost (faults); not checked if "
-          "left out")
-      .optional("freeboard", &CheckSettings::smallest_freeboard, quantity(Dimension::length),
-                "smallest height of a vessel's deck over calm water; not checked if left out");
   return table.format();
 }
 
@@ -552,44 +191,6 @@ Format<LoadTable> load_table_format() {
   return table.format();
 }
 
-Format<StageUntil> stage_until_format() {
-  const auto share = located(quantity(Dimension::ratio, Range::between(0, 1.5)));
-  Table<StageUntil> table(
-      "condition",
-      "One condition that ends the stage. At its instant all moves of the stage "
-      "begin to stop together, as fast as their drives may brake, and the next "
-      "stage follows.");
-  table
-      .optional("slack", &StageUntil::slack, located(reference()),
-                "the rope, or the tackle of the hoist (C1.main), pulls no more")
-      .optional("taut", &StageUntil::taut, located(reference()), "it pulls")
-      .optional("ropes_bear_at_least", &StageUntil::ropes_at_least, share,
-                "share of the load's weight by which ropes pull it up, all together")
-      .optional("ropes_bear_at_most", &StageUntil::ropes_at_most, share,
-                "likewise: 20 % when 80 % of the weight is off")
-      .optional("ground_bears_at_least", &StageUntil::ground_at_least, share,
-                "share of the load's weight that pads and ground bear")
-      .by_default("reaction", &StageUntil::reaction,
-                  quantity(Dimension::time, Range::not_negative()), "0 s",
-                  "of the operator, before the drives begin to stop")
-      .optional("within", &StageUntil::within, quantity(Dimension::time, Range::positive()),
-                "time from the stage's start in which the condition comes about, or the run fails; "
-                "until the stage's moves end if left out")
-      .rule([](const StageUntil& until, Reading& reading, const Mark& mark) {
-        const int given = until.slack.has_value() + until.taut.has_value() +
-                          until.ropes_at_least.has_value() + until.ropes_at_most.has_value() +
-                          until.ground_at_least.has_value();
-        if (given == 1) return;
-        reading.diagnostics().error(
-            mark,
-            given == 0 ? "the stage does not say what ends it" : "the stage has several conditions",
-            {"give one of slack, taut, ropes_bear_at_least, ropes_bear_at_most and "
-             "ground_bears_at_least"});
-      })
-      .place(&StageUntil::place);
-  return table.format();
-}
-
 void check_sheave_friction(const RopeInCase& rope, Reading& reading, const Mark&) {
   if (rope.sheave_friction && rope.sheave_efficiency)
     reading.error(rope.sheave_efficiency->mark,
@@ -603,6 +204,22 @@ void check_sheave_friction(const RopeInCase& rope, Reading& reading, const Mark&
 }
 
 }  // namespace
+
+Format<Located<RopePoint>> rope_point_format() {
+  Table<RopePoint> table("point", "A point of a body of the lift.");
+  table
+      .required("body", &RopePoint::body, reference(),
+                "\"world\", \"load\", a vessel, a spreader, or crane and body (C1.gantry)")
+      .by_default("point", &RopePoint::point, position_format(), zero_position,
+                  "in the body's frame");
+  const auto by_name = converted<Located<std::string>, RopePoint>(located(reference()),
+                                                                  [](Located<std::string> name) {
+                                                                    RopePoint point;
+                                                                    point.name = std::move(name);
+                                                                    return point;
+                                                                  });
+  return located(by_shape<RopePoint>(by_name, std::nullopt, table.format()));
+}
 
 Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                                        bool breaking_load_required) {
@@ -672,60 +289,6 @@ Format<WindInCase> wind_format() {
                   "at which the spectrum is taken")
       .by_default("seed", &WindInCase::seed, integer(Range::not_negative()), "1",
                   "of the gusts' random phases");
-  return table.format();
-}
-
-Format<StageInCase> stage_format(bool may_wait) {
-  Table<StageInCase> table("stage", may_wait ? "A part of the operation; it ends with the last of "
-                                               "its moves, or by a condition."
-                                             : "A part of the operation; it ends with the last of "
-                                               "its moves.");
-  table.required("stage", &StageInCase::name, text(), "its name, for people")
-      .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
-                  "0 s", "before the stage begins")
-      .optional("moves", &StageInCase::moves, list_of(move_format(may_wait)), "what moves");
-  if (may_wait)
-    table.optional("until", &StageInCase::until, stage_until_format(),
-                   "what ends the stage, before its moves have ended; they go as far as it takes");
-  return table.format();
-}
-
-Format<FaultInCase> fault_format() {
-  Table<FaultInCase> table("fault",
-                           "What goes wrong in motion; the equilibria at rest are those of the "
-                           "whole rigging.");
-  table
-      .optional("at", &FaultInCase::at, located(quantity(Dimension::time, Range::not_negative())),
-                "time of the operation at which it happens; or give worst_for")
-      .optional(
-          "worst_for", &FaultInCase::worst_for, list_of(located(reference()), 1),
-          "it happens at the worst instant for these ropes and hoists (C1.main), or for [all]: "
-          "the one after which one of them carries the most of its breaking load. Instants at "
-          "which drives move are tried, closer and closer around the worst ones")
-      .optional("from", &FaultInCase::from,
-                located(quantity(Dimension::time, Range::not_negative())),
-                "the worst instant is sought from then on; from the first move on if left out")
-      .optional("to", &FaultInCase::to, located(quantity(Dimension::time, Range::not_negative())),
-                "until then; until the last move ends if left out")
-      .by_default("watched", &FaultInCase::watched, quantity(Dimension::time, Range::positive()),
-                  "20 s", "how long the ropes are watched behind a tried instant")
-      .optional("parts", &FaultInCase::parts, list_of(located(reference()), 1),
-                "ropes that break, or hoists (C1.main) whose tackle does")
-      .optional("stops", &FaultInCase::stops, list_of(located(reference()), 1),
-                "drives and winches that come to a stand and stay there; [all] for an emergency "
-                "stop")
-      .optional("runs_away", &FaultInCase::runs_away, list_of(located(reference()), 1),
-                "winches (hoists, or ropes with one) that leave their motion and pay out")
-      .optional("speed", &FaultInCase::speed, quantity(Dimension::speed, Range::positive()),
-                "at which they pay out; also beyond what the winch drives")
-      .optional("caught_after", &FaultInCase::caught_after,
-                quantity(Dimension::time, Range::positive()),
-                "from the instant until they are braked; then they stand")
-      .by_default("within", &FaultInCase::within, quantity(Dimension::time, Range::positive()),
-                  "0.5 s",
-                  "in which drives come to a stand, evenly, and winches that run away to their "
-                  "speed, and to a stand when they are caught")
-      .place(&FaultInCase::place);
   return table.format();
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "pipeline/files/lift_case/lift_case.h"
+
+/// Key tables of the parts of a case that stand in sources of their own.
+namespace blocklift::pipeline {
+
+/// A point of a body of a lift, which may be given by its name alone.
+Format<Located<RopePoint>> rope_point_format();
+
+/// What the operator of a drive keeps, and what laws of Python see, at points in that format.
+Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point);
+/// What goes wrong.
+Format<FaultInCase> fault_format();
+
+Format<DynamicsSettings> dynamics_format();
+Format<StructureSettings> structure_format();
+Format<CheckSettings> checks_format();
+
+}  // namespace blocklift::pipeline
