@@ -46,6 +46,7 @@ structure::Stiffeners describe_stiffeners(const PlateModel& plate) {
   const Eigen::Vector2d foot(structure::foot_of(*row.profile), 0);
   stiffeners.centroid = row.profile->centroid - foot;
   stiffeners.material = row.material.value;
+  stiffeners.tripping_brackets = row.tripping_brackets.value_or(0);
   return stiffeners;
 }
 

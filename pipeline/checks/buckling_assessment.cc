@@ -124,9 +124,13 @@ std::string span_text(const BuckledBar& bar) {
 }
 
 std::string tripping_text(const BuckledBar& bar) {
-  return fmt::format("{}; DNV-RP-C201, 7.5.2: elastic {:.0f} MPa, strength {:.0f} MPa",
-                     ends_text(bar.span), bar.span.tripping_stress / 1e6,
-                     bar.span.tripping_strength / 1e6);
+  const structure::BarSpan& span = bar.span;
+  return fmt::format("{}; {}DNV-RP-C201, 7.5.2: elastic {:.0f} MPa, strength {:.0f} MPa",
+                     ends_text(span),
+                     span.has_tripping_brackets()
+                         ? fmt::format("tripping brackets every {:.2f} m; ", span.tripping_length)
+                         : "",
+                     span.tripping_stress / 1e6, span.tripping_strength / 1e6);
 }
 
 /// A line for each name of stiffeners: the span that is nearest to tripping.
@@ -238,6 +242,7 @@ nlohmann::ordered_json buckling_json(const BucklingAssessment& buckling) {
              {"state", bar.in_motion ? "dynamic" : "static"}};
     if (bar.time) row["time_s"] = *bar.time;
     if (span.tripping_strength > 0) {
+      row["tripping_length_m"] = span.tripping_length;
       row["tripping_stress_Pa"] = span.tripping_stress;
       row["tripping_strength_Pa"] = span.tripping_strength;
       row["tripping_compression_Pa"] = bar.tripping.compression;

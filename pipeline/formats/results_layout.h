@@ -131,8 +131,8 @@
 ///                      bars_looked_at (o), rods_without_second_moments, bar_factor, bars: the worst of [{bar,
 ///                      from_m, to_m, buckling_length_m, compression_N, moments_Nm, buckling_resistance_N,
 ///                      utilisation (under forces times bar_factor; null: beyond Euler's load), state,
-///                      time_s (o), tripping_stress_Pa (o), tripping_strength_Pa (o),
-///                      tripping_compression_Pa (o, times bar_factor), tripping_utilisation (o)}]}
+///                      time_s (o), tripping_length_m (o), tripping_stress_Pa (o),
+///                      tripping_strength_Pa (o), tripping_compression_Pa (o, times bar_factor), tripping_utilisation (o)}]}
 ///     padeyes      (o) [{lug, rope, padeye, consequence_factor, unknowns, governing_state, file,
 ///                      formulas: [{name, demand, limit, unit, utilisation, pass, source, time_s (o)}], with
 ///                      the factor, states: [{name, time_s (o), force_N, main_plate_checked_von_mises_Pa,

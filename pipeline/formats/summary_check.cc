@@ -243,8 +243,8 @@ Rule buckling() {
                   {"moments_Nm", list(number())},
                   {"state", text()}}),
            numbers({"plate_width_m", "buckling_length_m", "compression_N", "buckling_resistance_N",
-                    "utilisation", "time_s", "tripping_stress_Pa", "tripping_strength_Pa",
-                    "tripping_compression_Pa", "tripping_utilisation"}));
+                    "utilisation", "time_s", "tripping_length_m", "tripping_stress_Pa",
+                    "tripping_strength_Pa", "tripping_compression_Pa", "tripping_utilisation"}));
   return with(table({{"panels", list(panel)}, {"bars", list(bar)}}),
               numbers({"panels_looked_at", "bars_looked_at", "bar_factor"}));
 }

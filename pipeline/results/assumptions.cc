@@ -1,5 +1,6 @@
 #include "pipeline/results/assumptions.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -287,9 +288,12 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
         "that cross in a joint hold each other. Buckling curve c of EN 1993-1-1 about the weaker "
         "principal axis; open sections may also twist, which is not checked. Stiffeners are "
         "checked together with their plates (EN 1993-1-5, 4.5.3) and against tripping about their "
-        "toes "
-        "(DNV-RP-C201, 7.5.2, without tripping brackets, beta = 1).{}",
+        "toes (DNV-RP-C201, 7.5.2, beta = 1), {}.{}",
         block.buckling.bars.size(),
+        std::ranges::any_of(block.buckling.bars,
+                            [](const BuckledBar& bar) { return bar.span.has_tripping_brackets(); })
+            ? "between the tripping brackets that the block's file names"
+            : "without tripping brackets",
         block.buckling.unknown_rods > 0
             ? fmt::format(" {} rods without second moments are not looked at.",
                           block.buckling.unknown_rods)

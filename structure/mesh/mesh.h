@@ -176,6 +176,9 @@ struct Region {
 struct Group {
   std::string name;
   int material = 0;  ///< place in Mesh::materials
+  /// Of stiffeners: from one of the brackets that keep them from turning about their toes to the
+  /// next, m; 0: they have none between supports of their plate.
+  double tripping_brackets = 0;
 };
 
 /// Lifting point: where the rope pulls, and which cells carry its force.

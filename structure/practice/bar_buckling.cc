@@ -258,6 +258,9 @@ Column stiffener_column_of(const Mesh& mesh, const BarChain& chain,
 /// Sets the stress at which a stiffener trips: of the weakest section along its chain.
 void set_tripping(const Mesh& mesh, const BarChain& chain, const StiffenerChains& stiffeners,
                   const BarForces& bars, BarSpan& span) {
+  const double brackets =
+      mesh.group_of_region(mesh.beams[at(chain.beams.front().first)].region).tripping_brackets;
+  const double length = brackets > 0 ? std::min(brackets, chain.length) : chain.length;
   double elastic = std::numeric_limits<double>::infinity(), strength = elastic;
   for (const auto& [number, reversed] : chain.beams) {
     const Beam& beam = mesh.beams[at(number)];
@@ -267,11 +270,12 @@ void set_tripping(const Mesh& mesh, const BarChain& chain, const StiffenerChains
     for (const double share : {0.0, 1.0}) {
       const TrippingSection section = tripping_section(mesh, beam, plate.normal, plate_at, share);
       if (!(section.torsion > 0)) return;
-      const double here = tripping_stress(material, section, chain.length);
+      const double here = tripping_stress(material, section, length);
       elastic = std::min(elastic, here);
       strength = std::min(strength, tripping_strength(here, material.yield_stress));
     }
   }
+  span.tripping_length = length;
   span.tripping_stress = elastic;
   span.tripping_strength = strength;
 }

@@ -110,6 +110,7 @@ class MeshReader {
     mesh_model_.content = hash_of_files(deck->files);
     give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
+    give_tripping_brackets(deck->mesh);
     let_go(*deck);
     remark_on_solids(*deck);
     if (diagnostics_.error_count() > before) return;
@@ -311,6 +312,30 @@ class MeshReader {
              {"give the smallest one under mesh: yield_stress: 235 MPa"});
   }
 
+  void give_tripping_brackets(Mesh& mesh) {
+    for (const auto& [name, spacing] : mesh_model_.tripping_brackets) {
+      std::vector<std::string> groups_of_bars;
+      bool is_known = false;
+      for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+        structure::Group& group = mesh.groups[g];
+        if (std::ranges::none_of(mesh.beams, [&](const structure::Beam& beam) {
+              return &mesh.group_of_region(beam.region) == &group;
+            }))
+          continue;
+        groups_of_bars.push_back(group.name);
+        if (lower_case(group.name) != lower_case(name.value)) continue;
+        is_known = true;
+        group.tripping_brackets = spacing.value;
+      }
+      if (!is_known)
+        diagnostics_.error(name.mark,
+                           fmt::format("tripping brackets are of group \"{}\", of which {} has no "
+                                       "bars",
+                                       name.value, mesh_model_.file.value),
+                           {names_hint("its groups of bars are", groups_of_bars, name.value)});
+    }
+  }
+
   void check_diagnosis(const Deck& deck) {
     const structure::Diagnosis& diagnosis = *mesh_model_.diagnosis;
     for (const structure::Finding& finding : diagnosis.findings)
@@ -462,6 +487,10 @@ Format<MeshModel> mesh_model_format() {
       .optional("thicknesses", &MeshModel::thicknesses,
                 names_to(located(quantity(Dimension::length, Range::positive()))),
                 "the same for plates of the block's only material")
+      .optional("tripping_brackets", &MeshModel::tripping_brackets,
+                names_to(located(quantity(Dimension::length, Range::positive()))),
+                "of the stiffeners of a group, by its name, from one bracket to the next: they "
+                "keep the stiffeners from turning about their toes")
       .by_default("leave_solids_out", &MeshModel::leave_solids_out, boolean(), "false",
                   "lift without the file's solids; those of CAD files and of Gmsh's meshes are "
                   "refused otherwise, those of decks computed")

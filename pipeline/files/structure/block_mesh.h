@@ -24,6 +24,8 @@ struct MeshModel {
   std::optional<double> yield_stress;               ///< of materials that have none there, Pa
   std::vector<MeshGroupModel> groups;               ///< that have no properties there
   std::vector<Named<Located<double>>> thicknesses;  ///< such groups with a thickness alone, m
+  /// Of groups of stiffeners: from one tripping bracket to the next, m.
+  std::vector<Named<Located<double>>> tripping_brackets;
   bool leave_solids_out = false;
   std::vector<Located<std::string>> leave_out;          ///< cards and keywords of a deck
   std::optional<Located<double>> element_size;          ///< of CAD surfaces, m

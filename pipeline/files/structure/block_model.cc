@@ -156,8 +156,9 @@ Format<MaterialModel> material_format() {
 }
 
 void check_stiffeners(const StiffenersModel& row, Reading& reading, const Mark& mark) {
-  if (row.profile || (!row.first && row.material.value.empty())) return;
-  reading.error(mark, reading.owner() + " has a place or a material, but no profile",
+  if (row.profile || (!row.first && row.material.value.empty() && !row.tripping_brackets)) return;
+  reading.error(mark,
+                reading.owner() + " has a place, a material or tripping brackets, but no profile",
                 {"without a profile stiffeners are not in the model: they divide panels alone"});
 }
 
@@ -181,6 +182,10 @@ Format<StiffenersModel> stiffeners_format(const Axes& along, const std::string& 
                     "; the plate's lower edge if left out")
       .optional("material", &StiffenersModel::material, reference(),
                 "one of the block's; that of the plate if left out")
+      .optional("tripping_brackets", &StiffenersModel::tripping_brackets,
+                quantity(Dimension::length, Range::positive()),
+                "from one to the next: they keep the stiffeners from turning about their toes; "
+                "supports of the plate alone do if left out")
       .rule(check_stiffeners);
   return table.format();
 }

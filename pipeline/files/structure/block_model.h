@@ -44,6 +44,7 @@ struct StiffenersModel {
   int side = 1;                                               ///< of the plate, along its normal
   std::optional<double> first;    ///< place of one of them across, m; else the plate's lower edge
   Located<std::string> material;  ///< empty: that of the plate
+  std::optional<double> tripping_brackets;  ///< from one to the next, m; else there are none
 };
 
 /// Edge of a plate: straight pieces from point to point, or an arc from the first of three points

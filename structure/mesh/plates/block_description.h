@@ -92,6 +92,7 @@ struct Stiffeners {
   BeamSection section;
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the profile's foot on the plate, m
   std::string material;                                ///< empty: that of the plate
+  double tripping_brackets = 0;                        ///< as Group's, m
 };
 
 /// Thickened region of a plate around a lug: layers on both sides of the plate fill up to

@@ -44,7 +44,8 @@ void add_groups_and_regions(const BlockDescription& block, const std::vector<She
   for (const auto& plate : block.plates) mesh.groups.push_back({plate.name, 0});
   for (const auto& pad : block.pads) mesh.groups.push_back({pad.name, 0});
   for (const auto& lug : block.lugs) mesh.groups.push_back({lug.name, 0});
-  for (const auto& row : block.stiffeners) mesh.groups.push_back({row.name, 0});
+  for (const auto& row : block.stiffeners)
+    mesh.groups.push_back({row.name, 0, row.tripping_brackets});
   for (const Sheet& sheet : sheets) {
     mesh.groups[at(sheet.group)].material = sheet.material;
     mesh.regions.push_back({sheet.name, sheet.group, sheet.rank == SheetRank::lug});
@@ -54,7 +55,8 @@ void add_groups_and_regions(const BlockDescription& block, const std::vector<She
         {sheet.name, static_cast<int>(mesh.groups.size()), sheet.rank == SheetRank::lug});
     mesh.groups.push_back({sheet.name, place_of_material(block, sheet.name, sheet.material)});
   }
-  for (const auto& row : block.free_stiffeners) mesh.groups.push_back({row.name, 0});
+  for (const auto& row : block.free_stiffeners)
+    mesh.groups.push_back({row.name, 0, row.tripping_brackets});
 }
 
 /// Place of a thickness and material among the mesh's sections.

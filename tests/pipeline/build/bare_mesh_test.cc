@@ -75,6 +75,21 @@ TEST(BareMesh, GroupsGetTheirProperties) {
             "");
 }
 
+// A file of plates and bars has the brackets of its stiffeners by their group.
+TEST(BareMesh, GroupsHaveTrippingBrackets) {
+  const std::string keys =
+      "file: square.msh, units: mm, groups: {deck: 10 mm, edge: {section: {flat_bar: [100 mm, 10 "
+      "mm]}, towards: [0, 0, 1]}}";
+  const ReadBlock result = read_with_mesh(keys + ", tripping_brackets: {Edge: 0.8 m}");
+  ASSERT_EQ(result.complaints, "");
+  const structure::Mesh& mesh = result.block->mesh->deck->mesh;
+  EXPECT_EQ(mesh.group_of_region(mesh.beams[0].region).tripping_brackets, 0.8);
+  EXPECT_EQ(mesh.group_of_region(mesh.shells[0].region).tripping_brackets, 0);
+  EXPECT_THAT(
+      read_with_mesh(keys + ", tripping_brackets: {deck: 0.8 m}").complaints,
+      HasSubstr("tripping brackets are of group \"deck\", of which square.msh has no bars"));
+}
+
 TEST(BareMesh, SaysWhatIsWrong) {
   const auto say = [](const std::string& keys, const std::string& wanted,
                       const std::string& lug = "L1: {pin: [0 m, 0 m, 0 m]}") {

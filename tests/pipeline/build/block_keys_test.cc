@@ -77,6 +77,19 @@ TEST(BlockKeys, StiffenersWithoutAProfileAreLeftOut) {
   EXPECT_TRUE(mesh_of(deck_with(", stiffeners: {along: x, spacing: 750 mm}")).beams.empty());
 }
 
+TEST(BlockKeys, StiffenersHaveTrippingBrackets) {
+  const structure::Mesh mesh = mesh_of(
+      deck_with(", stiffeners: {along: x, spacing: 1 m, tripping_brackets: 1200 mm, profile: "
+                "{flat_bar: [200 mm, 12 mm]}}"));
+  ASSERT_FALSE(mesh.beams.empty());
+  for (const structure::Beam& beam : mesh.beams)
+    EXPECT_EQ(mesh.group_of_region(beam.region).tripping_brackets, 1.2);
+  EXPECT_EQ(mesh.groups.front().tripping_brackets, 0);
+  EXPECT_THAT(read(deck_with(", stiffeners: {along: x, spacing: 1 m, tripping_brackets: 1.2 m}"))
+                  .complaints,
+              HasSubstr("has a place, a material or tripping brackets, but no profile"));
+}
+
 TEST(BlockKeys, OtherShapesOfProfiles) {
   for (const char* profile :
        {"flat_bar: [150 mm, 12 mm]", "angle_bar: [150 mm, 9 mm, 90 mm, 12 mm]",

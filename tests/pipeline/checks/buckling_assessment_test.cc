@@ -63,6 +63,8 @@ TEST(BucklingAssessment, ChecksTripping) {
     BuckledBar& bar = buckling.bars[b];
     bar.span.tripping_stress = 300e6;
     bar.span.tripping_strength = 200e6;
+    bar.span.column.length = 2.4;
+    bar.span.tripping_length = b == 1 ? 2.4 : 1.2;
     bar.tripping = {b == 1 ? 0.4 : 1.1, 220e6, 0.5, 3};
     bar.tripping_time = 7.5;
   }
@@ -76,8 +78,11 @@ TEST(BucklingAssessment, ChecksTripping) {
   EXPECT_NE(check.note.find("bulb at y = 1 m from"), std::string::npos) << check.note;
   EXPECT_NE(check.note.find("7.5.2: elastic 300 MPa, strength 200 MPa"), std::string::npos)
       << check.note;
+  EXPECT_NE(check.note.find("tripping brackets every 1.20 m"), std::string::npos) << check.note;
   const nlohmann::ordered_json json = buckling_json(buckling);
   EXPECT_FALSE(json["bars"][0].contains("tripping_utilisation"));
+  EXPECT_EQ(json["bars"][1]["tripping_length_m"], 2.4);
+  EXPECT_EQ(json["bars"][2]["tripping_length_m"], 1.2);
   EXPECT_EQ(json["bars"][2]["tripping_utilisation"], 1.1);
   EXPECT_EQ(json["bars"][2]["tripping_strength_Pa"], 200e6);
 }

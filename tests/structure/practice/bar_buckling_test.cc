@@ -215,6 +215,36 @@ TEST(BarBuckling, StiffenersTrip) {
   }
 }
 
+// Tripping brackets shorten the length over which a stiffener turns, and nothing of it as a column.
+// By hand, of a flat bar of 200 x 12 mm, G = 80.769 GPa, with brackets every 0.5 m:
+//   I_t = h t^3 / 3 (1 - 0.63 t / h) = 1.1084544e-7 m^4,
+//   I_po = h^3 t / 3 + h t^3 / 12 = 3.20288e-5 m^4,  I_z = h t^3 / 12 = 2.88e-8 m^4,  h_s = 0.1 m,
+//   f_ET = G I_t / I_po + pi^2 E h_s^2 I_z / (I_po l_T^2) = 279.53 + 74.55 MPa;
+// over the whole 2 m the second part is a sixteenth. Brackets that are farther apart than the
+// supports do nothing.
+TEST(BarBuckling, TrippingBracketsShortenTheLength) {
+  const auto spans_with = [](double spacing) {
+    Mesh mesh = stiffened_deck();
+    for (Group& group : mesh.groups) group.tripping_brackets = spacing;
+    const ElasticModel model(std::move(mesh), {.degree = 1, .largest_edge = {}});
+    return bars_of(model, Eigen::MatrixXd::Zero(model.freedoms(), 1)).spans();
+  };
+  const auto without = spans_with(0), close = spans_with(0.5), far = spans_with(3);
+  ASSERT_EQ(without.size(), 4U);
+  constexpr double of_torsion = 279.53e6, of_warping = 74.55e6;
+  for (std::size_t s = 0; s < without.size(); ++s) {
+    EXPECT_EQ(without[s].tripping_length, without[s].column.length);
+    EXPECT_EQ(close[s].tripping_length, 0.5);
+    EXPECT_TRUE(close[s].has_tripping_brackets());
+    EXPECT_NEAR(without[s].tripping_stress, of_torsion + of_warping / 16, 0.02e6);
+    EXPECT_NEAR(close[s].tripping_stress, of_torsion + of_warping, 0.02e6);
+    EXPECT_GT(close[s].tripping_strength, without[s].tripping_strength);
+    EXPECT_EQ(close[s].column.length, without[s].column.length);
+    EXPECT_FALSE(far[s].has_tripping_brackets());
+    EXPECT_EQ(far[s].tripping_stress, without[s].tripping_stress);
+  }
+}
+
 // A deep beam across holds the stiffeners, one of their own size does not.
 TEST(BarBuckling, DeepBeamsHoldStiffeners) {
   for (const double depth : {0.2, 0.5}) {

@@ -103,7 +103,7 @@ export interface Buckling {
   bars?: {
     bar: string; from_m?: number[]; to_m?: number[]; plate_width_m?: number; buckling_length_m?: number; compression_N?: Maybe<number>; moments_Nm?: number[];
     buckling_resistance_N?: Maybe<number>; utilisation?: Maybe<number>; state?: string; time_s?: Maybe<number>;
-    tripping_strength_Pa?: Maybe<number>; tripping_compression_Pa?: Maybe<number>; tripping_utilisation?: Maybe<number>;
+    tripping_length_m?: number; tripping_strength_Pa?: Maybe<number>; tripping_compression_Pa?: Maybe<number>; tripping_utilisation?: Maybe<number>;
   }[];
 }
 export interface PadeyeSummary {

@@ -125,11 +125,11 @@ function barsTable(structure: Structure): Child {
   if (bars.length === 0) return null;
   return folded("Block", `Bars and stiffeners as columns: those that bear most of ${buckling?.bars_looked_at ?? bars.length}, over the whole lift`, [left("Bar"),
     { head: "From x, y, z, m" }, { head: "To, m" }, { head: "With plate, mm" }, { head: "Buckling length, m" }, { head: "Compression, kN" }, { head: "Moments, kNm" },
-    { head: "Buckling load, kN" }, left("State"), { head: "at, s" }, { head: `Utilisation, forces times ${fixed(buckling?.bar_factor, 2)}` }, { head: "Tripping: compression, MPa" }, { head: "strength, MPa" }, { head: "utilisation" }],
+    { head: "Buckling load, kN" }, left("State"), { head: "at, s" }, { head: `Utilisation, forces times ${fixed(buckling?.bar_factor, 2)}` }, { head: "Tripping: length, m" }, { head: "compression, MPa" }, { head: "strength, MPa" }, { head: "utilisation" }],
   bars.map((bar) => [bar.bar, point(bar.from_m), point(bar.to_m), bar.plate_width_m ? millimetres(bar.plate_width_m) : missing,
     fixed(bar.buckling_length_m, 2), kilonewtons(bar.compression_N),
     bar.moments_Nm?.map(kilonewtons).join(", ") ?? missing, kilonewtons(bar.buckling_resistance_N), bar.state ?? missing, seconds(bar.time_s),
-    fixed(bar.utilisation, 2), megapascals(bar.tripping_compression_Pa), megapascals(bar.tripping_strength_Pa), fixed(bar.tripping_utilisation, 2)]), 4);
+    fixed(bar.utilisation, 2), fixed(bar.tripping_length_m, 2), megapascals(bar.tripping_compression_Pa), megapascals(bar.tripping_strength_Pa), fixed(bar.tripping_utilisation, 2)]), 4);
 }
 
 function balanceTable(structure: Structure): Child {
