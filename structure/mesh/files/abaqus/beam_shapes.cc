@@ -1,0 +1,231 @@
+// Shapes of beams' sections.
+#include "structure/mesh/files/abaqus/beam_shapes.h"
+
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "structure/index.h"
+#include "structure/mesh/files/deck/plausibility.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+using Fields = std::vector<std::string_view>;
+
+class BeamShapeReader {
+ public:
+  explicit BeamShapeReader(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
+
+  BeamShape read_by_dimensions(const SectionBlocks& blocks) {
+    const AbaqusBlock& block = *blocks.block;
+    BeamShape beam;
+    try {
+      beam.profile = shape(block.required("SECTION"), dimensions(block));
+    } catch (const ModelError& error) {
+      throw CardError{error.what()};
+    }
+    beam.material = abaqus_material(model_, block.required("MATERIAL"));
+    beam.axis_2 = direction(blocks);
+    beam.profile.centroid += offset_by_sizes(block);
+    read_details(blocks, beam);
+    return beam;
+  }
+
+  // *BEAM GENERAL SECTION, SECTION = GENERAL, ELSET = , DENSITY =
+  // A, I11, I12, I22, J / n1 / E, G
+  BeamShape read_general(const SectionBlocks& blocks) {
+    const AbaqusBlock& block = *blocks.block;
+    const std::string kind = block.value("SECTION");
+    BeamShape beam;
+    const double length = model_.units.length, square = length * length;
+    if (kind.empty() || kind == "GENERAL") {
+      if (block.data.empty()) throw CardError{"area and moments are missing"};
+      const Fields fields = block.data.front().fields();
+      BeamSection& section = beam.profile.section;
+      section.area = abaqus_real(fields, 0, "area") * square;
+      section.second_moment_2 = abaqus_real(fields, 1, "I11", 0.0) * square * square;
+      section.product_23 = abaqus_real(fields, 2, "I12", 0.0) * square * square;
+      section.second_moment_3 = abaqus_real(fields, 3, "I22", 0.0) * square * square;
+      section.torsion = abaqus_real(fields, 4, "J", 0.0) * square * square;
+      section.shear_area_2 = section.shear_area_3 = section.area;
+      if (!(section.area > 0) || section.second_moment_2 < 0 || section.second_moment_3 < 0)
+        throw CardError{"area must be positive, second moments not negative"};
+    } else {
+      try {
+        beam.profile = shape(kind, dimensions(block));
+      } catch (const ModelError& error) {
+        throw CardError{error.what()};
+      }
+    }
+    if (block.has("MATERIAL")) {  // as CalculiX has it
+      beam.material = abaqus_material(model_, block.required("MATERIAL"));
+      beam.axis_2 = direction(blocks);
+      if (kind != "GENERAL" && !kind.empty()) beam.profile.centroid += offset_by_sizes(block);
+      read_details(blocks, beam);
+      return beam;
+    }
+    if (block.data.size() < 3) throw CardError{"the line of E and G is missing"};
+    const Fields elastic = block.data[2].fields();
+    Material material;
+    material.name = "of " + block.required("ELSET");
+    material.youngs_modulus = abaqus_real(elastic, 0, "E") * model_.units.stress();
+    const double shear = abaqus_real(elastic, 1, "G") * model_.units.stress();
+    material.poisson_ratio = material.youngs_modulus / (2 * shear) - 1;
+    if (const std::string density = block.value("DENSITY"); !density.empty())
+      material.density = to_real(density).value_or(-1) * model_.units.density();
+    check_plausible(material, "the material " + material.name, model_.units, model_.log,
+                    block.line);
+    beam.material = material_place(material);
+    beam.axis_2 = direction(blocks);
+    read_details(blocks, beam, shear);
+    return beam;
+  }
+
+ private:
+  /// CalculiX looks at the first four letters.
+  static std::string short_name(const std::string& section) {
+    return section.starts_with("RECT") ? "RECT" : section.starts_with("CIRC") ? "CIRC" : section;
+  }
+
+  /// Profile in axes n1 (2) and n2 (3) about the beam's node. Source: Abaqus Elements Guide, beam
+  /// cross-section library; the node of an L is where the middle lines of its legs meet.
+  Profile shape(const std::string& given, const std::vector<double>& d) const {
+    const std::string name = short_name(given);
+    const auto need = [&](std::size_t count) {
+      if (d.size() < count)
+        throw CardError{fmt::format("a section {} has {} dimensions", name, count)};
+    };
+    if (name == "RECT") return need(2), solid_rectangle(d[0], d[1]);
+    if (name == "CIRC") {
+      need(1);
+      // Abaqus gives the radius, CalculiX the sizes along both axes.
+      if (d.size() > 1 && d[0] != d[1])
+        throw CardError{"an ellipse (CIRC of two sizes) is not known"};
+      return solid_circle(d.size() > 1 ? d[0] / 2 : d[0]);
+    }
+    if (name == "PIPE" || name == "THICK PIPE") return need(2), pipe(d[0], d[0] - d[1]);
+    if (name == "BOX") return need(6), box(d[0], d[1], d[2], d[4], d[5], d[3]);
+    if (name == "I") {
+      need(7);
+      Profile profile = seen(i_beam(d[1], d[6], d[2], d[4], d[3], d[5]), true, false, false);
+      profile.centroid[1] += d[1] / 2 - d[0];
+      return profile;
+    }
+    if (name == "L") {
+      need(4);
+      Profile profile = seen(angle_bar(d[0], d[2], d[1], d[3]), false, true, false);
+      profile.centroid[0] += d[0] - d[3] / 2;
+      return profile;
+    }
+    throw CardError{fmt::format(
+        "SECTION = {} is not known; BOX, CIRC, I, L, PIPE, RECT and GENERAL are", name)};
+  }
+
+  std::vector<double> dimensions(const AbaqusBlock& block) const {
+    if (block.data.empty()) throw CardError{"the dimensions are missing"};
+    std::vector<double> values;
+    const Fields fields = block.data.front().fields();
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      values.push_back(abaqus_real(fields, i, "dimension") * model_.units.length);
+    return values;
+  }
+
+  Vector3 direction(const SectionBlocks& blocks) const {
+    const AbaqusBlock& block = *blocks.block;
+    Vector3 given = -Vector3::UnitZ();
+    if (block.data.size() > 1 && !block.data[1].fields().empty()) {
+      const Fields fields = block.data[1].fields();
+      given = Vector3(abaqus_real(fields, 0, "n1", 0.0), abaqus_real(fields, 1, "n1", 0.0),
+                      abaqus_real(fields, 2, "n1", 0.0));
+    }
+    return blocks.scope->turn * given;
+  }
+
+  /// Of the centroid from the nodes, by CalculiX' OFFSET1 and OFFSET2: shares of the section's
+  /// sizes that the nodes lie beyond its centre.
+  Eigen::Vector2d offset_by_sizes(const AbaqusBlock& block) const {
+    Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+    if (!block.has("OFFSET1") && !block.has("OFFSET2")) return offset;
+    const std::string kind = short_name(block.value("SECTION"));
+    const std::vector<double> d = dimensions(block);
+    Eigen::Vector2d size;
+    if (kind == "RECT" || kind == "BOX")
+      size << d[0], d[1];
+    else if (kind == "CIRC" || kind == "PIPE")
+      size.setConstant(kind == "CIRC" && d.size() > 1 ? d[0] : 2 * d[0]);
+    else
+      throw CardError{fmt::format("OFFSET1 and OFFSET2 of SECTION = {} are not known", kind)};
+    for (int i = 0; i < 2; ++i) {
+      const std::string given = block.value(i == 0 ? "OFFSET1" : "OFFSET2");
+      const auto share = given.empty() ? std::optional<double>(0) : to_real(given);
+      if (!share) throw CardError{fmt::format("OFFSET{} = {} is no number", i + 1, given)};
+      offset[i] = -*share * size[i];
+    }
+    return offset;
+  }
+
+  /// Sections whose materials agree share one.
+  int material_place(const Material& material) {
+    for (std::size_t i = 0; i < mesh_.materials.size(); ++i) {
+      const Material& known = mesh_.materials[i];
+      if (known.youngs_modulus == material.youngs_modulus && known.density == material.density &&
+          std::abs(known.poisson_ratio - material.poisson_ratio) < 1e-9)
+        return static_cast<int>(i);
+    }
+    mesh_.materials.push_back(material);
+    return static_cast<int>(mesh_.materials.size()) - 1;
+  }
+
+  void read_details(const SectionBlocks& blocks, BeamShape& beam, double shear = 0) {
+    BeamSection& section = beam.profile.section;
+    if (shear == 0) shear = mesh_.materials[at(beam.material)].shear_modulus();
+    for (const AbaqusBlock* detail : blocks.details) {
+      model_.guarded(*detail, [&] {
+        if (detail->data.empty()) throw CardError{"a line of data is missing"};
+        const Fields fields = detail->data.front().fields();
+        const Eigen::Vector2d pair(abaqus_real(fields, 0, "value", 0.0),
+                                   abaqus_real(fields, 1, "value", 0.0));
+        if (detail->name == "CENTROID") {
+          beam.profile.centroid = pair * model_.units.length;
+        } else if (detail->name == "SHEAR CENTER") {
+          section.shear_centre = pair * model_.units.length - beam.profile.centroid;
+        } else if (detail->name == "BEAM SECTION OFFSET") {
+          beam.profile.centroid += pair * model_.units.length;
+        } else if (detail->name == "TRANSVERSE SHEAR STIFFNESS") {
+          // K23 resists shear along n2, K13 along n1.
+          const double unit = model_.units.force / shear;
+          if (pair[0] > 0) section.shear_area_3 = pair[0] * unit;
+          if (pair[1] > 0) section.shear_area_2 = pair[1] * unit;
+        } else {
+          section.stress_points.clear();
+          for (const AbaqusLine& line : detail->data) {
+            const Fields values = line.fields();
+            for (std::size_t i = 0; i + 1 < values.size(); i += 2)
+              section.stress_points.push_back(
+                  Eigen::Vector2d(abaqus_real(values, i, "x1"), abaqus_real(values, i + 1, "x2")) *
+                      model_.units.length -
+                  beam.profile.centroid);
+          }
+        }
+      });
+    }
+  }
+
+  AbaqusModel& model_;
+  Mesh& mesh_;
+};
+
+}  // namespace
+
+BeamShape read_beam_section(AbaqusModel& model, const SectionBlocks& blocks) {
+  return BeamShapeReader(model).read_by_dimensions(blocks);
+}
+
+BeamShape read_general_beam_section(AbaqusModel& model, const SectionBlocks& blocks) {
+  return BeamShapeReader(model).read_general(blocks);
+}
+
+}  // namespace blocklift::structure
