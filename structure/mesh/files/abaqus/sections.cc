@@ -1,6 +1,5 @@
 // Sections of shells, beams, trusses and solids, and the cells that have them.
 
-
 #include <algorithm>
 #include <array>
 #include <numbers>
