@@ -9,15 +9,16 @@ namespace blocklift::pipeline {
 
 /// One line of the verdict: what the lift asks (demand) against what may be (limit).
 struct Check {
-  std::string name;            ///< "rope R3: tension against breaking load / 5"
-  double demand = 0;           ///< in `unit`
-  double limit = 0;            ///< in `unit`
-  std::string unit;            ///< SI: "N", "Pa", "rad"
-  double utilisation = 0;      ///< 1 is the limit; above it the check fails
-  bool pass = false;           ///< false too where the demand is not a number
-  std::optional<double> time;  ///< when the demand occurs, s
-  std::string note;            ///< where it occurs, or the source of the limit
-  bool is_by_mesh = false;     ///< the demand is a stress that the block's mesh gave
+  std::string name;             ///< "rope R3: tension against breaking load / 5"
+  double demand = 0;            ///< in `unit`
+  double limit = 0;             ///< in `unit`
+  std::string unit;             ///< SI: "N", "Pa", "rad"
+  double utilisation = 0;       ///< 1 is the limit; above it the check fails
+  bool pass = false;            ///< false too where the demand is not a number
+  std::optional<double> time;   ///< when the demand occurs, s
+  std::string note;             ///< where it occurs, or the source of the limit
+  bool is_by_mesh = false;      ///< the demand is a stress that the block's mesh gave
+  bool is_of_standard = false;  ///< a chain of a standard's factors asks it
   /// Half the width of the band in which the error of that mesh leaves the demand, as a share of
   /// it; none where it does not follow from the mesh.
   std::optional<double> band = {};

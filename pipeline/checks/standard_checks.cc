@@ -1,6 +1,5 @@
 #include "pipeline/checks/standard_checks.h"
 
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,15 +7,6 @@
 #include "pipeline/checks/gather_facts.h"
 
 namespace blocklift::pipeline {
-namespace {
-
-std::string beginning_of(const StandardAssessment& standard) { return standard.name + ": "; }
-
-}  // namespace
-
-bool is_of(const StandardAssessment& standard, const Check& check) {
-  return check.name.starts_with(beginning_of(standard));
-}
 
 std::vector<Check> checks_of(const StandardAssessment& standard) {
   std::vector<Check> checks;
@@ -24,9 +14,10 @@ std::vector<Check> checks_of(const StandardAssessment& standard) {
     if (!chain.has_limit()) continue;
     const bool by_motion = chain.simulated_utilisation() > chain.standard_utilisation();
     Check check = check_at_most(
-        fmt::format("{}{} by {}", beginning_of(standard), chain.object, chain.limit_text),
+        fmt::format("{}: {} by {}", standard.name, chain.object, chain.limit_text),
         by_motion ? chain.simulated : chain.standard,
         by_motion ? chain.simulated_limit.value_or(*chain.limit) : *chain.limit, chain.unit);
+    check.is_of_standard = true;
     check.note = fmt::format("{:.3f} by the factors of the standard, {:.3f} by the simulation; {}",
                              chain.standard_utilisation(), chain.simulated_utilisation(),
                              chain.limit_clause);

@@ -10,9 +10,6 @@ namespace blocklift::pipeline {
 /// simulation, whichever uses more.
 std::vector<Check> checks_of(const StandardAssessment& standard);
 
-/// Is it one of those checks?
-bool is_of(const StandardAssessment& standard, const Check& check);
-
 /// Works the rules that the case names, if any, and adds their checks.
 void check_by_standard(Assessment& assessment);
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/checks/standard_checks.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/content_hash.h"
@@ -168,7 +167,7 @@ void add_chains(const StandardAssessment& standard, TextDocument& document) {
 void add_plain_checks(const Assessment& assessment, TextDocument& document) {
   std::vector<Row> rows;
   for (const Check& check : assessment.checks) {
-    if (check.band || is_of(*assessment.standard, check)) continue;
+    if (check.band || check.is_of_standard) continue;
     rows.push_back({check.name, shown(check.demand, check.unit), shown(check.limit, check.unit),
                     fmt::format("{:.3f}", check.utilisation), check.pass ? "pass" : "FAIL",
                     check.note});
