@@ -36,6 +36,14 @@ void require_compliance(const ElasticBody::Definition& d) {
     refuse(d, "its compliance is negative along some direction: it would push against the pull");
 }
 
+// A slack rope that is stretched while it contracts springs back with the body, and has yet to lose
+// what it stores; one that lengthens is stretched beyond the change alone, and stores nothing.
+double kept_force(const RopeLoad& load) {
+  const bool keeps =
+      !load.taut && load.elastic_force > 0.0 && load.length_rate - load.unstretched_rate < 0.0;
+  return keeps ? load.elastic_force : 0.0;
+}
+
 }  // namespace
 
 ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ropes,
@@ -246,6 +254,7 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
     load.damping_force = w.damping[local];
     load.taut = ropes.contacts ? declared_taut(ropes, local) : load.slack_indicator() > 0.0;
     load.tension = load.taut ? load.elastic_force + load.damping_force : 0.0;
+    load.kept_force = kept_force(load);
     if (load.tension == 0.0) continue;
     ropes.ropes[index].calc_path(kinematics, ropes.path, &ropes.shifts[index]);
     ropes.ropes[index].add_forces(ropes.path, load.tension, F_Bo_W);

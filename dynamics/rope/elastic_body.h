@@ -34,7 +34,8 @@ namespace blocklift::dynamics {
 /// which is Rayleigh's dissipation condensed as the stiffness is: exact to the first order in c/k
 /// times the frequency. A rope pulls with T + T_d, or not at all where that would push. The ends
 /// still follow its elastic force, so that the energy stored does not jump when it goes slack while
-/// it contracts faster than it can pull. C = 0 and no modes is the rigid body. Sources: Shabana
+/// it contracts faster than it can pull: it keeps that force (RopeLoad) and its energy, and loses
+/// the power T (L0dot - Ldot). C = 0 and no modes is the rigid body. Sources: Shabana
 /// (2013), sections 5.2 and 5.7 (mean axes); Guyan (1965) for the condensation.
 class ElasticBody {
  public:

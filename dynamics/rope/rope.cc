@@ -332,13 +332,11 @@ EnergyAccount Rope::calc_energy(const RopeLoad& load) const {
             .supplied_power = -load.unstretched_rate * load.split.feed_force};
   }
   // Without kinks while the rope stays taut, or slack, by declaration: what lies beyond the change
-  // is interpolated over. A slack rope that is stretched while it contracts has yet to lose what
-  // it stores; one that lengthens is stretched beyond the change alone, and stores nothing.
-  const double elongation_rate = load.length_rate - load.unstretched_rate;
-  const double elastic =
-      load.taut || (load.elastic_force > 0.0 && elongation_rate < 0.0) ? load.elastic_force : 0.0;
+  // is interpolated over.
+  const double elastic = load.taut ? load.elastic_force : load.kept_force;
+  if (!load.taut && elastic == 0.0) return {};
   const double dissipated =
-      load.taut ? load.damping_force * elongation_rate : -elastic * std::min(0.0, elongation_rate);
+      (load.taut ? load.damping_force : -elastic) * (load.length_rate - load.unstretched_rate);
   return {.stored_energy = calc_stored(elastic, load.unstretched_length, load.stiffness),
           .dissipated_power = dissipated,
           .supplied_power = -load.unstretched_rate * (load.tension + calc_complementary(elastic))};

@@ -115,8 +115,10 @@ struct RopeLoad {
   double damping_force = not_a_number;       ///< c (Ldot - L0dot), N
   double tension = not_a_number;  ///< T, N; the largest of a rope with weight or friction
   bool taut = false;              ///< does the rope pull?
-  HangingForces hanging;          ///< of a rope with weight
-  SplitLoad split;                ///< of a rope with friction
+  /// Of a slack rope at an ElasticBody: the elastic force that it has yet to lose, N.
+  double kept_force = 0.0;
+  HangingForces hanging;  ///< of a rope with weight
+  SplitLoad split;        ///< of a rope with friction
 
   double elongation() const { return length - unstretched_length; }
   /// Positive where the rope pulls, negative where it is slack, continuous between: N.
@@ -133,12 +135,12 @@ struct RopeLoad {
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
 /// rope hangs from (N/m). The sheaves are points: the wrap around them is not part of the path.
 ///
-/// Energy: stored 1/2 k (L - L0)^2 while taut, or slack, stretched and contracting; dissipated
-/// (T - k (L - L0)) (Ldot - L0dot), which includes what such a slack rope keeps to itself; supplied
+/// Energy while taut: stored 1/2 k (L - L0)^2; dissipated (T - k (L - L0)) (Ldot - L0dot); supplied
 /// by the winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the
-/// rope that runs onto the drum. Then the power on the bodies, -T Ldot, is exactly supplied -
-/// dissipated - d(stored)/dt, and it equals the power of the point forces. Source: first variation
-/// of the path length; SIMO theory manual for stiffness in series.
+/// rope that runs onto the drum. A slack rope has none, but for one that keeps a force. Then the
+/// power on the bodies, -T Ldot, is exactly supplied - dissipated - d(stored)/dt, and it equals the
+/// power of the point forces. Source: first variation of the path length; SIMO theory manual for
+/// stiffness in series.
 ///
 /// With a tension law F in place of EA (tension_law.h) the strain e solves
 ///   L - L0 = e L0 + F(e)/k_crane,

@@ -33,20 +33,10 @@ bool drives_move(const LiftSystem& system, const LiftWorkspace& w) {
   return std::any_of(driven.begin(), driven.end(), [&](int k) { return w.v[k] != 0.0; });
 }
 
-bool is_at_elastic_body(const LiftSystem& system, std::size_t rope) {
-  return std::ranges::any_of(system.elastic_bodies(), [rope](const ElasticBody& body) {
-    return std::ranges::find(body.ropes(), static_cast<int>(rope)) != body.ropes().end();
-  });
-}
-
 }  // namespace
 
 EnergyAccount calc_rope_energy(const LiftSystem& system, std::size_t rope, const LiftWorkspace& w) {
-  const Rope& one = system.ropes()[rope];
-  const RopeLoad& load = w.rope_loads[rope];
-  // Steps look beyond the instant at which a rope becomes taut: nothing may depend on that.
-  if (!load.taut && !one.hangs() && !is_at_elastic_body(system, rope)) return {};
-  return one.calc_energy(load);
+  return system.ropes()[rope].calc_energy(w.rope_loads[rope]);
 }
 
 EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w) {
