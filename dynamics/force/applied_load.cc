@@ -19,14 +19,14 @@ AppliedLoad::AppliedLoad(Definition definition) : definition_(std::move(definiti
 ForceVector AppliedLoad::calc_load(const MotionState& state) const {
   ForceVector load{definition_.moment.evaluate(state.time), definition_.force.evaluate(state.time)};
   if (definition_.axes == Axes::body) {
-    const auto& R_WB = state.kinematics.X_WB[static_cast<std::size_t>(definition_.point.body)].R;
+    const auto& R_WB = state.kinematics.X_WB[definition_.point.body].R;
     load = {R_WB * load.moment, R_WB * load.force};
   }
   return load;
 }
 
 void AppliedLoad::add_forces(const MotionState& state, Loads& loads) const {
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.point.body)] +=
+  loads.F_Bo_W[definition_.point.body] +=
       shift_to(calc_load(state), arm_W(state.kinematics, definition_.point));
 }
 

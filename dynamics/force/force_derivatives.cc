@@ -36,12 +36,12 @@ void ForceDerivatives::locate(std::size_t slot, BodyIndex body, const Vector3& r
   const Vector3& w = kinematics_->V_WB[b].angular;
   const Vector3 v = kinematics_->V_WB[b].linear + w.cross(r_W);
   for (BodyIndex i = body; i != world_index;) {
-    const Body& mover = mechanism_->bodies()[static_cast<std::size_t>(i)];
+    const Body& mover = mechanism_->bodies()[i];
     for (int k = mover.v_offset; k < mover.v_offset + mover.nv(); ++k) {
-      const MotionVector& S = columns_->S[static_cast<std::size_t>(k)];
-      const MotionVector& swing = columns_->S_swing[static_cast<std::size_t>(k)];
+      const MotionVector& S = columns_->S[k];
+      const MotionVector& swing = columns_->S_swing[k];
       const Eigen::Index c = point.count++;
-      point.velocity[static_cast<std::size_t>(c)] = k;
+      point.velocity[c] = k;
       point.turn.col(c) = S.angular;
       point.p.col(c) = S.linear + S.angular.cross(p_OQ);
       // Carried round with the column, and as the column's own place moves on.
@@ -55,7 +55,7 @@ void ForceDerivatives::locate(std::size_t slot, BodyIndex body, const Vector3& r
 void ForceDerivatives::add_held_force(std::size_t slot, const Vector3& f_W) {
   if (stretch_only_) return;
   const Point& point = points_[slot];
-  arm_moments_[static_cast<std::size_t>(point.body)] += skew(f_W) * skew(point.r_W);
+  arm_moments_[point.body] += skew(f_W) * skew(point.r_W);
 }
 
 void ForceDerivatives::add_block(std::size_t on, std::size_t by, const Matrix3& df_dp,
@@ -65,9 +65,9 @@ void ForceDerivatives::add_block(std::size_t on, std::size_t by, const Matrix3& 
   for (int j = 0; j < b.count; ++j) {
     const Vector3 by_v = df_dv * b.p.col(j);
     const Vector3 by_q = df_dp * b.p.col(j) + df_dv * b.v_q.col(j);
-    const int column = b.velocity[static_cast<std::size_t>(j)];
+    const int column = b.velocity[j];
     for (int i = 0; i < a.count; ++i) {
-      const int row = a.velocity[static_cast<std::size_t>(i)];
+      const int row = a.velocity[i];
       dtau_dq_(row, column) += a.p.col(i).dot(by_q);
       dtau_dv_(row, column) += a.p.col(i).dot(by_v);
     }
@@ -99,9 +99,9 @@ void ForceDerivatives::add_turning(std::size_t slot, const Matrix3& df_dtheta) {
   const Point& point = points_[slot];
   for (int j = 0; j < point.count; ++j) {
     const Vector3 by_q = df_dtheta * point.turn.col(j);
-    const int column = point.velocity[static_cast<std::size_t>(j)];
+    const int column = point.velocity[j];
     for (int i = 0; i < point.count; ++i) {
-      dtau_dq_(point.velocity[static_cast<std::size_t>(i)], column) += point.p.col(i).dot(by_q);
+      dtau_dq_(point.velocity[i], column) += point.p.col(i).dot(by_q);
     }
   }
 }
@@ -111,7 +111,7 @@ void ForceDerivatives::add_motion(std::size_t slot, const Vector3& rate_W,
                                   Eigen::Ref<Eigen::MatrixXd> v_q) const {
   const Point& point = points_[slot];
   for (int j = 0; j < point.count; ++j) {
-    const int column = point.velocity[static_cast<std::size_t>(j)];
+    const int column = point.velocity[j];
     p.col(column) += point.p.col(j);
     v_q.col(column) += point.v_q.col(j) + point.turn.col(j).cross(rate_W);
   }
@@ -119,8 +119,7 @@ void ForceDerivatives::add_motion(std::size_t slot, const Vector3& rate_W,
 
 void ForceDerivatives::add_turn(std::size_t slot, Eigen::Ref<Eigen::MatrixXd> turn) const {
   const Point& point = points_[slot];
-  for (int j = 0; j < point.count; ++j)
-    turn.col(point.velocity[static_cast<std::size_t>(j)]) += point.turn.col(j);
+  for (int j = 0; j < point.count; ++j) turn.col(point.velocity[j]) += point.turn.col(j);
 }
 
 void ForceDerivatives::add_wrench_block(std::size_t on, std::size_t by,
@@ -136,9 +135,9 @@ void ForceDerivatives::add_wrench_block(std::size_t on, std::size_t by,
     V << b.w_q.col(j), b.v_q.col(j);
     const Vector6 by_v = dF_dV * X;
     const Vector6 by_q = dF_dX * X + dF_dV * V;
-    const int column = b.velocity[static_cast<std::size_t>(j)];
+    const int column = b.velocity[j];
     for (int i = 0; i < a.count; ++i) {
-      const int row = a.velocity[static_cast<std::size_t>(i)];
+      const int row = a.velocity[i];
       dtau_dq_(row, column) += a.turn.col(i).dot(by_q.head<3>()) + a.p.col(i).dot(by_q.tail<3>());
       dtau_dv_(row, column) += a.turn.col(i).dot(by_v.head<3>()) + a.p.col(i).dot(by_v.tail<3>());
     }

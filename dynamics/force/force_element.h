@@ -71,7 +71,7 @@ struct BodyPoint {
 
 /// The point seen from its body's origin, in W, m.
 inline Vector3 arm_W(const Kinematics& kinematics, const BodyPoint& point) {
-  return kinematics.X_WB[static_cast<std::size_t>(point.body)].R * point.p_BoQ_B;
+  return kinematics.X_WB[point.body].R * point.p_BoQ_B;
 }
 
 }  // namespace blocklift::dynamics

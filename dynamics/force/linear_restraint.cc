@@ -76,7 +76,7 @@ void LinearRestraint::add_forces(const MotionState& state, Loads& loads) const {
   const Shift shifted = calc_shift(state);
   const Vector6 F_R = shifted.spring + shifted.damper;
   const Matrix3& R = definition_.X_WR.R;
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.point.body)] +=
+  loads.F_Bo_W[definition_.point.body] +=
       shift_to(ForceVector{R * F_R.head<3>(), R * F_R.tail<3>()}, shifted.p_BoP_W);
 }
 

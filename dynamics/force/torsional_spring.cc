@@ -16,15 +16,15 @@ TorsionalSpring::TorsionalSpring(Definition definition) : definition_(std::move(
 }
 
 Vector3 TorsionalSpring::calc_turn(const MotionState& state) const {
-  const Matrix3& R_WF = state.kinematics.X_WB[static_cast<std::size_t>(definition_.from)].R;
-  const Matrix3& R_WT = state.kinematics.X_WB[static_cast<std::size_t>(definition_.to)].R;
+  const Matrix3& R_WF = state.kinematics.X_WB[definition_.from].R;
+  const Matrix3& R_WT = state.kinematics.X_WB[definition_.to].R;
   const Matrix3 turned = R_WT * definition_.R_FT_free.transpose() * R_WF.transpose();
   return rotation_vector(quaternion_from_rotation(turned));
 }
 
 Vector3 TorsionalSpring::relative_velocity(const MotionState& state) const {
-  return state.kinematics.V_WB[static_cast<std::size_t>(definition_.to)].angular -
-         state.kinematics.V_WB[static_cast<std::size_t>(definition_.from)].angular;
+  return state.kinematics.V_WB[definition_.to].angular -
+         state.kinematics.V_WB[definition_.from].angular;
 }
 
 Vector3 TorsionalSpring::calc_moment(const MotionState& state) const {
@@ -33,8 +33,8 @@ Vector3 TorsionalSpring::calc_moment(const MotionState& state) const {
 
 void TorsionalSpring::add_forces(const MotionState& state, Loads& loads) const {
   const Vector3 moment = calc_moment(state);
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.to)].moment += moment;
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.from)].moment -= moment;
+  loads.F_Bo_W[definition_.to].moment += moment;
+  loads.F_Bo_W[definition_.from].moment -= moment;
 }
 
 // theta in W turns with F and grows by the relative turn:

@@ -61,8 +61,7 @@ Vector3 WindArea::calc_force(const MotionState& state) const {
   const BodyPoint& centre = definition_.centre_of_pressure;
   const Vector3 u = calc_relative_velocity(state);
   if (!definition_.normal_B) return half_density_area_ * u.norm() * u;
-  const Vector3 n =
-      state.kinematics.X_WB[static_cast<std::size_t>(centre.body)].R * *definition_.normal_B;
+  const Vector3 n = state.kinematics.X_WB[centre.body].R * *definition_.normal_B;
   const double normal_speed = u.dot(n);
   return half_density_area_ * std::abs(normal_speed) * normal_speed * n;
 }
@@ -87,8 +86,7 @@ void WindArea::add_derivatives(const MotionState& state, ForceDerivatives& deriv
     return;
   }
   // f = a |s| s n, s = u.n:  df = 2 a |s| n ds + a |s| s dtheta x n,  ds = -n.dv + (n x u).dtheta.
-  const Vector3 n =
-      state.kinematics.X_WB[static_cast<std::size_t>(centre.body)].R * *definition_.normal_B;
+  const Vector3 n = state.kinematics.X_WB[centre.body].R * *definition_.normal_B;
   const double s = u.dot(n);
   const double slope = 2.0 * half_density_area_ * std::abs(s);
   derivatives.add_block(0, 0, none, -slope * n * n.transpose());

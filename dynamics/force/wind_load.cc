@@ -19,7 +19,7 @@ WindLoad::WindLoad(Definition definition)
 
 WindLoad::Air WindLoad::find_air(const MotionState& state) const {
   const BodyPoint& P = definition_.reference;
-  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(P.body)];
+  const Pose& X_WB = state.kinematics.X_WB[P.body];
   Air air;
   air.r_W = X_WB.R * P.p_BoQ_B;
   const double z = X_WB.p.z() + air.r_W.z();
@@ -31,7 +31,7 @@ WindLoad::Air WindLoad::find_air(const MotionState& state) const {
 
 ForceVector WindLoad::calc_force(const MotionState& state) const {
   const Air air = find_air(state);
-  const Matrix3& R = state.kinematics.X_WB[static_cast<std::size_t>(definition_.reference.body)].R;
+  const Matrix3& R = state.kinematics.X_WB[definition_.reference.body].R;
   return {R * air.load.F_B.head<3>(), R * air.load.F_B.tail<3>()};
 }
 

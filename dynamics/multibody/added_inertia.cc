@@ -70,8 +70,8 @@ void AddedInertia::calc_jacobian(const Mechanism& mechanism, const Kinematics& k
     const Matrix3 R_WH = kinematics.X_WB[b].R * frame.X_BH.R;
     const Vector3 p_WR = kinematics.X_WB[b].apply(frame.X_BH.p);
     for (BodyIndex i = frame.body; i != world_index;) {
-      const Body& link = mechanism.bodies()[static_cast<std::size_t>(i)];
-      const Vector3 arm = p_WR - kinematics.X_WB[static_cast<std::size_t>(i)].p;
+      const Body& link = mechanism.bodies()[i];
+      const Vector3 arm = p_WR - kinematics.X_WB[i].p;
       for (int k = link.v_offset; k < link.v_offset + link.nv(); ++k) {
         const auto column = static_cast<std::size_t>(k);
         const Vector3& direction = kinematics.direction_W[column];

@@ -54,7 +54,7 @@ class Assembler {
   Eigen::VectorXd shaken(std::mt19937& engine, double reach, double size) const {
     Eigen::VectorXd move = Eigen::VectorXd::Zero(mechanism_.nv());
     for (const int k : mechanism_.free_velocities()) {
-      const bool turns = mechanism_.angular()[static_cast<std::size_t>(k)] != 0;
+      const bool turns = mechanism_.angular()[k] != 0;
       move[k] = reach * (turns ? 1.0 : size) * uniform(engine);
     }
     Eigen::VectorXd q(mechanism_.nq());

@@ -26,8 +26,8 @@ void enforce_loops(const Mechanism& mechanism, const Kinematics& kinematics, Con
   w.factor.solve_rows(B);
   w.qr.columns(m) = B.transpose();
   for (Eigen::Index row = 0; row < m; ++row) {
-    const int which = chosen.rows[static_cast<std::size_t>(row)];
-    w.group[static_cast<std::size_t>(row)] = mechanism.loop_row_is_angle(which) ? 1 : 0;
+    const int which = chosen.rows[row];
+    w.group[row] = mechanism.loop_row_is_angle(which) ? 1 : 0;
     w.right[row] = -w.accelerations[which];
   }
   w.qr.factorise(m, w.group, rows ? chosen_threshold : redundancy_threshold);
@@ -58,7 +58,7 @@ LoopRows LoopRows::all(const Mechanism& mechanism) {
 void LoopRows::choose(const LoopRows& from, const std::vector<int>& chosen, Eigen::Index count) {
   std::fill(slot.begin(), slot.end(), -1);
   for (Eigen::Index i = 0; i < count; ++i) {
-    slot[index(from.rows[index(chosen[static_cast<std::size_t>(i)])])] = 0;
+    slot[index(from.rows[index(chosen[i])])] = 0;
   }
   rows.clear();
   for (std::size_t row = 0; row < slot.size(); ++row) {
@@ -117,7 +117,7 @@ void compute_constrained_dynamics(const Mechanism& mechanism, const Kinematics& 
 
   w.lambda.setZero();
   for (Eigen::Index row = 0; row < m; ++row) {
-    w.lambda[chosen.rows[static_cast<std::size_t>(row)]] = w.multipliers[row];
+    w.lambda[chosen.rows[row]] = w.multipliers[row];
   }
   for (const int k : mechanism.driven_velocities()) {
     double force = w.bias[k] - w.jacobian.topRows(m).col(k).dot(w.multipliers.head(m));

@@ -60,7 +60,7 @@ ForceVector calc_momentum(const Mechanism& mechanism, const Kinematics& kinemati
 double calc_damping_power(const Mechanism& mechanism, ConstVectorRef v) {
   double power = 0;
   for (int k = 0; k < mechanism.nv(); ++k) {
-    power += mechanism.damping()[static_cast<std::size_t>(k)] * v[k] * v[k];
+    power += mechanism.damping()[k] * v[k] * v[k];
   }
   return power;
 }
@@ -69,7 +69,7 @@ RigidBodyInertia calc_mass_properties(const Mechanism& mechanism, const Kinemati
                                       BodyIndex body) {
   RigidBodyInertia sum = RigidBodyInertia::zero();
   const auto carries = [&](BodyIndex i) {
-    while (i > body) i = mechanism.bodies()[static_cast<std::size_t>(i)].parent;
+    while (i > body) i = mechanism.bodies()[i].parent;
     return i == body;
   };
   for (BodyIndex i = 1; i < mechanism.body_count(); ++i) {

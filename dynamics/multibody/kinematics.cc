@@ -218,7 +218,7 @@ void compute_accelerations(const Mechanism& mechanism, const Kinematics& kinemat
     }
   }
   for (const BodyIndex i : mechanism.fixed_bodies()) {
-    accelerate(i, mechanism.bodies()[static_cast<std::size_t>(i)].carrier);
+    accelerate(i, mechanism.bodies()[i].carrier);
   }
 }
 
@@ -227,8 +227,8 @@ void point_jacobian(const Mechanism& mechanism, const Kinematics& kinematics, Bo
   jacobian.setZero();
   const Vector3 p_Q = point_position(kinematics, body, p_BoQ_B);
   for (BodyIndex i = body; i != world_index;) {
-    const Body& link = mechanism.bodies()[static_cast<std::size_t>(i)];
-    const Vector3 arm = p_Q - kinematics.X_WB[static_cast<std::size_t>(i)].p;
+    const Body& link = mechanism.bodies()[i];
+    const Vector3 arm = p_Q - kinematics.X_WB[i].p;
     for (int k = link.v_offset; k < link.v_offset + link.nv(); ++k) {
       const auto column = static_cast<std::size_t>(k);
       const Vector3& direction = kinematics.direction_W[column];
@@ -241,10 +241,10 @@ void point_jacobian(const Mechanism& mechanism, const Kinematics& kinematics, Bo
 void body_jacobian(const Mechanism& mechanism, const Kinematics& kinematics, BodyIndex body,
                    Eigen::Ref<Eigen::Matrix<double, 6, Eigen::Dynamic>> jacobian) {
   jacobian.setZero();
-  const Vector3& p_Bo = kinematics.X_WB[static_cast<std::size_t>(body)].p;
+  const Vector3& p_Bo = kinematics.X_WB[body].p;
   for (BodyIndex i = body; i != world_index;) {
-    const Body& link = mechanism.bodies()[static_cast<std::size_t>(i)];
-    const Vector3 arm = p_Bo - kinematics.X_WB[static_cast<std::size_t>(i)].p;
+    const Body& link = mechanism.bodies()[i];
+    const Vector3 arm = p_Bo - kinematics.X_WB[i].p;
     for (int k = link.v_offset; k < link.v_offset + link.nv(); ++k) {
       const auto column = static_cast<std::size_t>(k);
       const Vector3& direction = kinematics.direction_W[column];

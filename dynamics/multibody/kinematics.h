@@ -37,7 +37,7 @@ void compute_accelerations(const Mechanism& mechanism, const Kinematics& kinemat
 /// Position in W of the point Q fixed in the body at p_BoQ_B, m.
 inline Vector3 point_position(const Kinematics& kinematics, BodyIndex body,
                               const Vector3& p_BoQ_B) {
-  return kinematics.X_WB[static_cast<std::size_t>(body)].apply(p_BoQ_B);
+  return kinematics.X_WB[body].apply(p_BoQ_B);
 }
 
 /// Velocity in W of the point Q fixed in the body, m/s.

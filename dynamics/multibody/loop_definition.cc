@@ -130,7 +130,7 @@ class LoopMaker {
          "\" is not there; bodies come before loops, and so far there are: ", names);
   }
 
-  const Body& body(BodyIndex i) const { return bodies_[static_cast<std::size_t>(i)]; }
+  const Body& body(BodyIndex i) const { return bodies_[i]; }
 
   // The body itself where it moves against its parent, else the one that it is fixed to.
   BodyIndex moving(BodyIndex i) const {
@@ -205,7 +205,7 @@ class LoopMaker {
     loop_.X_BaseK = (swapped ? d_.X_SecondK : d_.X_FirstK) * aligned;
     loop_.X_FollowerK = (swapped ? d_.X_FirstK : d_.X_SecondK) * aligned;
     for (int i = 0; i < 3; ++i) {
-      if (kind.held[static_cast<std::size_t>(i)]) loop_.held_translations.push_back(i);
+      if (kind.held[i]) loop_.held_translations.push_back(i);
     }
     loop_.rotation = kind.rotation;
     if (d_.kind == LoopKind::distance) check_length("rod");
@@ -253,8 +253,7 @@ class LoopMaker {
     loop_.first_coordinate = first.q_offset + d_.first_velocity;
     loop_.second_coordinate = second.q_offset + d_.second_velocity;
     if (loop_.first_velocity == loop_.second_velocity) fail("it gears a joint with itself");
-    if (first.driven[static_cast<std::size_t>(d_.first_velocity)] &&
-        second.driven[static_cast<std::size_t>(d_.second_velocity)]) {
+    if (first.driven[d_.first_velocity] && second.driven[d_.second_velocity]) {
       fail("both its joints, \"", first.name, "\" and \"", second.name,
            "\", are driven; drive one of them and let the gear move the other");
     }
@@ -334,8 +333,7 @@ std::string Loop::row_name(int i) const {
   if (kind == LoopKind::distance || kind == LoopKind::rope_length) return "length";
   const auto translations = static_cast<int>(held_translations.size());
   if (i < translations) {
-    return "displacement along " +
-           direction_name(R_KKaligned.col(held_translations[static_cast<std::size_t>(i)]));
+    return "displacement along " + direction_name(R_KKaligned.col(held_translations[i]));
   }
   if (rotation == Rotation::axes_perpendicular) return "angle between the axes";
   return "rotation about " + direction_name(R_KKaligned.col(i - translations));

@@ -63,7 +63,7 @@ class RowSieve {
     }
     Redundancy found{row, {}};
     for (std::size_t k = 0; k < independent_.size(); ++k) {
-      const double factor = factors[static_cast<Eigen::Index>(k)];
+      const double factor = factors[k];
       if (std::abs(factor) < 1e-6) continue;
       const int other = independent_[k];
       found.repeats.push_back({other, factor * lengths_[row] / lengths_[other]});
@@ -120,7 +120,7 @@ std::vector<LoopDiagnosis::Conflict> find_conflicts(const Mechanism& mechanism,
   for (Eigen::Index k = 0; k < demand.cols(); ++k) {
     if (demand.col(k).norm() <= tolerance) continue;
     columns.push_back(k);
-    conflict.velocities.push_back(driven[static_cast<std::size_t>(k)]);
+    conflict.velocities.push_back(driven[k]);
   }
   if (columns.empty()) return {};
   const Eigen::MatrixXd demanded = demand(Eigen::all, columns);

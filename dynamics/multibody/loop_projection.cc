@@ -74,7 +74,7 @@ void LoopProjector::factorise(const LoopRows& rows, double threshold) {
   }
   for (Eigen::Index row = 0; row < m; ++row) {
     const auto slot = static_cast<std::size_t>(row);
-    group_[slot] = angles_[static_cast<std::size_t>(rows.rows[slot])];
+    group_[slot] = angles_[rows.rows[slot]];
   }
   qr_.factorise(m, group_, threshold);
 }
@@ -89,7 +89,7 @@ bool LoopProjector::iterate(const LoopRows& rows, double threshold, VectorRef q)
     last = residual;
     factorise(rows, threshold);
     for (Eigen::Index row = 0; row < rows.count(); ++row) {
-      right_[row] = -state_.residual[rows.rows[static_cast<std::size_t>(row)]];
+      right_[row] = -state_.residual[rows.rows[row]];
     }
     free_move_.setZero();
     qr_.correct(right_.head(rows.count()), free_move_);

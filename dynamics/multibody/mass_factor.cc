@@ -30,7 +30,7 @@ std::vector<int> path_to_world(const Mechanism& mechanism, const std::vector<int
   for (BodyIndex i = body; i != world_index;) {
     const Body& link = mechanism.body(i);
     for (int j = std::min(last, link.v_offset + link.nv() - 1); j >= link.v_offset; --j) {
-      const int index = free_index[static_cast<std::size_t>(j)];
+      const int index = free_index[j];
       if (index >= 0) path.push_back(index);
     }
     last = mechanism.nv();
@@ -44,7 +44,7 @@ std::vector<int> path_to_world(const Mechanism& mechanism, const std::vector<int
 MassFactor::MassFactor(const Mechanism& mechanism, const std::vector<BodyIndex>& tied) {
   std::vector<int> free_index(static_cast<std::size_t>(mechanism.nv()), -1);
   int next = 0;
-  for (const int k : mechanism.free_velocities()) free_index[static_cast<std::size_t>(k)] = next++;
+  for (const int k : mechanism.free_velocities()) free_index[k] = next++;
   std::vector<int> together;
   for (const BodyIndex body : tied) {
     const std::vector<int> path = path_to_world(mechanism, free_index, body, mechanism.nv());
@@ -77,7 +77,7 @@ void MassFactor::factorise(const Mechanism& mechanism,
     double* values = row(i);
     const int* chain = ancestors(i);
     for (std::size_t d = 0; d <= depth_[i]; ++d) {
-      values[d] = mass_matrix(free[static_cast<std::size_t>(chain[d])], free[i]);
+      values[d] = mass_matrix(free[chain[d]], free[i]);
     }
   }
   for (std::size_t k = depth_.size(); k-- > 0;) {
@@ -102,7 +102,7 @@ void MassFactor::solve_transposed(VectorRef x) const {
   for (std::size_t i = depth_.size(); i-- > 0;) {
     const double* values = row(i);
     const int* chain = ancestors(i);
-    const double value = x[static_cast<Eigen::Index>(i)] /= values[depth_[i]];
+    const double value = x[i] /= values[depth_[i]];
     for (std::size_t d = 0; d < depth_[i]; ++d) x[chain[d]] -= values[d] * value;
   }
 }
@@ -111,9 +111,9 @@ void MassFactor::solve(VectorRef x) const {
   for (std::size_t i = 0; i < depth_.size(); ++i) {
     const double* values = row(i);
     const int* chain = ancestors(i);
-    double value = x[static_cast<Eigen::Index>(i)];
+    double value = x[i];
     for (std::size_t d = 0; d < depth_[i]; ++d) value -= values[d] * x[chain[d]];
-    x[static_cast<Eigen::Index>(i)] = value / values[depth_[i]];
+    x[i] = value / values[depth_[i]];
   }
 }
 

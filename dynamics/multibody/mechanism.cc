@@ -219,7 +219,7 @@ std::string Mechanism::velocity_name(int k) const {
   std::string name = "\"" + owner.name + "\" (" + std::string(joint_kind_name(owner.joint.kind));
   if (owner.nv() > 1) {
     name += text(", velocity ", k - owner.v_offset + 1, " of ", owner.nv(), ", ",
-                 angular_[static_cast<std::size_t>(k)] ? "turning" : "displacing");
+                 angular_[k] ? "turning" : "displacing");
   }
   return name + ")";
 }
@@ -350,7 +350,7 @@ void MechanismBuilder::check_carried_mass() const {
   for (std::size_t i = bodies_.size() - 1; i > 0; --i) {
     const Body& body = bodies_[i];
     carried[i] += body.inertia.mass;
-    carried[static_cast<std::size_t>(body.parent)] += carried[i];
+    carried[body.parent] += carried[i];
     const bool all_driven = std::count(body.driven.begin(), body.driven.end(), true) == body.nv();
     if (carried[i] == 0 && !all_driven) {
       fail(body.name, text("its ", joint_kind_name(body.joint.kind),
@@ -388,7 +388,7 @@ Mechanism MechanismBuilder::build() const {
     m.damping_.insert(m.damping_.end(), body.damping.begin(), body.damping.end());
     const bool rates = velocities_are_rates(body.joint.kind);
     for (int k = 0; k < body.nv(); ++k) {
-      const bool driven = body.driven[static_cast<std::size_t>(k)];
+      const bool driven = body.driven[k];
       m.driven_.push_back(driven);
       m.velocity_body_.push_back(index);
       (driven ? m.driven_v_ : m.free_v_).push_back(body.v_offset + k);

@@ -31,16 +31,16 @@ void RankRevealingQr::scale_columns(const std::vector<char>& group) {
   std::array<double, 2> longest{0.0, 0.0};
   for (Eigen::Index j = 0; j < count_; ++j) {
     scale_[j] = a_.col(j).norm();
-    double& most = longest[group[static_cast<std::size_t>(j)] != 0 ? 1 : 0];
+    double& most = longest[group[j] != 0 ? 1 : 0];
     most = std::max(most, scale_[j]);
   }
   for (Eigen::Index j = 0; j < count_; ++j) {
-    const double most = longest[group[static_cast<std::size_t>(j)] != 0 ? 1 : 0];
+    const double most = longest[group[j] != 0 ? 1 : 0];
     const bool is_zero = !(scale_[j] > zero * most);
     scale_[j] = is_zero ? 0.0 : 1.0 / scale_[j];
     a_.col(j) *= scale_[j];
     remaining_[j] = reference_[j] = is_zero ? 0.0 : 1.0;
-    pivots_[static_cast<std::size_t>(j)] = static_cast<int>(j);
+    pivots_[j] = static_cast<int>(j);
   }
 }
 
@@ -52,7 +52,7 @@ void RankRevealingQr::bring_forward(Eigen::Index k) {
   a_.col(k).swap(a_.col(pivot));
   std::swap(remaining_[k], remaining_[pivot]);
   std::swap(reference_[k], reference_[pivot]);
-  std::swap(pivots_[static_cast<std::size_t>(k)], pivots_[static_cast<std::size_t>(pivot)]);
+  std::swap(pivots_[k], pivots_[pivot]);
 }
 
 void RankRevealingQr::reflect(Eigen::Index k) {
@@ -109,7 +109,7 @@ void RankRevealingQr::correct(ConstVectorRef b, VectorRef x) {
   apply_reflections(work_);
   // R11^T z = b of the independent columns.
   for (Eigen::Index k = 0; k < rank_; ++k) {
-    const int column = pivots_[static_cast<std::size_t>(k)];
+    const int column = pivots_[k];
     const double sum = b[column] * scale_[column] - a_.col(k).head(k).dot(move_.head(k));
     move_[k] = sum / diagonal_[k];
   }
@@ -129,7 +129,7 @@ void RankRevealingQr::multipliers(VectorRef y) {
     work_.head(k) -= work_[k] * a_.col(k).head(k);
   }
   for (Eigen::Index k = 0; k < rank_; ++k) {
-    const int column = pivots_[static_cast<std::size_t>(k)];
+    const int column = pivots_[k];
     y[column] = scale_[column] * work_[k];
   }
   if (rank_ < count_) solve_minimum_norm(y);
@@ -137,14 +137,14 @@ void RankRevealingQr::multipliers(VectorRef y) {
 
 void RankRevealingQr::combination(Eigen::Index i, VectorRef c) const {
   const Eigen::Index j = rank_ + i;
-  const int dependent = pivots_[static_cast<std::size_t>(j)];
+  const int dependent = pivots_[j];
   c = a_.col(j).head(rank_);
   for (Eigen::Index k = rank_; k-- > 0;) {
     c[k] /= diagonal_[k];
     c.head(k) -= c[k] * a_.col(k).head(k);
   }
   for (Eigen::Index k = 0; k < rank_; ++k) {
-    c[k] *= scale_[pivots_[static_cast<std::size_t>(k)]] / scale_[dependent];
+    c[k] *= scale_[pivots_[k]] / scale_[dependent];
   }
 }
 
@@ -152,7 +152,7 @@ void RankRevealingQr::combination(Eigen::Index i, VectorRef c) const {
 void RankRevealingQr::solve_minimum_norm(VectorRef y) {
   Eigen::Index dependent = 0;
   for (Eigen::Index j = rank_; j < count_; ++j) {
-    if (is_zero(pivots_[static_cast<std::size_t>(j)])) continue;
+    if (is_zero(pivots_[j])) continue;
     combination(j - rank_, null_.col(dependent).head(rank_));
     null_(rank_, dependent) = static_cast<double>(j);  // remembered; the row is of no other use
     ++dependent;
@@ -162,7 +162,7 @@ void RankRevealingQr::solve_minimum_norm(VectorRef y) {
     double& right = free_[i];
     right = 0.0;
     for (Eigen::Index k = 0; k < rank_; ++k) {
-      right += null_(k, i) * y[pivots_[static_cast<std::size_t>(k)]];
+      right += null_(k, i) * y[pivots_[k]];
     }
     for (Eigen::Index j = 0; j <= i; ++j) {
       gram_(i, j) = null_.col(i).head(rank_).dot(null_.col(j).head(rank_)) + (i == j ? 1.0 : 0.0);
@@ -177,7 +177,7 @@ void RankRevealingQr::solve_minimum_norm(VectorRef y) {
     const auto j = static_cast<std::size_t>(null_(rank_, i));
     y[pivots_[j]] = c[i];
     for (Eigen::Index k = 0; k < rank_; ++k) {
-      y[pivots_[static_cast<std::size_t>(k)]] -= null_(k, i) * c[i];
+      y[pivots_[k]] -= null_(k, i) * c[i];
     }
   }
 }

@@ -140,10 +140,9 @@ void EquilibriumSolver::Implementation::calc_scales() {
   constexpr double nothing = 1e-13;  // of the inertia about or along all axes together
   const double g = std::max(1.0, mechanism.gravity().norm());
   for (Eigen::Index i = 0; i < n; ++i) {
-    const int k = free[static_cast<std::size_t>(i)];
-    const SpatialInertia& carried =
-        workspace.composite[static_cast<std::size_t>(mechanism.body_of_velocity(k))];
-    const bool turns = mechanism.angular()[static_cast<std::size_t>(k)] != 0;
+    const int k = free[i];
+    const SpatialInertia& carried = workspace.composite[mechanism.body_of_velocity(k)];
+    const bool turns = mechanism.angular()[k] != 0;
     const double inertia = free_mass(i, i);
     const double whole_inertia = turns ? carried.J.trace() : carried.M.trace();
     if (!(inertia > nothing * whole_inertia)) report_weightless(k);
@@ -263,7 +262,7 @@ bool EquilibriumSolver::Implementation::solve_active_set() {
     calc_contact_indicators(w, indicators);
     bool agrees = true;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const double indicator = indicators[static_cast<Eigen::Index>(i)];
+      const double indicator = indicators[i];
       const char acts = indicator > 0.0 ? 1 : 0;
       if (acts != contacts[i] && std::abs(indicator) > 1e-9) {
         contacts[i] = acts;
@@ -373,7 +372,7 @@ void EquilibriumSolver::Implementation::fail(double t) {
       text << "; largest residuals: ";
     for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) {
       if (is_nil(order[i])) break;
-      const int k = mechanism.free_velocities()[static_cast<std::size_t>(order[i])];
+      const int k = mechanism.free_velocities()[order[i]];
       text << (i > 0 ? ", " : "") << mechanism.velocity_name(k) << " ("
            << 100.0 * relative[order[i]] << " % of its weight)";
     }
@@ -410,7 +409,7 @@ void EquilibriumSolver::solve(double t, Eigen::VectorXd& q) {
   s.calc_residual(Eigen::VectorXd::Zero(s.coordinates.size()), nullptr, residual);
   calc_contact_indicators(s.w, indicators);
   for (std::size_t i = 0; i < s.contacts.size(); ++i) {
-    s.contacts[i] = indicators[static_cast<Eigen::Index>(i)] > 0.0 ? 1 : 0;
+    s.contacts[i] = indicators[i] > 0.0 ? 1 : 0;
   }
   q = s.coordinates.reference();
   if (!relaxed || !s.solve_at(t, q)) s.fail(t);

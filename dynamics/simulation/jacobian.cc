@@ -156,21 +156,20 @@ void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const C
   // -M^-1 (K E, C), and the kinematics above them.
   workspace.scaled.middleCols(nq, nv) = -tangent.damping;
   for (Eigen::Index j = 0; j < nq; ++j) {
-    const int q_column = free_q[static_cast<std::size_t>(j)];
+    const int q_column = free_q[j];
     auto column = workspace.scaled.col(j);
     column.setZero();
     for (Eigen::Index k = 0; k < nv; ++k) {
-      const double turn = workspace.increments(free_v[static_cast<std::size_t>(k)], q_column);
+      const double turn = workspace.increments(free_v[k], q_column);
       if (turn != 0.0) column -= turn * tangent.stiffness.col(k);
     }
     for (Eigen::Index i = 0; i < nq; ++i) {
-      jacobian(i, j) = workspace.rates_by_q(free_q[static_cast<std::size_t>(i)], q_column);
+      jacobian(i, j) = workspace.rates_by_q(free_q[i], q_column);
     }
   }
   for (Eigen::Index j = 0; j < nv; ++j) {
     for (Eigen::Index i = 0; i < nq; ++i) {
-      jacobian(i, nq + j) = workspace.rates_by_v(free_q[static_cast<std::size_t>(i)],
-                                                 free_v[static_cast<std::size_t>(j)]);
+      jacobian(i, nq + j) = workspace.rates_by_v(free_q[i], free_v[j]);
     }
   }
   if (system.water()) add_memory(system, nq, nv, workspace, jacobian);

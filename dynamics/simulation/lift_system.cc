@@ -15,9 +15,9 @@ std::vector<char> mark_elastic_ends(const LiftDefinition& d) {
   std::vector<char> marks(d.ropes.size(), 0);
   for (const ElasticBody& body : d.elastic_bodies) {
     for (const int rope : body.ropes()) {
-      char& mark = marks[static_cast<std::size_t>(rope)];
+      char& mark = marks[rope];
       if (mark != 0) {
-        throw ModelError("rope \"" + d.ropes[static_cast<std::size_t>(rope)].name() +
+        throw ModelError("rope \"" + d.ropes[rope].name() +
                          "\" ends at two elastic bodies; one of them must be rigid");
       }
       mark = 1;
@@ -155,7 +155,7 @@ void add_steered_motion(const LiftSystem& system, double t, bool moving, LiftWor
     const ProfileValue value = w.steered[i].evaluate(t);
     if (steering.is_winch) {
       const int rope = operation.winches()[steering.index].rope;
-      RopeFeed& feed = w.feeds[static_cast<std::size_t>(rope)];
+      RopeFeed& feed = w.feeds[rope];
       feed.unstretched_length += value.position;
       if (moving) feed.rate += value.velocity;
       continue;
@@ -192,12 +192,12 @@ void set_drives(const LiftSystem& system, double t, bool moving, LiftWorkspace& 
     w.vdot[drive.velocity_index] = value.acceleration;
   }
   for (const Winch& winch : system.operation().winches()) {
-    RopeFeed& feed = w.feeds[static_cast<std::size_t>(winch.rope)];
+    RopeFeed& feed = w.feeds[winch.rope];
     feed.unstretched_length = feed.rate = 0.0;
   }
   for (const Winch& winch : system.operation().winches()) {
     const ProfileValue value = winch.length.evaluate(t);
-    RopeFeed& feed = w.feeds[static_cast<std::size_t>(winch.rope)];
+    RopeFeed& feed = w.feeds[winch.rope];
     feed.unstretched_length += value.position;
     if (moving) feed.rate += value.velocity;
   }
@@ -314,7 +314,7 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
   if (hull_forces == HullForces::evaluated) calc_hull_forces(system, t, w);
   const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
   for (std::size_t i = 0; i < hulls.size(); ++i) {
-    w.loads.F_Bo_W[static_cast<std::size_t>(hulls[i].definition().body)] += w.F_Bo_W_of_hulls[i];
+    w.loads.F_Bo_W[hulls[i].definition().body] += w.F_Bo_W_of_hulls[i];
   }
   if (system.water()) add_water_forces(*system.water(), t, w);
 }
@@ -367,7 +367,7 @@ Contacts find_contacts(const LiftSystem& system, double t, ConstVectorRef y, Lif
   Contacts contacts(count, 0);
   bool all_decided = true;
   for (std::size_t i = 0; i < count; ++i) {
-    const double indicator = indicators[static_cast<Eigen::Index>(i)];
+    const double indicator = indicators[i];
     contacts[i] = indicator > undecided ? 1 : 0;
     all_decided = all_decided && std::abs(indicator) > undecided;
   }

@@ -91,9 +91,7 @@ class LiftSystem {
   const ForceElements& elements() const { return d_.elements; }
   const std::vector<ElasticBody>& elastic_bodies() const { return d_.elastic_bodies; }
   /// Does an end of the rope lie at an elastic body?
-  bool ends_elastically(int rope) const {
-    return ends_elastically_[static_cast<std::size_t>(rope)] != 0;
-  }
+  bool ends_elastically(int rope) const { return ends_elastically_[rope] != 0; }
   const Operation& operation() const { return d_.operation; }
   const Eigen::VectorXd& q_start() const { return d_.q_start; }
   const Eigen::VectorXd& v_start() const { return d_.v_start; }

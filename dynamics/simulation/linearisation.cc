@@ -107,8 +107,7 @@ Eigen::MatrixXd motions_of_loops(const Mechanism& mechanism, const LiftWorkspace
   const std::vector<int>& free = mechanism.free_velocities();
   const auto n = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd jacobian(whole.rows(), n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    jacobian.col(i) = whole.col(free[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < n; ++i) jacobian.col(i) = whole.col(free[i]);
   for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
     const double length = jacobian.row(i).norm();
     if (length > 0.0) jacobian.row(i) /= length;
@@ -260,14 +259,14 @@ Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w) {
   const Normalised equations(result);
   Eigen::MatrixXd to_v = Eigen::MatrixXd::Zero(mechanism.nv(), equations.to_z.cols());
   const Eigen::MatrixXd to_free = result.basis * equations.to_z;
-  for (Eigen::Index i = 0; i < n; ++i) to_v.row(free[static_cast<std::size_t>(i)]) = to_free.row(i);
+  for (Eigen::Index i = 0; i < n; ++i) to_v.row(free[i]) = to_free.row(i);
   result.modes = solve_modes(equations, to_v);
   sort_and_align(system, w, whole_mass, result.modes);
   Eigen::VectorXcd free_shape(n);
   for (Mode& mode : result.modes) {
     find_body_motions(mechanism, w.kinematics, mode);
     for (Eigen::Index i = 0; i < n; ++i) {
-      free_shape[i] = mode.shape[free[static_cast<std::size_t>(i)]];
+      free_shape[i] = mode.shape[free[i]];
     }
     mode.elastic_share = elastic_share(elastic, tangent.stiffness, free_shape);
     mode.name = mode_name(mechanism, w.kinematics, mode);
@@ -293,7 +292,7 @@ double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w
   calc_tangent_matrices(system, t, w, tangent);
   Eigen::MatrixXd tilts = Eigen::MatrixXd::Zero(2, system.nv_free());
   // The increments of a free joint turn about the body's axes.
-  const Matrix3& R_WB = w.kinematics.X_WB[static_cast<std::size_t>(body)].R;
+  const Matrix3& R_WB = w.kinematics.X_WB[body].R;
   tilts.middleCols<3>(turn - free.begin()) = R_WB.topRows<2>();
   Eigen::MatrixXd stiffness = tangent.stiffness;
   if (w.loops) {

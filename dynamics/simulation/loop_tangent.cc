@@ -24,9 +24,8 @@ void LoopTangent::choose_rows(const LiftWorkspace& w) {
   std::fill(slot_.begin(), slot_.end(), -1);
   count_ = w.loops->rank;
   for (Eigen::Index i = 0; i < count_; ++i) {
-    const int pivot = w.loops->qr.pivots()[static_cast<std::size_t>(i)];
-    slot_[static_cast<std::size_t>(solved.rows[static_cast<std::size_t>(pivot)])] =
-        static_cast<int>(i);
+    const int pivot = w.loops->qr.pivots()[i];
+    slot_[solved.rows[pivot]] = static_cast<int>(i);
   }
 }
 

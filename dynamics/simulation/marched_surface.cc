@@ -52,7 +52,7 @@ Eigen::VectorXd MarchedSurface::velocity_of(LiftWorkspace& w) const {
 void MarchedSurface::carry(const LiftWorkspace& w) {
   Eigen::Vector2d place = Eigen::Vector2d::Zero(), ahead = Eigen::Vector2d::Zero();
   for (const BodyFrame& frame : water_.frames()) {
-    const Pose X_WH = w.kinematics.X_WB[static_cast<std::size_t>(frame.body)] * frame.X_BH;
+    const Pose X_WH = w.kinematics.X_WB[frame.body] * frame.X_BH;
     place += X_WH.p.head<2>() / static_cast<double>(water_.frames().size());
     ahead += X_WH.R.col(0).head<2>();
   }

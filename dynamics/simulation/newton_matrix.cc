@@ -35,11 +35,11 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
     const bool rates = velocities_are_rates(link.kind);
     for (int k = 0; rates && k < link.nv; ++k) {
       const int velocity = link.v_offset + k;
-      if (m.driven()[static_cast<std::size_t>(velocity)]) continue;
+      if (m.driven()[velocity]) continue;
       plain_q_.push_back(place(m.free_coordinates(), link.q_offset + k));
       plain_v_.push_back(place(m.free_velocities(), link.v_offset + k));
     }
-    if (rates || m.driven()[static_cast<std::size_t>(link.v_offset)]) continue;
+    if (rates || m.driven()[link.v_offset]) continue;
     Joint& joint = joints_.emplace_back();
     joint.link = static_cast<int>(i);
     joint.q = place(m.free_coordinates(), link.q_offset);
@@ -63,7 +63,7 @@ void NewtonMatrix::set_point(const LiftSystem& system, double t, LiftWorkspace& 
     }
   }
   for (Joint& joint : joints_) {
-    const Link& link = system.mechanism().links()[static_cast<std::size_t>(joint.link)];
+    const Link& link = system.mechanism().links()[joint.link];
     joint_rate_derivatives(link.kind, w.q.data() + link.q_offset, w.v.data() + link.v_offset,
                            joint.rates_by_q.topLeftCorner(joint.nq, joint.nq),
                            joint.rates_by_v.topLeftCorner(joint.nq, joint.nv));

@@ -59,7 +59,7 @@ void ReducedCoordinates::evaluate(ConstVectorRef q) {
 Eigen::VectorXd ReducedCoordinates::closing_move(const Eigen::MatrixXd& increments) {
   Eigen::VectorXd residual(rows_.count());
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    residual[i] = state_->residual[rows_.rows[static_cast<std::size_t>(i)]];
+    residual[i] = state_->residual[rows_.rows[i]];
   }
   return -(free_jacobian_ * increments * normal_).partialPivLu().solve(residual);
 }
@@ -115,7 +115,7 @@ void ReducedCoordinates::balance(VectorRef f, VectorRef lambda) const {
   chosen *= -1.0;
   f += free_jacobian_.transpose() * chosen;
   for (Eigen::Index i = 0; i < chosen.size(); ++i) {
-    lambda[rows_.rows[static_cast<std::size_t>(i)]] = chosen[i];
+    lambda[rows_.rows[i]] = chosen[i];
   }
 }
 

@@ -87,9 +87,7 @@ double Steersman::find_plumb_travel(const Steering& steering, const KeptPlumb& w
 }
 
 double Steersman::find_travel(const Steering& steering, Helm& helm, const LiftWorkspace& w) {
-  const auto load = [&](int rope) -> const RopeLoad& {
-    return w.rope_loads[static_cast<std::size_t>(rope)];
-  };
+  const auto load = [&](int rope) -> const RopeLoad& { return w.rope_loads[rope]; };
   if (const auto* wish = std::get_if<KeptHeight>(&steering.wish)) {
     const double height =
         place(w.kinematics, wish->point).z() - place(w.kinematics, wish->reference).z();
@@ -115,9 +113,7 @@ double Steersman::find_travel(const Steering& steering, Helm& helm, const LiftWo
 
 double Steersman::find_seen(const Steering& steering, const Helm& helm, const Sight& sight,
                             double t, const LiftWorkspace& w) {
-  const auto tension = [&](int rope) {
-    return w.rope_loads[static_cast<std::size_t>(rope)].tension;
-  };
+  const auto tension = [&](int rope) { return w.rope_loads[rope].tension; };
   if (const auto* seen = std::get_if<SeenHeight>(&sight))
     return place(w.kinematics, seen->point).z() - place(w.kinematics, seen->reference).z();
   if (const auto* seen = std::get_if<SeenPlumb>(&sight))
@@ -157,8 +153,7 @@ void Steersman::steer(const Steering& steering, Helm& helm, double t, MotionProf
   const int used = looks - 1 - steering.looks_behind();
   double wanted = 0.0;
   if (used >= 0 && t < steering.end - coincident) {
-    wanted = std::clamp(helm.asked[static_cast<std::size_t>(used)], -steering.limits.speed,
-                        steering.limits.speed);
+    wanted = std::clamp(helm.asked[used], -steering.limits.speed, steering.limits.speed);
   }
   const double from = steering.base.evaluate(t).position;
   // Would the drive stay within its range if it went for this speed and braked afterwards?

@@ -74,8 +74,7 @@ Straying find_straying(const Arrangement& arrangement, const History& history) {
       pair.first = i;
       pair.second = j;
       pair.limit =
-          straying_limit(arrangement.bodies[static_cast<std::size_t>(i)],
-                         arrangement.bodies[static_cast<std::size_t>(j)], arrangement.wave_length);
+          straying_limit(arrangement.bodies[i], arrangement.bodies[j], arrangement.wave_length);
       straying.pairs.push_back(pair);
     }
   }
