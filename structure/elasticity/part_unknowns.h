@@ -22,7 +22,7 @@ class PartUnknowns {
   int count() const { return elimination_.count; }
   int freedoms() const { return static_cast<int>(elimination_.place.size()); }
   /// Unknown of a freedom; -1 for a node of no solid.
-  int of(int freedom) const { return elimination_.place[static_cast<std::size_t>(freedom)]; }
+  int of(int freedom) const { return elimination_.place[freedom]; }
   /// Unknowns of a solid, in the order of its stiffness.
   std::vector<int> of_solid(const PartMesh& mesh, int solid) const;
 

@@ -479,8 +479,7 @@ const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
       root =
           shell_stiffness_law(space_.mesh(), shell, points[q].e_1, points[q].e_2).llt().matrixU();
     rooted_.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)).noalias() =
-        std::sqrt(weights_[static_cast<Eigen::Index>(q)] * points[q].area) *
-        (root * points[q].strain);
+        std::sqrt(weights_[q] * points[q].area) * (root * points[q].strain);
   }
   stiffness_.setZero(columns, columns);
   stiffness_.selfadjointView<Eigen::Lower>().rankUpdate(rooted_.transpose());

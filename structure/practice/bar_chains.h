@@ -15,12 +15,8 @@ class MeetingPoints {
   explicit MeetingPoints(const Mesh& mesh);
 
   /// Shells, and behind them solids counted on from the number of shells; each once.
-  const std::vector<int>& cells(int vertex) const {
-    return cells_[static_cast<std::size_t>(vertex)];
-  }
-  const std::vector<int>& beams(int vertex) const {
-    return beams_[static_cast<std::size_t>(vertex)];
-  }
+  const std::vector<int>& cells(int vertex) const { return cells_[vertex]; }
+  const std::vector<int>& beams(int vertex) const { return beams_[vertex]; }
   /// By links, springs and ropes.
   bool is_fastened(int vertex) const { return fastened_.contains(vertex); }
   /// Cells that have both vertices.

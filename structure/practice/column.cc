@@ -29,7 +29,7 @@ double imperfection_factor(BucklingCurve curve) {
 }  // namespace
 
 double euler_load(const Column& column, int axis) {
-  return pi * pi * column.elastic_modulus * column.second_moments[static_cast<std::size_t>(axis)] /
+  return pi * pi * column.elastic_modulus * column.second_moments[axis] /
          (column.length * column.length);
 }
 

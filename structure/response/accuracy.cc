@@ -72,8 +72,7 @@ std::vector<Square> candidates(const RefinementState& found) {
   const Eigen::VectorXd share = share_of(found);
   std::vector<Square> result;
   for (std::size_t s = 0; s < found.squares.size(); ++s)
-    if (share[static_cast<Eigen::Index>(s)] >=
-        (found.squares[s].at_corner() ? looked_at_in_corners : looked_at))
+    if (share[s] >= (found.squares[s].at_corner() ? looked_at_in_corners : looked_at))
       result.push_back(found.squares[s]);
   return result;
 }

@@ -46,7 +46,7 @@ SquareMaxima square_maxima(const Mesh& mesh, const StressRecovery& recovery,
                       std::vector<MaximaBySite>(mesh.lifting_points.size())};
   const std::vector<Square>& squares = recovery.checked().squares();
   for (std::size_t s = 0; s < squares.size(); ++s) {
-    const double value = von_mises.value[static_cast<Eigen::Index>(s)];
+    const double value = von_mises.value[s];
     const int point = static_cast<int>(s);
     const SquareSite site = squares[s].site;
     maxima.block.take(value, point, site);

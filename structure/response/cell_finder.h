@@ -21,16 +21,13 @@ class CellFinder {
   /// The space must outlive this object.
   explicit CellFinder(const Space& space) : space_(space), cells_(space.mesh().shells.size()) {
     for (std::size_t cell = 0; cell < space.shells().size(); ++cell)
-      cells_[static_cast<std::size_t>(space.shells()[cell].shell)].push_back(
-          static_cast<int>(cell));
+      cells_[space.shells()[cell].shell].push_back(static_cast<int>(cell));
   }
   /// The cells that a shell was divided into.
-  const std::vector<int>& cells_of(int shell) const {
-    return cells_[static_cast<std::size_t>(shell)];
-  }
+  const std::vector<int>& cells_of(int shell) const { return cells_[shell]; }
   CellPlace find(const ShellPlace& place) const {
-    for (const int cell : cells_[static_cast<std::size_t>(place.shell)]) {
-      const ShellCell& located = space_.shells()[static_cast<std::size_t>(cell)];
+    for (const int cell : cells_[place.shell]) {
+      const ShellCell& located = space_.shells()[cell];
       const Eigen::Vector2d xi = (place.xi - located.origin) / located.size;
       if (xi.minCoeff() >= -1e-9 && xi.maxCoeff() <= 1 + 1e-9) return {cell, xi};
     }

@@ -50,7 +50,7 @@ double edge_near(const PartMesh& mesh, const Vector3& place, const Eigen::Vector
     const double distance = (mesh.centre(mesh.solids[s]) - place).norm();
     if (nearest >= 0 && distance >= nearest) continue;
     nearest = distance;
-    edge = edges[static_cast<Eigen::Index>(s)];
+    edge = edges[s];
   }
   return edge;
 }

@@ -143,7 +143,7 @@ void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_so
   solution.estimated_error = solution.all.estimated_error;
   Eigen::Index worst = 0;
   error.squared_error.maxCoeff(&worst);
-  solution.worst_point = model.mesh.centre(model.mesh.solids[static_cast<std::size_t>(worst)]);
+  solution.worst_point = model.mesh.centre(model.mesh.solids[worst]);
   for (const PartGroup& group : model.mesh.groups) {
     if (group.dimension != 3) continue;
     std::vector<int> solids;
@@ -170,8 +170,7 @@ void find_balance(const PartModel& model, const Eigen::VectorXd& load,
   Vector3 force = solution.applied.force, moment = solution.applied.moment;
   for (std::size_t i = 0; i < support_of.size(); ++i) {  // idle nodes come after and bear nothing
     const Vector3 place = model.mesh.nodes.col(fixed[i].unknown / 3);
-    const Vector3 reaction =
-        forces[static_cast<Eigen::Index>(i)] * Vector3::Unit(fixed[i].unknown % 3);
+    const Vector3 reaction = forces[i] * Vector3::Unit(fixed[i].unknown % 3);
     Wrench& of_support = solution.reactions[at(support_of[i])];
     of_support.force += reaction;
     of_support.moment += place.cross(reaction);
@@ -227,7 +226,7 @@ PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<Fix
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     if (unknowns.of(fixed[i].unknown) >= 0)
-      result.reactions[static_cast<Eigen::Index>(i)] = held[next++];
+      result.reactions[i] = held[next++];
     else
       result.displacement[fixed[i].unknown] = fixed[i].value;
   }

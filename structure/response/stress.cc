@@ -186,7 +186,7 @@ std::vector<LoadCaseResult> StressRecovery::evaluate(
     const Eigen::VectorXd membrane = checked_.von_mises(responses_.coefficients(load_cases[c]));
     for (std::size_t s = 0; s < checked_.squares().size(); ++s) {
       const Square& square = checked_.squares()[s];
-      const double value = membrane[static_cast<Eigen::Index>(s)];
+      const double value = membrane[s];
       checked.take(value, square.centre_B, square.region);
       at_site[square.site].take(value, square.centre_B, square.region);
     }

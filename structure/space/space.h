@@ -74,7 +74,7 @@ class Space {
   /// Places of the nodes, m.
   const Eigen::Matrix3Xd& nodes() const { return nodes_; }
   /// Node of a vertex of the mesh; -1 if nothing uses the vertex.
-  int node_of_vertex(int vertex) const { return node_of_vertex_[static_cast<std::size_t>(vertex)]; }
+  int node_of_vertex(int vertex) const { return node_of_vertex_[vertex]; }
 
   const std::vector<ShellCell>& shells() const { return shells_; }
   int nodes_per_shell() const { return (degree_ + 1) * (degree_ + 1); }
@@ -85,9 +85,7 @@ class Space {
   const std::vector<BeamCell>& beams() const { return beams_; }
   /// The nodes of a solid of the mesh, which is an element as it is whatever the resolution; as
   /// many as the solid has vertices.
-  const int* solid_nodes(int solid) const {
-    return solid_nodes_.data() + solid_start_[static_cast<std::size_t>(solid)];
-  }
+  const int* solid_nodes(int solid) const { return solid_nodes_.data() + solid_start_[solid]; }
 
   /// Place of a point of a shell cell's unit square, m.
   Vector3 place(int cell, const Eigen::Vector2d& xi) const;
@@ -99,9 +97,7 @@ class Space {
     int unknown = 0;
     double weight = 0;
   };
-  const Term* begin_of(int freedom) const {
-    return terms_.data() + term_start_[static_cast<std::size_t>(freedom)];
-  }
+  const Term* begin_of(int freedom) const { return terms_.data() + term_start_[freedom]; }
   const Term* end_of(int freedom) const {
     return terms_.data() + term_start_[static_cast<std::size_t>(freedom) + 1];
   }

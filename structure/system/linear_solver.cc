@@ -78,8 +78,7 @@ double ConstrainedSystem::factor_bytes() const { return factor_->bytes(); }
 // Keeps the rows of fixed unknowns aside, empties them in the matrix and leaves their diagonal.
 void ConstrainedSystem::separate_fixed() {
   std::vector<int> place(static_cast<std::size_t>(stiffness_.rows()), -1);
-  for (std::size_t i = 0; i < fixed_.size(); ++i)
-    place[static_cast<std::size_t>(fixed_[i].unknown)] = static_cast<int>(i);
+  for (std::size_t i = 0; i < fixed_.size(); ++i) place[fixed_[i].unknown] = static_cast<int>(i);
   std::vector<long> ascending;
   for (const FixedUnknown& fixed : fixed_) ascending.push_back(fixed.unknown);
   std::sort(ascending.begin(), ascending.end());
@@ -87,8 +86,8 @@ void ConstrainedSystem::separate_fixed() {
   const auto take = [&](long column, long entry) {
     const long row = stiffness_.innerIndexPtr()[entry];
     double& value = stiffness_.valuePtr()[entry];
-    const int of_row = place[static_cast<std::size_t>(row)];
-    const int of_column = place[static_cast<std::size_t>(column)];
+    const int of_row = place[row];
+    const int of_column = place[column];
     if (of_row >= 0) rows.emplace_back(of_row, column, value);
     if (row == column) return;
     if (of_column >= 0) rows.emplace_back(of_column, row, value);
@@ -98,7 +97,7 @@ void ConstrainedSystem::separate_fixed() {
     const long *start = stiffness_.innerIndexPtr() + stiffness_.outerIndexPtr()[column],
                *end = stiffness_.innerIndexPtr() + stiffness_.outerIndexPtr()[column + 1];
     if (start == end) continue;
-    if (place[static_cast<std::size_t>(column)] >= 0) {
+    if (place[column] >= 0) {
       for (const long* row = start; row != end; ++row)
         take(column, row - stiffness_.innerIndexPtr());
       continue;
@@ -137,8 +136,7 @@ void ConstrainedSystem::factorise() {
 
 Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads) const {
   Eigen::VectorXd given(static_cast<Eigen::Index>(fixed_.size()));
-  for (std::size_t i = 0; i < fixed_.size(); ++i)
-    given[static_cast<Eigen::Index>(i)] = fixed_[i].value;
+  for (std::size_t i = 0; i < fixed_.size(); ++i) given[i] = fixed_[i].value;
   const Eigen::Index columns = loads.cols();
   return solve(std::move(loads), given.replicate(1, columns));
 }

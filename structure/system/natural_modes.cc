@@ -176,7 +176,7 @@ NaturalModes collect(const Search& search, int found) {
   modes.squared_frequencies.resize(found);
   modes.shapes.resize(size, found);
   for (Eigen::Index m = 0; m < found; ++m) {
-    const auto& [value, place] = order[static_cast<std::size_t>(m)];
+    const auto& [value, place] = order[m];
     modes.squared_frequencies[m] = value;
     check(EPSGetEigenvector(search.solver, place, search.start, nullptr));
     const PetscScalar* values = nullptr;
@@ -217,7 +217,7 @@ NaturalModes merge(const NaturalModes& a, const NaturalModes& b) {
   all.squared_frequencies = values(order);
   all.shapes.resize(a.shapes.rows(), values.size());
   for (Eigen::Index m = 0; m < values.size(); ++m) {
-    const Eigen::Index from = order[static_cast<std::size_t>(m)];
+    const Eigen::Index from = order[m];
     all.shapes.col(m) =
         from < a.shapes.cols() ? a.shapes.col(from) : b.shapes.col(from - a.shapes.cols());
   }
