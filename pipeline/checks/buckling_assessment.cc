@@ -261,7 +261,7 @@ void write_bars(ResultsWriter& file, const BucklingAssessment& buckling) {
   RowMajorMatrix table(rows, 19);
   std::vector<std::string> names;
   for (Eigen::Index b = 0; b < rows; ++b) {
-    const BuckledBar& bar = buckling.bars[static_cast<std::size_t>(b)];
+    const BuckledBar& bar = buckling.bars[b];
     const structure::BarSpan& span = bar.span;
     const structure::ColumnForces& forces = bar.worst.forces;
     names.push_back(span.bar);
@@ -294,7 +294,7 @@ void write_buckling(ResultsWriter& file, const BucklingAssessment& buckling) {
   RowMajorMatrix table(rows, 15);
   std::vector<std::string> plates;
   for (Eigen::Index p = 0; p < rows; ++p) {
-    const BuckledPanel& panel = buckling.panels[static_cast<std::size_t>(p)];
+    const BuckledPanel& panel = buckling.panels[p];
     const structure::Panel& of = panel.panel;
     const structure::PanelStress& s = panel.worst.stress;
     plates.push_back(of.plate);

@@ -133,8 +133,7 @@ class LiftedFacts {
     if (model.termination) sling.termination = model.termination->value;
     sling.diameter = model.diameter;
     sling.is_at_hook = in_case.path.front().kind == ResolvedPoint::Kind::hook;
-    const Eigen::Vector3d pull =
-        lift_.static_history.ropes[static_cast<std::size_t>(rope.rope)].first_force.row(sample);
+    const Eigen::Vector3d pull = lift_.static_history.ropes[rope.rope].first_force.row(sample);
     if (pull.norm() > 0) sling.angle = std::acos(std::min(1.0, std::abs(pull.z()) / pull.norm()));
     if (in_case.bend_diameter) sling.bend_diameter = in_case.bend_diameter->value;
     const auto count = on_hook.find(rope.hoist);

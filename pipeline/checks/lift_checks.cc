@@ -46,9 +46,7 @@ Peak peak_of(const LiftRun& lift, Kind kind, const Series& series) {
 }
 
 auto tension_of(int rope) {
-  return [rope](const dynamics::History& history) {
-    return history.ropes[static_cast<std::size_t>(rope)].tension;
-  };
+  return [rope](const dynamics::History& history) { return history.ropes[rope].tension; };
 }
 
 Check at_time(Check check, double time, std::string note = {}) {
@@ -93,9 +91,9 @@ std::vector<char> find_hanging(const LiftCase& lift_case, const LiftRun& lift,
   std::vector<char> hangs(static_cast<std::size_t>(history.sample_count()), 1);
   std::optional<dynamics::HullClusters> hull;
   if (lift_case.load.vessel) hull.emplace(lift_case.load.vessel->hull);
-  const dynamics::BodyHistory& load = history.bodies[static_cast<std::size_t>(lift.model.load - 1)];
+  const dynamics::BodyHistory& load = history.bodies[lift.model.load - 1];
   for (Eigen::Index k = 0; k < history.sample_count(); ++k) {
-    char& here = hangs[static_cast<std::size_t>(k)];
+    char& here = hangs[k];
     for (const dynamics::SupportHistory& pad : history.supports) {
       if (pad.normal_force[k] > 0) here = 0;
     }
@@ -132,7 +130,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
   const auto dynamic_hangs = find_hanging(lift_case, lift, lift.dynamic_history());
   std::vector<char> is_sling(lift.static_history.ropes.size(), 0);
   for (const LiftRope& rope : lift.model.ropes) {
-    if (!rope.lug.empty()) is_sling[static_cast<std::size_t>(rope.rope)] = 1;
+    if (!rope.lug.empty()) is_sling[rope.rope] = 1;
   }
   Peak smallest{std::numeric_limits<double>::infinity(), 0};
   std::string rope;
@@ -143,7 +141,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
       if (is_sling[i] == 0) return tension;
       const auto& hangs = &history == &lift.static_history ? static_hangs : dynamic_hangs;
       for (Eigen::Index k = 0; k < tension.size(); ++k) {
-        if (hangs[static_cast<std::size_t>(k)] == 0 && std::isfinite(tension[k])) {
+        if (hangs[k] == 0 && std::isfinite(tension[k])) {
           tension[k] = std::numeric_limits<double>::infinity();
         }
       }
@@ -169,8 +167,7 @@ void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
   std::string name;
   for (const LiftHoist& hoist : lift.model.hoists) {
     const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
-      return swing_angles(
-          hook_pull(history.ropes[static_cast<std::size_t>(hoist.rope)], hoist.hook_is_first));
+      return swing_angles(hook_pull(history.ropes[hoist.rope], hoist.hook_is_first));
     });
     if (peak.value <= largest.value) continue;
     largest = peak;

@@ -45,10 +45,10 @@ class PadeyeRun {
     result_.consequence_factor = lift_case.checks.lug_consequence_factor;
     structure::PadeyeFormulaInput& input = result_.input;
     const structure::Mesh& mesh = responses.model().mesh();
-    const int region = mesh.lifting_points[static_cast<std::size_t>(lug_index)].region;
+    const int region = mesh.lifting_points[lug_index].region;
     input.geometry = result_.placed.geometry;
-    input.material = mesh.materials[static_cast<std::size_t>(
-        lug.on_mesh ? find_ground(mesh) : mesh.group_of_region(region).material)];
+    input.material =
+        mesh.materials[lug.on_mesh ? find_ground(mesh) : mesh.group_of_region(region).material];
     input.cheek_weld = design.cheek_weld;
     input.base_weld = design.base_weld;
     input.doubler = design.doubler;
@@ -88,10 +88,7 @@ class PadeyeRun {
     find_base();
     double worst = -1;
     for (const PadeyeInstant& instant : instants) {
-      PadeyeState state{instant.name,
-                        instant.time,
-                        force_P(instant.load.lug_forces_B[static_cast<std::size_t>(lug_)]),
-                        {}};
+      PadeyeState state{instant.name, instant.time, force_P(instant.load.lug_forces_B[lug_]), {}};
       state.result = result_.model->solve(load_of(instant.load, state.force_P));
       const double stress = std::max(state.result.main_plate.checked_von_mises.value,
                                      state.result.cheeks.checked_von_mises.value);
@@ -127,7 +124,7 @@ class PadeyeRun {
     const auto plate = structure::PlateFinder(mesh).find(below);
     if (!plate)
       throw structure::ModelError("the padeye of lug " + result_.lug + " stands on no plate");
-    return mesh.section_of(mesh.shells[static_cast<std::size_t>(plate->shell)]).material;
+    return mesh.section_of(mesh.shells[plate->shell]).material;
   }
 
   // Does a plate in the padeye's own plane hold the whole base? Else it stands on a deck.
@@ -305,7 +302,7 @@ PadeyesAssessment assess_padeyes(const LiftCase& lift_case, const UnitResponses&
     std::vector<PadeyeInstant> instants;
     for (const BlockState* state :
          {&block.simultaneous.static_state, &block.simultaneous.dynamic_state}) {
-      const Vector3& force = state->load.lug_forces_B[static_cast<std::size_t>(run.lug())];
+      const Vector3& force = state->load.lug_forces_B[run.lug()];
       if (!(force.norm() > 0)) continue;
       run.consider(run.force_P(force), std::nullopt);
       instants.push_back({state->load.name, std::nullopt, state->load});

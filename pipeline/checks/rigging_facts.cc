@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 Index index(std::size_t i) { return static_cast<Index>(i); }
 
 const dynamics::RopeHistory& history_of(const dynamics::History& history, int rope) {
-  return history.ropes[static_cast<std::size_t>(rope)];
+  return history.ropes[rope];
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::optional<double> RiggingFacts::weight_of(const LiftRope& sling) const {
 }
 
 dynamics::Pose RiggingFacts::pose_of(dynamics::BodyIndex body, Index sample) const {
-  return lift_.static_history.bodies[static_cast<std::size_t>(body - 1)].X_WB(sample);
+  return lift_.static_history.bodies[body - 1].X_WB(sample);
 }
 
 RiggingEnd RiggingFacts::end_at(const ResolvedPoint& point, Index sample) const {
@@ -72,7 +72,7 @@ RiggingEnd RiggingFacts::end_at(const ResolvedPoint& point, Index sample) const 
               Vector3d::Zero()};
     case ResolvedPoint::Kind::spreader: {
       const int bar = place_of(lift_.model.spreaders, point.part);
-      const auto body = lift_.model.spreaders[static_cast<std::size_t>(bar)].body;
+      const auto body = lift_.model.spreaders[bar].body;
       return {RiggingEnd::Kind::bar, bar, pose_of(body, sample).R * point.point};
     }
     case ResolvedPoint::Kind::load:
@@ -93,8 +93,8 @@ RiggingRope RiggingFacts::rigging_rope(int rope, const Vector3d& pull_up, Index 
   result.tension = r.tension[sample];
   result.direction_W = pull_up.norm() > 0 ? Vector3d(pull_up.normalized()) : Vector3d::UnitZ();
   result.length = r.unstretched_length[sample] + r.elongation[sample];
-  result.compliance = 1 / lift_.model.system.ropes()[static_cast<std::size_t>(rope)].stiffness(
-                              r.unstretched_length[sample], result.tension);
+  result.compliance =
+      1 / lift_.model.system.ropes()[rope].stiffness(r.unstretched_length[sample], result.tension);
   return result;
 }
 
@@ -220,8 +220,7 @@ ComputedFactors RiggingFacts::of_crane(std::size_t crane, Index sample) const {
 std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index sample) const {
   if (hook.empty()) return {};
   const dynamics::History& history = lift_.static_history;
-  const dynamics::Pose X_WB =
-      history.bodies[static_cast<std::size_t>(lift_.model.load - 1)].X_WB(sample);
+  const dynamics::Pose X_WB = history.bodies[lift_.model.load - 1].X_WB(sample);
   // Lift points of hooks and of cranes: where the vertical forces of their slings have their
   // middle.
   struct Group {

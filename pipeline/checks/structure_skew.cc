@@ -113,8 +113,7 @@ std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
   Vector3 moment = Vector3::Zero();
   for (std::size_t i = 0; i < 4; ++i)
     moment += (slings[i].p_B - slings[0].p_B)
-                  .cross(tensions[static_cast<Eigen::Index>(i)] *
-                         directions.col(static_cast<Eigen::Index>(i)));
+                  .cross(tensions[i] * directions.col(static_cast<Eigen::Index>(i)));
   if (moment.norm() > meets * reach) return {};
 
   std::array<DiagonalChange, 2> changes;
@@ -122,14 +121,13 @@ std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
     const double sign = diagonal == 0 ? 1 : -1;
     double scale = 0, until_slack = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 4; ++i) {
-      const double share = sign * tensions[static_cast<Eigen::Index>(i)];
+      const double share = sign * tensions[i];
       const double at_rest = slings[i].force.norm();
       if (share > 0) scale = std::max(scale, (slings[i].skew - 1) * at_rest / share);
       if (share < 0) until_slack = std::min(until_slack, at_rest / -share);
     }
     for (std::size_t i = 0; i < 4; ++i)
-      changes[diagonal][i] = sign * std::min(scale, until_slack) *
-                             tensions[static_cast<Eigen::Index>(i)] *
+      changes[diagonal][i] = sign * std::min(scale, until_slack) * tensions[i] *
                              directions.col(static_cast<Eigen::Index>(i));
   }
   return changes;

@@ -105,7 +105,7 @@ void print_sling_lengths(const SlingLengths& lengths) {
     for (const SlingLengthError& error : lengths.errors)
       largest = std::max({largest, error.longer.tensions[i], error.shorter.tensions[i]});
     std::vector<TextTable::Cell> row = {
-        lengths.slings[static_cast<std::size_t>(i)], fmt::format("{:.3f}", lengths.lengths[i]),
+        lengths.slings[i], fmt::format("{:.3f}", lengths.lengths[i]),
         lengths.meant.tensions[i] / newton_per_tonne, largest / newton_per_tonne};
     row.emplace_back(lengths.worst_tensions.size() > 0
                          ? TextTable::Cell(lengths.worst_tensions[i] / newton_per_tonne)

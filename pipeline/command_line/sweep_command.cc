@@ -144,7 +144,7 @@ void run_members(const SweepOptions& options, const StudyFile& study, const fs::
   const int all = store.count_all(count);
   int done = all - static_cast<int>(missing.size());
   const auto take = [&](int order, const std::string& text) {
-    const Member member = member_of_text(missing[static_cast<std::size_t>(order)], text);
+    const Member member = member_of_text(missing[order], text);
     const HeldSignals until_it_is_written;
     store.write(member);
     ++done;

@@ -127,21 +127,20 @@ bool SweepTeam::run(const std::vector<WorkOrder>& orders,
 
 void SweepTeam::hand_out(Run& run) {
   for (Slot& slot : slots_) {
-    if (slot.order >= 0 || is_lost_[static_cast<std::size_t>(slot.rank)]) continue;
+    if (slot.order >= 0 || is_lost_[slot.rank]) continue;
     // A late answer may have come to what was to be done again.
-    while (!run.waiting.empty() && run.is_done[static_cast<std::size_t>(run.waiting.front())])
-      run.waiting.pop_front();
+    while (!run.waiting.empty() && run.is_done[run.waiting.front()]) run.waiting.pop_front();
     if (run.waiting.empty()) return;
     const int order = run.waiting.front();
     run.waiting.pop_front();
-    give(slot, order, run.orders[static_cast<std::size_t>(order)]);
+    give(slot, order, run.orders[order]);
   }
 }
 
 void SweepTeam::give(Slot& slot, int order, const WorkOrder& what) {
   slot.order = order;
   if (slot.rank == 0) {
-    own_[static_cast<std::size_t>(slot.place)].give(what);
+    own_[slot.place].give(what);
     return;
   }
   Packet packet = packet_of(Word::order);
@@ -155,13 +154,13 @@ void SweepTeam::give(Slot& slot, int order, const WorkOrder& what) {
 void SweepTeam::take_own_answers(Run& run) {
   for (Slot& slot : slots_)
     if (slot.rank == 0)
-      if (const auto answer = own_[static_cast<std::size_t>(slot.place)].take_answer())
+      if (const auto answer = own_[slot.place].take_answer())
         take_answer(run, slot, slot.order, *answer);
 }
 
 void SweepTeam::take_posted(Run& run) {
   while (std::optional<ProcessGroup::Posted> posted = group_->take_posted()) {
-    heard_[static_cast<std::size_t>(posted->rank)] = Clock::now();
+    heard_[posted->rank] = Clock::now();
     Word word = Word::alive;
     posted->packet.take(word);
     if (word != Word::answer) continue;

@@ -18,7 +18,7 @@ constexpr double pin_tolerance = 1e-6;  // m
 /// Force of the rope on the block at its lug, in B.
 Vector3 lug_force(const History& history, const LugRope& end, Eigen::Index sample,
                   const Pose& X_WB) {
-  const auto& rope = history.ropes[static_cast<std::size_t>(end.rope)];
+  const auto& rope = history.ropes[end.rope];
   const Vector3 f_W = end.at_last_point ? Vector3(rope.last_force.row(sample))
                                         : Vector3(rope.first_force.row(sample));
   return X_WB.R.transpose() * f_W;
@@ -26,7 +26,7 @@ Vector3 lug_force(const History& history, const LugRope& end, Eigen::Index sampl
 
 const dynamics::BodyHistory& block_history(const History& history,
                                            const BlockAttachment& attachment) {
-  return history.bodies[static_cast<std::size_t>(attachment.body - 1)];
+  return history.bodies[attachment.body - 1];
 }
 
 Wrench wrench_of_lug_forces(const std::vector<Vector3>& forces,
@@ -98,9 +98,9 @@ LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
   rest.force = X_WB.R.transpose() * Vector3(block.load.row(sample).tail<3>());
   for (const LugRope& end : attachment.ropes) {
     const Vector3 f_B = lug_force(history.motion, end, sample, X_WB);
-    result.lug_forces_B[static_cast<std::size_t>(end.lug)] += f_B;
+    result.lug_forces_B[end.lug] += f_B;
     rest.force -= f_B;
-    rest.moment -= attachment.lugs[static_cast<std::size_t>(end.lug)].p_BPin.cross(f_B);
+    rest.moment -= attachment.lugs[end.lug].p_BPin.cross(f_B);
   }
   result.added = history.pressure_at(sample);
   if (result.added.size() > 0) {
@@ -123,7 +123,7 @@ std::vector<Vector3> rope_forces(const History& history, Eigen::Index sample,
 }
 
 const std::string& rope_name(const History& history, const LugRope& rope) {
-  return history.ropes[static_cast<std::size_t>(rope.rope)].name;
+  return history.ropes[rope.rope].name;
 }
 
 LoadCase map_rope_maxima(const History& history, const std::vector<dynamics::LinkedMaximum>& maxima,
@@ -131,9 +131,8 @@ LoadCase map_rope_maxima(const History& history, const std::vector<dynamics::Lin
   const dynamics::BodyHistory& block = block_history(history, attachment);
   std::vector<Vector3> forces(attachment.lugs.size(), Vector3::Zero());
   for (const LugRope& end : attachment.ropes) {
-    const Eigen::Index sample = maxima[static_cast<std::size_t>(end.rope)].sample;
-    forces[static_cast<std::size_t>(end.lug)] +=
-        lug_force(history, end, sample, block.X_WB(sample));
+    const Eigen::Index sample = maxima[end.rope].sample;
+    forces[end.lug] += lug_force(history, end, sample, block.X_WB(sample));
   }
   return map_load_table(forces, attachment.lugs, mass);
 }

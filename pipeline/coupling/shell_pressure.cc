@@ -43,7 +43,7 @@ void find_water(const WaveField& waves, bool in_waves, double time, const Pose& 
 Eigen::MatrixXd wrenches_of(const ShellPressure& pressure, Eigen::Index rows, const HullForce& hull,
                             const dynamics::History& history) {
   const HullForce::Definition& definition = hull.definition();
-  const dynamics::BodyHistory& body = history.bodies[static_cast<std::size_t>(definition.body - 1)];
+  const dynamics::BodyHistory& body = history.bodies[definition.body - 1];
   const bool in_waves = definition.wave_loading == dynamics::WaveLoading::froude_krylov &&
                         !definition.sea->waves.is_still();
   Eigen::MatrixXd wrenches(rows, history.sample_count());
@@ -109,8 +109,7 @@ void ShellPressure::calc_wrenches(const dynamics::Sea& sea, bool in_waves, doubl
     std::array<double, 3> heights{}, heads{};
     for (std::size_t i = 0; i < 3; ++i) {
       const int point = panel.points[i];
-      p[i] = points_B_[static_cast<std::size_t>(point)] -
-             centres_B_[static_cast<std::size_t>(panel.region)];
+      p[i] = points_B_[point] - centres_B_[panel.region];
       heights[i] = height[point];
       heads[i] = head[point];
     }

@@ -254,7 +254,7 @@ std::string mean_drift_text(const HydrodynamicDatabase& database) {
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
     const MatrixXd D = database.mean_drift[k] / scale;
     for (Eigen::Index h = 0; h < D.cols(); ++h) {
-      const double heading = database.headings[static_cast<std::size_t>(h)] / degree;
+      const double heading = database.headings[h] / degree;
       for (Eigen::Index i = 0; i < D.rows(); ++i) {
         text += fmt::format(
             "{:23.16E} {:23.16E} {:23.16E} {:5d} {:23.16E} {:23.16E} {:23.16E} {:23.16E}\n",
@@ -312,8 +312,7 @@ std::string excitation_text(const HydrodynamicDatabase& database) {
     for (Eigen::Index h = 0; h < X.cols(); ++h) {
       for (Eigen::Index i = 0; i < X.rows(); ++i) {
         text += fmt::format("{:23.16E} {:23.16E} {:5d} {:23.16E} {:23.16E} {:23.16E} {:23.16E}\n",
-                            two_pi / database.frequencies[k],
-                            database.headings[static_cast<std::size_t>(h)] / degree, i + 1,
+                            two_pi / database.frequencies[k], database.headings[h] / degree, i + 1,
                             std::abs(X(i, h)), std::arg(X(i, h)) / degree, X(i, h).real(),
                             X(i, h).imag());
       }

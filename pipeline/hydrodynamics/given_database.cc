@@ -67,7 +67,7 @@ std::vector<Value> in_order(const RadiationProblem& problem, const std::vector<V
   std::vector<Value> result;
   if (values.empty()) return result;
   for (const RadiationProblem::Body& body : problem.bodies) {
-    result.push_back(values[static_cast<std::size_t>(body.given_body)]);
+    result.push_back(values[body.given_body]);
   }
   return result;
 }
@@ -117,8 +117,7 @@ void divide_excitation(const RadiationProblem& problem, HydrodynamicDatabase& da
     for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
       const double w = database.frequencies[k];
       for (Eigen::Index h = 0; h < database.froude_krylov[k].cols(); ++h) {
-        const dynamics::IncidentWave wave(database.water, w,
-                                          database.headings[static_cast<std::size_t>(h)]);
+        const dynamics::IncidentWave wave(database.water, w, database.headings[h]);
         Eigen::Matrix<Complex, 6, 1> force = Eigen::Matrix<Complex, 6, 1>::Zero();
         for (const dynamics::Panel& panel : wet.hull.panels) {
           const Complex pressure =
@@ -140,7 +139,7 @@ HydrodynamicDatabase take_given_database(const RadiationProblem& problem) {
   if (problem.lowered_body() >= 0) {
     refuse(problem.place,
            fmt::format("{} is lowered into the water of vessels that name a database",
-                       problem.bodies[static_cast<std::size_t>(problem.lowered_body())].name),
+                       problem.bodies[problem.lowered_body()].name),
            "a database of one draught does not hold it: leave out its draughts, or the database");
   }
   for (const RadiationProblem::Body& body : problem.bodies) require_same_hull(problem, body);

@@ -109,7 +109,7 @@ int HydrodynamicProblem::lowered_body() const {
 }
 
 std::size_t HydrodynamicProblem::state_count() const {
-  return std::max<std::size_t>(1, bodies[static_cast<std::size_t>(lowered_body())].draughts.size());
+  return std::max<std::size_t>(1, bodies[lowered_body()].draughts.size());
 }
 
 HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t index) {

@@ -132,14 +132,13 @@ std::vector<MatrixXcd> responses_of(const HydrodynamicFile& file,
 /// A body with the draught of the state: its own, or that of the body that is lowered beside it.
 std::string name_of_state(const HydrodynamicFile& file, std::size_t state, int body) {
   const std::vector<std::string>& names = file.series.databases[state].body_names;
-  const std::string& name = names[static_cast<std::size_t>(body)];
+  const std::string& name = names[body];
   const double draught = file.series.draughts[state];
   if (!(draught > 0.0)) return name + ", draught unknown";
   const int lowered = file.series.lowered_body;
   if (body == lowered) return fmt::format("{}, draught {:.3f} m", name, draught);
   if (file.series.draughts.size() == 1) return name;
-  return fmt::format("{}, {} at a draught of {:.3f} m", name,
-                     names[static_cast<std::size_t>(lowered)], draught);
+  return fmt::format("{}, {} at a draught of {:.3f} m", name, names[lowered], draught);
 }
 
 // ------------------------------------------------------------------------------------------ page
@@ -168,7 +167,7 @@ LineChart by_heading(const HydrodynamicDatabase& database, std::string title, st
 std::string charts_of_mode(const HydrodynamicDatabase& database,
                            const std::vector<MatrixXcd>& responses, Eigen::Index m) {
   const bool rotation = is_rotation(m);
-  const std::string name = mode_names[static_cast<std::size_t>(m % modes_per_body)];
+  const std::string name = mode_names[m % modes_per_body];
   LineChart mass{"added mass, " + name, "rad/s", rotation ? "t m2" : "t", {}};
   mass.curves.push_back(over_frequency(
       database, "A", [&](std::size_t k) { return database.added_mass[k](m, m) / 1e3; }));
@@ -231,7 +230,7 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
     const std::vector<MatrixXcd> responses = responses_of(file, masses, s);
     for (int b = 0; b < database.body_count(); ++b) {
       text += fmt::format("\n{}, {:.6g} m3 displaced\n", name_of_state(file, s, b),
-                          database.displaced_volumes[static_cast<std::size_t>(b)]);
+                          database.displaced_volumes[b]);
       const Eigen::Index first = Eigen::Index{modes_per_body} * b;
       if (!responses.empty()) {
         ModeTable periods("natural period, s");
@@ -263,8 +262,8 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
   return fmt::format(
       "the panels are coarse: the radiation force of {} in {} changes by {:.0f} % from panels of "
       "twice the size to these; take smaller panels until that is below {:.0f} %",
-      database.body_names[body], mode_names[static_cast<std::size_t>(worst % modes_per_body)],
-      100.0 * change, 100.0 * acceptable_change);
+      database.body_names[body], mode_names[worst % modes_per_body], 100.0 * change,
+      100.0 * acceptable_change);
 }
 
 std::string note_on_groups(const dynamics::PanelModel& model,
@@ -280,7 +279,7 @@ std::string note_on_groups(const dynamics::PanelModel& model,
     std::string name;
     for (const int body : group.bodies) {
       if (!name.empty()) name += " with ";
-      name += model.bodies()[static_cast<std::size_t>(body)].name;
+      name += model.bodies()[body].name;
     }
     names.push_back(std::move(name));
   }
@@ -308,7 +307,7 @@ std::string doubt_about_coupling(const dynamics::PanelModel& model,
     return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, model.water());
   };
   if (!reach || reach->shortest <= length(highest_frequency)) return {};
-  const auto name = [&](int body) { return model.bodies()[static_cast<std::size_t>(body)].name; };
+  const auto name = [&](int body) { return model.bodies()[body].name; };
   return fmt::format(
       "{} and {} lie {:.4g} m apart: waves shorter than {:.4g} m, above {:.3g} rad/s in deep "
       "water, "

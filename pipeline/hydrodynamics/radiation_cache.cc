@@ -191,7 +191,7 @@ dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const 
   const RadiationProblem others = without_lowered(problem);
   std::optional<dynamics::HydrodynamicDatabase> alone;
   if (!others.bodies.empty()) alone = find_database(others, "", say);
-  const RadiationProblem::Body& lowered = problem.bodies[static_cast<std::size_t>(body)];
+  const RadiationProblem::Body& lowered = problem.bodies[body];
   std::vector<double> draughts = {0.0};
   std::vector<dynamics::HydrodynamicDatabase> databases(1);
   for (const double draught : lowered.draughts) {

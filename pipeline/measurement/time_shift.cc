@@ -43,8 +43,8 @@ double correlation_at_lag(const std::vector<double>& measured, const std::vector
   double sum_a = 0;
   double sum_b = 0;
   for (long i = begin; i < end; ++i) {
-    sum_a += measured[static_cast<std::size_t>(i)];
-    sum_b += computed[static_cast<std::size_t>(i + lag)];
+    sum_a += measured[i];
+    sum_b += computed[i + lag];
   }
   const double mean_a = sum_a / static_cast<double>(end - begin);
   const double mean_b = sum_b / static_cast<double>(end - begin);
@@ -52,8 +52,8 @@ double correlation_at_lag(const std::vector<double>& measured, const std::vector
   double bb = 0;
   double ab = 0;
   for (long i = begin; i < end; ++i) {
-    const double a = measured[static_cast<std::size_t>(i)] - mean_a;
-    const double b = computed[static_cast<std::size_t>(i + lag)] - mean_b;
+    const double a = measured[i] - mean_a;
+    const double b = computed[i + lag] - mean_b;
     aa += a * a;
     bb += b * b;
     ab += a * b;

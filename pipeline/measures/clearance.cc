@@ -86,7 +86,7 @@ struct RopePiece {
 
 Pose pose_at(const History& history, BodyIndex body, Eigen::Index sample) {
   if (body == dynamics::world_index) return Pose::identity();
-  return history.bodies[static_cast<std::size_t>(body - 1)].X_WB(sample);
+  return history.bodies[body - 1].X_WB(sample);
 }
 
 /// Samples that are looked at: the ends, and others as evenly as can be.
@@ -200,8 +200,7 @@ class Clearances {
                        [&](const LiftBody& body) { return body.body == hoist.hook; });
       if (drawn != lift_.model.bodies.end() && !drawn->boxes.empty())
         add_pair(load_, {hoist.name, hoist.hook, Solid(surface_of(drawn->boxes.front()))});
-      const auto& points =
-          lift_.model.system.ropes()[static_cast<std::size_t>(hoist.rope)].points();
+      const auto& points = lift_.model.system.ropes()[hoist.rope].points();
       const dynamics::BodyPoint& sheave = hoist.hook_is_first ? points[1] : *(points.end() - 2);
       const RopePiece tackle{"tackle of " + hoist.name, sheave, {hoist.hook, Vector3::Zero()}};
       add_rope(tackle, load_);
@@ -225,7 +224,7 @@ class Clearances {
   void add_slings() {
     for (const LiftRope& rope : lift_.model.ropes) {
       if (rope.lug.empty() || rope.hoist.empty()) continue;
-      const auto& points = lift_.model.system.ropes()[static_cast<std::size_t>(rope.rope)].points();
+      const auto& points = lift_.model.system.ropes()[rope.rope].points();
       for (const PlacedSolid& body : cranes_[crane_of(rope.hoist)])
         add_rope({rope.name, points.front(), points.back()}, body);
     }

@@ -36,8 +36,7 @@ class MeasureGroup {
       for (Eigen::Index sample = 0; sample < history->sample_count(); ++sample) {
         set_values(*history, sample, values);
         for (std::size_t i = 0; i < measures_.size(); ++i)
-          (at_rest ? measures_[i].at_rest : measures_[i].in_motion)[sample] =
-              values[static_cast<Eigen::Index>(i)];
+          (at_rest ? measures_[i].at_rest : measures_[i].in_motion)[sample] = values[i];
       }
     }
     for (LiftMeasure& measure : measures_) all.push_back(std::move(measure));
@@ -49,9 +48,7 @@ class MeasureGroup {
 };
 
 Pose pose_of(const History& history, BodyIndex body, Eigen::Index sample) {
-  return body == dynamics::world_index
-             ? Pose::identity()
-             : history.bodies[static_cast<std::size_t>(body - 1)].X_WB(sample);
+  return body == dynamics::world_index ? Pose::identity() : history.bodies[body - 1].X_WB(sample);
 }
 
 /// A point of a crane's body, or of its base, as a point of the dynamics.
@@ -78,7 +75,7 @@ void add_hook_measures(const CraneInCase& crane, const ChartFactor& derated, con
   const HoistModel& model =
       *crane.model->find_hoist(hoist.name.substr(crane.name.value.size() + 1));
   const dynamics::BodyPoint from = body_point(crane, system.mechanism(), *crane.model->radius_from);
-  const auto& points = system.ropes()[static_cast<std::size_t>(hoist.rope)].points();
+  const auto& points = system.ropes()[hoist.rope].points();
   const dynamics::BodyPoint& sheave = hoist.hook_is_first ? points[1] : *(points.end() - 2);
 
   MeasureGroup group(lift);
@@ -111,7 +108,7 @@ void add_hook_measures(const CraneInCase& crane, const ChartFactor& derated, con
         const auto place = [&](const dynamics::BodyPoint& point) {
           return pose_of(history, point.body, sample).apply(point.p_BoQ_B);
         };
-        const auto& rope = history.ropes[static_cast<std::size_t>(hoist.rope)];
+        const auto& rope = history.ropes[hoist.rope];
         const Vector3 pull = hook_pull(rope, hoist.hook_is_first).row(sample);
         const Vector3 centre = place(from);
         const double radius = (pose_of(history, hoist.hook, sample).p - centre).head<2>().norm();
@@ -222,8 +219,7 @@ void add_stand_measures(const CraneInCase& crane, const LiftRun& lift,
         const Pose X_WS = pose_of(history, standing, sample);
         Wrench sum;
         for (const BodyIndex body : bodies) {
-          const Wrench one = demand(mechanism.body(body).inertia,
-                                    history.bodies[static_cast<std::size_t>(body - 1)], sample,
+          const Wrench one = demand(mechanism.body(body).inertia, history.bodies[body - 1], sample,
                                     mechanism.gravity(), X_WS.p);
           sum.force += one.force;
           sum.moment += one.moment;

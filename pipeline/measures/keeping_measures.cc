@@ -12,11 +12,11 @@ using dynamics::History;
 
 Vector3 place(const History& history, const dynamics::BodyPoint& point, Eigen::Index sample) {
   if (point.body == dynamics::world_index) return point.p_BoQ_B;
-  return history.bodies[static_cast<std::size_t>(point.body - 1)].X_WB(sample).apply(point.p_BoQ_B);
+  return history.bodies[point.body - 1].X_WB(sample).apply(point.p_BoQ_B);
 }
 
 double tension(const History& history, int rope, Eigen::Index sample) {
-  return history.ropes[static_cast<std::size_t>(rope)].tension[sample];
+  return history.ropes[rope].tension[sample];
 }
 
 /// What is missed of a wish at the samples of one history.

@@ -23,9 +23,9 @@ void add_plates(const PlateModel& plate, std::vector<Triangle>& triangles) {
   for (const double at : plate.at) {
     std::array<Vector3, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) {
-      corners[i][static_cast<Eigen::Index>(n)] = at;
-      corners[i][static_cast<Eigen::Index>(u)] = plate.extent[u]->value[i == 1 || i == 2 ? 1 : 0];
-      corners[i][static_cast<Eigen::Index>(v)] = plate.extent[v]->value[i >= 2 ? 1 : 0];
+      corners[i][n] = at;
+      corners[i][u] = plate.extent[u]->value[i == 1 || i == 2 ? 1 : 0];
+      corners[i][v] = plate.extent[v]->value[i >= 2 ? 1 : 0];
     }
     add_quad(corners, triangles);
   }
@@ -94,8 +94,7 @@ void add_bar(const structure::Mesh& mesh, const structure::Beam& beam,
              std::vector<Triangle>& triangles) {
   const structure::BeamSection section = structure::section_at(mesh, beam, 0.5);
   std::array<Vector3, 2> ends;
-  for (std::size_t i = 0; i < 2; ++i)
-    ends[i] = mesh.vertices[static_cast<std::size_t>(beam.vertices[i])] + beam.offset[i];
+  for (std::size_t i = 0; i < 2; ++i) ends[i] = mesh.vertices[beam.vertices[i]] + beam.offset[i];
   const Vector3 axis_1 = (ends[1] - ends[0]).normalized();
   const Vector3 axis_2 = (beam.axis_2 - beam.axis_2.dot(axis_1) * axis_1).normalized();
   const Vector3 axis_3 = axis_1.cross(axis_2);
@@ -118,7 +117,7 @@ void add_bar(const structure::Mesh& mesh, const structure::Beam& beam,
 }
 
 void add_mesh(const structure::Mesh& mesh, std::vector<Triangle>& triangles) {
-  const auto vertex = [&](int number) { return mesh.vertices[static_cast<std::size_t>(number)]; };
+  const auto vertex = [&](int number) { return mesh.vertices[number]; };
   for (const structure::Shell& shell : mesh.shells) {
     const auto& v = shell.vertices;
     triangles.push_back({vertex(v[0]), vertex(v[1]), vertex(v[2])});
@@ -127,10 +126,9 @@ void add_mesh(const structure::Mesh& mesh, std::vector<Triangle>& triangles) {
   for (const structure::Beam& beam : mesh.beams)
     if (beam.section >= 0) add_bar(mesh, beam, triangles);
   for (const structure::SolidFace& face : structure::outer_faces(mesh)) {
-    const auto& of_solid = mesh.solids[static_cast<std::size_t>(face.solid)].vertices;
+    const auto& of_solid = mesh.solids[face.solid].vertices;
     std::vector<Vector3> corners;
-    for (const int corner : face.corners)
-      corners.push_back(vertex(of_solid[static_cast<std::size_t>(corner)]));
+    for (const int corner : face.corners) corners.push_back(vertex(of_solid[corner]));
     add_polygon(corners, triangles);
   }
 }

@@ -43,11 +43,10 @@ structure::ColumnForces forces_at(const std::vector<BarForce>& forces, const Lin
 
 std::vector<BarForce> rope_forces(const LiftSpreader& bar, const dynamics::History& history,
                                   Eigen::Index sample) {
-  const Eigen::Matrix3d R_WB =
-      history.bodies[static_cast<std::size_t>(bar.body - 1)].X_WB(sample).R;
+  const Eigen::Matrix3d R_WB = history.bodies[bar.body - 1].X_WB(sample).R;
   std::vector<BarForce> forces;
   for (const LiftSpreader::End& end : bar.ends) {
-    const dynamics::RopeHistory& rope = history.ropes[static_cast<std::size_t>(end.rope)];
+    const dynamics::RopeHistory& rope = history.ropes[end.rope];
     const Vector3 f_W = (end.last ? rope.last_force : rope.first_force).row(sample);
     forces.push_back({end.p_BoQ_B, R_WB.transpose() * f_W});
   }
@@ -141,7 +140,7 @@ double largest_share(const structure::Column& column, const LiftSpreader& bar, c
 Eigen::VectorXd hung_load(const LiftSpreader& bar, const dynamics::History& history) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(history.sample_count());
   for (const LiftSpreader::End& end : bar.ends)
-    if (!end.last) load -= history.ropes[static_cast<std::size_t>(end.rope)].first_force.col(2);
+    if (!end.last) load -= history.ropes[end.rope].first_force.col(2);
   return load;
 }
 

@@ -30,13 +30,12 @@ void add_tackle(const HoistModel& model, const LiftHoist& hoist, const LiftRun& 
   const TackleShares up = calc_shares(tackle, TackleMotion::hoisting);
   const TackleShares down = calc_shares(tackle, TackleMotion::lowering);
   const auto fill = [&](const dynamics::History& history, Eigen::VectorXd LiftMeasure::*series) {
-    const dynamics::RopeHistory& rope = history.ropes[static_cast<std::size_t>(hoist.rope)];
+    const dynamics::RopeHistory& rope = history.ropes[hoist.rope];
     const std::vector<TackleMotion> motion = find_tackle_motion(rope.unstretched_length);
     (pull.*series).resize(history.sample_count());
     (load.*series).resize(history.sample_count());
     for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
-      const TackleShares& shares =
-          motion[static_cast<std::size_t>(i)] == TackleMotion::hoisting ? up : down;
+      const TackleShares& shares = motion[i] == TackleMotion::hoisting ? up : down;
       const double of_one_rope = rope.tension[i] / reeving.lead_lines;
       (pull.*series)[i] = shares.lead_line * of_one_rope;
       (load.*series)[i] = shares.largest * of_one_rope;

@@ -27,7 +27,7 @@ void add_measure(const LiftRun& lift, dynamics::BodyIndex body, LiftMeasure meas
                  const std::function<double(const dynamics::Pose&)>& value_of,
                  std::vector<LiftMeasure>& measures) {
   const auto series = [&](const dynamics::History& history) {
-    const auto& poses = history.bodies[static_cast<std::size_t>(body - 1)];
+    const auto& poses = history.bodies[body - 1];
     Eigen::VectorXd values(history.sample_count());
     for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = value_of(poses.X_WB(i));
     return values;

@@ -59,7 +59,7 @@ void PartsBuilder::add_body(dynamics::MechanismBuilder& builder, const JointMode
     if (drive.joint.value != joint.name.value) continue;
     body.driven.resize(freedoms, false);
     const int degree = drive.degree_of_freedom.value - 1;
-    body.driven[static_cast<std::size_t>(degree)] = true;
+    body.driven[degree] = true;
     driven.push_back({&drive, -1, degree});
   }
   if (held) body.driven.assign(freedoms, true);

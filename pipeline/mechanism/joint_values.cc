@@ -34,7 +34,7 @@ bool fit(const std::vector<Quantity>& values, std::size_t first,
 Eigen::VectorXd numbers_of(const std::vector<Quantity>& values) {
   Eigen::VectorXd numbers(static_cast<Eigen::Index>(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) {
-    numbers[static_cast<Eigen::Index>(i)] = values[i].value;
+    numbers[i] = values[i].value;
   }
   return numbers;
 }

@@ -34,7 +34,7 @@ void check_gear(const MechanismParts& parts, const LoopModel& loop, Reading& rea
     const std::vector<bool> all = joint_turns(joint->kind);
     const int degree = side.degree_of_freedom ? side.degree_of_freedom->value : 1;
     if (degree < 1 || degree > static_cast<int>(all.size())) return std::nullopt;
-    return all[static_cast<std::size_t>(degree - 1)];
+    return all[degree - 1];
   };
   const auto first = turns(*loop.first);
   const auto second = turns(*loop.second);
@@ -160,7 +160,7 @@ std::optional<bool> check_freedom(const MechanismParts& parts, const JointAxis& 
     return std::nullopt;
   }
   if (degree < 1) return std::nullopt;
-  return turns[static_cast<std::size_t>(degree - 1)];
+  return turns[degree - 1];
 }
 
 void check_loop_side(const LoopSide& side, Reading& reading, const Mark& mark) {

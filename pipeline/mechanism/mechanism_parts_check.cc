@@ -80,7 +80,7 @@ void check_drive(const MechanismParts& parts, const DriveModel& drive, Reading& 
                     joint->name.value, dynamics::joint_kind_name(joint->kind), turns.size(),
                     turns.size() == 1 ? "" : "s", drive.name.value, degree));
   } else if (degree >= 1) {
-    check_drive_dimensions(drive, turns[static_cast<std::size_t>(degree - 1)], reading);
+    check_drive_dimensions(drive, turns[degree - 1], reading);
   }
 }
 

@@ -59,11 +59,10 @@ Json stages_json(const LiftRun& lift) {
 Json parted_json(const LiftRun& lift) {
   Json rows = Json::array();
   for (const dynamics::PartedRope& parted : lift.dynamic_result.parted)
-    rows.push_back(
-        {{"name", lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name()},
-         {"time_s", parted.time},
-         {"tension_N", parted.tension},
-         {"energy_J", parted.energy}});
+    rows.push_back({{"name", lift.model.system.ropes()[parted.rope].name()},
+                    {"time_s", parted.time},
+                    {"tension_N", parted.tension},
+                    {"energy_J", parted.energy}});
   return rows;
 }
 

@@ -17,8 +17,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 std::string names_of(const RadiationRecord& record, const PairStraying& pair) {
   const auto& bodies = record.arrangement.bodies;
-  return fmt::format("{} and {}", bodies[static_cast<std::size_t>(pair.first)].name,
-                     bodies[static_cast<std::size_t>(pair.second)].name);
+  return fmt::format("{} and {}", bodies[pair.first].name, bodies[pair.second].name);
 }
 
 double share_beyond(const PairStraying& pair) {
@@ -34,9 +33,7 @@ Json largest_json(const LargestInTime& largest, const char* unit) {
 
 Json pair_json(const RadiationRecord& record, const PairStraying& pair) {
   const auto& bodies = record.arrangement.bodies;
-  Json json{{"vessels",
-             {bodies[static_cast<std::size_t>(pair.first)].name,
-              bodies[static_cast<std::size_t>(pair.second)].name}},
+  Json json{{"vessels", {bodies[pair.first].name, bodies[pair.second].name}},
             {"both_in_water", pair.samples > 0}};
   if (pair.samples == 0) return json;
   json["distance"] = largest_json(pair.distance, "size_m");

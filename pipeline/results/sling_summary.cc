@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 Json by_sling(const SlingLengths& lengths, const Eigen::VectorXd& values) {
   Json json = Json::object();
   for (std::size_t i = 0; i < lengths.slings.size(); ++i)
-    json[lengths.slings[i]] = json_number(values[static_cast<Eigen::Index>(i)]);
+    json[lengths.slings[i]] = json_number(values[i]);
   return json;
 }
 

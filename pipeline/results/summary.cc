@@ -77,7 +77,7 @@ class LoadTables {
       row["breaking_load_N"] = rope.breaking_load;
       if (const RopeInCase& in_case = *case_.find_rope(rope.name); in_case.bend_diameter)
         row["bend_efficiency"] = bend_efficiency(in_case);
-      if (const auto& rope_of = lift_.model.system.ropes()[static_cast<std::size_t>(rope.rope)];
+      if (const auto& rope_of = lift_.model.system.ropes()[rope.rope];
           rope_of.definition().tension_law)
         row["largest_strain"] = rope_of.definition().tension_law->find_strain(
             row["max_dynamic_tension_N"].get<double>());
@@ -95,7 +95,7 @@ class LoadTables {
       row["crane"] = case_.cranes[hoist.crane].name.value;
       row["breaking_load_N"] = hoist.breaking_load;
       row["capacity_N"] = hoist.capacity;
-      const auto& history = lift_.dynamic_history().ropes[static_cast<std::size_t>(hoist.rope)];
+      const auto& history = lift_.dynamic_history().ropes[hoist.rope];
       row["max_swing_rad"] = swing_angles(hook_pull(history, hoist.hook_is_first)).maxCoeff();
       rows.push_back(row);
     }
@@ -182,8 +182,8 @@ class LoadTables {
   }
 
   Json rope_row(const std::string& name, int rope) const {
-    const LinkedMaximum& at_rest = static_maxima_[static_cast<std::size_t>(rope)];
-    const LinkedMaximum& in_motion = dynamic_maxima_[static_cast<std::size_t>(rope)];
+    const LinkedMaximum& at_rest = static_maxima_[rope];
+    const LinkedMaximum& in_motion = dynamic_maxima_[rope];
     return maxima_json(name, at_rest.tension, at_rest.time, in_motion.tension, in_motion.time,
                        "tension_N");
   }
@@ -191,7 +191,7 @@ class LoadTables {
   Json linked(const std::vector<LinkedMaximum>& maxima, int rope) const {
     Json values = Json::object();
     for (const LiftRope& other : lift_.model.ropes)
-      values[other.name] = maxima[static_cast<std::size_t>(rope)].tensions(other.rope);
+      values[other.name] = maxima[rope].tensions(other.rope);
     return values;
   }
 

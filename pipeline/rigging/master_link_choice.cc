@@ -53,7 +53,7 @@ std::vector<MasterLinkDemand> master_link_demands(const LiftCase& lift_case, con
     if (demand.legs < 2) continue;
     const CraneInCase& crane = lift_case.cranes[hoist.crane];
     const HoistModel& model = *crane.model->find_hoist(hoist.name.substr(hoist.name.find('.') + 1));
-    const auto& tackle = lift.static_history.ropes[static_cast<std::size_t>(hoist.rope)];
+    const auto& tackle = lift.static_history.ropes[hoist.rope];
     demand.at_rest =
         std::max(0.0, tackle.tension.maxCoeff() - model.hook_block.mass * lift_case.gravity);
     demands.push_back(demand);

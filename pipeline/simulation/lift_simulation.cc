@@ -41,7 +41,7 @@ std::vector<OutputSeries> table_of(const LiftSimulation& simulation) {
   const dynamics::Mechanism& mechanism = simulation.run.model.system.mechanism();
   const std::vector<int>& driven = mechanism.driven_velocities();
   for (std::size_t i = 0; i < history.drives.size(); ++i) {
-    const bool turns = mechanism.angular()[static_cast<std::size_t>(driven[i])] != 0;
+    const bool turns = mechanism.angular()[driven[i]] != 0;
     series.push_back(series_of(history.drives[i].name + ".position", turns ? "rad" : "m",
                                history.drives[i].position));
   }

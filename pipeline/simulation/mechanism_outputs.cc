@@ -267,7 +267,7 @@ void OutputRecorder::add_spring(const std::string& name, const std::string& spri
   const auto* turn = find_element<dynamics::JointSpring>(mechanism_.system, spring);
   const dynamics::JointSpring::Definition& d = turn->definition();
   const Body& body = mechanism_.system.mechanism().body(d.body);
-  const bool turns = joint_turns(body.joint.kind)[static_cast<std::size_t>(d.degree_of_freedom)];
+  const bool turns = joint_turns(body.joint.kind)[d.degree_of_freedom];
   const int q = body.q_offset + d.degree_of_freedom;
   const int v = body.v_offset + d.degree_of_freedom;
   const std::string unit = force ? (turns ? "N m" : "N") : (turns ? "rad" : "m");
@@ -310,7 +310,7 @@ void OutputRecorder::add_loop(const std::string& name, const std::string& loop,
                               const std::string& quantity) {
   const dynamics::Mechanism& mechanism = mechanism_.system.mechanism();
   const int index = mechanism.loop_index(loop);
-  const dynamics::Loop& the_loop = mechanism.loops()[static_cast<std::size_t>(index)];
+  const dynamics::Loop& the_loop = mechanism.loops()[index];
   using Row = Eigen::Ref<Eigen::RowVectorXd>;
   const bool has_force =
       the_loop.kind != dynamics::LoopKind::gear && the_loop.kind != dynamics::LoopKind::rope_length;

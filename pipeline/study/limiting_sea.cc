@@ -100,8 +100,7 @@ constexpr const char* heading_column = "heading_deg";
 const std::vector<double>* find_column(const SeriesFile& file, const std::string& name, bool is_due,
                                        const Mark& mark, Diagnostics& diagnostics) {
   const auto found = std::find(file.names.begin(), file.names.end(), name);
-  if (found != file.names.end())
-    return &file.columns[static_cast<std::size_t>(found - file.names.begin())];
+  if (found != file.names.end()) return &file.columns[found - file.names.begin()];
   if (is_due) diagnostics.error(mark, fmt::format("there is no column {}", name));
   return nullptr;
 }

@@ -35,7 +35,7 @@ std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd&
   for (std::size_t v = 0; v < study.variables.size(); ++v) {
     if (only && std::find(only->begin(), only->end(), static_cast<int>(v)) == only->end()) continue;
     const StudyVariable& variable = study.variables[v];
-    const std::string value = value_text(variable, values[static_cast<Eigen::Index>(v)]);
+    const std::string value = value_text(variable, values[v]);
     for (const Located<std::string>& key : variable.keys)
       if (auto change = parse_key_change(key.value + "=" + value, key.mark, diagnostics))
         changes.push_back(std::move(*change));
@@ -48,7 +48,7 @@ std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
   std::string text;
   for (std::size_t v = 0; v < study.variables.size(); ++v)
     text += fmt::format("{}{} = {}", v > 0 ? ", " : "", study.variables[v].name.value,
-                        value_text(study.variables[v], values[static_cast<Eigen::Index>(v)], 6));
+                        value_text(study.variables[v], values[v], 6));
   return text;
 }
 

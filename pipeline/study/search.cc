@@ -35,7 +35,7 @@ class Problem {
     lowest_.resize(count);
     range_.resize(count);
     for (Eigen::Index v = 0; v < count; ++v) {
-      const auto& between = study.variables[static_cast<std::size_t>(v)].between;
+      const auto& between = study.variables[v].between;
       lowest_[v] = between[0].value.value;
       range_[v] = between[1].value.value - between[0].value.value;
     }
@@ -193,7 +193,7 @@ bool descend(const Problem& problem, const GoalScale& scale, Trials& trials,
   algorithm.setMaximumEvaluationNumber(static_cast<OT::UnsignedInteger>(most));
   OT::Point start(count);
   const Eigen::VectorXd shares = problem.shares_of(from);
-  for (OT::UnsignedInteger v = 0; v < count; ++v) start[v] = shares[static_cast<Eigen::Index>(v)];
+  for (OT::UnsignedInteger v = 0; v < count; ++v) start[v] = shares[v];
   algorithm.setStartingPoint(start);
   algorithm.run();
   return algorithm.getResult().getEvaluationNumber() < static_cast<OT::UnsignedInteger>(most);
@@ -203,9 +203,7 @@ int best_of(const Problem& problem, const std::vector<Member>& members,
             const std::vector<int>& among) {
   int best = -1;
   for (const int m : among)
-    if (best < 0 || problem.is_better(members[static_cast<std::size_t>(m)],
-                                      members[static_cast<std::size_t>(best)]))
-      best = m;
+    if (best < 0 || problem.is_better(members[m], members[best])) best = m;
   return best;
 }
 
@@ -216,7 +214,7 @@ std::vector<int> numbers(int from, int to) {
 }
 
 void describe_best(const Problem& problem, const StudyFile& study, SearchResults& results) {
-  const Member& best = results.members[static_cast<std::size_t>(results.best)];
+  const Member& best = results.members[results.best];
   results.is_feasible = problem.excess(best) == 0;
   results.value = problem.shown(problem.goal(best));
   for (std::size_t b = 0; b < study.subject_to.size(); ++b)
@@ -257,8 +255,7 @@ SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& samp
     descend(problem, scale, trials, results.design.row(second), trials.left());
     std::vector<int> of_second = numbers(from, count());
     of_second.push_back(second);
-    const Member& best =
-        results.members[static_cast<std::size_t>(best_of(problem, results.members, of_second))];
+    const Member& best = results.members[best_of(problem, results.members, of_second)];
     if (problem.excess(best) == 0) results.elsewhere = problem.shown(problem.goal(best));
     results.best = best_of(problem, results.members, numbers(0, count()));
   }
@@ -271,10 +268,9 @@ std::vector<double> best_so_far(const StudyFile& study, const SearchResults& res
   std::vector<double> values;
   int best = 0;
   for (int m = 0; m < static_cast<int>(results.members.size()); ++m) {
-    const Member& member = results.members[static_cast<std::size_t>(m)];
-    if (m > 0 && problem.is_better(member, results.members[static_cast<std::size_t>(best)]))
-      best = m;
-    const Member& so_far = results.members[static_cast<std::size_t>(best)];
+    const Member& member = results.members[m];
+    if (m > 0 && problem.is_better(member, results.members[best])) best = m;
+    const Member& so_far = results.members[best];
     values.push_back(problem.excess(so_far) == 0 ? problem.shown(problem.goal(so_far)) : nan);
   }
   return values;

@@ -62,7 +62,7 @@ std::string history_chart(const StudyResults& results) {
   for (const Member& member : search.members) {
     tried.x.push_back(member.number);
     best.x.push_back(member.number);
-    best.y.push_back(figure.scale * so_far[static_cast<std::size_t>(member.number)]);
+    best.y.push_back(figure.scale * so_far[member.number]);
     tried.y.push_back(figure.scale * member.figure(search.figure));
   }
   return to_svg({figure.name,

@@ -123,7 +123,7 @@ void find_largest(const structure::StressBasis& basis, const BlockAttachment& at
   if (largest.point < 0) throw std::runtime_error("the block has no plating");
   stress = largest.value;
   time = history.time[largest.instant];
-  place = basis.squares[static_cast<std::size_t>(largest.point)].centre_B;
+  place = basis.squares[largest.point].centre_B;
 }
 
 }  // namespace
@@ -143,8 +143,7 @@ StudyBlocks::~StudyBlocks() = default;
 
 std::string StudyBlocks::key_of(const Eigen::VectorXd& values) const {
   std::string key;
-  for (const int v : changing_)
-    key += value_text(study_.variables[static_cast<std::size_t>(v)], values[v]) + "\n";
+  for (const int v : changing_) key += value_text(study_.variables[v], values[v]) + "\n";
   return key;
 }
 

@@ -76,10 +76,10 @@ Eigen::MatrixXd grid_of(const StudyFile& study) {
   // The last variable runs fastest.
   Eigen::Index repeat = 1;
   for (Eigen::Index v = design.cols() - 1; v >= 0; --v) {
-    const auto& values = study.variables[static_cast<std::size_t>(v)].values;
+    const auto& values = study.variables[v].values;
     const auto count = static_cast<Eigen::Index>(values.size());
     for (Eigen::Index member = 0; member < size; ++member)
-      design(member, v) = values[static_cast<std::size_t>(member / repeat % count)].value.value;
+      design(member, v) = values[member / repeat % count].value.value;
     repeat *= count;
   }
   return design;
@@ -142,7 +142,7 @@ Eigen::MatrixXd make_design(const StudyFile& study) {
     for (Eigen::Index v = 0; v < design.cols(); ++v) {
       const double drawn =
           sample(static_cast<OT::UnsignedInteger>(member), static_cast<OT::UnsignedInteger>(v));
-      const StudyVariable& variable = study.variables[static_cast<std::size_t>(v)];
+      const StudyVariable& variable = study.variables[v];
       design(member, v) =
           variable.law || !variable.between.empty()
               ? drawn
@@ -169,7 +169,7 @@ Sensitivity find_sensitivity(const Eigen::MatrixXd& design, const Eigen::VectorX
   for (OT::UnsignedInteger i = 0; i < rows; ++i) {
     for (OT::UnsignedInteger j = 0; j < columns; ++j)
       inputs(i, j) = design(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    outputs(i, 0) = figure[static_cast<Eigen::Index>(i)];
+    outputs(i, 0) = figure[i];
   }
   OT::RandomGenerator::SetSeed(1);  // of the bootstrap
   OT::SaltelliSensitivityAlgorithm algorithm(inputs, outputs,

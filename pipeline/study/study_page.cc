@@ -118,17 +118,15 @@ std::string bar(double share) {
 std::string tornado(const StudyResults& results, const Spread& spread) {
   std::vector<std::size_t> order(results.study.variables.size());
   for (std::size_t v = 0; v < order.size(); ++v) order[v] = v;
-  const auto strength = [&](std::size_t v) {
-    return std::abs(spread.rank_correlation[static_cast<Eigen::Index>(v)]);
-  };
+  const auto strength = [&](std::size_t v) { return std::abs(spread.rank_correlation[v]); };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return strength(a) > strength(b); });
   std::string text =
       "<table>\n" + cells({name_with_unit(results, spread.path), "rank correlation"}, "th");
   for (const std::size_t v : order)
-    text += cells({escape_html(results.study.variables[v].name.value),
-                   bar(spread.rank_correlation[static_cast<Eigen::Index>(v)])},
-                  "td");
+    text +=
+        cells({escape_html(results.study.variables[v].name.value), bar(spread.rank_correlation[v])},
+              "td");
   return text + "</table>\n";
 }
 

@@ -80,8 +80,7 @@ Json spread_json(const StudyFile& study, const Spread& spread) {
                         {"high", number_or_null(fit.high)},
                         {"p_value", fit.p_value}});
   for (std::size_t v = 0; v < study.variables.size(); ++v)
-    correlations[study.variables[v].name.value] =
-        spread.rank_correlation[static_cast<Eigen::Index>(v)];
+    correlations[study.variables[v].name.value] = spread.rank_correlation[v];
   return {{"name", spread.path},
           {"worse_when", spread.worse_when_smaller ? "smaller" : "larger"},
           {"mean", spread.mean},
