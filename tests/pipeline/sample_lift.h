@@ -101,6 +101,15 @@ load_table:
   dynamic: {L1: 6 t, L2: 6 t}
 )";
 
+// 40 x 20 m, upright sides: draught 2 m at 1,640 t in water of 1,025 kg/m3.
+inline const std::string sample_barge = R"(kind: vessel
+hull: {barge: {length: 40 m, breadth: 20 m, depth: 6 m}}
+panel_size: 4 m
+mass: 1640 t
+centre_of_mass: [0 m, 0 m, 3 m]
+radii_of_gyration: [6 m, 11 m, 11 m]
+)";
+
 // A boom with one hoist, to stand on a vessel.
 inline const std::string sample_boom = R"(kind: crane
 bodies: {boom: {mass: 41 t, centre_of_mass: [10 m, 0 m, 0 m], radii_of_gyration: [1 m, 6 m, 6 m]}}

@@ -10,6 +10,7 @@
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/nastran/reader.h"
+#include "structure/mesh/mass_properties.h"
 
 namespace blocklift::structure::test {
 
@@ -229,6 +230,12 @@ const LedgerEntry& entry(const Deck& deck, const std::string& name) {
 
 void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance) {
   EXPECT_LE((value - expected).norm(), tolerance) << value << "\nis due to be\n" << expected;
+}
+
+void expect_mass(const Deck& deck, double mass, const Vector3& moment) {
+  const MeshMass found = mass_properties(deck.mesh);
+  EXPECT_NEAR(found.mass, mass, 1e-9 * mass);
+  EXPECT_LE((found.mass * found.centre - moment).norm(), 1e-6 * mass) << found.centre.transpose();
 }
 
 void expect_same(const Deck& a, const Deck& b, double tolerance) {

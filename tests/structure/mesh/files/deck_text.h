@@ -38,6 +38,9 @@ const LedgerEntry& entry(const Deck& deck, const std::string& name);
 /// Compares two matrices by the norm of their difference.
 void expect_near(const Eigen::MatrixXd& value, const Eigen::MatrixXd& expected, double tolerance);
 
+/// Compares a deck's mass (kg) and its first moment (kg m) with sums by hand.
+void expect_mass(const Deck& deck, double mass, const Vector3& moment);
+
 /// Compares what two decks say: places, cells, sections, links, supports and loads, in their order.
 /// @param tolerance relative
 void expect_same(const Deck& a, const Deck& b, double tolerance);

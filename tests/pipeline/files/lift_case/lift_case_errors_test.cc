@@ -1,0 +1,506 @@
+// What is said of cases that cannot be.
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/pipeline/files/lift_case/lift_case_complaints.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using test::complaints_about;
+using test::complaints_about_case;
+using test::SampleLift;
+using test::TemporaryFolder;
+using test::with;
+using ::testing::HasSubstr;
+
+TEST(LiftCaseErrors, UnknownKey) {
+  EXPECT_EQ(complaints_about_case("settle: 10 s", "setle: 10 s"),
+            "case.yaml:20:1: error: lift case has no key \"setle\"\n"
+            "    its keys are case, title, document, gravity, load, cranes, spreaders, ropes, "
+            "rope_weight, sling_tolerance, ground, ground_contact, ... (27 in all); did you mean "
+            "\"settle\"?\n"
+            "1 error\n");
+}
+
+TEST(LiftCaseErrors, WrongUnit) {
+  EXPECT_EQ(complaints_about_case("speed: 15 m/min", "speed: 15 m"),
+            "case.yaml:18:48: error: speed \"15 m\" is a length; a speed or an angular speed is "
+            "due, for example \"3 m/min\" or \"0.5 deg/s\"\n1 error\n");
+  EXPECT_EQ(complaints_about_case("length: 2 m}\n  R2", "length: 2}\n  R2"),
+            "case.yaml:9:60: error: length \"2\" has no unit; a length is due, for example \"12 m\""
+            "\n1 error\n");
+}
+
+TEST(LiftCaseErrors, MissingModel) {
+  EXPECT_EQ(complaints_about_case("model: gantry", "model: gantri"),
+            "case.yaml:6:12: error: there is no crane model \"gantri\"\n"
+            "    the crane models are gantry; did you mean \"gantry\"?\n"
+            "    looked for in .\n"
+            "1 error\n");
+}
+
+TEST(LiftCaseErrors, MissingModelWithAnotherFolderOrKind) {
+  EXPECT_EQ(complaints_about_case("from: C1.left, to: L1, model: ropes/tackle",
+                                  "from: C1.left, to: L1, model: slings/tacle"),
+            "case.yaml:9:38: error: there is no rope model \"slings/tacle\"\n"
+            "    the rope models are ropes/tackle; did you mean \"ropes/tackle\"?\n"
+            "    looked for in .\n"
+            "1 error\n");
+  EXPECT_EQ(complaints_about_case("from: C1.left, to: L1, model: ropes/tackle",
+                                  "from: C1.left, to: L1, model: gantry"),
+            "case.yaml:9:38: error: there is no rope model \"gantry\"\n"
+            "    the rope models are ropes/tackle\n"
+            "    looked for in .\n"
+            "    \"gantry\" is a crane\n"
+            "1 error\n");
+}
+
+TEST(LiftCaseErrors, ModelOfAnotherKind) {
+  SampleLift lift;
+  lift.crane = test::sample_rope;
+  EXPECT_EQ(complaints_about(lift),
+            "gantry/crane.yaml:1:7: error: this file describes a rope; a crane is due\n1 error\n");
+}
+
+TEST(LiftCaseErrors, NegativeMass) {
+  SampleLift lift;
+  lift.crane = with(lift.crane, "mass: 100 t", "mass: -100 t");
+  lift.block = with(lift.block, "mass: 10 t", "mass: -10 t");
+  EXPECT_EQ(complaints_about(lift),
+            "gantry/crane.yaml:5:11: error: mass \"-100 t\" must be at least 0\n"
+            "plate.yaml:4:7: error: mass \"-10 t\" must be greater than 0\n"
+            "2 errors\n");
+}
+
+TEST(LiftCaseErrors, ImpossibleInertia) {
+  SampleLift lift;
+  lift.crane = with(lift.crane, "[4 m, 3 m, 4 m]", "[4 m, 3 m, 6 m]");
+  EXPECT_EQ(
+      complaints_about(lift),
+      "gantry/crane.yaml:7:24: error: body gantry has an inertia that no distribution of mass "
+      "has: principal moments 900, 1600 and 3600 t m^2\n"
+      "    none may be negative or larger than the sum of the other two\n1 error\n");
+}
+
+TEST(LiftCaseErrors, RopeToALugThatDoesNotExist) {
+  EXPECT_EQ(complaints_about_case("to: L2", "to: L7"),
+            "case.yaml:10:28: error: rope R2 ends at lug \"L7\", which block plate does not have\n"
+            "    its lugs are L1, L2; did you mean \"L1\"?\n1 error\n");
+}
+
+TEST(LiftCaseErrors, RopeFromAHookThatDoesNotExist) {
+  EXPECT_EQ(complaints_about_case("from: C1.right", "from: C1.rigth"),
+            "case.yaml:10:14: error: rope R2 begins at \"C1.rigth\", but crane C1 has no hoist "
+            "\"rigth\"\n"
+            "    its hoists are C1.left, C1.right; did you mean \"C1.right\"?\n1 error\n");
+  EXPECT_EQ(complaints_about_case("from: C1.right", "from: C2.right"),
+            "case.yaml:10:14: error: rope R2 begins at \"C2.right\", but the case has no crane "
+            "\"C2\"\n"
+            "    its cranes are C1; did you mean \"C1\"?\n1 error\n");
+  EXPECT_EQ(complaints_about_case("from: C1.right", "from: C1.gantry"),
+            "case.yaml:10:14: error: rope R2 begins at body \"C1.gantry\" without saying where\n"
+            "    give the point: {body: C1.gantry, point: [0 m, 0 m, 0 m]}\n1 error\n");
+}
+
+TEST(LiftCaseErrors, WinchThatPullsItsRopeThroughTheSheave) {
+  EXPECT_EQ(
+      complaints_about_case("by: -2 m", "by: -5.5 m"),
+      "case.yaml:15:19: error: winch C1.left would pull its rope through the sheave in stage "
+      "\"hoist up\": its length would go from 5 m to -0.5 m\n"
+      "    its range is 1 m to 9 m, and it starts the operation at 5 m\n"
+      "case.yaml:15:28: error: winch C1.right would pull its rope through the sheave in stage "
+      "\"hoist up\": its length would go from 5 m to -0.5 m\n"
+      "    its range is 1 m to 9 m, and it starts the operation at 5 m\n"
+      "2 errors\n");
+  // Moves add up.
+  EXPECT_EQ(complaints_about_case("by: -2 m}",
+                                  "by: -2 m}\n      - {drives: [C1.left], to: 0.5 m, "
+                                  "delay: 60 s}"),
+            "case.yaml:16:19: error: C1.left would go from 3 m to 0.5 m in stage \"hoist up\", "
+            "outside its range\n"
+            "    its range is 1 m to 9 m, and it starts the operation at 5 m\n"
+            "1 error\n");
+}
+
+std::string complaints_about_spreader(const std::string& old_passage,
+                                      const std::string& new_passage) {
+  SampleLift lift = test::spreader_lift();
+  lift.lift_case = with(lift.lift_case, old_passage, new_passage);
+  return complaints_about(lift);
+}
+
+TEST(LiftCaseErrors, EyeThatASpreaderDoesNotHave) {
+  EXPECT_EQ(
+      complaints_about_spreader("to: B1.upper_b", "to: B1.uper_b"),
+      "case.yaml:18:27: error: rope U2 ends at \"B1.uper_b\", which is no eye of spreader B1\n"
+      "    its eyes are B1.upper_a, B1.upper_b, B1.lower_a, B1.lower_b; did you mean "
+      "\"B1.upper_b\"?\n1 error\n");
+}
+
+TEST(LiftCaseErrors, SlingsThatDoNotReachAroundASpreader) {
+  EXPECT_EQ(
+      complaints_about_spreader("upper_b, model: ropes/tackle, length: 2.5 m",
+                                "upper_b, model: ropes/tackle, length: 1.5 m"),
+      "case.yaml:17:68: error: slings U1 and U2 are too short: 2.5 m and 1.5 m from one point "
+      "do not reach the eyes of spreader B1, which are 4 m apart\n1 error\n");
+}
+
+TEST(LiftCaseErrors, SpreaderThatHangsOnNothing) {
+  EXPECT_EQ(complaints_about_spreader("spreaders:\n",
+                                      "spreaders:\n"
+                                      "  B2: {length: 2 m, section: {pipe: [100 mm, 5 mm]}, "
+                                      "yield_stress: 235 MPa}\n"),
+            "case.yaml:9:3: error: no sling ends at spreader B2\n"
+            "    slings from above end at B2.upper_a and B2.upper_b, those to the load begin at "
+            "B2.lower_a and B2.lower_b\n1 error\n");
+}
+
+TEST(LiftCaseErrors, SpreaderOfAThinOrImpossibleWall) {
+  EXPECT_EQ(complaints_about_spreader("[168.3 mm, 8 mm]", "[168.3 mm, 2 mm]"),
+            "case.yaml:11:14: error: the wall of spreader B1 is too thin: diameter over thickness "
+            "is 84.2\n    up to 59.6 a wall of this steel yields before it buckles "
+            "(EN 1993-1-1, table 5.2, class 3)\n1 error\n");
+  EXPECT_THAT(complaints_about_spreader("[168.3 mm, 8 mm]", "[168.3 mm, 90 mm]"),
+              HasSubstr("a wall of 90 mm is thicker than half of the section's 168.3 mm"));
+  EXPECT_THAT(complaints_about_spreader("pipe: [168.3 mm, 8 mm]", ""),
+              HasSubstr("has 0 shapes, and one is due"));
+}
+
+TEST(LiftCaseErrors, SpreaderWithAnothersName) {
+  EXPECT_THAT(complaints_about_spreader("  B1:\n",
+                                        "  load: {length: 2 m, section: {pipe: [100 mm, "
+                                        "5 mm]}, yield_stress: 235 MPa}\n  B1:\n"),
+              HasSubstr("a spreader cannot be named \"load\""));
+}
+
+// From rest to rest over 2 m at 0.1 m/s, 0.1 m/s2, 0.2 m/s3: 2/0.1 + 0.1/0.1 + 0.1/0.2 = 21.5 s
+// where the acceleration limit is reached; here sqrt(0.1/0.2) = 0.707 s > 0.5 s, so it is.
+TEST(LiftCaseErrors, OperationThatOverlapsItself) {
+  EXPECT_EQ(
+      complaints_about_case("by: -2 m}",
+                            "by: -2 m}\n      - {drives: [C1.left], by: 1 m, delay: 10 s}"),
+      "case.yaml:16:19: error: the operation overlaps itself: C1.left would begin this move at "
+      "15 s, but its move in line 15 lasts until 26.5 s\n"
+      "    give the move a delay of at least 21.500 s, or a stage of its own\n1 error\n");
+  EXPECT_EQ(complaints_about_case("{drives: [C1.travel], by: 10 m, speed: 15 m/min}",
+                                  "{drives: [C1.travel, C1.traverse], by: 4 m}"),
+            "case.yaml:19:19: error: the operation overlaps itself: C1.traverse follows C1.travel "
+            "and has a move of its own in line 18\n1 error\n");
+}
+
+TEST(LiftCaseErrors, DriveThatDoesNotExist) {
+  EXPECT_EQ(
+      complaints_about_case("drives: [C1.travel]", "drives: [C1.travle]"),
+      "case.yaml:18:19: error: stage \"carry\" moves \"C1.travle\", which is no drive or winch "
+      "of the case\n"
+      "    its drives and winches are C1.travel, C1.traverse, C1.left, C1.right; did you mean "
+      "\"C1.travel\"?\n"
+      "1 error\n");
+  EXPECT_EQ(complaints_about_case("follows: C1.travel", "follows: C1.left"),
+            "case.yaml:19:42: error: C1.traverse follows C1.left, which does not move in stage "
+            "\"carry\"\n"
+            "1 error\n");
+}
+
+TEST(LiftCaseErrors, MoveBeyondTheLimitsOfItsDrive) {
+  EXPECT_EQ(complaints_about_case("speed: 15 m/min", "speed: 45 m/min"),
+            "case.yaml:18:48: error: speed 45 m/min is more than C1.travel can do\n"
+            "    its largest speed is 30 m/min\n"
+            "1 error\n");
+  EXPECT_EQ(complaints_about_case("speed: 15 m/min", "duration: 10 s").substr(0, 47),
+            "case.yaml:18:51: error: C1.travel: a move over ");
+  EXPECT_EQ(complaints_about_case("by: 10 m", "by: 10 deg"),
+            "case.yaml:18:35: error: C1.travel moves by a length, but the move goes by an angle\n"
+            "1 error\n");
+}
+
+TEST(LiftCaseErrors, FollowerThatCannotFollow) {
+  EXPECT_EQ(complaints_about_case("[10 m, 2 m]]", "[8 m, 2 m]]"),
+            "case.yaml:19:60: error: the table ends at 8 m, but C1.travel travels 10 m in stage "
+            "\"carry\"\n1 error\n");
+  EXPECT_EQ(complaints_about_case("[[0 m, 0 m], [5 m, 1 m]", "[[1 m, 0 m], [5 m, 1 m]"),
+            "case.yaml:19:60: error: the table must begin with zero travel of both\n"
+            "    for example [0 m, 0 m]\n1 error\n");
+  EXPECT_EQ(complaints_about_case("[5 m, 1 m], [10 m, 2 m]", "[5 m, 3 m], [10 m, 6 m]"),
+            "case.yaml:19:19: error: C1.traverse would go from 5 m to 11 m in stage \"carry\", "
+            "outside its range\n"
+            "    its range is 1 m to 9 m, and it starts the operation at 5 m\n1 error\n");
+  // The spline's slope at its end is 3/2 * 3.9/5 = 1.17, the leader's acceleration 0.1 m/s^2.
+  EXPECT_EQ(
+      complaints_about_case("[5 m, 1 m], [10 m, 2 m]", "[5 m, 3.9 m], [10 m, 0 m]"),
+      "case.yaml:19:19: error: C1.traverse would need an acceleration of 0.117 m/s^2 to follow "
+      "C1.travel\n"
+      "    its largest acceleration is 0.1 m/s^2; let the leader go slower or smooth the table"
+      "\n1 error\n");
+}
+
+TEST(LiftCaseErrors, StartThatIsMissingOrImpossible) {
+  EXPECT_EQ(complaints_about_case("{travel: 0 m, traverse: 5 m, left: 5 m, right: 5 m}",
+                                  "{travel: 60 m, traverse: 5 deg, left: 5 m, rihgt: 5 m}"),
+            "case.yaml:5:3: error: crane C1 gives no start for its hoist right\n"
+            "    add right: 30 m to its start\n"
+            "case.yaml:7:21: error: drive C1.travel starts at 60 m, outside its range\n"
+            "    its range is -50 m to 50 m\n"
+            "case.yaml:7:37: error: the start of drive C1.traverse is an angle; a length is due\n"
+            "case.yaml:7:55: error: crane C1 has no drive or hoist \"rihgt\"\n"
+            "    its drives and hoists are travel, traverse, left, right; did you mean \"right\"?\n"
+            "4 errors\n");
+}
+
+TEST(LiftCaseErrors, HoistsThatCannotBeEqualised) {
+  const auto complaints = [](const std::string& hoists) {
+    return complaints_about_case("    model: gantry\n",
+                                 "    model: gantry\n    equalised: " + hoists + "\n");
+  };
+  EXPECT_EQ(complaints("[left, rihgt]"),
+            "case.yaml:7:23: error: crane C1 has no hoist \"rihgt\"\n"
+            "    its hoists are left, right; did you mean \"right\"?\n1 error\n");
+  EXPECT_EQ(complaints("[left, left]"),
+            "case.yaml:7:16: error: hoist C1.left cannot be equalised with itself\n"
+            "    two hoists are due: equalised: [left, right]\n1 error\n");
+  EXPECT_EQ(complaints("[left, right]"),
+            "case.yaml:7:16: error: hoists left and right of crane C1 have different tackles\n"
+            "    one rope runs through both where they are equalised, so both name the same rope\n"
+            "1 error\n");
+}
+
+TEST(LiftCaseErrors, WeightOfRopesThatHaveNone) {
+  const auto complaints = [](const std::string& lines, const std::string& rope_lines) {
+    SampleLift lift;
+    lift.rope += rope_lines;
+    lift.lift_case = with(lift.lift_case, "settle: 10 s\n", "settle: 10 s\n" + lines);
+    return complaints_about(lift);
+  };
+  EXPECT_EQ(complaints("rope_weight: true\n", "mass: 50 kg/m\n"), "");
+  EXPECT_EQ(complaints("rope_weight: false\n", ""), "");
+  EXPECT_THAT(complaints("rope_weight: true\n", ""),
+              HasSubstr("error: no rope has a mass by which it would hang\n    add mass to the "
+                        "models of slings and tackles that run from point to point"));
+  EXPECT_THAT(complaints("rope_weight: true\ndynamics: {flexibility: static}\n", "mass: 50 kg/m\n"),
+              HasSubstr("error: ropes hang by their weight, and the block is flexible"));
+}
+
+TEST(LiftCaseErrors, BendsThatCannotBe) {
+  const auto complaints = [](const std::string& bend, const std::string& rope_lines) {
+    SampleLift lift;
+    lift.rope += rope_lines;
+    lift.lift_case =
+        with(lift.lift_case, "R2: {from: C1.right, to: L2, model: ropes/tackle,",
+             "R2: {from: C1.right, to: L2, bend_diameter: " + bend + ", model: ropes/tackle,");
+    return complaints_about(lift);
+  };
+  EXPECT_EQ(complaints("300 mm", "diameter: 40 mm\n"), "");
+  EXPECT_EQ(complaints("300 mm", ""),
+            "case.yaml:10:47: error: the model of rope R2 has no diameter, which its bend diameter "
+            "is held against\n    add diameter to the rope's model\n1 error\n");
+  EXPECT_EQ(complaints("30 mm", "diameter: 40 mm\n"),
+            "case.yaml:10:47: error: rope R2 of 0.04 m is bent round 0.03 m\n"
+            "    a rope is not bent round less than its own diameter\n1 error\n");
+}
+
+TEST(LiftCaseErrors, FaultsThatCannotBe) {
+  const auto complaints = [](const std::string& faults) {
+    return complaints_about_case("settle: 10 s\n", "settle: 10 s\nfaults:\n  - " + faults + "\n");
+  };
+  EXPECT_EQ(complaints("{at: 5 s}"),
+            "case.yaml:22:5: error: the fault says not what goes wrong\n"
+            "    give parts, ropes that break, stops, drives that come to a stand, or runs_away, "
+            "winches that pay out\n1 error\n");
+  EXPECT_EQ(
+      complaints("{at: 5 s, parts: [R11], stops: [C1.trvel]}"),
+      "case.yaml:22:23: error: the fault parts \"R11\", which the case does not have\n"
+      "    its ropes and hoists are R1, R2, C1.left, C1.right; did you mean \"R1\"?\n"
+      "case.yaml:22:37: error: the fault stops \"C1.trvel\", which the case does not have\n"
+      "    its drives and winches are C1.travel, C1.traverse, C1.left, C1.right, all; did you "
+      "mean \"C1.travel\"?\n2 errors\n");
+  EXPECT_THAT(complaints("{at: 5000 s, parts: [R1]}"),
+              ::testing::HasSubstr("after the end of the operation"));
+  EXPECT_THAT(complaints("{at: 5 s, stops: [all, C1.travel]}"),
+              ::testing::HasSubstr("\"C1.travel\" stops twice"));
+}
+
+TEST(LiftCaseErrors, NothingHoldsTheLoad) {
+  EXPECT_EQ(complaints_about_case(
+                "ropes:\n  R1: {from: C1.left, to: L1, model: ropes/tackle, length: 2 m}\n"
+                "  R2: {from: C1.right, to: L2, model",
+                "ropes:\n  R1: {from: C1.left, to: C1.right, model: ropes/tackle, length: 2 m}\n"
+                "  R2: {from: C1.right, to: {body: world}, model"),
+            "case.yaml:3:15: error: no rope holds the load\n"
+            "    a rope that ends at one of its lugs does\n1 error\n");
+}
+
+TEST(LiftCaseErrors, CraneWhosePartsDoNotFit) {
+  SampleLift lift;
+  lift.crane = with(lift.crane, "child: trolley", "child: troley");
+  lift.crane =
+      with(lift.crane, "{joint: travel, speed: 30 m/min", "{joint: travel, speed: 3 deg/s");
+  lift.crane = with(lift.crane, "rope: ropes/tackle", "rope: ropes/takle");
+  EXPECT_EQ(complaints_about(lift),
+            "gantry/crane.yaml:10:3: error: body trolley is the child of no joints\n"
+            "    each body is the child of exactly one joint\n"
+            "gantry/crane.yaml:13:54: error: joint traverse joins body \"troley\", which the crane "
+            "does not have\n"
+            "    its bodies are gantry, trolley; did you mean \"trolley\"?\n"
+            "gantry/crane.yaml:15:34: error: speed of drive travel is an angular speed, but joint "
+            "travel slides\n"
+            "gantry/crane.yaml:22:11: error: there is no rope model \"ropes/takle\"\n"
+            "    the rope models are ropes/tackle; did you mean \"ropes/tackle\"?\n"
+            "    looked for in gantry, .\n"
+            "4 errors\n");
+}
+
+TEST(LiftCaseErrors, BlockWhosePartsDoNotFit) {
+  SampleLift lift;
+  lift.block = with(lift.block, "spacing: 2 m", "spacing: 1.5 m");
+  lift.block = with(lift.block, "pad: left_pad", "pad: lft_pad");
+  lift.block = with(lift.block, "pin: [4 m, 0 m, 1.2 m]", "pin: [4 m, 0 m, 1.5 m]");
+  lift.block =
+      with(lift.block, "x: [0 m, 4 m], y: [-1 m, 1 m], thickness", "x: [4 m, 0 m], thickness");
+  EXPECT_EQ(
+      complaints_about(lift),
+      "plate.yaml:7:11: error: plate bottom lacks the key \"y\"\n"
+      "    it is the extent along y: [lower end, upper end]\n"
+      "plate.yaml:7:35: error: extent x ends at 0 m, where it begins at 4 m\n"
+      "    an extent is [lower end, upper end]\n"
+      "plate.yaml:8:25: error: a spacing of 1.5 m does not divide the 4 m from 0 m to 4 m\n"
+      "plate.yaml:15:13: error: lug L1 names pad \"lft_pad\", which the block does not have\n"
+      "    its pads are left_pad, right_pad; did you mean \"left_pad\"?\n"
+      "plate.yaml:16:104: error: the pin of lug L2 is at z = 1.5 m, outside the lug plate, which "
+      "reaches from 1 m to 1.4 m\n"
+      "5 errors\n");
+}
+
+TEST(LiftCaseErrors, PadeyesThatCannotBeMade) {
+  SampleLift lift;
+  lift.block = with(lift.block, "lugs:\n",
+                    "padeyes:\n"
+                    "  eye: {radius: 250 mm, thickness: 50 mm, hole: 60 mm, pin: 70 mm}\n"
+                    "  good: {radius: 150 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm, "
+                    "cheek_radius: 250 mm, cheek_thickness: 10 mm, cheek_weld: 8 mm}\n"
+                    "  bare: {radius: 150 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm, "
+                    "cheek_radius: 100 mm, cheek_thickness: 10 mm}\n"
+                    "lugs:\n");
+  lift.block = with(lift.block, "pin: [0 m, 0 m, 1.2 m]", "pin: [0 m, 0 m, 1.2 m], padeye: eye");
+  lift.block = with(lift.block, "pin: [4 m, 0 m, 1.2 m]", "pin: [4 m, 0 m, 1.2 m], padeye: god");
+  const std::string found = complaints_about(lift);
+  for (const char* expected :
+       {"padeye eye: the pin, 70 mm, is larger than its hole, 60 mm",
+        "the main plate, 250 mm about the hole, reaches beyond the lug, which ends 200 mm from the "
+        "pin",
+        "the main plate is 50 mm thick, the lug in the block 40 mm",
+        "plate.yaml:20:131: error: lug L2 names padeye \"god\", which the block does not have",
+        "did you mean \"good\"?",
+        "plate.yaml:17:9: error: padeye bare has cheek plates without a weld"})
+    EXPECT_NE(found.find(expected), std::string::npos) << expected << "\nnot in\n" << found;
+  lift.block = with(lift.block, "padeye: god", "padeye: good");
+  EXPECT_NE(complaints_about(lift).find("lug L2 cannot be made as padeye good: the cheek plates' "
+                                        "radius, 250 mm, reaches beyond the main plate"),
+            std::string::npos);
+}
+
+TEST(LiftCaseErrors, StiffenersAlongTheirPlatesNormal) {
+  SampleLift lift;
+  lift.block = with(lift.block, "thickness: 20 mm",
+                    "thickness: 20 mm, stiffeners: {along: z, spacing: 0.5 m}");
+  EXPECT_NE(complaints_about(lift).find("the stiffeners of plate bottom run along its normal"),
+            std::string::npos);
+}
+
+TEST(LiftCaseErrors, BlockWithTwoPlatesInOnePlaceAndACutPad) {
+  SampleLift lift;
+  lift.block = with(lift.block, "openings:\n",
+                    "  doubler: {normal: x, at: [2 m, 4 m], y: [0 m, 2 m], z: [0 m, 1 m], "
+                    "thickness: 8 mm}\nopenings:\n");
+  lift.block = with(lift.block, "at: 2 m, y: [-0.3 m, 0.3 m], z: [0.3 m, 0.7 m]",
+                    "y: [-0.3 m, 0.3 m], z: [0.3 m, 0.7 m]");
+  EXPECT_EQ(complaints_about(lift),
+            "plate.yaml:9:3: error: plate doubler lies upon plate webs at x = 2 m\n"
+            "    where a plate is thicker, divide it, or use a pad\n"
+            "plate.yaml:11:3: error: opening hole cuts pad left_pad in plate webs at x = 0 m\n"
+            "plate.yaml:11:3: error: opening hole cuts pad right_pad in plate webs at x = 4 m\n"
+            "3 errors\n");
+}
+
+TEST(LiftCaseErrors, NothingHangsWithoutGravity) {
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "gravity: 9.81 m/s^2", "gravity: 0 m/s^2");
+  EXPECT_NE(complaints_about(lift).find("case.yaml:2:10: error: gravity"), std::string::npos);
+}
+
+TEST(LiftCaseErrors, LoadTableThatDoesNotFit) {
+  SampleLift lift;
+  lift.lift_case = with(test::sample_load_table_case, "dynamic: {L1: 6 t, L2: 6 t}",
+                        "dynamic: {L1: 6 t, L3: 6 t}\ncranes: {C1: {model: gantry, start: {}}}");
+  EXPECT_EQ(
+      complaints_about(lift),
+      "case.yaml:4:3: error: the case has a load table and cranes\n"
+      "    a load table stands in place of cranes, ropes, supports, wind and operation\n"
+      "case.yaml:5:21: error: lug L2 is missing under dynamic of the load table\n"
+      "case.yaml:6:22: error: the load table names lug \"L3\", which block plate does not have\n"
+      "    its lugs are L1, L2; did you mean \"L1\"?\n"
+      "3 errors\n");
+}
+
+TEST(LiftCaseErrors, CaseWithoutAnything) {
+  SampleLift lift;
+  lift.lift_case = "title: nothing\n";
+  EXPECT_EQ(complaints_about(lift),
+            "case.yaml:1:1: error: lift case lacks the key \"case\"\n"
+            "    it is a name: its name\n"
+            "case.yaml:1:1: error: lift case lacks the key \"load\"\n"
+            "    it is the keys of a load: the block or vessel that is lifted\n"
+            "case.yaml:1:1: error: the lift case lacks the key \"cranes\"\n"
+            "    a case has cranes, ropes and operation, or a load_table\n"
+            "case.yaml:1:1: error: the lift case lacks the key \"ropes\"\n"
+            "    a case has cranes, ropes and operation, or a load_table\n"
+            "case.yaml:1:1: error: the lift case lacks the key \"operation\"\n"
+            "    a case has cranes, ropes and operation, or a load_table\n"
+            "5 errors\n");
+}
+
+TEST(LiftCaseErrors, FolderWithoutACase) {
+  const TemporaryFolder folder;
+  Diagnostics diagnostics;
+  ModelLibrary library({});
+  std::filesystem::create_directory("empty");
+  EXPECT_FALSE(read_lift_case("empty", library, diagnostics));
+  EXPECT_EQ(diagnostics.to_text(),
+            "empty: error: this folder has no case.yaml\n"
+            "    a lift case is a file, or a folder with the file case.yaml in it\n1 error\n");
+}
+
+// Whatever line is lost or cut short, the reader complains or takes it; it never breaks.
+TEST(LiftCaseErrors, SurvivesAnyLostLine) {
+  const auto without_line = [](const std::string& text, std::size_t line, bool cut) {
+    std::string result;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; begin < text.size(); ++i) {
+      const std::size_t end = text.find('\n', begin) + 1;
+      const std::string whole = text.substr(begin, end - begin);
+      if (i != line) result += whole;
+      if (i == line && cut) result += whole.substr(0, whole.size() / 2) + "\n";
+      begin = end;
+    }
+    return result;
+  };
+  for (std::size_t line = 0; line < 35; ++line) {
+    for (const bool cut : {false, true}) {
+      SampleLift lift;
+      lift.lift_case = without_line(test::sample_case, line, cut);
+      complaints_about(lift);
+      lift = SampleLift();
+      lift.crane = without_line(test::sample_crane, line, cut);
+      complaints_about(lift);
+      lift = SampleLift();
+      lift.block = without_line(test::sample_block, line, cut);
+      complaints_about(lift);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
