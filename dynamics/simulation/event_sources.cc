@@ -26,9 +26,7 @@ EventSources::EventSources(const LiftSystem& system, const AwaitedCondition* awa
   if (awaited) values_[count() - 1] = -1.0;
 }
 
-bool EventSources::release(int rope) {
-  return std::exchange(contacts_[static_cast<std::size_t>(rope)], 0) != 0;
-}
+bool EventSources::release(int rope) { return std::exchange(contacts_[rope], 0) != 0; }
 
 void EventSources::begin_splits(double t) {
   if (!has_sheaves()) return;
@@ -59,8 +57,7 @@ double EventSources::sheave_value(const Source& source) const {
 
 void EventSources::find_values(bool may_be_met, double* values) {
   calc_contact_indicators(w_, values_.head(system_.contact_count()));
-  for (std::size_t k = contacts_end_; k < sheaves_end_; ++k)
-    values_[static_cast<Eigen::Index>(k)] = sheave_value(sources_[k]);
+  for (std::size_t k = contacts_end_; k < sheaves_end_; ++k) values_[k] = sheave_value(sources_[k]);
   if (awaited_) values_[count() - 1] = may_be_met ? awaited_->indicator(system_, w_) : -1.0;
   Eigen::Map<Eigen::VectorXd>(values, count()) = values_;
 }
@@ -95,7 +92,7 @@ bool EventSources::is_due(std::size_t k, const std::vector<int>* found) const {
   // Behind a root the values of the others are not those of that instant.
   const bool is_sheave = source.kind == Source::Kind::sheave;
   if (found && !is_sheave) return false;
-  const double value = is_sheave ? sheave_value(source) : values_[static_cast<Eigen::Index>(k)];
+  const double value = is_sheave ? sheave_value(source) : values_[k];
   const double least = source.kind == Source::Kind::condition ? 0.0 : beyond;
   return !(std::abs(value) < least) && (value > 0.0) != stands(source);
 }

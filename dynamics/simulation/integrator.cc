@@ -212,7 +212,7 @@ bool Integrator::is_over() const {
 bool Integrator::part_ropes(double t) {
   bool any = false;
   for (const Parting& parting : system_.operation().partings()) {
-    RopeFeed& feed = w_.feeds[static_cast<std::size_t>(parting.rope)];
+    RopeFeed& feed = w_.feeds[parting.rope];
     if (feed.parted || parting.time > t + beside) continue;
     const auto elastic_energy = [&] {
       loaded_time_ = evaluated_time_ = not_a_number;
@@ -221,13 +221,13 @@ bool Integrator::part_ropes(double t) {
       return calc_stored_energy(system_, within_interval(t), w_).elastic;
     };
     const double before = elastic_energy();
-    const RopeLoad load = w_.rope_loads[static_cast<std::size_t>(parting.rope)];
+    const RopeLoad load = w_.rope_loads[parting.rope];
     feed.parted = true;
     if (events_.release(parting.rope)) result_.events.push_back({t, parting.rope, false});
     const double energy = before - elastic_energy();
     dissipated_work() += energy;
     // What a rope with weight loses besides is that of its height.
-    const bool hangs = system_.ropes()[static_cast<std::size_t>(parting.rope)].hangs();
+    const bool hangs = system_.ropes()[parting.rope].hangs();
     result_.parted.push_back(
         {parting.rope, t, load.tension, hangs ? load.hanging.strain_energy : energy});
     any = true;

@@ -6,7 +6,7 @@ namespace blocklift::dynamics {
 
 double AwaitedCondition::indicator(const LiftSystem& system, const LiftWorkspace& w) const {
   if (kind == Kind::slack || kind == Kind::taut) {
-    const double pull = 1e-3 * w.rope_loads[static_cast<std::size_t>(rope)].slack_indicator();
+    const double pull = 1e-3 * w.rope_loads[rope].slack_indicator();
     return kind == Kind::taut ? pull : -pull;
   }
   double by_pads = 0.0;
@@ -16,7 +16,7 @@ double AwaitedCondition::indicator(const LiftSystem& system, const LiftWorkspace
   }
   if (kind == Kind::pads_at_least) return 1e-3 * (by_pads - force);
   // calc_contact_loads has the loads of ropes and pads alone.
-  const double by_ropes = w.loads.F_Bo_W[static_cast<std::size_t>(body)].force.z() - by_pads;
+  const double by_ropes = w.loads.F_Bo_W[body].force.z() - by_pads;
   return 1e-3 * (kind == Kind::ropes_at_least ? by_ropes - force : force - by_ropes);
 }
 
