@@ -91,8 +91,9 @@ void add_compare(CLI::App& app, int& code) {
       "how far figures may move, figure=tolerance,... or a YAML file of such lines; "
       "exit code 3 if one moves further");
   command->add_flag("--json", options->json, "print JSON");
-  command->add_option("-o,--output", options->page,
-                      "write a page as well: tables, and tensions over each other");
+  command->add_option(
+      "-o,--output", options->page,
+      "write a page as well: tables, blocks beside each other, tensions over each other");
   command->callback([options, &code] { code = compare(*options); });
 }
 

@@ -1,5 +1,11 @@
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "pipeline/comparison/compared_blocks.h"
 #include "pipeline/comparison/comparison.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/results_store.h"
@@ -76,8 +82,53 @@ std::string tolerance_list(const ResultComparison& comparison) {
   return html + "</ul>\n";
 }
 
-/// What the page draws: the tensions of every result.
-Json page_data(const ResultComparison& comparison) {
+std::string megapascals(double stress) {
+  return std::isfinite(stress) ? fmt::format("{:.2f}", stress / 1e6) : "&ndash;";
+}
+
+/// Stresses of one state, each but the first with what it is more than the first.
+void add_stresses(const std::vector<double>& stresses, std::vector<std::string>& row) {
+  for (std::size_t i = 0; i < stresses.size(); ++i) {
+    row.push_back(megapascals(stresses[i]));
+    if (i == 0) continue;
+    double more = (stresses[i] - stresses.front()) / 1e6;
+    if (std::abs(more) < 0.005) more = 0;  // no "-0.00"
+    row.push_back(std::isfinite(more) ? fmt::format("{:+.2f}", more) : "&ndash;");
+  }
+}
+
+std::string stress_table(const ResultComparison& comparison, const ComparedBlocks& compared) {
+  const StressByPart stresses = stress_by_part(comparison.results, compared);
+  std::vector<HtmlColumn> columns{{stresses.is_checked ? "plate" : "part", true}};
+  for (const char* when : {"at rest", "in motion"})
+    for (std::size_t i = 0; i < compared.blocks.size(); ++i) {
+      columns.push_back({comparison.results[compared.blocks[i].result].name + " " + when});
+      if (i > 0) columns.push_back({"difference"});
+    }
+  HtmlRows rows;
+  for (const PartStress& part : stresses.parts) {
+    std::vector<std::string>& row = rows.rows.emplace_back();
+    row.push_back(escape_html(part.part));
+    add_stresses(part.at_rest, row);
+    add_stresses(part.in_motion, row);
+  }
+  return html_table(stresses.is_checked
+                        ? "Largest checked stress of each plate over the whole lift, MPa"
+                        : "Largest raw stress of each part, MPa",
+                    columns, {rows});
+}
+
+/// What the page says of the blocks without its script; the script adds the drawings.
+std::string block_html(const ResultComparison& comparison, const ComparedBlocks& compared) {
+  std::string html;
+  for (const std::string& remark : remarks_on_blocks(comparison.results, compared))
+    html += fmt::format("<p>{}</p>\n", escape_html(remark));
+  if (!compared.blocks.empty()) html += stress_table(comparison, compared);
+  return fmt::format("<h2>Stress of the block</h2>\n<div id=\"block\">{}</div>\n", html);
+}
+
+/// What the page draws: the blocks, and the tensions of every result.
+Json page_data(const ResultComparison& comparison, const ComparedBlocks& compared) {
   Json results = Json::array();
   for (const ComparedResult& result : comparison.results) {
     const ResultsReader file(result.folder / layout::results_file);
@@ -85,19 +136,22 @@ Json page_data(const ResultComparison& comparison) {
                        {"static", tension_series(file, layout::static_history)},
                        {"dynamic", tension_series(file, layout::dynamic_history)}});
   }
-  return {{"results", std::move(results)}};
+  return {{"results", std::move(results)}, {"block", blocks_json(comparison.results, compared)}};
 }
 
 }  // namespace
 
 std::string comparison_page(const ResultComparison& comparison) {
+  const ComparedBlocks compared = compare_blocks(comparison.results);
   const std::string content = results_table(comparison) + tolerance_list(comparison) +
-                              input_table(comparison) + figures_table(comparison);
-  return fill_page(comparison_page_template(),
+                              input_table(comparison) + figures_table(comparison) +
+                              block_html(comparison, compared);
+  // Only a page with drawings needs the library that draws them.
+  return fill_page(compared.blocks.empty() ? curves_page_template() : comparison_page_template(),
                    {{"%TITLE%", escape_html(title_of(comparison)) + " – lifts compared"},
                     {"%HEADING%", "Lifts compared"},
                     {"%CONTENT%", content},
-                    {"%DATA%", script_safe(page_data(comparison))}});
+                    {"%DATA%", script_safe(page_data(comparison, compared))}});
 }
 
 }  // namespace blocklift::pipeline

@@ -62,6 +62,7 @@ class ResultsCheck {
     look_at_modes();
     look_at_scene();
     look_at_surface();
+    look_at_patches();
     look_at_padeyes();
   }
 
@@ -186,15 +187,18 @@ class ResultsCheck {
     return read;
   }
 
-  /// Whole numbers from 0 up to below `bound`.
-  void indices(const std::string& path, const Extents& due, std::size_t bound,
-               const std::string& into) {
+  /// Whole numbers from 0 up to below `bound`. @returns how many rows; none if they are unsound.
+  std::optional<std::size_t> indices(const std::string& path, const Extents& due, std::size_t bound,
+                                     const std::string& into, const std::string& why = "") {
     const auto read = attempt(path, [&] { return results_.read_indices(path); });
-    if (!read || !fits(path, *read, due, "")) return;
-    for (const std::int32_t value : read->values)
-      if (value < 0 || static_cast<std::size_t>(value) >= bound)
-        return complain(path, fmt::format("holds {}; a number from 0 up to below {} is due, {}",
-                                          value, bound, into));
+    if (!read || !fits(path, *read, due, why)) return std::nullopt;
+    for (const std::int32_t value : read->values) {
+      if (value >= 0 && static_cast<std::size_t>(value) < bound) continue;
+      complain(path, fmt::format("holds {}; a number from 0 up to below {} is due, {}", value,
+                                 bound, into));
+      return std::nullopt;
+    }
+    return read->rows();
   }
 
   /// The number of samples of a series of instants that never goes back; none if it is unsound.
@@ -358,16 +362,37 @@ class ResultsCheck {
     const auto points = numbers(points_path, {any_count, 3}, Known::always);
     if (!points) return;
     const std::size_t count = points->rows();
-    indices(quads_path, {any_count, 4}, count, fmt::format("an index into \"{}\"", points_path));
+    const auto quads = indices(quads_path, {any_count, 4}, count,
+                               fmt::format("an index into \"{}\"", points_path));
     const std::string group_path(layout::surface_quad_group);
-    if (has(group_path) && has(std::string(layout::surface_group_names)))
+    if (quads && has(group_path) && has(std::string(layout::surface_group_names)))
       if (const auto names = texts(std::string(layout::surface_group_names)))
-        indices(group_path, {any_count}, names->size(),
-                fmt::format("an index into \"{}\"", layout::surface_group_names));
+        indices(group_path, {*quads}, names->size(),
+                fmt::format("an index into \"{}\"", layout::surface_group_names),
+                fmt::format(", a group for each of \"{}\"", quads_path));
     for (const std::string_view way :
          {layout::history, layout::simultaneous, layout::per_rope_maxima})
       for (const std::string_view state : {layout::static_state, layout::dynamic_state})
         look_at_field(join(layout::structure_group, way, state), count);
+  }
+
+  /// The squares of the checked stress, and the largest of each over the whole lift.
+  void look_at_patches() {
+    const std::string history = join(layout::structure_group, layout::history);
+    const std::string plate = join(history, "patches", "plate"),
+                      plates = join(history, "patches", "plates");
+    if (!has(plate) || !has(plates)) return;
+    const auto names = texts(plates);
+    if (!names) return;
+    const auto count =
+        indices(plate, {any_count}, names->size(), fmt::format("an index into \"{}\"", plates));
+    if (!count) return;
+    for (const std::string_view state : {layout::static_state, layout::dynamic_state}) {
+      const std::string values = join(history, state, "patches", "von_mises");
+      if (has(values))
+        numbers(values, {*count}, Known::always,
+                fmt::format(", a value for each of \"{}\"", plate));
+    }
   }
 
   void look_at_field(const std::string& group, std::size_t points) {

@@ -66,7 +66,7 @@ Json curves(const MeasuredLift& lift) {
 std::string measured_page(const MeasuredLift& lift) {
   std::string content = sentences_html(lift);
   for (const MeasuredTable& table : measured_tables(lift)) content += table_html(table);
-  return fill_page(comparison_page_template(),
+  return fill_page(curves_page_template(),
                    {{"%TITLE%", escape_html(lift.result.name) + " – measured and computed"},
                     {"%HEADING%", "Measured and computed"},
                     {"%CONTENT%", content},

@@ -51,7 +51,7 @@ struct Line {
   std::optional<Array<double>> tension;
 };
 
-struct BlockSurface {
+struct MovedSurface {
   std::string body;
   Array<double> points;
   Array<std::int32_t> quads;
@@ -137,14 +137,14 @@ class Lift {
     return line;
   }
 
-  static std::optional<BlockSurface> read_surface(const ResultsReader& results) {
+  static std::optional<MovedSurface> read_surface(const ResultsReader& results) {
     const std::string history =
         join(layout::structure_group, layout::history, layout::dynamic_state, "von_mises");
     const std::string at_once =
         join(layout::structure_group, "simultaneous", layout::dynamic_state, "von_mises");
     const std::string& stress = results.has(history) ? history : at_once;
     if (!results.has(stress) || !results.has_attribute(layout::scene_lugs, "body")) return {};
-    return BlockSurface{results.read_text_attribute(layout::scene_lugs, "body"),
+    return MovedSurface{results.read_text_attribute(layout::scene_lugs, "body"),
                         results.read(layout::surface_points),
                         results.read_indices(layout::surface_quads), results.read(stress)};
   }
@@ -172,7 +172,7 @@ class Lift {
   std::map<std::string, Array<double>> poses_;
   std::vector<Body> bodies_;
   std::vector<Line> lines_;
-  std::optional<BlockSurface> surface_;
+  std::optional<MovedSurface> surface_;
 };
 
 }  // namespace

@@ -1,10 +1,8 @@
 #include "pipeline/report/page_data.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <set>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,8 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/formats/results_layout.h"
+#include "pipeline/report/block_surface.h"
 #include "pipeline/report/decimation.h"
-#include "structure/output/base64.h"
+#include "pipeline/report/packed_array.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -25,41 +24,8 @@ using json = nlohmann::ordered_json;  // the tables of the page keep the order o
 constexpr std::size_t history_buckets = 4000;
 constexpr std::size_t small_history_buckets = 1000;
 constexpr std::size_t motion_frames = 600;
-/// Bytes (in base64) that the pictures of the structure may take of the page's 10 MB.
+/// Bytes that the pictures of the structure may take of the page's 10 MB.
 constexpr std::size_t picture_budget = 8'000'000;
-
-// --------------------------------------------------------------------------------- packed arrays
-
-template <typename Number>
-json packed(const std::vector<Number>& numbers, const char* type, double scale = 1.0) {
-  static_assert(std::endian::native == std::endian::little,
-                "the page expects little-endian numbers");
-  const auto* bytes = reinterpret_cast<const unsigned char*>(numbers.data());
-  json array{{"type", type}, {"data", structure::base64({bytes, numbers.size() * sizeof(Number)})}};
-  if (scale != 1.0) array["scale"] = scale;
-  return array;
-}
-
-json floats(const std::vector<double>& values) {
-  return packed(std::vector<float>(values.begin(), values.end()), "f32");
-}
-
-/// Values as integers of 16 bits, the largest magnitude being the largest integer.
-template <typename Integer>
-json shares(const std::vector<double>& values, const char* type) {
-  double largest = 0.0;
-  for (const double value : values)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const double range = std::numeric_limits<Integer>::max();
-  const double lowest = std::numeric_limits<Integer>::min();
-  std::vector<Integer> integers;
-  integers.reserve(values.size());
-  for (const double value : values) {
-    const double share = largest > 0.0 && std::isfinite(value) ? value / largest * range : 0.0;
-    integers.push_back(static_cast<Integer>(std::clamp(std::round(share), lowest, range)));
-  }
-  return packed(integers, type, largest / range);
-}
 
 // -------------------------------------------------------------------------------------- histories
 
@@ -81,8 +47,8 @@ json packed_series(const std::string& name, const std::string& quantity, const M
           {"quantity", quantity},
           {"units", meaning.units},
           {"description", meaning.description},
-          {"time", floats(kept_time)},
-          {"values", floats(kept_values)}};
+          {"time", packed_floats(kept_time)},
+          {"values", packed_floats(kept_values)}};
 }
 
 json series(const ResultsReader& results, const std::string& dataset, const std::string& name,
@@ -170,18 +136,10 @@ json output_series(const ResultsReader& results, const std::string& output,
   for (std::size_t column = 0; column < values.columns(); ++column) {
     std::vector<double> one;
     for (std::size_t i = 0; i < values.rows(); ++i) one.push_back(values(i, column));
-    std::vector<double> kept_time, kept_values;
-    for (const std::size_t i : indices_to_draw(one, small_history_buckets)) {
-      if (!std::isfinite(one[i])) continue;
-      kept_time.push_back(time[i]);
-      kept_values.push_back(one[i]);
-    }
-    list.push_back({{"name", output},
-                    {"quantity", column < names.size() ? names[column] : ""},
-                    {"units", units.size() > 1 ? units[column] : meaning.units},
-                    {"description", meaning.description},
-                    {"time", floats(kept_time)},
-                    {"values", floats(kept_values)}});
+    list.push_back(
+        packed_series(output, column < names.size() ? names[column] : "",
+                      {units.size() > 1 ? units[column] : meaning.units, meaning.description}, time,
+                      one, small_history_buckets));
   }
   return list;
 }
@@ -214,9 +172,9 @@ json motion(const ResultsReader& results, const std::string& group) {
     std::vector<double> kept;
     for (const std::size_t frame : frames)
       for (std::size_t k = 0; k < 7; ++k) kept.push_back(pose(frame, k));
-    bodies[body] = floats(kept);
+    bodies[body] = packed_floats(kept);
   }
-  return {{"time", floats(frame_time)}, {"bodies", std::move(bodies)}};
+  return {{"time", packed_floats(frame_time)}, {"bodies", std::move(bodies)}};
 }
 
 /// Measured tensions by rope.
@@ -242,7 +200,7 @@ json modes(const ResultsReader& results) {
       if (motion.columns() != 12)
         throw ResultsError("\"" + dataset + "\" has " + std::to_string(motion.columns()) +
                            " columns; 12 are due");
-      bodies[body] = floats(motion.values);
+      bodies[body] = packed_floats(motion.values);
     }
     list.push_back(
         {{"time", results.read_number_attribute(group, "time")}, {"bodies", std::move(bodies)}});
@@ -312,64 +270,30 @@ json scene(const ResultsReader& results) {
 
 // -------------------------------------------------------------------------------------- structure
 
-json field(const ResultsReader& results, const std::string& group, std::size_t point_count) {
-  const Array<double> von_mises = results.read(join(group, "von_mises"));
-  const Array<double> displacement = results.read(join(group, "displacement"));
-  if (von_mises.values.size() != point_count || displacement.values.size() != 3 * point_count)
-    throw ResultsError("\"" + group + "\" does not fit the " + std::to_string(point_count) +
-                       " points of the surface");
-  json entry{{"von_mises", shares<std::uint16_t>(von_mises.values, "u16")},
-             {"displacement", shares<std::int16_t>(displacement.values, "i16")}};
-  for (const char* place : {"peak_stress_point", "checked_stress_point", "max_displacement_point"})
-    if (results.has(join(group, place))) entry[place] = results.read(join(group, place)).values;
-  if (results.has_attribute(group, "rope"))
-    entry["rope"] = results.read_text_attribute(group, "rope");
-  if (results.has_attribute(group, "time"))
-    entry["time"] = results.read_number_attribute(group, "time");
-  return entry;
-}
-
 json fields(const ResultsReader& results, std::string_view way, std::size_t point_count) {
   json states = json::object();
-  for (const std::string_view state : {layout::static_state, layout::dynamic_state}) {
-    const std::string group = join(layout::structure_group, way, state);
-    if (results.has(join(group, "von_mises")))
-      states[std::string(state)] = field(results, group, point_count);
-  }
+  for (const std::string_view state : {layout::static_state, layout::dynamic_state})
+    if (const auto field = read_surface_field(results, way, state, point_count))
+      states[std::string(state)] = surface_field_json(*field);
   return states;
 }
 
 json surface(const ResultsReader& results) {
-  if (!results.has(layout::surface_points)) return nullptr;
-  const Array<double> points = results.read(layout::surface_points);
-  const Array<std::int32_t> quads = results.read_indices(layout::surface_quads);
-  const std::size_t point_count = points.rows();
-  for (const std::int32_t corner : quads.values)
-    if (corner < 0 || static_cast<std::size_t>(corner) >= point_count)
-      throw ResultsError("a quadrangle of the surface names point " + std::to_string(corner) +
-                         " of " + std::to_string(point_count));
-
-  // Bytes in the file, base64 taking 4 for 3: points 12, a field 8 a point; quads 16 + 2 each.
-  const std::size_t shape_bytes = (12 * point_count + 18 * quads.rows()) * 4 / 3;
-  const std::size_t pair_bytes = 16 * point_count * 4 / 3;
+  const std::optional<BlockSurface> surface = read_block_surface(results);
+  if (!surface) return nullptr;
+  const std::size_t point_count = surface->point_count();
+  const std::size_t shape_bytes = bytes_of_shape(*surface);
+  const std::size_t pair_bytes = 2 * bytes_of_field(point_count);
   if (shape_bytes + pair_bytes > picture_budget)
     return {{"note",
              "The mesh is too fine for pictures in this page; open the .vtu files of the "
              "result folder in ParaView."}};
 
-  json result{{"points", floats(points.values)},
-              {"quads", packed(std::vector<std::uint32_t>(quads.values.begin(), quads.values.end()),
-                               "u32")}};
-  if (results.has(layout::surface_quad_group) && results.has(layout::surface_group_names)) {
-    const auto groups = results.read_indices(layout::surface_quad_group).values;
-    result["quad_group"] = packed(std::vector<std::uint16_t>(groups.begin(), groups.end()), "u16");
-    result["groups"] = results.read_texts(layout::surface_group_names);
-  }
+  json result = surface_shape_json(*surface);
   // What leads the page comes first: the envelope of the whole lift, where there is one.
   json ways = json::object();
   bool left_out = false;
-  for (const std::string_view way :
-       {layout::history, layout::simultaneous, layout::per_rope_maxima}) {
+  for (const std::string_view way : surface_ways) {
     json states = fields(results, way, point_count);
     if (states.empty()) continue;
     if (ways.empty() || shape_bytes + (ways.size() + 1) * pair_bytes <= picture_budget)

@@ -25,9 +25,7 @@ namespace blocklift::pipeline {
 ///   scene       {load, bodies: [{name, kind, boxes}], ropes: [{name, kind, bodies, points}], lugs}
 ///   surface     {points, quads, quad_group, groups, fields: {way: {state: {...}}}, note}
 ///
-/// Arrays are base64 of little-endian numbers: {"type": "f32" | "u16" | "i16" | "u32", "scale",
-/// "data"}. Field values are stored as 16-bit shares of their largest value, which is finer than
-/// any screen.
+/// Arrays are packed (packed_array.h); `surface` is made of the parts of block_surface.h.
 ///
 /// Parts that the results do not have are null.
 /// @throws ResultsError if the file lacks what it must have or its parts do not fit together.

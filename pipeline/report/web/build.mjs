@@ -1,5 +1,5 @@
-// Bundles the pages and writes them as a C++ source that defines report_page() and comparison_page_template(), and
-// the licences of what is bundled.
+// Bundles the pages and writes them as a C++ source that defines report_page(), comparison_page_template() and
+// curves_page_template(), and the licences of what is bundled.
 //   node build.mjs report_page.cc notice.txt
 import { readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
@@ -20,7 +20,7 @@ const libraries = Object.keys(JSON.parse(readFileSync("package.json", "utf8")).d
   const { version, license, homepage } = JSON.parse(readFileSync(`node_modules/${name}/package.json`, "utf8"));
   return { name, version, license, homepage, text: readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim() };
 });
-const listed = libraries.map(({ name, version, license }) => `${name} ${version} (${license} licence)`).join(" and ");
+const listed = (some) => some.map(({ name, version, license }) => `${name} ${version} (${license} licence)`).join(" and ");
 // A page with script, style and licences in it, and its marks left for the program, which fills them in this order.
 const makePage = async (html, entry, marks, draws) => {
   const script = await bundle(entry);
@@ -35,8 +35,11 @@ const makePage = async (html, entry, marks, draws) => {
   return page;
 };
 const report = await makePage("src/page.html", "src/main.ts", ["%TITLE%", "%MARGINS%", "%FRONT%", "%CHECKS%", "%ANNEX%", "%DATA%"],
-  ` This page draws with ${listed}.`);
-const comparison = await makePage("src/comparison.html", "src/comparison.ts", ["%TITLE%", "%HEADING%", "%CONTENT%", "%DATA%"], "");
+  ` This page draws with ${listed(libraries)}.`);
+const ofCurves = ["%TITLE%", "%HEADING%", "%CONTENT%", "%DATA%"];
+const comparison = await makePage("src/comparison.html", "src/comparison.ts", ofCurves,
+  ` This page draws with ${listed(libraries.filter(({ name }) => name === "three"))}.`);
+const curves = await makePage("src/comparison.html", "src/curves_page.ts", ofCurves, "");
 
 // Octal escapes: unlike hexadecimal ones they end after three digits.
 const literal = (bytes) => {
@@ -65,10 +68,13 @@ constexpr char report_html[] =
 ${lines(report)};
 constexpr char comparison_html[] =
 ${lines(comparison)};
+constexpr char curves_html[] =
+${lines(curves)};
 }  // namespace
 
 std::string_view report_page() { return {report_html, sizeof(report_html) - 1}; }
 std::string_view comparison_page_template() { return {comparison_html, sizeof(comparison_html) - 1}; }
+std::string_view curves_page_template() { return {curves_html, sizeof(curves_html) - 1}; }
 
 }  // namespace blocklift::pipeline
 `,

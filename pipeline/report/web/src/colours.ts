@@ -28,15 +28,27 @@ function oklchToSrgb(lightness: number, chroma: number, hue: number): [number, n
   }) as [number, number, number];
 }
 
-/** sRGB (0 to 1) of a share (0 to 1) of the scale. */
-export function scaleColour(share: number): [number, number, number] {
-  const place = Math.min(Math.max(share, 0), 1) * (anchors.length - 1);
-  const low = Math.min(Math.floor(place), anchors.length - 2);
+// The scale of differences: from blue over nearly white to red, as far from white at both ends, so that the eye
+// finds what is less and what is more. Colour-blind eyes tell blue from red, and paper without colour white from both.
+const less: [number, number, number][] = [[0.40, 0.15, 262], [0.58, 0.13, 255], [0.77, 0.08, 245], [0.96, 0, 245]];
+const more: [number, number, number][] = [[0.96, 0, 50], [0.77, 0.10, 50], [0.58, 0.17, 38], [0.40, 0.15, 28]];
+
+export type Rgb = [number, number, number];
+export type ColourScale = (share: number) => Rgb;
+
+function mixed(among: [number, number, number][], share: number): Rgb {
+  const place = Math.min(Math.max(share, 0), 1) * (among.length - 1);
+  const low = Math.min(Math.floor(place), among.length - 2);
   const part = place - low;
-  const mixed = anchors[low].map((value, i) => value + part * (anchors[low + 1][i] - value));
-  return oklchToSrgb(mixed[0], mixed[1], mixed[2]);
+  return oklchToSrgb(...among[low].map((value, i) => value + part * (among[low + 1][i] - value)) as Rgb);
 }
 
-export function scaleCss(share: number): string {
-  return `rgb(${scaleColour(share).map((value) => Math.round(value * 255)).join(",")})`;
+/** sRGB (0 to 1) of a share (0 to 1) of the scale of stress. */
+export const scaleColour: ColourScale = (share) => mixed(anchors, share);
+
+/** sRGB of a share of the scale of differences; a half is no difference. */
+export const differenceColour: ColourScale = (share) => share < 0.5 ? mixed(less, 2 * share) : mixed(more, 2 * share - 1);
+
+export function scaleCss(share: number, colour: ColourScale = scaleColour): string {
+  return `rgb(${colour(share).map((value) => Math.round(value * 255)).join(",")})`;
 }

@@ -5,7 +5,7 @@ export type Way = "simultaneous" | "per_rope_maxima" | "history";
 export const states: State[] = ["static", "dynamic"];
 type Maybe<T> = T | null | undefined;
 
-export interface Packed { type: "f32" | "u16" | "i16" | "u32"; data: string; scale?: number }
+export interface Packed { type: "f32" | "u16" | "i16" | "u32"; data: string; scale?: number; absent?: number }
 
 export interface PackedSeries {
   name: string; quantity: string; units: string; description: string; time: Packed; values: Packed;
@@ -211,7 +211,7 @@ function bytesOf(text: string): ArrayBuffer {
   return bytes.buffer;
 }
 
-/** Numbers of a packed array, scaled back to their units. */
+/** Numbers of a packed array, scaled back to their units; NaN where there is none. */
 export function unpack(array: Packed): Float32Array {
   const buffer = bytesOf(array.data);
   if (array.type === "f32" && array.scale === undefined) return new Float32Array(buffer);
@@ -219,7 +219,7 @@ export function unpack(array: Packed): Float32Array {
     : array.type === "u16" ? new Uint16Array(buffer)
     : array.type === "i16" ? new Int16Array(buffer) : new Uint32Array(buffer);
   const scale = array.scale ?? 1;
-  return Float32Array.from(source, (value) => value * scale);
+  return Float32Array.from(source, (value) => value === array.absent ? NaN : value * scale);
 }
 
 /** Indices of a packed array, exact. */

@@ -1,7 +1,7 @@
-// One picture of the block: its surface coloured by stress and moved by its deformation.
+// One picture of the block: its surface coloured by stress (or another value) and moved by its deformation.
 import * as three from "three";
 
-import { Field, State, StructureState, unpack } from "./data";
+import { Field, StructureState, unpack } from "./data";
 import { megapascals, millimetres } from "./numbers";
 import { BlockSurface } from "./surface";
 import { Pane, Viewer } from "./viewer";
@@ -23,25 +23,29 @@ const vertexShader = `
   }`;
 const fragmentShader = `
   uniform sampler2D colours;
-  uniform float top, bands, probeRange;
+  uniform float bottom, top, bands, probing;
   uniform vec4 plane;
   varying float vStress;
   varying vec3 vEye;
   varying vec3 vPlace;
   void main() {
     if (dot(plane.xyz, vPlace) > plane.w) discard;
-    if (probeRange > 0.0) {  // the value itself, in two bytes
-      float whole = clamp(vStress / probeRange, 0.0, 1.0) * 65535.0;
+    bool isKnown = vStress > -1.0e20;
+    if (probing > 0.0) {  // the value itself, in two bytes
+      float whole = clamp((vStress - bottom) / (top - bottom), 0.0, 1.0) * 65535.0;
       float high = floor(whole / 256.0);
-      gl_FragColor = vec4(high / 255.0, floor(whole - 256.0 * high) / 255.0, 0.0, 1.0);
+      gl_FragColor = isKnown ? vec4(high / 255.0, floor(whole - 256.0 * high) / 255.0, 0.0, 1.0) : vec4(0.0);
       return;
     }
-    float share = clamp(vStress / top, 0.0, 1.0);
+    float share = clamp((vStress - bottom) / (top - bottom), 0.0, 1.0);
     if (bands > 0.0) share = (min(floor(share * bands), bands - 1.0) + 0.5) / bands;
+    vec3 colour = isKnown ? texture2D(colours, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb : vec3(0.55);
     vec3 normal = normalize(cross(dFdx(vEye), dFdy(vEye)));
     float light = 0.80 + 0.20 * abs(dot(normal, normalize(vec3(0.3, 0.5, 0.8))));
-    gl_FragColor = vec4(texture2D(colours, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb * light, 1.0);
+    gl_FragColor = vec4(colour * light, 1.0);
   }`;
+/** What the shader takes for no value: interpolated with any other it stays far below all of them. */
+const noValue = -1e30;
 const edgeShader = `
   uniform vec4 plane;
   varying vec3 vPlace;
@@ -50,16 +54,25 @@ const edgeShader = `
     gl_FragColor = vec4(0.06, 0.09, 0.14, 0.55);
   }`;
 
-/** What all panes share: the colour scale, the deformation's factor, the cut. */
+/** What panes share: the deformation's factor and the cut, and those of one kind the colour scale. */
 export class StressScale {
-  readonly deformation = { value: 0 };
+  readonly deformation: { value: number };
+  readonly plane: { value: three.Vector4 };
+  readonly bottom = { value: 0 };
   readonly top = { value: 1 };
   readonly bands = { value: 0 };
-  readonly plane = { value: new three.Vector4(0, 0, 0, 1) };
-  constructor(readonly colours: three.Texture) {}
+  /** @param other scale, whose deformation and cut are this one's too */
+  constructor(readonly colours: three.Texture, other?: StressScale) {
+    this.deformation = other?.deformation ?? { value: 0 };
+    this.plane = other?.plane ?? { value: new three.Vector4(0, 0, 0, 1) };
+  }
 
   get banded(): boolean { return this.bands.value > 0; }
-  setTop(pascals: number): void { this.top.value = Math.max(pascals, 1e-30); }
+  /** From zero, or from the same below zero, up to a value. */
+  setTop(value: number, symmetric = false): void {
+    this.top.value = Math.max(value, 1e-30);
+    this.bottom.value = symmetric ? -this.top.value : 0;
+  }
   setBanded(on: boolean): void { this.bands.value = on ? 10 : 0; }
 
   /** Takes away what lies beyond `at` along an axis (0 x, 1 y, 2 z; negative: nothing). */
@@ -73,14 +86,18 @@ interface Mark { label: Pane["labels"][number]; place: three.Vector3; displaceme
 
 export class StressPane {
   readonly edges: three.LineSegments;
+  smallestStress = 0;
   largestStress = 0;
   largestDisplacement = 0;
+  private peak = 0;  // points where they are
+  private farthest = 0;
   private readonly mesh: three.Mesh;
-  private readonly probeRange = { value: 0 };
+  private readonly probed = { bottom: { value: 0 }, top: { value: 1 }, probing: { value: 0 } };
   private readonly stressMark: Mark;
   private readonly deformationMark: Mark;
 
-  constructor(private surface: BlockSurface, viewer: Viewer, index: number, private scale: StressScale, readonly state: State) {
+  /** @param name of what it shows, in the words of the probe */
+  constructor(readonly surface: BlockSurface, viewer: Viewer, index: number, readonly scale: StressScale, public name: string) {
     const position = new three.BufferAttribute(surface.points, 3);
     const count = surface.points.length / 3;
     const displacement = new three.BufferAttribute(new Float32Array(3 * count), 3);
@@ -89,7 +106,7 @@ export class StressPane {
       .setAttribute("stress", new three.BufferAttribute(new Float32Array(count), 1))
       .setIndex(new three.BufferAttribute(surface.triangles(), 1));
     this.mesh = new three.Mesh(geometry, new three.ShaderMaterial({
-      uniforms: { ...shared, colours: { value: scale.colours }, top: scale.top, bands: scale.bands, probeRange: this.probeRange },
+      uniforms: { ...shared, colours: { value: scale.colours }, bottom: scale.bottom, top: scale.top, bands: scale.bands, probing: this.probed.probing },
       vertexShader, fragmentShader, side: three.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     }));
     this.edges = new three.LineSegments(
@@ -106,32 +123,48 @@ export class StressPane {
   }
 
   setField(field: Field | undefined, figures: StructureState | undefined): void {
+    this.show(field && unpack(field.von_mises), field && unpack(field.displacement));
+    this.setMark(this.stressMark, field?.checked_stress_point ?? figures?.checked_point_m ?? field?.peak_stress_point, this.peak,
+      `${megapascals(figures?.checked_von_mises_Pa ?? this.largestStress)} MPa`);
+    this.setMark(this.deformationMark, field?.max_displacement_point ?? figures?.max_displacement_point_m, this.farthest,
+      `${millimetres(figures?.max_displacement_m ?? this.largestDisplacement)} mm`);
+    this.placeMarks();
+  }
+
+  /** Values of any kind with one mark, at a point if one is given, else where they are largest in size. */
+  setValues(values: Float32Array, displacement: Float32Array, text: (extreme: number) => string, given?: number[]): void {
+    this.show(values, displacement);
+    this.setMark(this.stressMark, given, this.peak, text(Math.abs(this.smallestStress) > this.largestStress ? this.smallestStress : this.largestStress));
+    this.deformationMark.label.element.textContent = "";
+    this.placeMarks();
+  }
+
+  /** Whether the mark of the largest value is there. */
+  showMark(on: boolean): void {
+    if (!on) this.stressMark.label.element.textContent = "";
+    this.placeMarks();
+  }
+
+  /** Takes values and displacements of the points, zero if there are none; finds where they are largest. */
+  private show(values: Float32Array | undefined, moves: Float32Array | undefined): void {
     const { geometry } = this.mesh;
     const stress = geometry.getAttribute("stress") as three.BufferAttribute;
     const displacement = geometry.getAttribute("displacement") as three.BufferAttribute;
-    (stress.array as Float32Array).fill(0);
-    (displacement.array as Float32Array).fill(0);
-    if (field) {
-      (stress.array as Float32Array).set(unpack(field.von_mises));
-      (displacement.array as Float32Array).set(unpack(field.displacement));
-    }
-    stress.needsUpdate = displacement.needsUpdate = true;
-    const values = stress.array as Float32Array;
+    const shown = stress.array as Float32Array;
     const moved = displacement.array as Float32Array;
-    let peak = 0;
-    let farthest = 0;
     const distance = (i: number): number => Math.hypot(moved[3 * i], moved[3 * i + 1], moved[3 * i + 2]);
-    for (let i = 0; i < values.length; ++i) {
-      if (values[i] > values[peak]) peak = i;
-      if (distance(i) > distance(farthest)) farthest = i;
+    if (moves) moved.set(moves); else moved.fill(0);
+    [this.smallestStress, this.largestStress, this.peak, this.farthest] = [0, 0, 0, 0];
+    for (let i = 0; i < shown.length; ++i) {
+      const value = values ? values[i] : 0;
+      shown[i] = Number.isNaN(value) ? noValue : value;
+      if (Math.abs(value) > Math.max(this.largestStress, -this.smallestStress)) this.peak = i;
+      if (value > this.largestStress) this.largestStress = value;
+      if (value < this.smallestStress) this.smallestStress = value;
+      if (distance(i) > distance(this.farthest)) this.farthest = i;
     }
-    this.largestStress = values[peak];
-    this.largestDisplacement = distance(farthest);
-    this.setMark(this.stressMark, field?.checked_stress_point ?? figures?.checked_point_m ?? field?.peak_stress_point, peak,
-      `${megapascals(figures?.checked_von_mises_Pa ?? this.largestStress)} MPa`);
-    this.setMark(this.deformationMark, field?.max_displacement_point ?? figures?.max_displacement_point_m, farthest,
-      `${millimetres(figures?.max_displacement_m ?? this.largestDisplacement)} mm`);
-    this.placeMarks();
+    this.largestDisplacement = distance(this.farthest);
+    stress.needsUpdate = displacement.needsUpdate = true;
   }
 
   /** Puts a mark at a point if one is given, else at a point of the mesh; it moves as the mesh does there. */
@@ -156,14 +189,21 @@ export class StressPane {
     for (const { label, place, displacement } of [this.stressMark, this.deformationMark]) {
       label.point.copy(place).addScaledVector(displacement, deformation.value);
       const cutAway = place.x * plane.value.x + place.y * plane.value.y + place.z * plane.value.z > plane.value.w + 1e-6;
-      label.element.style.display = cutAway ? "none" : "";
+      label.element.style.display = cutAway || !label.element.textContent ? "none" : "";
     }
   }
 
-  /** Draws values instead of colours while the stress under the pointer is read. */
-  probing(on: boolean, range: number): void {
-    this.probeRange.value = on ? Math.max(range, 1e-30) : 0;
+  /** Draws values instead of colours while the one under the pointer is read; they lie between the two that are returned. */
+  probing(on: boolean): [number, number] {
+    const { uniforms } = this.mesh.material as three.ShaderMaterial;
+    const [bottom, top] = [this.smallestStress, Math.max(this.largestStress, this.smallestStress + 1e-30)];
+    this.probed.bottom.value = bottom;
+    this.probed.top.value = top;
+    this.probed.probing.value = on ? 1 : 0;
+    uniforms.bottom = on ? this.probed.bottom : this.scale.bottom;
+    uniforms.top = on ? this.probed.top : this.scale.top;
     this.edges.layers.set(on ? 1 : 0);
+    return [bottom, top];
   }
 
   hide(groups: Set<number>): void {

@@ -19,9 +19,16 @@ export const canDraw: () => boolean = (() => {
   };
 })();
 
-export interface Pane { scene: three.Scene; labels: { point: three.Vector3; element: HTMLElement }[] }
+export interface Pane {
+  scene: three.Scene;
+  labels: { point: three.Vector3; element: HTMLElement }[];
+  frame?: HTMLElement;  // over the pane's place, for a caption
+}
 
-/** A canvas with one or more panes side by side that share camera and orbit. */
+/** Panes in rows and columns, in pixels. */
+interface Grid { columns: number; rows: number; width: number; height: number }
+
+/** A canvas with one or more panes side by side, or in several rows, that share camera and orbit. */
 export class Viewer {
   readonly element: HTMLElement;
   readonly camera = new three.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
@@ -33,7 +40,11 @@ export class Viewer {
   private wide = 10;
   private waiting = false;
 
-  constructor(paneCount: number, pixelHeight: number, label: string) {
+  /**
+   * @param pixelHeight of a row of panes
+   * @param columnsAt how many panes stand side by side in a width; all of them if it is not given
+   */
+  constructor(paneCount: number, private pixelHeight: number, label: string, private columnsAt: (width: number) => number = () => paneCount) {
     this.renderer = new three.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setScissorTest(true);
@@ -63,6 +74,23 @@ export class Viewer {
     this.overlay.appendChild(label.element);
     this.panes[pane].labels.push(label);
     return label;
+  }
+
+  /** An element that lies over a pane, whatever the window's size. */
+  addFrame(pane: number): HTMLElement {
+    const frame = h("div", { class: "frame" });
+    this.overlay.appendChild(frame);
+    return this.panes[pane].frame = frame;
+  }
+
+  /** The pane under the pointer, and the pointer's place in it in pixels; none beside all of them. */
+  paneAt(event: PointerEvent): { index: number; x: number; y: number; width: number; height: number } | null {
+    const { left, top } = this.element.getBoundingClientRect();
+    const { columns, rows, width, height } = this.grid();
+    const [x, y] = [event.clientX - left - this.element.clientLeft, event.clientY - top - this.element.clientTop];
+    const [column, row] = [Math.min(Math.max(Math.floor(x / width), 0), columns - 1), Math.min(Math.max(Math.floor(y / height), 0), rows - 1)];
+    const index = row * columns + column;
+    return index < this.panes.length ? { index, x: x - column * width, y: y - row * height, width, height } : null;
   }
 
   /** Looks from `direction` (from what is seen towards the eye) so that all the points just fit into the view. */
@@ -123,16 +151,26 @@ export class Viewer {
     this.draw();
   }
 
+  private grid(): Grid {
+    const { clientWidth, clientHeight } = this.element;
+    const columns = Math.min(Math.max(this.columnsAt(clientWidth), 1), this.panes.length);
+    const rows = Math.ceil(this.panes.length / columns);
+    return { columns, rows, width: clientWidth / columns, height: clientHeight / rows };
+  }
+
   private resize(): void {
+    if (this.element.clientWidth === 0 || this.element.clientHeight === 0) return;
+    this.element.style.height = `${this.grid().rows * this.pixelHeight}px`;
     const { clientWidth: width, clientHeight: height } = this.element;
-    if (width === 0 || height === 0) return;
-    this.fit(width, height);
+    const grid = this.grid();
+    this.renderer.setSize(width, height, false);
+    this.fit(grid.width, grid.height);
     this.draw();
   }
 
+  /** Lets everything fit into a pane of this size. */
   private fit(width: number, height: number): void {
-    this.renderer.setSize(width, height, false);
-    const aspect = width / this.panes.length / height;
+    const aspect = width / height;
     const tall = Math.max(this.height, this.wide / aspect);
     this.camera.top = tall / 2;
     this.camera.bottom = -tall / 2;
@@ -144,8 +182,9 @@ export class Viewer {
   /** Each pane as a picture of `width` by `height`, its labels drawn in, whatever the size on the screen. */
   picture(width: number, height: number): HTMLElement[] {
     this.renderer.setPixelRatio(2);
-    this.fit(width * this.panes.length, height);
-    this.render(width, height);
+    this.renderer.setSize(width * this.panes.length, height, false);
+    this.fit(width, height);
+    this.render({ columns: this.panes.length, rows: 1, width, height });
     const pictures = this.panes.map(({ labels }, i) => {
       const copy = h("canvas", { width: 2 * width, height: 2 * height }) as HTMLCanvasElement;
       copy.getContext("2d")!.drawImage(this.renderer.domElement, 2 * i * width, 0, 2 * width, 2 * height, 0, 0, 2 * width, 2 * height);
@@ -171,12 +210,17 @@ export class Viewer {
     return { x: (place.x + 1) / 2, y: (1 - place.y) / 2, inside: Math.abs(place.x) <= 1 && Math.abs(place.y) <= 1 };
   }
 
-  private render(paneWidth: number, height: number): void {
+  private render({ columns, rows, width, height }: Grid): void {
     this.camera.updateMatrixWorld();
+    this.renderer.setClearColor(background);
+    if (this.panes.length < columns * rows) {
+      this.renderer.setScissor(0, 0, columns * width, rows * height);
+      this.renderer.clear();
+    }
     this.panes.forEach(({ scene }, i) => {
-      this.renderer.setViewport(i * paneWidth, 0, paneWidth, height);
-      this.renderer.setScissor(i * paneWidth, 0, paneWidth, height);
-      this.renderer.setClearColor(background);
+      const [left, bottom] = [(i % columns) * width, (rows - 1 - Math.floor(i / columns)) * height];
+      this.renderer.setViewport(left, bottom, width, height);
+      this.renderer.setScissor(left, bottom, width, height);
       this.renderer.render(scene, this.camera);
     });
   }
@@ -189,15 +233,17 @@ export class Viewer {
   }
 
   private drawNow(): void {
-    const { clientWidth: width, clientHeight: height } = this.element;
-    if (width === 0 || height === 0) return;
-    const paneWidth = width / this.panes.length;
-    this.render(paneWidth, height);
-    this.panes.forEach(({ labels }, i) => {
+    if (this.element.clientWidth === 0 || this.element.clientHeight === 0) return;
+    const grid = this.grid();
+    this.render(grid);
+    this.panes.forEach(({ labels, frame }, i) => {
+      const [left, top] = [(i % grid.columns) * grid.width, Math.floor(i / grid.columns) * grid.height];
+      frame?.setAttribute("style", `left:${left}px;top:${top}px;width:${grid.width}px;height:${grid.height}px`);
       for (const { point, element } of labels) {
         const { x, y, inside } = this.place(point);
+        element.classList.toggle("leftwards", x > 0.75);
         element.style.visibility = inside ? "visible" : "hidden";
-        element.style.transform = `translate(${(i + x) * paneWidth}px, ${y * height}px)`;
+        element.style.transform = `translate(${left + x * grid.width}px, ${top + y * grid.height}px)`;
       }
     });
   }
