@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import signal
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
@@ -42,19 +43,30 @@ def run(arguments: Sequence[str | os.PathLike[str]],
 
     Returns what it printed; a lift that fails its checks is no error here.
 
-    Raises InputError for wrong input, RunError if the run fails.
+    Raises InputError for wrong input, RunError if the run fails. Ctrl-C ends the program as on a
+    terminal before KeyboardInterrupt goes on.
     """
-    done = subprocess.run([str(executable()), *(os.fspath(one) for one in arguments)],
-                          capture_output=True, text=True, check=False,
-                          env={**os.environ, **(environment or {})})
-    if done.returncode in (_DONE, _LIFT_FAILS):
-        return done.stdout
-    if done.returncode == _WRONG_INPUT:
-        complaints = complaints_of(done.stderr)
+    with subprocess.Popen([str(executable()), *(os.fspath(one) for one in arguments)],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env={**os.environ, **(environment or {})}) as process:
+        try:
+            said, complained = process.communicate()
+        except KeyboardInterrupt:
+            # Notebooks interrupt Python alone. Results that are being written are finished.
+            process.send_signal(signal.SIGINT)
+            process.communicate()
+            raise
+        except BaseException:
+            process.kill()
+            raise
+    if process.returncode in (_DONE, _LIFT_FAILS):
+        return said
+    if process.returncode == _WRONG_INPUT:
+        complaints = complaints_of(complained)
         if complaints:
             raise InputError(complaints)
-        raise ValueError(done.stderr.strip())
-    raise RunError(done.stderr.strip() or f"blocklift ended by signal {-done.returncode}")
+        raise ValueError(complained.strip())
+    raise RunError(complained.strip() or f"blocklift ended by signal {-process.returncode}")
 
 
 def version() -> str:

@@ -3,6 +3,9 @@
 import json
 import os
 import shutil
+import signal
+import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -51,6 +54,20 @@ class CaseTest(InATemporaryFolder):
         Path("lift/case.yaml").write_text("case: [", encoding="utf-8")
         with self.assertRaises(blocklift.InputError):
             blocklift.Case("lift")
+
+    def test_ctrl_c_ends_the_program(self):
+        case = blocklift.Case("lift")
+        case.set("settle", "20000 s")
+        # What runs in the background may ignore it.
+        self.addCleanup(signal.signal, signal.SIGINT,
+                        signal.signal(signal.SIGINT, signal.default_int_handler))
+        timer = threading.Timer(1.0, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        begin = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            case.simulate("out")
+        self.assertLess(time.monotonic() - begin, 10)
+        self.assertFalse(Path("out").exists())
 
     def test_a_file_that_is_not_there(self):
         with self.assertRaises(FileNotFoundError):
