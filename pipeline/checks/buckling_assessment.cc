@@ -58,19 +58,18 @@ void find_bars(const structure::UnitResponses& responses, const BlockPanels& pan
   result.unknown_rods = bars.unknown_rods();
   const auto at_rest = bars.find_worst(static_states.factors, result.bar_factor);
   const auto in_motion = bars.find_worst(dynamic_states.factors, result.bar_factor);
-  const auto tripping_at_rest = bars.find_worst_tripping(static_states.factors, result.bar_factor);
-  const auto tripping_in_motion =
-      bars.find_worst_tripping(dynamic_states.factors, result.bar_factor);
   const auto time_of = [&](bool moving, int instant) -> std::optional<double> {
     const Eigen::VectorXd* time = (moving ? dynamic_states : static_states).time;
     return time ? std::optional((*time)[instant]) : std::nullopt;
   };
   for (std::size_t b = 0; b < bars.spans().size(); ++b) {
-    const bool moving = in_motion[b].utilisation >= at_rest[b].utilisation;
-    const bool trips_moving = tripping_in_motion[b].utilisation >= tripping_at_rest[b].utilisation;
-    BuckledBar bar{bars.spans()[b], moving ? in_motion[b] : at_rest[b], moving, {}};
+    const auto& [column_at_rest, tripping_at_rest] = at_rest[b];
+    const auto& [column_in_motion, tripping_in_motion] = in_motion[b];
+    const bool moving = column_in_motion.utilisation >= column_at_rest.utilisation;
+    const bool trips_moving = tripping_in_motion.utilisation >= tripping_at_rest.utilisation;
+    BuckledBar bar{bars.spans()[b], moving ? column_in_motion : column_at_rest, moving, {}};
     bar.time = time_of(moving, bar.worst.instant);
-    bar.tripping = trips_moving ? tripping_in_motion[b] : tripping_at_rest[b];
+    bar.tripping = trips_moving ? tripping_in_motion : tripping_at_rest;
     bar.trips_in_motion = trips_moving;
     bar.tripping_time = time_of(trips_moving, bar.tripping.instant);
     result.bars.push_back(std::move(bar));

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "structure/batches.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -62,7 +64,7 @@ double Solid::distance(const Solid& a, const Pose& X_WA, const Solid& b, const P
   };
   fcl::DistanceRequestd request;
   request.enable_signed_distance = false;
-  fcl::DistanceResultd result;
+  fcl::DistanceResultd result(most);  // what is farther is not looked at
   const double found =
       fcl::distance<double>(a.tree_->model.get(), transform(X_WA), b.tree_->model.get(),
                             transform(X_WB), request, result);
@@ -98,13 +100,34 @@ std::vector<Eigen::Index> chosen_samples(Eigen::Index count) {
   return samples;
 }
 
+/// Corners of a surface, each once.
+Eigen::Matrix3Xd corners_of(const std::vector<Triangle>& triangles) {
+  std::vector<Vector3> corners;
+  for (const Triangle& triangle : triangles)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  std::sort(corners.begin(), corners.end(), [](const Vector3& a, const Vector3& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+  });
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  Eigen::Matrix3Xd once(3, static_cast<Eigen::Index>(corners.size()));
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    once.col(static_cast<Eigen::Index>(i)) = corners[i];
+  return once;
+}
+
 /// A series of the distance that `distance_at` finds at an instant.
 template <class DistanceAt>
 Eigen::VectorXd distances(const History& history, const DistanceAt& distance_at) {
   Eigen::VectorXd values(history.sample_count());
+  const std::vector<Eigen::Index> chosen = chosen_samples(history.sample_count());
+  structure::in_batches(static_cast<int>(chosen.size()), 8, 0, [&](int first, int count) {
+    for (int i = first; i < first + count; ++i) {
+      const Eigen::Index sample = chosen[static_cast<std::size_t>(i)];
+      values[sample] = distance_at(history, sample);
+    }
+  });
   Eigen::Index before = -1;
-  for (const Eigen::Index sample : chosen_samples(history.sample_count())) {
-    values[sample] = distance_at(history, sample);
+  for (const Eigen::Index sample : chosen) {
     for (Eigen::Index k = before + 1; before >= 0 && k < sample; ++k) {
       const double share =
           (history.time[k] - history.time[before]) / (history.time[sample] - history.time[before]);
@@ -238,13 +261,10 @@ class Clearances {
   void add_ground() {
     const std::optional<double> ground = case_.ground_height();
     if (!ground) return;
-    std::vector<Vector3> corners;
-    for (const Triangle& triangle : surface_of(case_.load))
-      corners.insert(corners.end(), triangle.begin(), triangle.end());
+    const Eigen::Matrix3Xd corners = corners_of(surface_of(case_.load));
     add_measure("load", "ground", [&](const History& history, Eigen::Index sample) {
       const Pose X_WB = pose_at(history, load_.body, sample);
-      double lowest = std::numeric_limits<double>::infinity();
-      for (const Vector3& corner : corners) lowest = std::min(lowest, X_WB.apply(corner).z());
+      const double lowest = X_WB.p.z() + (X_WB.R.row(2) * corners).minCoeff();
       return std::min(lowest - *ground, far);
     });
   }

@@ -119,7 +119,7 @@ void find_largest(const structure::StressBasis& basis, const BlockAttachment& at
     require_balance(load_case, mass, attachment.lugs);
     factors.col(sample) = basis.factors(load_case, mass);
   }
-  const structure::LargestStress largest = find_largest_checked(basis, factors, 1);
+  const structure::LargestValue largest = find_largest_checked(basis, factors, 1);
   if (largest.point < 0) throw std::runtime_error("the block has no plating");
   stress = largest.value;
   time = history.time[largest.instant];

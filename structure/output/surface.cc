@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -39,6 +41,31 @@ std::array<Vector3, 2> strip_of(const Mesh& mesh, const Beam& beam) {
   const Vector3 along = beam_axes(mesh, beam).row(1 + axis).transpose();
   return {lower[axis] * along, upper[axis] * along};
 }
+
+/// Samples of cells by the surface's points on which they lie: those of one point stand together,
+/// so that most are passed over once one of them is known.
+struct SharedPoints {
+  SharedPoints(const std::vector<int>& point_of, int first, int count) : place_of(at(count)) {
+    std::vector<int> order(at(count));
+    std::iota(order.begin(), order.end(), 0);
+    const auto point = [&](int sample) { return point_of[at(first + sample)]; };
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return std::pair(point(a), a) < std::pair(point(b), b); });
+    for (int place = 0; place < count; ++place) {
+      const int sample = order[at(place)];
+      place_of[at(sample)] = place;
+      if (points.empty() || points.back() != point(sample)) {
+        points.push_back(point(sample));
+        begin.push_back(2 * place);
+      }
+    }
+    begin.push_back(2 * count);
+  }
+
+  std::vector<int> place_of;  ///< of each sample
+  std::vector<int> points;    ///< of the surface
+  std::vector<int> begin;     ///< of each point its first side of a sample, and the end
+};
 
 }  // namespace
 
@@ -161,27 +188,33 @@ void Surface::take_envelopes_of_shells(const UnitResponses& responses,
   const int cells = static_cast<int>(space.shells().size());
   for (int begin = 0; begin < cells; begin += chunk) {
     const int count = std::min(chunk, cells - begin);
-    // Both surfaces of each point: those of one side first.
+    const SharedPoints shared(cell_points_, begin * per_cell, count * per_cell);
+    // Both surfaces of each sample.
     Eigen::MatrixXd stress(12L * per_cell * count, responses.count());
     in_batches(count, 16, 0, [&](int first, int taken) {
       ShellStress recovery(space, unit);
       for (int i = first; i < first + taken; ++i) {
         const Eigen::MatrixXd rows = recovery.of_all(begin + i, responses.displacements());
-        stress.middleRows(12L * per_cell * i, 6L * per_cell) = stresses_at_side(rows, 1);
-        stress.middleRows(12L * per_cell * i + 6L * per_cell, 6L * per_cell) =
-            stresses_at_side(rows, -1);
+        const Eigen::MatrixXd upper = stresses_at_side(rows, 1), lower = stresses_at_side(rows, -1);
+        for (int q = 0; q < per_cell; ++q) {
+          const int place = shared.place_of[at(i * per_cell + q)];
+          stress.middleRows<6>(12L * place) = upper.middleRows<6>(6L * q);
+          stress.middleRows<6>(12L * place + 6) = lower.middleRows<6>(6L * q);
+        }
       }
     });
     for (std::size_t h = 0; h < histories.size(); ++h) {
-      const PointExtremes extremes = find_von_mises_envelope(
-          histories[h], 2 * per_cell * count, [&](int first, int taken) -> Eigen::MatrixXd {
+      Eigen::VectorXd of_points(static_cast<Eigen::Index>(shared.points.size()));
+      for (std::size_t p = 0; p < shared.points.size(); ++p)
+        of_points[static_cast<Eigen::Index>(p)] = largest[h][at(shared.points[p])];
+      raise_von_mises(
+          histories[h], shared.begin,
+          [&](int first, int taken) -> Eigen::MatrixXd {
             return stress.middleRows(6L * first, 6L * taken);
-          });
-      for (int sample = 0; sample < 2 * per_cell * count; ++sample) {
-        const int cell = begin + sample / (2 * per_cell);
-        double& of_point = largest[h][at(cell_points_[at(cell * per_cell + sample % per_cell)])];
-        of_point = std::max(of_point, extremes.value[sample]);
-      }
+          },
+          of_points);
+      for (std::size_t p = 0; p < shared.points.size(); ++p)
+        largest[h][at(shared.points[p])] = of_points[static_cast<Eigen::Index>(p)];
     }
   }
 }
@@ -195,25 +228,24 @@ void Surface::take_envelopes_of_beams(const UnitResponses& responses,
   in_batches(stations, 64, 0, [&](int first, int count) {
     // The points of these sections, one below the other, and where those of each begin.
     Eigen::MatrixXd stress(0, responses.count());
-    std::vector<Eigen::Index> begin{0};
+    std::vector<int> begin{0};
     for (int s = first; s < first + count; ++s) {
       const BeamStation& station = stations_[at(s)];
       const Eigen::MatrixXd here =
           as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
       stress.conservativeResize(stress.rows() + here.rows(), Eigen::NoChange);
       stress.bottomRows(here.rows()) = here;
-      begin.push_back(stress.rows() / 6);
+      begin.push_back(static_cast<int>(stress.rows() / 6));
     }
     for (std::size_t h = 0; h < histories.size(); ++h) {
-      const PointExtremes extremes = find_von_mises_envelope(
-          histories[h], static_cast<int>(begin.back()),
+      Eigen::VectorXd of_sections = Eigen::VectorXd::Zero(count);
+      raise_von_mises(
+          histories[h], begin,
           [&](int point, int taken) -> Eigen::MatrixXd {
             return stress.middleRows(6L * point, 6L * taken);
           },
-          1);
-      for (int i = 0; i < count; ++i)
-        of_stations(static_cast<Eigen::Index>(h), first + i) =
-            extremes.value.segment(begin[at(i)], begin[at(i + 1)] - begin[at(i)]).maxCoeff();
+          of_sections, 1);
+      of_stations.row(static_cast<Eigen::Index>(h)).segment(first, count) = of_sections.transpose();
     }
   });
   for (std::size_t h = 0; h < histories.size(); ++h)

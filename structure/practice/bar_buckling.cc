@@ -359,38 +359,29 @@ void BlockBars::look_at(std::size_t span, const Eigen::MatrixXd& factors, const 
   }
 }
 
-std::vector<BlockBars::Worst> BlockBars::find_worst(const Eigen::MatrixXd& factors, double factor,
-                                                    int threads) const {
-  std::vector<Worst> result(spans_.size());
-  in_batches(static_cast<int>(spans_.size()), 1, threads, [&](int first, int count) {
-    for (std::size_t s = at(first); s < at(first + count); ++s)
-      look_at(s, factors, [&](std::size_t place, int instant, const auto& here) {
-        const ColumnForces bears{-here[0], {here[1], here[2]}};
-        const double utilisation = column_utilisation(spans_[s].column, bears, factor);
-        if (utilisation > result[s].utilisation)
-          result[s] = {utilisation, bears, stations_[s].shares[place], instant};
-      });
-  });
-  return result;
-}
-
-std::vector<BlockBars::WorstTripping> BlockBars::find_worst_tripping(const Eigen::MatrixXd& factors,
-                                                                     double factor,
-                                                                     int threads) const {
-  std::vector<WorstTripping> result(spans_.size());
+std::vector<BlockBars::WorstOfSpan> BlockBars::find_worst(const Eigen::MatrixXd& factors,
+                                                          double factor, int threads) const {
+  std::vector<WorstOfSpan> result(spans_.size());
   in_batches(static_cast<int>(spans_.size()), 1, threads, [&](int first, int count) {
     for (std::size_t s = at(first); s < at(first + count); ++s) {
-      if (!(spans_[s].tripping_strength > 0)) continue;
-      const double critical = euler_load(spans_[s].column, 0);
+      const BarSpan& span = spans_[s];
+      const bool trips = span.tripping_strength > 0;
+      const double critical = trips ? euler_load(span.column, 0) : 0;
+      auto& [column, tripping] = result[s];
       look_at(s, factors, [&](std::size_t place, int instant, const auto& here) {
+        const ColumnForces bears{-here[0], {here[1], here[2]}};
+        const double utilisation = column_utilisation(span.column, bears, factor);
+        if (utilisation > column.utilisation)
+          column = {utilisation, bears, stations_[s].shares[place], instant};
+        if (!trips) return;
         const double left = 1 - std::max(0.0, -factor * here[0]) / critical;
         const double grown =
             left > 0 ? -here[3] + (here[3] - here[4]) / left
                      : std::numeric_limits<double>::infinity();  // it has buckled as a column
         const double compression = factor * std::max(-here[3], grown);
-        const double utilisation = compression / spans_[s].tripping_strength;
-        if (utilisation > result[s].utilisation)
-          result[s] = {utilisation, compression, stations_[s].shares[place], instant};
+        if (compression / span.tripping_strength > tripping.utilisation)
+          tripping = {compression / span.tripping_strength, compression, stations_[s].shares[place],
+                      instant};
       });
     }
   });

@@ -71,13 +71,14 @@ class BlockBars {
     double share = 0;
     int instant = 0;
   };
-  /// The largest utilisation of each span over instants (a column of factors of the motions each),
+  struct WorstOfSpan {
+    Worst column;
+    WorstTripping tripping;  ///< utilisation 0 of spans that do not trip
+  };
+  /// The largest utilisations of each span over instants (a column of factors of the motions each),
   /// forces multiplied by `factor`.
-  std::vector<Worst> find_worst(const Eigen::MatrixXd& factors, double factor,
-                                int threads = 0) const;
-  /// The same of tripping; utilisation 0 of spans that do not trip.
-  std::vector<WorstTripping> find_worst_tripping(const Eigen::MatrixXd& factors, double factor,
-                                                 int threads = 0) const;
+  std::vector<WorstOfSpan> find_worst(const Eigen::MatrixXd& factors, double factor,
+                                      int threads = 0) const;
 
  private:
   /// Of a span: their places, and where their rows begin in forces_: N, M_y, M_z, and of a

@@ -75,7 +75,7 @@ TimedExtreme of_square(const Mesh& mesh, const CheckedStress& checked,
 
 // Extreme of the nodal stress at one of the stress points.
 TimedExtreme of_point(const UnitResponses& responses, const StressPoints& points,
-                      const LargestStress& largest) {
+                      const LargestValue& largest) {
   TimedExtreme result;
   if (largest.point < 0) return result;
   const Mesh& mesh = responses.model().mesh();
@@ -93,7 +93,7 @@ TimedExtreme largest_displacement(const UnitResponses& responses, const LoadHist
   Eigen::MatrixXd relative(responses.displacements().rows(), responses.count());
   for (Eigen::Index k = 0; k < relative.cols(); ++k)
     relative.col(k) = responses.without_rigid_motion(responses.displacements().col(k));
-  const PointExtremes moved = find_displacement_envelope(
+  const LargestValue moved = find_largest_displacement(
       history, model.space().node_count(),
       [&](int first, int count) {
         Eigen::MatrixXd displacement(3 * count, relative.cols());
@@ -102,11 +102,10 @@ TimedExtreme largest_displacement(const UnitResponses& responses, const LoadHist
         return displacement;
       },
       threads);
-  Eigen::Index node = 0;
   TimedExtreme extreme;
-  extreme.value = moved.value.maxCoeff(&node);
-  extreme.point_B = model.space().nodes().col(node);
-  extreme.instant = moved.instant[node];
+  extreme.value = moved.value;
+  extreme.point_B = model.space().nodes().col(moved.point);
+  extreme.instant = moved.instant;
   return extreme;
 }
 
@@ -194,10 +193,10 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
       },
       groups, [&](int point) { return mesh.regions[at(points.region(point))].group; }, threads);
   envelope.places = squares + points.count();
-  LargestStress peak;
-  for (const LargestStress& of_group : peaks.von_mises)
+  LargestValue peak;
+  for (const LargestValue& of_group : peaks.von_mises)
     if (of_group.point >= 0 && (peak.point < 0 || of_group.value > peak.value)) peak = of_group;
-  const auto at_point = [&](const LargestStress& largest) {
+  const auto at_point = [&](const LargestValue& largest) {
     return of_point(responses, points, largest);
   };
   envelope.peak_von_mises = at_point(peak);

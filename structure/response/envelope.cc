@@ -11,6 +11,7 @@
 
 #include "structure/batches.h"
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/response/envelope_search.h"
 
 namespace blocklift::structure {
@@ -39,6 +40,15 @@ PointExtremes sized(int points) {
   return {Eigen::VectorXd::Zero(points), Eigen::VectorXi::Zero(points)};
 }
 
+// No principal stress reaches infinity: none is looked for.
+StressFound von_mises_above(double known) {
+  StressFound floor;
+  floor.von_mises.value = known;
+  floor.largest_principal.value = std::numeric_limits<double>::infinity();
+  floor.minus_smallest_principal.value = std::numeric_limits<double>::infinity();
+  return floor;
+}
+
 void keep(PointExtremes& extremes, int point, const Found& found, double sign = 1) {
   extremes.value[point] = sign * found.value;
   extremes.instant[point] = found.instant;
@@ -65,10 +75,7 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int threads) {
-  // No principal stress reaches infinity: none is looked for.
-  StressFound floor;
-  floor.largest_principal.value = std::numeric_limits<double>::infinity();
-  floor.minus_smallest_principal.value = std::numeric_limits<double>::infinity();
+  const StressFound floor = von_mises_above(-std::numeric_limits<double>::infinity());
   PointExtremes extremes = sized(points);
   in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);
@@ -80,17 +87,35 @@ PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
   return extremes;
 }
 
+void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
+                     const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads) {
+  const int runs = static_cast<int>(begin.size()) - 1;
+  in_batches(runs, 16, threads, [&](int first, int count) {
+    const int from = begin[at(first)], points = begin[at(first + count)] - from;
+    if (points == 0) return;
+    const Rows rows = responses_of(history, stress, from, points, 6);
+    SearchWorkspace workspace(history);
+    for (int run = first; run < first + count; ++run) {
+      StressFound found = von_mises_above(largest[run]);
+      for (int point = begin[at(run)]; point < begin[at(run + 1)]; ++point)
+        found = search_stress(history, rows.data() + 6L * (point - from) * rows.cols(), workspace,
+                              found);
+      largest[run] = found.von_mises.value;
+    }
+  });
+}
+
 namespace {
 
 // Larger, or as large at an earlier point: whatever the threads have done, the result is the same.
-void merge(LargestStress& into, const Found& found, int point) {
+void merge(LargestValue& into, const Found& found, int point) {
   if (into.point < 0 || found.value > into.value ||
       (found.value == into.value && point < into.point))
     into = {found.value, point, found.instant};
 }
 
 // Just below what is known, so that equals are found and merged by their places.
-Found as_floor(const LargestStress& largest) {
+Found as_floor(const LargestValue& largest) {
   if (largest.point < 0) return {};
   return {std::nextafter(largest.value, -std::numeric_limits<double>::infinity()), -1};
 }
@@ -113,12 +138,12 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
       known = all;
     }
     for (int i = 0; i < count; ++i) {
-      LargestStress& in_set = known.von_mises[set_of(first + i)];
+        LargestValue& in_set = known.von_mises[set_of(first + i)];
       const StressFound floor{as_floor(in_set), as_floor(known.largest_principal),
                               as_floor(known.smallest_principal)};
       const StressFound found =
           search_stress(history, rows.data() + 6L * i * rows.cols(), workspace, floor);
-      const auto raise = [&](LargestStress& known_one, const Found& one) {
+      const auto raise = [&](LargestValue& known_one, const Found& one) {
         if (one.instant >= 0) merge(known_one, one, first + i);
       };
       raise(in_set, found.von_mises);
@@ -126,7 +151,7 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
       raise(known.smallest_principal, found.minus_smallest_principal);
     }
     const std::lock_guard lock(updating);
-    const auto raise = [](LargestStress& into, const LargestStress& from) {
+    const auto raise = [](LargestValue& into, const LargestValue& from) {
       if (from.point >= 0) merge(into, {from.value, from.instant}, from.point);
     };
     for (std::size_t set = 0; set < known.von_mises.size(); ++set)
@@ -138,17 +163,27 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
   return all;
 }
 
-PointExtremes find_displacement_envelope(const LoadHistory& history, int points,
-                                         const UnitResponsesAt& displacement, int threads) {
-  PointExtremes extremes = sized(points);
+LargestValue find_largest_displacement(const LoadHistory& history, int points,
+                                       const UnitResponsesAt& displacement, int threads) {
+  LargestValue all;
+  std::mutex updating;
   in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, displacement, first, count, 3);
     SearchWorkspace workspace(history);
-    for (int i = 0; i < count; ++i)
-      keep(extremes, first + i,
-           search_displacement(history, rows.data() + 3L * i * rows.cols(), workspace));
+    LargestValue known;
+    {
+      const std::lock_guard lock(updating);
+      known = all;
+    }
+    for (int i = 0; i < count; ++i) {
+      const Found found = search_displacement(history, rows.data() + 3L * i * rows.cols(),
+                                              workspace, as_floor(known));
+      if (found.instant >= 0) merge(known, found, first + i);
+    }
+    const std::lock_guard lock(updating);
+    if (known.point >= 0) merge(all, {known.value, known.instant}, known.point);
   });
-  return extremes;
+  return all;
 }
 
 }  // namespace blocklift::structure

@@ -48,18 +48,24 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int threads = 0);
 
+/// Likewise the largest over runs of points: run r has the points begin[r] .. begin[r + 1] - 1.
+/// Points that do not reach what is known of their run cost little.
+/// @param largest of each run what is known already (zero: nothing), Pa; it is raised.
+void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
+                     const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads = 0);
+
 /// The largest of one quantity over points and instants.
-struct LargestStress {
-  double value = 0;  ///< Pa
+struct LargestValue {
+  double value = 0;  ///< Pa; m
   int point = -1;    ///< -1: there is no point
   int instant = -1;
 };
 
 /// Extremes over sets of points.
 struct LargestStresses {
-  std::vector<LargestStress> von_mises;  ///< of each set
-  LargestStress largest_principal;       ///< of all points
-  LargestStress smallest_principal;      ///< of all points
+  std::vector<LargestValue> von_mises;  ///< of each set
+  LargestValue largest_principal;       ///< of all points
+  LargestValue smallest_principal;      ///< of all points
 };
 
 /// The extremes of find_stress_envelope over sets of points, without those of each point: points
@@ -69,8 +75,8 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int sets,
                                       const std::function<int(int)>& set_of, int threads = 0);
 
-/// The largest magnitude of a displacement at points over all instants, m, likewise.
-PointExtremes find_displacement_envelope(const LoadHistory& history, int points,
-                                         const UnitResponsesAt& displacement, int threads = 0);
+/// The largest magnitude of a displacement over points and instants, m, likewise.
+LargestValue find_largest_displacement(const LoadHistory& history, int points,
+                                       const UnitResponsesAt& displacement, int threads = 0);
 
 }  // namespace blocklift::structure

@@ -20,12 +20,23 @@ struct Screen {
   float margin;               ///< more than all rounding together
 };
 
+/// Response in the middle of a cluster, computed in double precision and scaled as the screen's,
+/// and what is more than the rounding of its members' differences from it: a history that hardly
+/// moves is told apart far more finely than its values in single precision are.
+struct Middle {
+  float response[6];
+  float margin;
+  float margin_of_principals;
+};
+
 /// The loops in the instruction set of this machine.
 struct Kernel {
   void (*bound_stress)(const Screen&, const LoadHistory&, float* work, float* bounds);
-  void (*screen_stress)(const Screen&, const LoadHistory&, int cluster, float* bounds);
+  void (*screen_stress)(const Screen&, const LoadHistory&, int cluster, const Middle&,
+                        float* bounds);
   void (*bound_displacement)(const Screen&, const LoadHistory&, float* work, float* bounds);
-  void (*screen_displacement)(const Screen&, const LoadHistory&, int cluster, float* bounds);
+  void (*screen_displacement)(const Screen&, const LoadHistory&, int cluster, const Middle&,
+                              float* bounds);
 };
 
 namespace portable {
@@ -65,6 +76,7 @@ const Kernel& kernel() {
 }
 
 constexpr int members = LoadHistory::cluster_size;
+constexpr double unit = 6e-8;  // more than the rounding to single precision, 2^-24
 
 // Takes a value that is larger, or as large and earlier.
 void take(Found& found, double value, int instant) {
@@ -102,7 +114,27 @@ double largest_principal(const Eigen::Matrix<double, 6, 1>& s) {
 float margin(const LoadHistory& history, const float* norms) {
   double sum = 0;
   for (int k = 0; k < history.rank(); ++k) sum += norms[k] * history.reach()[k];
-  return static_cast<float>((2 * history.rank() + 20) * 6e-8 * sum);
+  return static_cast<float>((2 * history.rank() + 20) * unit * sum);
+}
+
+// How far norms of the responses reach from a cluster's middle.
+double reach_from_middle(const LoadHistory& history, const float* norms, int cluster) {
+  double sum = 0;
+  for (int k = 0; k < history.rank(); ++k)
+    sum += norms[k] * history.half_widths()[k * history.padded_clusters() + cluster];
+  return sum;
+}
+
+// Responses of a point in the middle of a cluster, in double precision.
+template <int count>
+Eigen::Matrix<double, count, 1> response_in_middle(const LoadHistory& history, const double* rows,
+                                                   int cluster) {
+  const int rank = history.rank();
+  const double* y = history.middle(cluster);
+  Eigen::Matrix<double, count, 1> sum = Eigen::Matrix<double, count, 1>::Zero();
+  for (int c = 0; c < count; ++c)
+    for (int k = 0; k < rank; ++k) sum[c] += rows[c * rank + k] * y[k];
+  return sum;
 }
 
 double scale_of(const LoadHistory& history, const double* rows, int count) {
@@ -185,23 +217,50 @@ class StressSearch {
            minus_smallest >= found_.minus_smallest_principal.value * scale_;
   }
 
-  // Members of a cluster whose screened values reach what has been found are computed exactly.
+  // Members of a cluster whose screened values reach what has been found are computed exactly, the
+  // most promising first: they rule out most others.
   void evaluate(int cluster) {
     float bounds[3 * members];
-    kernel().screen_stress(screen_, history_, cluster, bounds);
-    for (int i = 0; i < members; ++i) {
-      const float q = bounds[i], largest = bounds[members + i],
-                  minus_smallest = bounds[2 * members + i];
-      if (!reaches(q, largest, minus_smallest)) continue;
-      const int instant = history_.member_instants(cluster)[i];
-      const auto stress = response<6>(history_, rows_, cluster, i);
-      if (q >= found_.von_mises.value * scale_)
-        take(found_.von_mises, von_mises_of(stress), instant);
-      if (largest >= found_.largest_principal.value * scale_)
-        take(found_.largest_principal, largest_principal(stress), instant);
-      if (minus_smallest >= found_.minus_smallest_principal.value * scale_)
-        take(found_.minus_smallest_principal, largest_principal(-stress), instant);
-    }
+    kernel().screen_stress(screen_, history_, cluster, middle_of(cluster), bounds);
+    for (int quantity = 0; quantity < 3; ++quantity)
+      evaluate(cluster,
+               largest_of(bounds + static_cast<std::ptrdiff_t>(quantity) * members, members),
+               bounds);
+    for (int i = 0; i < members; ++i) evaluate(cluster, i, bounds);
+  }
+
+  // With F = sqrt(s:s) <= sqrt(3) |p| + sqrt(2/3) q, and q and sigma_i no more than sqrt(3/2) F:
+  // differences are sums of `rank` products rounded as in margin(); the stress itself, its mean and
+  // deviator and the root of their squares take less than 32 units of F, and the cubic for the
+  // principal stresses less than four times as many.
+  Middle middle_of(int cluster) const {
+    Middle middle{};
+    const Eigen::Matrix<double, 6, 1> s = scale_ * response_in_middle<6>(history_, rows_, cluster);
+    for (int c = 0; c < 6; ++c) middle.response[c] = static_cast<float>(s[c]);
+    const double spread =
+        2 * (reach_from_middle(history_, screen_.norms, cluster) +
+             reach_from_middle(history_, screen_.norms + 2L * history_.rank(), cluster));
+    const double size =
+        std::sqrt(s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm()) + spread;
+    const double of_differences = (2 * history_.rank() + 20) * unit * spread;
+    middle.margin = static_cast<float>(of_differences + 32 * unit * size);
+    middle.margin_of_principals = static_cast<float>(of_differences + 128 * unit * size);
+    return middle;
+  }
+
+  // One member, which is not looked at again.
+  void evaluate(int cluster, int member, float* bounds) {
+    float &q = bounds[member], &largest = bounds[members + member],
+          &minus_smallest = bounds[2 * members + member];
+    if (!reaches(q, largest, minus_smallest)) return;
+    const int instant = history_.member_instants(cluster)[member];
+    const auto stress = response<6>(history_, rows_, cluster, member);
+    if (q >= found_.von_mises.value * scale_) take(found_.von_mises, von_mises_of(stress), instant);
+    if (largest >= found_.largest_principal.value * scale_)
+      take(found_.largest_principal, largest_principal(stress), instant);
+    if (minus_smallest >= found_.minus_smallest_principal.value * scale_)
+      take(found_.minus_smallest_principal, largest_principal(-stress), instant);
+    q = largest = minus_smallest = -std::numeric_limits<float>::infinity();
   }
 
   const LoadHistory& history_;
@@ -225,27 +284,40 @@ StressFound search_stress(const LoadHistory& history, const double* rows,
 }
 
 Found search_displacement(const LoadHistory& history, const double* rows,
-                          SearchWorkspace& workspace) {
+                          SearchWorkspace& workspace, const Found& floor) {
   const int rank = history.rank(), clusters = history.clusters();
   float *coarse = workspace.rows.data(), *norms = coarse + 3L * rank;
   const double scale = scale_of(history, rows, 3);
+  double reach = 0;  // no coordinate goes beyond its own
   for (int k = 0; k < rank; ++k) {
     Eigen::Vector3d u;
     for (int a = 0; a < 3; ++a) u[a] = rows[a * rank + k] * scale;
     for (int a = 0; a < 3; ++a) coarse[a * rank + k] = static_cast<float>(u[a]);
     norms[k] = static_cast<float>(u.norm());
+    reach += norms[k] * history.reach()[k];
   }
   const Screen screen{coarse, nullptr, norms, 2 * margin(history, norms)};
+  Found found = floor;
+  if (reach + screen.margin < found.value * scale) return found;
   float* bounds = workspace.bounds.data();
   kernel().bound_displacement(screen, history, workspace.work.data(), bounds);
-  Found found;
   const auto evaluate = [&](int cluster) {
+    Middle middle{};
+    const Eigen::Vector3d u = scale * response_in_middle<3>(history, rows, cluster);
+    for (int a = 0; a < 3; ++a) middle.response[a] = static_cast<float>(u[a]);
+    const double spread = reach_from_middle(history, norms, cluster);
+    middle.margin =
+        static_cast<float>((2 * rank + 20) * unit * spread + 16 * unit * (u.norm() + spread));
     float member_bounds[members];
-    kernel().screen_displacement(screen, history, cluster, member_bounds);
-    for (int i = 0; i < members; ++i)
-      if (member_bounds[i] >= found.value * scale)
-        take(found, response<3>(history, rows, cluster, i).norm(),
-             history.member_instants(cluster)[i]);
+    kernel().screen_displacement(screen, history, cluster, middle, member_bounds);
+    const auto evaluate_member = [&](int i) {
+      if (member_bounds[i] < found.value * scale) return;
+      take(found, response<3>(history, rows, cluster, i).norm(),
+           history.member_instants(cluster)[i]);
+      member_bounds[i] = -std::numeric_limits<float>::infinity();  // not looked at again
+    };
+    evaluate_member(largest_of(member_bounds, members));
+    for (int i = 0; i < members; ++i) evaluate_member(i);
   };
   evaluate(largest_of(bounds, clusters));
   for (int cluster = 0; cluster < clusters; ++cluster)

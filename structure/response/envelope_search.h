@@ -35,7 +35,8 @@ StressFound search_stress(const LoadHistory& history, const double* rows,
                           SearchWorkspace& workspace, const StressFound& floor = {});
 
 /// @param rows 3 x rank, row after row: displacement (m) for unit coordinates.
+/// @param floor likewise.
 Found search_displacement(const LoadHistory& history, const double* rows,
-                          SearchWorkspace& workspace);
+                          SearchWorkspace& workspace, const Found& floor = {});
 
 }  // namespace blocklift::structure

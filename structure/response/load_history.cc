@@ -75,6 +75,7 @@ void LoadHistory::store(const Eigen::MatrixXd& coordinates, const std::vector<in
   half_widths_.assign(centres_.size(), 0);
   members_.resize(at(rank * clusters() * cluster_size));
   coarse_members_.resize(members_.size());
+  middles_.resize(at(rank * clusters()));
   member_instants_.resize(at(clusters()) * cluster_size);
   for (int cluster = 0; cluster < clusters(); ++cluster) {
     const int first = first_member_[at(cluster)], last = first_member_[at(cluster) + 1] - 1;
@@ -88,12 +89,17 @@ void LoadHistory::store(const Eigen::MatrixXd& coordinates, const std::vector<in
       for (Eigen::Index k = 0; k < rank; ++k) {
         const std::size_t entry = start(cluster) + at(k * cluster_size + i);
         members_[entry] = place[k];
-        coarse_members_[entry] = static_cast<float>(place[k]);
       }
     }
     for (Eigen::Index k = 0; k < rank; ++k) {
       const std::size_t entry = at(k * padded_clusters() + cluster);
-      centres_[entry] = static_cast<float>((lower[k] + upper[k]) / 2);
+      const double middle = (lower[k] + upper[k]) / 2;
+      middles_[at(cluster * rank + k)] = middle;
+      for (int i = 0; i < cluster_size; ++i) {
+        const std::size_t member = start(cluster) + at(k * cluster_size + i);
+        coarse_members_[member] = static_cast<float>(members_[member] - middle);
+      }
+      centres_[entry] = static_cast<float>(middle);
       half_widths_[entry] =
           static_cast<float>((upper[k] - lower[k]) / 2 * (1 + 1e-6) + 2e-7 * reach_[k]);
     }

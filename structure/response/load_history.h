@@ -46,7 +46,11 @@ class LoadHistory {
   const float* half_widths() const { return half_widths_.data(); }
   /// Coordinates of a cluster's members: entry k * cluster_size + member, repetitions at the end.
   const double* members(int cluster) const { return members_.data() + start(cluster); }
-  /// The same in single precision.
+  /// The middle of a cluster's box, by coordinates.
+  const double* middle(int cluster) const {
+    return middles_.data() + static_cast<std::ptrdiff_t>(cluster) * rank();
+  }
+  /// The members' coordinates from the middle, in single precision: as members().
   const float* coarse_members(int cluster) const { return coarse_members_.data() + start(cluster); }
   /// The instant of each member, cluster_size a cluster.
   const int* member_instants(int cluster) const {
@@ -65,7 +69,7 @@ class LoadHistory {
   std::vector<int> first_member_{0};
   Eigen::VectorXd reach_;
   std::vector<float> centres_, half_widths_, coarse_members_;
-  std::vector<double> members_;
+  std::vector<double> members_, middles_;
   std::vector<int> member_instants_;
 };
 

@@ -77,8 +77,8 @@ StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square
   return basis;
 }
 
-LargestStress find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
-                                   int threads) {
+LargestValue find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
+                                  int threads) {
   const Eigen::VectorXd weights =
       basis.components.colwise().norm().transpose() /
       std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, basis.components.rows())));

@@ -34,7 +34,7 @@ StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square
 
 /// The largest checked stress over squares and instants, Pa.
 /// @param factors StressBasis::factors, a column an instant.
-LargestStress find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
-                                   int threads = 0);
+LargestValue find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
+                                  int threads = 0);
 
 }  // namespace blocklift::structure

@@ -79,14 +79,14 @@ TEST(BarBuckling, ABarUnderSlingsIsASpreader) {
   Eigen::MatrixXd factors(responses.count(), 2);
   factors.col(0) = responses.coefficients(hanging);
   factors.col(1) = 2 * factors.col(0);
-  const BlockBars::Worst worst = bars.find_worst(factors, 1.5).front();
+  const BlockBars::Worst worst = bars.find_worst(factors, 1.5).front().column;
   EXPECT_EQ(worst.instant, 1);
   EXPECT_NEAR(worst.share, 0.5, 1e-12);
   EXPECT_NEAR(worst.forces.compression, weight, 1e-6 * weight);
   const double moment = std::hypot(worst.forces.moments[0], worst.forces.moments[1]);
   EXPECT_NEAR(moment, weight * length / 4, 1e-6 * moment);
   EXPECT_DOUBLE_EQ(worst.utilisation, column_utilisation(span.column, worst.forces, 1.5));
-  EXPECT_GT(worst.utilisation, bars.find_worst(factors, 1).front().utilisation);
+  EXPECT_GT(worst.utilisation, bars.find_worst(factors, 1).front().column.utilisation);
 }
 
 // The moments about an angle's principal axes are those of the force, and its weaker axis is the
@@ -108,7 +108,7 @@ TEST(BarBuckling, AnAngleBendsAboutItsPrincipalAxes) {
   hanging.field.acceleration_less_gravity = Vector3(0, 0, free_fall);
   hanging.lug_forces_B.assign(2, {0, 0, model.mass_properties().mass * free_fall / 2});
   const Eigen::MatrixXd factors = responses.coefficients(hanging);
-  const BlockBars::Worst worst = bars.find_worst(factors, 1).front();
+  const BlockBars::Worst worst = bars.find_worst(factors, 1).front().column;
   const double moment = weight * 4 / 8;
   // An equal angle's principal axes lie at 45 degrees to its legs.
   for (const double part : worst.forces.moments)
@@ -168,12 +168,12 @@ TEST(BarBuckling, StiffenersBearWithTheirPlates) {
   }
   const double modulus = column_steel.youngs_modulus;
   const auto pressed = bars.find_worst(Eigen::Vector2d(1, 0), 1);
-  for (const BlockBars::Worst& worst : pressed) {
+  for (const auto& [worst, tripping] : pressed) {
     EXPECT_NEAR(worst.forces.compression, 1e-3 * modulus * area, 1e-6 * modulus * area * 1e-3);
     EXPECT_NEAR(worst.forces.moments[0], 0, 1e-6 * modulus * second_moment);
   }
   const auto bent = bars.find_worst(Eigen::Vector2d(0, -1), 1);
-  for (const BlockBars::Worst& worst : bent) {
+  for (const auto& [worst, tripping] : bent) {
     EXPECT_NEAR(worst.forces.compression, 1e-3 * modulus * web * 0.105,
                 1e-3 * modulus * web * 1e-6);
     EXPECT_NEAR(std::abs(worst.forces.moments[0]), 1e-3 * modulus * second_moment,
@@ -198,20 +198,20 @@ TEST(BarBuckling, StiffenersTrip) {
                       2);
   EXPECT_GT(elastic, shear * std::pow(0.012 / 0.2, 2) * 0.95);
   const double strength = tripping_strength(elastic, column_steel.yield_stress);
-  const auto pressed = bars.find_worst_tripping(Eigen::Vector2d(0.5, 0), 1.5);
-  const auto bent = bars.find_worst_tripping(Eigen::Vector2d(0, -0.5), 1.5);
-  const auto pulled = bars.find_worst_tripping(Eigen::Vector2d(-1, 0), 1.5);
+  const auto pressed = bars.find_worst(Eigen::Vector2d(0.5, 0), 1.5);
+  const auto bent = bars.find_worst(Eigen::Vector2d(0, -0.5), 1.5);
+  const auto pulled = bars.find_worst(Eigen::Vector2d(-1, 0), 1.5);
   for (std::size_t s = 0; s < bars.spans().size(); ++s) {
     EXPECT_NEAR(bars.spans()[s].tripping_stress, elastic, 1e-9 * elastic);
     EXPECT_NEAR(bars.spans()[s].tripping_strength, strength, 1e-9 * strength);
     const double even = 0.75e-3 * modulus;
-    EXPECT_NEAR(pressed[s].compression, even, 1e-6 * even);
-    EXPECT_NEAR(pressed[s].utilisation, even / strength, 1e-6 * even / strength);
+    EXPECT_NEAR(pressed[s].tripping.compression, even, 1e-6 * even);
+    EXPECT_NEAR(pressed[s].tripping.utilisation, even / strength, 1e-6 * even / strength);
     const double force = 0.75e-3 * modulus * 0.2 * 0.012 * 0.105;
     const double left = 1 - force / euler_load(bars.spans()[s].column, 0);
     const double outer = 0.75e-3 * modulus * (0.105 + 0.1 / left);
-    EXPECT_NEAR(bent[s].compression, outer, 1e-5 * outer);
-    EXPECT_EQ(pulled[s].utilisation, 0);
+    EXPECT_NEAR(bent[s].tripping.compression, outer, 1e-5 * outer);
+    EXPECT_EQ(pulled[s].tripping.utilisation, 0);
   }
 }
 

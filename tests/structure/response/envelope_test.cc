@@ -1,8 +1,10 @@
 // Envelopes over a history against evaluating every instant.
 #include "structure/response/envelope.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
@@ -104,7 +106,7 @@ TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
     int best = set;
     for (int point = set; point < 400; point += 3)
       if (each.von_mises.value[point] > each.von_mises.value[best]) best = point;
-    const LargestStress& found = sets.von_mises[static_cast<std::size_t>(set)];
+    const LargestValue& found = sets.von_mises[static_cast<std::size_t>(set)];
     EXPECT_EQ(found.point, best);
     EXPECT_EQ(found.value, each.von_mises.value[best]);
     EXPECT_EQ(found.instant, each.von_mises.instant[best]);
@@ -116,17 +118,48 @@ TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
             sets.smallest_principal.value);
 }
 
-TEST(Envelope, DisplacementEqualsBruteForce) {
-  const Eigen::MatrixXd units = testing::random_responses(3 * 200, 30, 7);
-  const Eigen::MatrixXd factors = testing::lift_like_history(30, 500, 8);
-  const LoadHistory history(factors, Eigen::VectorXd::Ones(30));
-  const PointExtremes moved = find_displacement_envelope(
-      history, 200, [&](int first, int count) { return units.middleRows(3 * first, 3 * count); });
-  for (int p = 0; p < 200; ++p) {
-    const Eigen::VectorXd size = (units.middleRows<3>(3 * p) * factors).colwise().norm();
-    EXPECT_NEAR(moved.value[p], size.maxCoeff(), rounding * size.maxCoeff());
-    EXPECT_NEAR(size[moved.instant[p]], size.maxCoeff(), rounding * size.maxCoeff());
+TEST(Envelope, LargestDisplacementEqualsBruteForce) {
+  const Eigen::MatrixXd units = testing::random_responses(3 * 400, 30, 7);
+  for (const bool comes_back : {true, false}) {
+    const Eigen::MatrixXd factors =
+        comes_back ? testing::lift_like_history(30, 500, 8) : testing::noise_history(30, 333, 8);
+    const LoadHistory history(factors, Eigen::VectorXd::Ones(30));
+    const LargestValue moved = find_largest_displacement(
+        history, 400, [&](int first, int count) { return units.middleRows(3 * first, 3 * count); },
+        2);
+    Eigen::MatrixXd sizes(400, factors.cols());
+    for (int p = 0; p < 400; ++p)
+      sizes.row(p) = (units.middleRows<3>(3 * p) * factors).colwise().norm();
+    Eigen::Index point = 0, instant = 0;
+    const double largest = sizes.maxCoeff(&point, &instant);
+    EXPECT_NEAR(moved.value, largest, rounding * largest);
+    EXPECT_EQ(moved.point, point);
+    EXPECT_NEAR(sizes(moved.point, moved.instant), largest, rounding * largest);
   }
+}
+
+// Of runs of points, each with what is known of it: that of its points, or what is known.
+TEST(Envelope, LargestOfRunsAreThoseOfTheirPoints) {
+  const Eigen::MatrixXd units = testing::random_responses(6 * 90, 12, 15);
+  const Eigen::MatrixXd factors = testing::lift_like_history(12, 400, 16);
+  const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
+  const auto responses = [&](int first, int count) {
+    return units.middleRows(6 * first, 6 * count);
+  };
+  const PointExtremes each = find_von_mises_envelope(history, 90, responses, 2);
+  std::vector<int> begin{0};
+  while (begin.back() < 90) begin.push_back(begin.back() + static_cast<int>(begin.size()) % 4);
+  begin.back() = 90;
+  const auto runs = static_cast<Eigen::Index>(begin.size()) - 1;
+  Eigen::VectorXd largest = Eigen::VectorXd::Constant(runs, each.value.mean());
+  largest[3] = 2 * each.value.maxCoeff();
+  Eigen::VectorXd expected = largest;
+  for (Eigen::Index run = 0; run < runs; ++run)
+    for (int point = begin[static_cast<std::size_t>(run)];
+         point < begin[static_cast<std::size_t>(run) + 1]; ++point)
+      expected[run] = std::max(expected[run], each.value[point]);
+  raise_von_mises(history, begin, responses, largest, 2);
+  EXPECT_EQ(largest, expected);
 }
 
 TEST(Envelope, WhatIsNotANumberIsRefused) {

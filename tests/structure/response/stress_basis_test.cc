@@ -65,7 +65,7 @@ TEST_F(OtherMass, HasTheStressOfItsOwnSolution) {
   const LoadCase lift = spun_lift(alone_);
   const Eigen::VectorXd own = checked.von_mises(alone_responses_.coefficients(lift));
   const StressBasis basis = make_stress_basis(responses_, checked.squares());
-  const LargestStress largest =
+  const LargestValue largest =
       find_largest_checked(basis, basis.factors(lift, other_->mass_properties()));
   Eigen::Index place = 0;
   EXPECT_NEAR(largest.value, own.maxCoeff(&place), 1e-9 * own.maxCoeff());
