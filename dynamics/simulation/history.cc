@@ -67,6 +67,13 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
     }
     r.first_force.resize(n, 3);
     r.last_force.resize(n, 3);
+    for (const RopeEdge& edge : rope.edges()) {
+      EdgeHistory& e = r.edges.emplace_back();
+      e.name = edge.name;
+      e.force.resize(n, 3);
+      for (auto* values : {&e.wrap, &e.first_angle, &e.last_angle, &e.first_place, &e.last_place})
+        values->resize(n);
+    }
   }
   for (const int k : system.mechanism().driven_velocities()) {
     DriveHistory& d = drives.emplace_back();
@@ -156,6 +163,27 @@ void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWo
     system.ropes()[i].calc_path(w.kinematics, w.path, &w.end_shifts[i]);
     r.first_force.row(sample) = system.ropes()[i].first_force(w.path, pulling).transpose();
     r.last_force.row(sample) = system.ropes()[i].last_force(w.path, pulling).transpose();
+    if (!r.edges.empty()) record_edges(w.path, pulling.tension, sample, r);
+  }
+}
+
+void History::record_edges(const RopePath& path, double tension, Eigen::Index sample,
+                           RopeHistory& rope) {
+  for (std::size_t i = 0; i < rope.edges.size(); ++i) {
+    EdgeHistory& edge = rope.edges[i];
+    const EdgeTouch& touch = path.touches[i];
+    const auto or_nothing = [&](double value) { return touch.touches ? value : not_a_number; };
+    edge.force.row(sample).setZero();
+    edge.wrap[sample] = touch.touches ? touch.wrap : 0.0;
+    edge.first_angle[sample] = or_nothing(touch.first_angle);
+    edge.last_angle[sample] = or_nothing(touch.last_angle);
+    edge.first_place[sample] = or_nothing(touch.first_place);
+    edge.last_place[sample] = or_nothing(touch.last_place);
+  }
+  for (std::size_t k = 1; k + 1 < path.count; ++k) {
+    if (path.edge[k] < 0) continue;
+    rope.edges[static_cast<std::size_t>(path.edge[k])].force.row(sample) +=
+        tension * (path.direction_W[k] - path.direction_W[k - 1]).transpose();
   }
 }
 

@@ -29,16 +29,30 @@ struct BodyHistory {
   }
 };
 
+/// What a rope does at an edge of a body, at each sample.
+struct EdgeHistory {
+  using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  std::string name;      ///< of the edge
+  Rows3 force;           ///< on the edge's body, in W, N
+  Eigen::VectorXd wrap;  ///< by which the rope turns about the edge, rad; 0 where it does not touch
+  /// Where it comes and leaves, not numbers where it does not touch: angles about the axis from the
+  /// side outside (EdgeTouch), rad; places along the axis from its begin, m.
+  Eigen::VectorXd first_angle, last_angle, first_place, last_place;
+
+  bool touches(Eigen::Index sample) const { return wrap[sample] > 0.0; }
+};
+
 /// What is known of a rope at each sample.
 struct RopeHistory {
   using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   std::string name;
   Eigen::VectorXd tension;     ///< N
   Eigen::VectorXd elongation;  ///< stretched less unstretched length, m; negative when slack
-  Eigen::VectorXd unstretched_length;  ///< m
-  Eigen::VectorXd unstretched_rate;    ///< m/s
-  Rows3 first_force;                   ///< on the body at the rope's first point, in W, N
-  Rows3 last_force;                    ///< on the body at the rope's last point, in W, N
+  Eigen::VectorXd unstretched_length;   ///< m
+  Eigen::VectorXd unstretched_rate;     ///< m/s
+  Rows3 first_force;                    ///< on the body at the rope's first point, in W, N
+  Rows3 last_force;                     ///< on the body at the rope's last point, in W, N
+  std::vector<EdgeHistory> edges = {};  ///< that it may touch, in the order of its definition
 };
 
 /// What is known of a driven joint velocity at each sample.
@@ -108,6 +122,8 @@ class History {
   void add_water_inertia(const RadiatedWater& water, const LiftWorkspace& w);
   void record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
   void record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
+  static void record_edges(const RopePath& path, double tension, Eigen::Index sample,
+                           RopeHistory& rope);
   void record_loops(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
 
   Eigen::VectorXd buoyancy_in_waves_;  ///< of StoredEnergy, at each sample, J

@@ -266,10 +266,26 @@ void check_motion(const Progress& progress, Assessment& assessment) {
     assessment.checks.push_back(std::move(check));
 }
 
+/// What ropes do at edges of a block is not among the loads of its stress.
+void refuse_edges(const LiftCase& the_case) {
+  if (!the_case.has_structure()) return;
+  for (const RopeInCase& rope : the_case.ropes) {
+    if (rope.over.empty()) continue;
+    Diagnostics diagnostics;
+    diagnostics.error(rope.over.front().edge.mark,
+                      fmt::format("rope {} runs over edges of the block, whose force would be "
+                                  "missing from its stress",
+                                  rope.name.value),
+                      {"blocklift simulate computes the motion and the forces on edges"});
+    throw InputError(diagnostics);
+  }
+}
+
 }  // namespace
 
 Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* unfinished) {
   Stopwatch total;
+  refuse_edges(lift_case);
   Assessment assessment{std::move(lift_case), {}, {}, {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 

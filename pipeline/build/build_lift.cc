@@ -380,14 +380,35 @@ class LiftBuilder {
       }
       set_rope(definition, rope.rope, rope.end_stiffness, rope.length.value, case_.hangs(rope));
       definition.sheave_friction = rope.friction();
+      add_edges(rope, definition);
       const int index = static_cast<int>(rope_definitions_.size());
       if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
-      ropes_.push_back(
-          {rope.name.value, index, rope.lug(), case_.hook_above(rope), rope.rope.breaking_load});
+      ropes_.push_back({rope.name.value, index, rope.lug(), case_.hook_above(rope),
+                        rope.rope.breaking_load, lift_edges(rope)});
       note_end(rope.path.front(), {index, false, rope.path.front().point});
       note_end(rope.path.back(), {index, true, rope.path.back().point});
       rope_definitions_.push_back(std::move(definition));
     }
+  }
+
+  void add_edges(const RopeInCase& rope, dynamics::RopeDefinition& definition) const {
+    for (std::size_t i = 0; i < rope.edges.size(); ++i) {
+      const LoadEdge& edge = rope.edges[i];
+      definition.edges.push_back({.name = edge.name.value,
+                                  .body = body_of_.at("load"),
+                                  .after = static_cast<std::size_t>(rope.over[i].span.value - 1),
+                                  .begin_B = edge.from,
+                                  .end_B = edge.to,
+                                  .outside_B = edge.outside,
+                                  .radius = edge.radius});
+    }
+  }
+
+  static std::vector<LiftEdge> lift_edges(const RopeInCase& rope) {
+    std::vector<LiftEdge> edges;
+    for (const LoadEdge& edge : rope.edges)
+      edges.push_back({edge.name.value, edge.length(), edge.radius, edge.contact_length});
+    return edges;
   }
 
   void note_end(const ResolvedPoint& point, const LiftSpreader::End& end) {

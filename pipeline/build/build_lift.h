@@ -44,6 +44,14 @@ struct LiftHoist {
   double breaking_load = dynamics::not_a_number;  ///< of the tackle, all falls, N
 };
 
+/// An edge of the load that a rope of the case may touch, in the order of the rope's definition.
+struct LiftEdge {
+  std::string name;
+  double length = dynamics::not_a_number;          ///< m
+  double radius = 0;                               ///< m
+  double contact_length = dynamics::not_a_number;  ///< m, see LoadEdge
+};
+
 /// A rope of the case within the dynamics.
 struct LiftRope {
   std::string name;
@@ -52,6 +60,7 @@ struct LiftRope {
   /// On whose hook it hangs, at once or by way of spreaders; empty if on none, or on several.
   std::string hoist;
   double breaking_load = dynamics::not_a_number;  ///< N
+  std::vector<LiftEdge> edges = {};               ///< that it may touch
 };
 
 /// A spreader of the case within the dynamics.

@@ -15,11 +15,18 @@ void pass(Values& values, Body& body) {
   values(body.name, body.pose, body.velocity, body.acceleration, body.load);
 }
 
+template <class Values, class Edge>
+requires std::is_same_v<std::remove_const_t<Edge>, dynamics::EdgeHistory>
+void pass(Values& values, Edge& edge) {
+  values(edge.name, edge.force, edge.wrap, edge.first_angle, edge.last_angle, edge.first_place,
+         edge.last_place);
+}
+
 template <class Values, class Rope>
 requires std::is_same_v<std::remove_const_t<Rope>, dynamics::RopeHistory>
 void pass(Values& values, Rope& rope) {
   values(rope.name, rope.tension, rope.elongation, rope.unstretched_length, rope.unstretched_rate,
-         rope.first_force, rope.last_force);
+         rope.first_force, rope.last_force, rope.edges);
 }
 
 template <class Values, class Drive>

@@ -16,9 +16,23 @@ std::vector<SlingEnd> find_sling_ends(const BuiltLift& model) {
   return ends;
 }
 
+double lift_at_edges(const BuiltLift& model, const dynamics::History& history,
+                     Eigen::Index sample) {
+  double sum = 0;
+  for (const LiftRope& sling : model.ropes) {
+    if (sling.lug.empty()) continue;
+    for (const dynamics::EdgeHistory& edge :
+         history.ropes[static_cast<std::size_t>(sling.rope)].edges)
+      sum += edge.force(sample, 2);
+  }
+  return sum;
+}
+
 Eigen::VectorXd load_on_slings(const BuiltLift& model, const dynamics::History& history) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(history.sample_count());
   for (const SlingEnd& end : find_sling_ends(model)) sum += end.pull(history).col(2);
+  for (Eigen::Index sample = 0; sample < sum.size(); ++sample)
+    sum[sample] += lift_at_edges(model, history, sample);
   return sum;
 }
 

@@ -27,7 +27,10 @@ struct SlingEnd {
 /// Both ends at the load of each rope that ends at a lug, in the order of the ropes.
 std::vector<SlingEnd> find_sling_ends(const BuiltLift& model);
 
-/// Vertical part of all slings' forces on the load, at each sample, N.
+/// Vertical part of what slings do at edges of the load, at a sample, N.
+double lift_at_edges(const BuiltLift& model, const dynamics::History& history, Eigen::Index sample);
+
+/// Vertical part of all slings' forces on the load, at lugs and edges, at each sample, N.
 Eigen::VectorXd load_on_slings(const BuiltLift& model, const dynamics::History& history);
 
 }  // namespace blocklift::pipeline

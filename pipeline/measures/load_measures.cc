@@ -98,7 +98,7 @@ void add_margin(const LiftCase& lift_case, const LiftRun& lift,
         const dynamics::Pose X_WB =
             history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample);
         std::vector<Eigen::Vector2d> carrying;
-        double borne = 0;
+        double borne = lift_at_edges(lift.model, history, sample);
         for (const SlingEnd& end : ends) {
           borne += end.pull(history)(sample, 2);
           if (history.ropes[static_cast<std::size_t>(end.rope)].tension[sample] > 0)

@@ -5,6 +5,7 @@
 
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/crane_measures.h"
+#include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/keeping_measures.h"
 #include "pipeline/measures/line_measures.h"
 #include "pipeline/measures/load_measures.h"
@@ -60,6 +61,7 @@ std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun&
   add_tackle_measures(lift_case, lift, measures);
   add_line_measures(lift, measures);
   add_sheave_measures(lift, measures);
+  add_edge_measures(lift, measures);
   add_clearances(lift_case, lift, measures);
   return measures;
 }

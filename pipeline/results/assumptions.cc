@@ -31,6 +31,14 @@ std::string names_of_rubbing(const LiftCase& lift_case) {
   return names;
 }
 
+/// Ropes that may touch edges of the load.
+std::string names_of_bent(const LiftCase& lift_case) {
+  std::string names;
+  for (const RopeInCase& rope : lift_case.ropes)
+    if (!rope.edges.empty()) names += (names.empty() ? "" : ", ") + rope.name.value;
+  return names;
+}
+
 /// Ropes and tackles with a curve of tension over strain.
 std::string names_of_curved(const LiftCase& lift_case) {
   std::string names;
@@ -67,6 +75,14 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
                     "two sides differ by exp(mu x angle of wrap), and slip at that ratio (Euler, "
                     "Eytelwein). They begin with one tension all along, which they have at rest.",
                     rubbing));
+  }
+  const std::string bent = names_of_bent(lift_case);
+  if (!bent.empty()) {
+    list.push_back(
+        fmt::format("{} slide over edges of the load without friction, on the shortest way round "
+                    "them: their tension is one on both sides of an edge. With friction it would "
+                    "be larger on one side, by up to exp(mu x angle of wrap).",
+                    bent));
   }
   const std::string curved = names_of_curved(lift_case);
   if (!curved.empty()) {

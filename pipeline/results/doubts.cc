@@ -10,6 +10,7 @@
 
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
+#include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/load_measures.h"
 
 namespace blocklift::pipeline {
@@ -41,6 +42,7 @@ class Doubts {
     doubt_place(lift);
     doubt_ground(lift);
     doubt_ropes(lift);
+    doubt_edges(lift);
     doubt_suspension(lift);
     say_faults(lift);
   }
@@ -157,6 +159,29 @@ class Doubts {
       for (const LiftRope& rope : lift.model.ropes) check(rope);
       for (const LiftHoist& hoist : lift.model.hoists) check(hoist);
     }
+  }
+
+  /// An edge has no ends where the rope's path is computed.
+  void doubt_edges(const LiftRun& lift) {
+    for (const LiftRope& rope : lift.model.ropes)
+      for (std::size_t edge = 0; edge < rope.edges.size(); ++edge) {
+        const LiftEdge& of = rope.edges[edge];
+        double least = 0, when = 0;
+        for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()}) {
+          const dynamics::RopeHistory& path = history->ropes[static_cast<std::size_t>(rope.rope)];
+          for (Eigen::Index i = 0; i < history->sample_count(); ++i) {
+            const double distance = distance_from_end(path, edge, of.length, i);
+            if (!(distance < least)) continue;
+            least = distance;
+            when = history->time[i];
+          }
+        }
+        if (least < 0)
+          doubt(
+              "Rope {} touches edge {} up to {:.2f} m beyond its end, at {:.1f} s: it has run off "
+              "the edge, which is computed as if it went on.",
+              rope.name, of.name, -least, when);
+      }
   }
 
   void doubt_cranes() {

@@ -148,7 +148,8 @@ double RopeInCase::friction() const {
 }
 
 bool LiftCase::hangs(const RopeInCase& rope) const {
-  return rope_weight && rope_weight->value && rope.rope.mass_per_length && rope.through.empty();
+  return rope_weight && rope_weight->value && rope.rope.mass_per_length && rope.through.empty() &&
+         rope.over.empty();
 }
 
 bool LiftCase::hangs(const CraneInCase& crane, const HoistModel& hoist) const {
@@ -156,6 +157,14 @@ bool LiftCase::hangs(const CraneInCase& crane, const HoistModel& hoist) const {
   if (!crane.equalised) return true;
   const auto& pair = crane.equalised->value;
   return pair[0].value != hoist.name.value && pair[1].value != hoist.name.value;
+}
+
+std::optional<double> RopeInCase::least_bend() const {
+  std::optional<double> least;
+  if (bend_diameter) least = bend_diameter->value;
+  for (const LoadEdge& edge : edges)
+    if (!least || 2 * edge.radius < *least) least = 2 * edge.radius;
+  return least;
 }
 
 const CraneInCase* LiftCase::find_crane(const std::string& crane) const {

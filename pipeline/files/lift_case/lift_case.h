@@ -20,6 +20,7 @@
 #include "pipeline/files/rigging/spreader.h"
 #include "pipeline/files/structure/block_model.h"
 #include "pipeline/files/structure/hot_spot_format.h"
+#include "pipeline/files/structure/load_edge.h"
 
 namespace blocklift::pipeline {
 
@@ -54,6 +55,7 @@ struct LoadInCase {
   std::shared_ptr<const Vessel>
       vessel;  ///< after the look-up; null if it failed; beside a block its hull
   std::vector<Named<Vector3>> lugs;          ///< of a vessel, in its frame, m
+  std::vector<LoadEdge> edges;               ///< of a vessel without a block, in its frame
   DampingInCase damping, quadratic_damping;  ///< of a vessel in the water
   /// Of a vessel for which the water that it sets in motion is computed, from its lowest point, m.
   std::optional<Located<std::vector<double>>> draughts;
@@ -63,6 +65,14 @@ struct LoadInCase {
 
   /// Upright in the water at the deepest of its draughts. It has a vessel and draughts.
   dynamics::Pose pose_afloat() const;
+  /// The block's edges, or those of a vessel without one.
+  const std::vector<LoadEdge>& all_edges() const { return model ? model->edges : edges; }
+};
+
+/// An edge of the load that a rope may touch.
+struct EdgeOnTheWay {
+  Located<std::string> edge;
+  Located<int> span{1, {}};  ///< of the rope, from 1: between `from` and the first of `through`
 };
 
 /// Where a rope begins, turns or ends: a hook (`C1.upper_1`), a lug (`L1`), an eye of a spreader
@@ -102,9 +112,13 @@ struct RopeInCase {
   std::optional<Located<double>> sheave_friction, sheave_efficiency;
   /// Of the least hook, pin, trunnion or sheave that it is bent round, m; none: it is not bent.
   std::optional<Located<double>> bend_diameter;
+  std::vector<EdgeOnTheWay> over;  ///< edges of the load, in the order of its path
+  std::vector<LoadEdge> edges;     ///< the same after the look-up; empty if a name was not found
 
   /// The lug at its end, empty if it ends elsewhere.
   std::string lug() const { return path.empty() ? std::string() : path.back().lug; }
+  /// The least of its bend_diameter and the rounds of edges that it may touch, m.
+  std::optional<double> least_bend() const;
   /// mu at its sheaves, whichever way it was given; zero: none.
   double friction() const;
   /// Does it end at a lug or at a spreader?

@@ -1,5 +1,6 @@
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/lift_case/case_formats.h"
+#include "pipeline/files/structure/load_edge.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -52,6 +53,9 @@ void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
   if (block && !load.lugs.empty()) {
     reading.error(load.lugs.front().name.mark, "a block's lugs stand in its model file");
   }
+  if (block && !load.edges.empty()) {
+    reading.error(load.edges.front().name.mark, "a block's edges stand in its model file");
+  }
   if (load.draughts && !load.vessel_name) {
     reading.error(load.draughts->mark, "draughts of a load that has no hull",
                   {"give its vessel, whose hull enters the water"});
@@ -77,6 +81,9 @@ Format<LoadInCase> load_format() {
           "frame of the block; the two weigh the same")
       .optional("lugs", &LoadInCase::lugs, names_to(position_format()),
                 "of a vessel without a block: places of its lugs in its frame")
+      .optional("edges", &LoadInCase::edges, named_tables(load_edge_format()),
+                "of a vessel without a block: edges in its frame that ropes may touch; those of a "
+                "block stand in its model file")
       .by_default("damping", &LoadInCase::damping, vessel_damping_format(), "{}",
                   "of a vessel in the water: linear, in proportion to the wet volume")
       .by_default("quadratic_damping", &LoadInCase::quadratic_damping,
@@ -191,6 +198,21 @@ Format<LoadTable> load_table_format() {
   return table.format();
 }
 
+Format<EdgeOnTheWay> edge_on_the_way_format() {
+  Table<EdgeOnTheWay> table("edge on the way", "An edge of the load that the rope may touch.");
+  table.required("edge", &EdgeOnTheWay::edge, located(reference()), "its name")
+      .by_default("span", &EdgeOnTheWay::span, located(integer(Range::positive())), "1",
+                  "in which span of the rope, from 1: before the first of through, behind it, ...");
+  const auto by_name = converted<Located<std::string>, EdgeOnTheWay>(
+      located(reference()), [](Located<std::string> name) {
+        EdgeOnTheWay on_the_way;
+        on_the_way.span.mark = name.mark;
+        on_the_way.edge = std::move(name);
+        return on_the_way;
+      });
+  return by_shape<EdgeOnTheWay>(by_name, std::nullopt, table.format());
+}
+
 void check_sheave_friction(const RopeInCase& rope, Reading& reading, const Mark&) {
   if (rope.sheave_friction && rope.sheave_efficiency)
     reading.error(rope.sheave_efficiency->mark,
@@ -252,11 +274,16 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                 "of its own: then the rope is moved by its name, like a hoist");
   // Of a mechanism nothing is held against the breaking load.
   if (breaking_load_required)
-    table.optional("bend_diameter", &RopeInCase::bend_diameter,
-                   located(quantity(Dimension::length, Range::positive())),
-                   "of the least hook, pin, trunnion or sheave that the wire rope is bent round: "
-                   "of its breaking load 1 - 0.5 / sqrt(D/d) is left, d being the diameter of its "
-                   "model; nothing is lost if left out, as by fibre slings");
+    table
+        .optional("bend_diameter", &RopeInCase::bend_diameter,
+                  located(quantity(Dimension::length, Range::positive())),
+                  "of the least hook, pin, trunnion or sheave that the wire rope is bent round: "
+                  "of its breaking load 1 - 0.5 / sqrt(D/d) is left, d being the diameter of its "
+                  "model; nothing is lost if left out, as by fibre slings")
+        .optional("over", &RopeInCase::over, list_of(edge_on_the_way_format()),
+                  "edges of the load that it may touch, in the order of its path from its upper "
+                  "end, up to 6 between two of its points; names, or {edge: name, span: 2} for one "
+                  "behind the first of through. It ends at a lug of the load");
   table.rule(check_sheave_friction);
   return table.format();
 }

@@ -191,6 +191,111 @@ void check_friction(const LiftCase& lift_case, Diagnostics& diagnostics) {
   }
 }
 
+/// A lug at which a span begins or ends, within the round of an edge of that span.
+void check_lug_and_edge(const RopeInCase& rope, std::size_t i, Diagnostics& diagnostics) {
+  const auto span = static_cast<std::size_t>(rope.over[i].span.value);
+  const LoadEdge& edge = rope.edges[i];
+  for (const ResolvedPoint* point : {&rope.path[span - 1], &rope.path[span]}) {
+    if (point->kind != ResolvedPoint::Kind::load) continue;
+    const double distance = edge.distance_from_axis(point->point);
+    constexpr double on_the_edge = 1e-6;  // m
+    if (distance > std::max(edge.radius, on_the_edge)) continue;
+    diagnostics.error(rope.over[i].edge.mark,
+                      fmt::format("{} of rope {} lies {} edge {}, {} from its axis",
+                                  point->lug.empty() ? "a point" : "lug " + point->lug,
+                                  rope.name.value, edge.radius > 0 ? "within the round of" : "on",
+                                  edge.name.value, format_quantity(distance, Dimension::length)),
+                      {"a rope bends round edges that lie beside its ends"});
+  }
+}
+
+void check_spans(const RopeInCase& rope, Diagnostics& diagnostics) {
+  constexpr int most_in_span = 6;          // as the rope's path takes
+  constexpr std::size_t most_places = 32;  // likewise
+  const int spans = static_cast<int>(rope.path.size()) - 1;
+  int previous = 0, in_span = 0;
+  for (std::size_t i = 0; i < rope.over.size(); ++i) {
+    const auto& [edge, span] = rope.over[i];
+    if (span.value > spans) {
+      diagnostics.error(span.mark,
+                        fmt::format("rope {} runs over edge {} in span {}, and has {}",
+                                    rope.name.value, edge.value, span.value,
+                                    spans == 1 ? "one span" : fmt::format("{} spans", spans)),
+                        {"spans lie between its points: from, those of through, to"});
+      return;
+    }
+    if (span.value < previous) {
+      diagnostics.error(span.mark,
+                        fmt::format("rope {} runs over edge {} in span {} behind one in span {}",
+                                    rope.name.value, edge.value, span.value, previous),
+                        {"edges stand in the order of the rope's path, from its upper end"});
+      return;
+    }
+    if (span.value == previous && rope.over[i - 1].edge.value == edge.value) {
+      diagnostics.error(edge.mark, fmt::format("rope {} runs over edge {} twice in succession",
+                                               rope.name.value, edge.value));
+      return;
+    }
+    in_span = span.value == previous ? in_span + 1 : 1;
+    previous = span.value;
+    if (in_span > most_in_span) {
+      diagnostics.error(
+          edge.mark,
+          fmt::format("rope {} runs over more than {} edges between two of its points",
+                      rope.name.value, most_in_span),
+          {"several that lie close to one another are one round edge"});
+      return;
+    }
+    check_lug_and_edge(rope, i, diagnostics);
+  }
+  if (rope.path.size() + 2 * rope.over.size() > most_places)
+    diagnostics.error(
+        rope.name.mark,
+        fmt::format("rope {} has too many points and edges: each point counts as one, "
+                    "each edge as two, and {} are allowed",
+                    rope.name.value, most_places));
+}
+
+/// What a rope over edges may not have besides.
+void check_edges(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  for (const RopeInCase& rope : lift_case.ropes) {
+    if (rope.edges.empty() || rope.path.empty()) continue;
+    const Mark& mark = rope.over.front().edge.mark;
+    if (rope.path.front().lug.empty() && rope.path.back().lug.empty())
+      diagnostics.error(mark,
+                        fmt::format("rope {} runs over edges of the load and ends at none of its "
+                                    "lugs",
+                                    rope.name.value),
+                        {"a sling over edges begins or ends at a lug, or does both"});
+    const auto& friction = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
+    if (friction && rope.friction() > 0)
+      diagnostics.error(
+          friction->mark,
+          fmt::format("rope {} has friction at its sheaves, and runs over edges", rope.name.value),
+          {"ropes over edges slide without friction: leave one of the two out"});
+    if (lift_case.dynamics.flexibility != Flexibility::rigid)
+      diagnostics.error(
+          mark,
+          fmt::format("rope {} runs over edges of the load, and the block is flexible",
+                      rope.name.value),
+          {"ropes to a block that gives way touch no edges: leave over or dynamics.flexibility "
+           "out"});
+    check_spans(rope, diagnostics);
+    for (std::size_t i = 0; i < rope.edges.size(); ++i) {
+      const LoadEdge& edge = rope.edges[i];
+      if (!rope.rope.diameter || !(2 * edge.radius < *rope.rope.diameter)) continue;
+      diagnostics.error(
+          rope.over[i].edge.mark,
+          fmt::format("rope {} of {} runs over edge {}, whose round is {} across", rope.name.value,
+                      format_quantity(*rope.rope.diameter, Dimension::length), edge.name.value,
+                      format_quantity(2 * edge.radius, Dimension::length)),
+          {"a rope is not bent round less than its own diameter: give the edge the radius of the "
+           "protector that lies on it, or leave the diameter out where the sling is not of wire "
+           "rope"});
+    }
+  }
+}
+
 }  // namespace
 
 void check_curve_without_friction(const RopeInCase& rope, Diagnostics& diagnostics) {
@@ -209,6 +314,7 @@ void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_spreaders(lift_case, diagnostics);
   check_rope_weight(lift_case, diagnostics);
   check_friction(lift_case, diagnostics);
+  check_edges(lift_case, diagnostics);
 }
 
 }  // namespace blocklift::pipeline

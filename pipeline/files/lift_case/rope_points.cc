@@ -189,6 +189,38 @@ class PointResolver {
   std::string subject_;
 };
 
+/// Looks up the edges that a rope may touch.
+void resolve_edges(const LiftCase& lift_case, RopeInCase& rope, Diagnostics& diagnostics) {
+  const LoadInCase& load = lift_case.load;
+  if (!load.model && !load.model_name.value.empty()) return;  // it could not be read
+  const std::vector<LoadEdge>& known = load.all_edges();
+  bool all_found = true;
+  for (const EdgeOnTheWay& passage : rope.over) {
+    if (passage.edge.value.empty()) {
+      all_found = false;
+      continue;
+    }
+    if (const LoadEdge* edge = find_by_name(known, passage.edge.value)) {
+      rope.edges.push_back(*edge);
+      continue;
+    }
+    all_found = false;
+    const std::string owner =
+        load.model ? "block " + short_name(load.model_name.value) : std::string("the load");
+    diagnostics.error(
+        passage.edge.mark,
+        fmt::format("rope {} runs over edge \"{}\", which {} does not have", rope.name.value,
+                    passage.edge.value, owner),
+        {known.empty()
+             ? load.model
+                   ? "it has no edges: declare them in its model file, edges: {coaming: {from: "
+                     "[...], to: [...], outside: [...]}}"
+                   : "it has no edges: declare them in the case, load: {edges: {...}}"
+             : names_hint("its edges are", names_of(known), passage.edge.value)});
+  }
+  if (!all_found) rope.edges.clear();
+}
+
 /// Points of what an operator keeps, or of what a law sees.
 template <class Keeping>
 void resolve_seen(PointResolver& resolver, const std::string& subject, Keeping& keep) {
@@ -210,6 +242,7 @@ void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics) {
       points.push_back(resolver.resolve(sheave, name + " runs over"));
     }
     points.push_back(resolver.resolve(rope.to, name + " ends at"));
+    resolve_edges(lift_case, rope, diagnostics);
     if (!std::all_of(points.begin(), points.end(), [](const auto& p) { return p.has_value(); })) {
       continue;
     }

@@ -4,8 +4,8 @@
 
 namespace blocklift::pipeline {
 
-/// Looks up the ends and sheaves of the case's ropes, and what operators keep, and complains about
-/// names that do not exist.
+/// Looks up the ends and sheaves of the case's ropes, the edges that they may touch, and what
+/// operators keep, and complains about names that do not exist.
 void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

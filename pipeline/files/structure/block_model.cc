@@ -556,6 +556,8 @@ Format<BlockModel> block_model_format() {
       .optional("pads", &BlockModel::pads, named_tables(pad_format()),
                 "thicker regions around lugs")
       .optional("lugs", &BlockModel::lugs, named_tables(lug_format()), "where ropes may pull")
+      .optional("edges", &BlockModel::edges, named_tables(load_edge_format()),
+                "that ropes may touch and bend round; a rope of the case names them by over")
       .optional("padeyes", &BlockModel::padeyes, named_tables(padeye_format()),
                 "what lugs are made as; a lug names one of them")
       .optional("repeat", &BlockFile::repeats, list_of(repeat_format()),

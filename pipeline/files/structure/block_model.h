@@ -8,6 +8,7 @@
 
 #include "pipeline/declaration/geometry_format.h"
 #include "pipeline/files/structure/block_mesh.h"
+#include "pipeline/files/structure/load_edge.h"
 #include "pipeline/files/structure/padeye_format.h"
 #include "pipeline/mechanism/mechanism_parts.h"
 #include "structure/mesh/plane_frame.h"
@@ -150,6 +151,7 @@ struct BlockModel {
   std::vector<OpeningModel> openings;
   std::vector<PadModel> pads;
   std::vector<LugModel> lugs;
+  std::vector<LoadEdge> edges;  ///< that ropes may touch
   std::vector<PadeyeDesign> padeyes;
   std::vector<WindAreaModel> wind_areas;
   Mark place;
