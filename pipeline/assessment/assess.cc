@@ -120,20 +120,41 @@ void find_pressure(const LiftRun& lift, const structure::ElasticModel& model,
   if (pressure) responses.add_loads(pressure->loads);
 }
 
+/// Ropes that press on the block's edges join its loads.
+void find_edges(const LiftRun& lift, const structure::ElasticModel& model,
+                structure::UnitResponses& responses, std::optional<EdgeBasis>& edges) {
+  edges = find_edge_basis(model, lift.model, lift.static_history, lift.dynamic_history());
+  if (edges) responses.add_loads(edges->loads);
+}
+
 /// What pulls and presses on a lifted block, at rest and in motion.
 struct BlockLoads {
-  BlockLoads(const LiftRun& lift, const structure::ElasticModel& model,
-             const std::optional<PressureBasis>& pressure)
+  BlockLoads(const LiftRun& lift, const BlockRun& block, const structure::ElasticModel& model)
       : attachment(attach_block(lift.model.system, lift.model.load, model.mesh().lifting_points)),
         at_rest(lift.static_history),
         in_motion(lift.dynamic_history()) {
-    if (!pressure) return;
-    attachment.pressure_resultants = pressure->resultants;
-    at_rest.pressure = pressure->static_factors;
-    in_motion.pressure = pressure->dynamic_factors;
+    // In the order in which they joined the unit responses.
+    if (block.pressure)
+      add(*block.pressure, std::vector<int>(static_cast<std::size_t>(block.pressure->count()), -1));
+    if (block.edges) add(*block.edges, block.edges->ropes);
   }
   BlockAttachment attachment;
   BlockHistory at_rest, in_motion;
+
+ private:
+  template <class Basis>
+  void add(const Basis& basis, const std::vector<int>& ropes) {
+    Eigen::MatrixXd& resultants = attachment.added_resultants;
+    resultants.conservativeResize(6, resultants.cols() + basis.count());
+    resultants.rightCols(basis.count()) = basis.resultants;
+    attachment.added_ropes.insert(attachment.added_ropes.end(), ropes.begin(), ropes.end());
+    const auto append = [](BlockHistory& history, const Eigen::MatrixXd& factors) {
+      history.added.conservativeResize(history.added.rows() + factors.rows(), factors.cols());
+      history.added.bottomRows(factors.rows()) = factors;
+    };
+    append(at_rest, basis.static_factors);
+    append(in_motion, basis.dynamic_factors);
+  }
 };
 
 // Names of what a run that is stopped leaves behind.
@@ -206,17 +227,18 @@ void refine(const LiftCase& the_case,
 /// Stresses of a block that was lifted.
 void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Progress& progress,
                          UnfinishedRun* unfinished, BlockRun& block) {
-  // The shell's regions, and with them the fields of pressure, follow the mesh.
+  // The shell's regions, and with them the fields of pressure, follow the mesh; so do edges.
   const auto factors = [&](const structure::ElasticModel& model,
                            structure::UnitResponses& responses) -> structure::LoadFactors {
     find_pressure(lift, model, responses, block.pressure);
-    const BlockLoads loads(lift, model, block.pressure);
+    find_edges(lift, model, responses, block.edges);
+    const BlockLoads loads(lift, block, model);
     return {factors_of(responses, loads.attachment, loads.at_rest),
             factors_of(responses, loads.attachment, loads.in_motion)};
   };
   refine(the_case, factors, progress, unfinished, block);
   progress("block: stresses", 0.5, "");
-  const BlockLoads loads(lift, *block.model, block.pressure);
+  const BlockLoads loads(lift, block, *block.model);
   const auto& [attachment, at_rest, in_motion] = loads;
   const structure::StressRecovery recovery(*block.responses);
   block.assessment = assess_block(*block.responses, recovery, attachment, at_rest, in_motion);
@@ -266,26 +288,10 @@ void check_motion(const Progress& progress, Assessment& assessment) {
     assessment.checks.push_back(std::move(check));
 }
 
-/// What ropes do at edges of a block is not among the loads of its stress.
-void refuse_edges(const LiftCase& the_case) {
-  if (!the_case.has_structure()) return;
-  for (const RopeInCase& rope : the_case.ropes) {
-    if (rope.over.empty()) continue;
-    Diagnostics diagnostics;
-    diagnostics.error(rope.over.front().edge.mark,
-                      fmt::format("rope {} runs over edges of the block, whose force would be "
-                                  "missing from its stress",
-                                  rope.name.value),
-                      {"blocklift simulate computes the motion and the forces on edges"});
-    throw InputError(diagnostics);
-  }
-}
-
 }  // namespace
 
 Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* unfinished) {
   Stopwatch total;
-  refuse_edges(lift_case);
   Assessment assessment{std::move(lift_case), {}, {}, {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 

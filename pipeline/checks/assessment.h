@@ -7,6 +7,7 @@
 #include "pipeline/checks/buckling_assessment.h"
 #include "pipeline/checks/checks.h"
 #include "pipeline/checks/padeye_assessment.h"
+#include "pipeline/coupling/edge_loads.h"
 #include "pipeline/coupling/shell_pressure.h"
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/lift/history_assessment.h"
@@ -32,6 +33,7 @@ struct BlockRun {
   BucklingAssessment buckling;               ///< of every panel
   PadeyesAssessment padeyes;                 ///< of lugs that are made as padeyes
   std::optional<PressureBasis> pressure;     ///< of the water on its shell; none: it stays dry
+  std::optional<EdgeBasis> edges;            ///< of ropes on its edges; none: no rope touches one
   double mesh_s = 0;                         ///< wall-clock time of meshing and mass properties
 };
 

@@ -91,8 +91,8 @@ LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
   const Pose X_WB = block.X_WB(sample);
   LoadCase result;
   result.lug_forces_B.assign(attachment.lugs.size(), Vector3::Zero());
-  // All that acts on the body, less ropes at lugs and pressure on the shell, is left for the spread
-  // load.
+  // All that acts on the body, less ropes at lugs and edges and pressure on the shell, is left for
+  // the spread load.
   Wrench rest;
   rest.moment = X_WB.R.transpose() * Vector3(block.load.row(sample).head<3>());
   rest.force = X_WB.R.transpose() * Vector3(block.load.row(sample).tail<3>());
@@ -102,11 +102,11 @@ LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
     rest.force -= f_B;
     rest.moment -= attachment.lugs[end.lug].p_BPin.cross(f_B);
   }
-  result.added = history.pressure_at(sample);
+  result.added = history.added_at(sample);
   if (result.added.size() > 0) {
-    const Eigen::Matrix<double, 6, 1> pressure = attachment.pressure_resultants * result.added;
-    rest.force -= pressure.head<3>();
-    rest.moment -= pressure.tail<3>();
+    const Eigen::Matrix<double, 6, 1> added = attachment.added_resultants * result.added;
+    rest.force -= added.head<3>();
+    rest.moment -= added.tail<3>();
   }
   result.field =
       field_of_motion(block, sample, attachment.gravity_W) + spread_over_mass(mass, rest);
@@ -126,15 +126,34 @@ const std::string& rope_name(const History& history, const LugRope& rope) {
   return history.ropes[rope.rope].name;
 }
 
-LoadCase map_rope_maxima(const History& history, const std::vector<dynamics::LinkedMaximum>& maxima,
+LoadCase map_rope_maxima(const BlockHistory& of_block,
+                         const std::vector<dynamics::LinkedMaximum>& maxima,
                          const BlockAttachment& attachment, const structure::MassProperties& mass) {
+  const History& history = of_block.motion;
   const dynamics::BodyHistory& block = block_history(history, attachment);
   std::vector<Vector3> forces(attachment.lugs.size(), Vector3::Zero());
   for (const LugRope& end : attachment.ropes) {
     const Eigen::Index sample = maxima[end.rope].sample;
     forces[end.lug] += lug_force(history, end, sample, block.X_WB(sample));
   }
-  return map_load_table(forces, attachment.lugs, mass);
+  LoadCase result;
+  result.lug_forces_B = forces;
+  Wrench wrench = wrench_of_lug_forces(forces, attachment.lugs);
+  if (of_block.added.cols() > 0) {
+    // Water has no rope whose instant it could be taken at, and is left out.
+    result.added = Eigen::VectorXd::Zero(of_block.added.rows());
+    for (std::size_t load = 0; load < attachment.added_ropes.size(); ++load) {
+      const int rope = attachment.added_ropes[load];
+      if (rope < 0) continue;
+      const auto row = static_cast<Eigen::Index>(load);
+      result.added[row] = of_block.added(row, maxima[static_cast<std::size_t>(rope)].sample);
+    }
+    const Eigen::Matrix<double, 6, 1> added = attachment.added_resultants * result.added;
+    wrench.force += added.head<3>();
+    wrench.moment += added.tail<3>();
+  }
+  result.field = structure::balancing_field(mass, wrench);
+  return result;
 }
 
 LoadCase map_load_table(const std::vector<Vector3>& lug_forces_B,

@@ -27,26 +27,29 @@ struct BlockAttachment {
   std::vector<LugRope> ropes;
   std::vector<structure::LiftingPoint> lugs;  ///< all of the block's, loaded or not
   dynamics::Vector3 gravity_W = dynamics::Vector3::Constant(dynamics::not_a_number);  ///< m/s2
-  /// Resultants of the fields of water pressure on its shell (PressureBasis), 6 x fields.
-  Eigen::MatrixXd pressure_resultants = {};
+  /// Resultants of the loads besides those at lugs, 6 x loads: the fields of water pressure on its
+  /// shell (PressureBasis), then unit forces on its edges (EdgeBasis).
+  Eigen::MatrixXd added_resultants = {};
+  /// For each of them the rope that it is of, index in the lift system; -1: of none.
+  std::vector<int> added_ropes = {};
 };
 
-/// A history of the lift with the pressure of water on the block's shell.
+/// A history of the lift with what loads the block besides the forces at its lugs.
 struct BlockHistory {
-  /// A block that stays dry.
+  /// A block that stays dry, and on whose edges no rope presses.
   BlockHistory(const dynamics::History& motion) : motion(motion) {}  // NOLINT: it is one
-  BlockHistory(const dynamics::History& motion, Eigen::MatrixXd pressure)
-      : motion(motion), pressure(std::move(pressure)) {}
+  BlockHistory(const dynamics::History& motion, Eigen::MatrixXd added)
+      : motion(motion), added(std::move(added)) {}
 
   const dynamics::History& motion;
-  Eigen::MatrixXd pressure =
-      {};  ///< factors of the fields of pressure, fields x samples; empty: dry
+  /// Factors of the loads of BlockAttachment::added_resultants, loads x samples; empty: none.
+  Eigen::MatrixXd added = {};
 
   Eigen::Index sample_count() const { return motion.sample_count(); }
-  /// Factors of the fields at a sample.
-  Eigen::VectorXd pressure_at(Eigen::Index sample) const {
-    if (pressure.cols() == 0) return {};
-    return pressure.col(sample);
+  /// Factors at a sample.
+  Eigen::VectorXd added_at(Eigen::Index sample) const {
+    if (added.cols() == 0) return {};
+    return added.col(sample);
   }
 };
 
@@ -57,10 +60,10 @@ BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyI
                              const std::vector<structure::LiftingPoint>& lugs);
 
 /// Loads on the block at one sample: every rope's force at that instant, gravity, and the inertia
-/// of the motion that the dynamics found. Water presses on the shell. What else acts on the body
-/// (wind, pads that it stands on, radiation and drag of the water, tugger lines that end elsewhere)
-/// is spread over the block's mass. Nothing is adjusted: the balance of the result measures how
-/// well the two stages agree.
+/// of the motion that the dynamics found. Water presses on the shell, ropes on edges. What else
+/// acts on the body (wind, pads that it stands on, radiation and drag of the water, tugger lines
+/// that end elsewhere) is spread over the block's mass. Nothing is adjusted: the balance of the
+/// result measures how well the two stages agree.
 structure::LoadCase map_instant(const BlockHistory& history, Eigen::Index sample,
                                 const BlockAttachment& attachment,
                                 const structure::MassProperties& mass);
@@ -73,9 +76,10 @@ std::vector<structure::Vector3> rope_forces(const dynamics::History& history, Ei
 const std::string& rope_name(const dynamics::History& history, const LugRope& rope);
 
 /// Every rope at its own largest load, all at once (the practice of Ku, Ha and Roh, section VII):
-/// each force in the block frame of its own instant. Since these instants differ, no motion belongs
-/// to the set, and it is balanced by the rigid-body acceleration that it would give the block.
-structure::LoadCase map_rope_maxima(const dynamics::History& history,
+/// each force, at lugs and edges, in the block frame of its own instant. Since these instants
+/// differ, no motion belongs to the set, and it is balanced by the rigid-body acceleration that it
+/// would give the block. Water has no instant of its own there, and is left out.
+structure::LoadCase map_rope_maxima(const BlockHistory& history,
                                     const std::vector<dynamics::LinkedMaximum>& maxima,
                                     const BlockAttachment& attachment,
                                     const structure::MassProperties& mass);

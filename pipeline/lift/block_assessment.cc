@@ -106,12 +106,10 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
 
   // Pairs of a static and a dynamic state: the ropes' maxima at once, then rope after rope.
   std::vector<BlockState> states;
-  states.push_back(
-      make_state(map_rope_maxima(static_history.motion, static_maxima, attachment, mass),
-                 "every rope at its own largest static load"));
-  states.push_back(
-      make_state(map_rope_maxima(dynamic_history.motion, dynamic_maxima, attachment, mass),
-                 "every rope at its own largest dynamic load"));
+  states.push_back(make_state(map_rope_maxima(static_history, static_maxima, attachment, mass),
+                              "every rope at its own largest static load"));
+  states.push_back(make_state(map_rope_maxima(dynamic_history, dynamic_maxima, attachment, mass),
+                              "every rope at its own largest dynamic load"));
   const auto at_maximum = [&](const BlockHistory& history, const dynamics::LinkedMaximum& maximum,
                               const char* state) {
     const std::string& rope = history.motion.ropes[static_cast<std::size_t>(maximum.rope)].name;

@@ -10,6 +10,7 @@
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/practice/hot_spot.h"
 #include "structure/response/block_field.h"
+#include "structure/response/line_loads.h"
 
 namespace blocklift::pipeline {
 
@@ -36,6 +37,28 @@ bool check_hot_spots(const StructureSettings& settings, const structure::Space& 
   return inside;
 }
 
+/// Complains about edges that no plate is near to.
+bool check_edges(const BlockModel& block, const structure::Space& space, Diagnostics& diagnostics) {
+  if (block.edges.empty()) return true;
+  const structure::LineLoads lines(space);
+  constexpr double farthest = structure::LineLoads::farthest_plate;
+  bool beside_plates = true;
+  for (const LoadEdge& edge : block.edges)
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const Vector3 place = edge.from + share * (edge.to - edge.from) + edge.radius * edge.outside;
+      if (lines.find_distance(place, farthest)) continue;
+      beside_plates = false;
+      diagnostics.error(
+          edge.name.mark,
+          fmt::format("edge {} runs at ({:.4g}, {:.4g}, {:.4g}) m, and no plate of the "
+                      "block is within {:g} m",
+                      edge.name.value, place.x(), place.y(), place.z(), farthest),
+          {"plates near an edge bear what ropes do at it"});
+      break;
+    }
+  return beside_plates;
+}
+
 }  // namespace
 
 std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
@@ -56,7 +79,9 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
             ? block.mesh->deck->mesh
             : structure::generate_shell_mesh(describe_block(block, name, settings.largest_element)),
         resolution, stated(block.mass), stated(block.centre_of_mass));
-    return check_hot_spots(settings, model->space(), diagnostics) ? std::move(model) : nullptr;
+    const bool edges_are_sound = check_edges(block, model->space(), diagnostics);
+    const bool spots_are_sound = check_hot_spots(settings, model->space(), diagnostics);
+    return edges_are_sound && spots_are_sound ? std::move(model) : nullptr;
   } catch (const structure::ModelError& error) {
     diagnostics.error(block.place, error.what());
     return nullptr;

@@ -95,11 +95,27 @@ class StateMaker {
         Eigen::MatrixXd::Zero(responses_.count(), static_cast<Eigen::Index>(forces.size()));
     for (std::size_t i = 0; i < forces.size(); ++i)
       parts.col(static_cast<Eigen::Index>(i)).segment<3>(3 * attachment_.ropes[i].lug) = forces[i];
+    add_edges(instant, parts);
     Eigen::Index governing = 0;
     const double share = structure::stress_shares(unit_stress, parts, state_.factors.col(instant))
                              .maxCoeff(&governing);
     if (!(share > 0)) return {-1, 0};
     return {static_cast<int>(governing), share};
+  }
+
+  // What a rope does at edges, beside its force at the first of its lugs.
+  void add_edges(int instant, Eigen::MatrixXd& parts) const {
+    const std::vector<LugRope>& ropes = attachment_.ropes;
+    for (std::size_t load = 0; load < attachment_.added_ropes.size(); ++load) {
+      const auto of = std::find_if(ropes.begin(), ropes.end(), [&](const LugRope& end) {
+        return end.rope == attachment_.added_ropes[load];
+      });
+      if (of == ropes.end()) continue;
+      // Factors of the basis: lug forces, products of angular velocities, added loads.
+      const Eigen::Index row =
+          3 * responses_.model().lug_count() + 6 + static_cast<Eigen::Index>(load);
+      parts(row, of - ropes.begin()) += state_.factors(row, instant);
+    }
   }
 
   HistoryExtreme named(const TimedExtreme& extreme) const {

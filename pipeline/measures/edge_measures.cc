@@ -74,14 +74,14 @@ void add_edge_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) 
       of.add("angle of wrap", "rad", Extreme::largest,
              "by which the rope turns about the edge; 0 where it does not touch",
              [](const RopeHistory&, const EdgeHistory& at, Eigen::Index i) { return at.wrap[i]; });
-      of.add("place on the edge", "m", Extreme::largest,
+      of.add("place on edge", "m", Extreme::largest,
              "middle of the touch, along the edge from the end that `from` gives, while it presses",
              [](const RopeHistory& one, const EdgeHistory& at, Eigen::Index i) {
                return presses(one, at, i) ? 0.5 * (at.first_place[i] + at.last_place[i])
                                           : no_number;
              });
       const double length = rope.edges[edge].length;
-      of.add("distance from the edge's end", "m", Extreme::smallest,
+      of.add("distance from edge end", "m", Extreme::smallest,
              "of the touch from the nearer end, while it presses; below zero the rope has run off "
              "the edge, which goes on there in the computation",
              [&](const RopeHistory& one, const EdgeHistory&, Eigen::Index i) {

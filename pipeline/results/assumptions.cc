@@ -108,8 +108,8 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
   if (lift_case.has_structure()) {
     list.emplace_back(
         lift_case.supports.empty()
-            ? "Forces on the block other than at its lugs (wind) are spread over its mass."
-            : "Forces on the block other than at its lugs (wind, pads under it) are spread over "
+            ? "Forces on the block other than of ropes (wind) are spread over its mass."
+            : "Forces on the block other than of ropes (wind, pads under it) are spread over "
               "its mass: while it stands on pads, the stress is that of the ropes' pull alone.");
   }
   if (lift_case.wind) {
@@ -247,7 +247,7 @@ std::string deck_sentence(const MeshModel& mesh) {
 void add_block_assumptions(const Assessment& assessment, std::vector<std::string>& list) {
   const structure::MassProperties& mass = assessment.block.model->mass_properties();
   list.emplace_back(
-      "The block is linear elastic; its loads are the forces at the lugs, gravity and the inertia "
+      "The block is linear elastic; its loads are the forces of ropes, gravity and the inertia "
       "of its motion, which are in balance.");
   if (assessment.lift)
     list.push_back(flexibility_sentence(assessment.lift_case.dynamics) +
@@ -262,6 +262,13 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
                     "bear the block, and what the water does besides (radiation, diffraction, "
                     "drag), are spread over its mass.",
                     pressure->regions, pressure->count(), 100 * pressure->error));
+  if (const auto& edges = assessment.block.edges)
+    list.push_back(fmt::format(
+        "Ropes press on the block's edges: at a sharp edge by one force, round a cylinder towards "
+        "its "
+        "axis over the wrap. Along the edge a hat of its contact length spreads the force over the "
+        "plates nearest to it; {} unit forces make up every instant, with force and moment.",
+        edges->count()));
   list.push_back(fmt::format(
       "Inertia relief: the first elastic period of the free block is about {:.2f} s; loads that "
       "rise within a few of these periods shake the block itself, which is not part of the "
