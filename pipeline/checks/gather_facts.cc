@@ -135,7 +135,8 @@ class LiftedFacts {
     sling.is_at_hook = in_case.path.front().kind == ResolvedPoint::Kind::hook;
     const Eigen::Vector3d pull = lift_.static_history.ropes[rope.rope].first_force.row(sample);
     if (pull.norm() > 0) sling.angle = std::acos(std::min(1.0, std::abs(pull.z()) / pull.norm()));
-    if (in_case.bend_diameter) sling.bend_diameter = in_case.bend_diameter->value;
+    sling.bend_diameter = bend_of(in_case);
+    sling.runs_over_edges = !in_case.edges.empty();
     const auto count = on_hook.find(rope.hoist);
     sling.slings_on_hook = count == on_hook.end() ? 1 : count->second;
     const auto weight = rigging_.weight_of(rope);
@@ -145,6 +146,16 @@ class LiftedFacts {
     facts_.rigging += weight.value_or(0);
     rigging_at_[rope.hoist] += weight.value_or(0);
     return sling;
+  }
+
+  // What a sling is bent round, if it is told of the sling itself or an edge; none: the standard's.
+  std::optional<double> bend_of(const RopeInCase& rope) const {
+    const std::optional<RopeBend> bend = find_bend(rope, lift_);
+    if (!bend) return std::nullopt;
+    double least = bend->diameter;
+    if (!rope.bend_diameter && case_.standard)
+      least = std::min(least, case_.standard->bend_of(rope.name.value).value_or(least));
+    return least;
   }
 
   void add_spreader(const LiftSpreader& bar) {

@@ -180,11 +180,43 @@ void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
               largest.time));
 }
 
+/// Does a rope press on one of its edges at any instant?
+bool touches(const dynamics::RopeHistory& rope, std::size_t edge) {
+  return (rope.edges[edge].wrap.array() > 0 && rope.tension.array() > 0).any();
+}
+
+std::string note_on_bend(const RopeInCase& rope, const RopeBend& bend, double left) {
+  const std::string edge = bend.edge.empty() ? std::string() : " of edge " + bend.edge;
+  if (!rope.rope.diameter)
+    return fmt::format(
+        "bent round D {:.4g} m{}: its model has no diameter, and no loss by bending "
+        "is counted",
+        bend.diameter, edge);
+  return fmt::format(
+      "bent round D/d {:.2f}{}: {:.1f} % of the breaking load is left (0027/ND, 7.8)",
+      bend.diameter / *rope.rope.diameter, edge, 100 * left);
+}
+
 }  // namespace
 
-double bend_efficiency(const RopeInCase& rope) {
-  if (!rope.bend_diameter) return 1;
-  return bend_efficiency(rope.bend_diameter->value, *rope.rope.diameter);
+std::optional<RopeBend> find_bend(const RopeInCase& rope, const LiftRun& lift) {
+  std::optional<RopeBend> bend;
+  if (rope.bend_diameter) bend = {rope.bend_diameter->value};
+  const int index = find_rope(lift.model.ropes, lift.model.hoists, rope.name.value);
+  for (std::size_t edge = 0; edge < rope.edges.size(); ++edge) {
+    const double diameter = 2 * rope.edges[edge].radius;
+    if (bend && bend->diameter <= diameter) continue;
+    for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()})
+      if (touches(history->ropes[static_cast<std::size_t>(index)], edge))
+        bend = {diameter, rope.edges[edge].name.value};
+  }
+  return bend;
+}
+
+double bend_efficiency(const RopeInCase& rope, const LiftRun& lift) {
+  const std::optional<RopeBend> bend = find_bend(rope, lift);
+  if (!bend || !rope.rope.diameter) return 1;
+  return bend_efficiency(bend->diameter, *rope.rope.diameter);
 }
 
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
@@ -192,13 +224,11 @@ std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
   std::vector<Check> checks;
   for (const LiftRope& rope : lift.model.ropes) {
     const RopeInCase& in_case = *lift_case.find_rope(rope.name);
-    const double left = bend_efficiency(in_case);
+    const double left = bend_efficiency(in_case, lift);
     checks.push_back(check_breaking_load(lift, "rope " + rope.name, rope.rope,
                                          left * rope.breaking_load, factor));
-    if (in_case.bend_diameter)
-      checks.back().note =
-          fmt::format("bent round D/d {:.2f}: {:.1f} % of the breaking load is left (0027/ND, 7.8)",
-                      in_case.bend_diameter->value / *in_case.rope.diameter, 100 * left);
+    if (const auto bend = find_bend(in_case, lift))
+      checks.back().note = note_on_bend(in_case, *bend, left);
   }
   for (const LiftHoist& hoist : lift.model.hoists) {
     checks.push_back(

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/checks/checks.h"
@@ -9,8 +11,19 @@
 
 namespace blocklift::pipeline {
 
-/// What the bend of a rope leaves of its breaking load, as a share.
-double bend_efficiency(const RopeInCase& rope);
+/// The sharpest that a rope is bent round.
+struct RopeBend {
+  double diameter = 0;    ///< m
+  std::string edge = {};  ///< of the load; empty: what the rope's bend_diameter is of
+};
+
+/// The least of a rope's bend_diameter and of the rounds of edges that it touches while it pulls,
+/// at rest or in motion; none where it is not bent.
+std::optional<RopeBend> find_bend(const RopeInCase& rope, const LiftRun& lift);
+
+/// What the bend of a rope leaves of its breaking load, as a share; all of it where its model has
+/// no diameter.
+double bend_efficiency(const RopeInCase& rope, const LiftRun& lift);
 
 /// Ropes and tackle against breaking load, hooks and cranes against capacity, slack and swing; each
 /// by the larger of the static and the dynamic history.

@@ -36,7 +36,7 @@ std::vector<HookOfFour> find_hooks_of_four(const structure::Mesh& mesh, const Li
       const auto lug = std::find_if(
           mesh.lifting_points.begin(), mesh.lifting_points.end(),
           [&](const structure::LiftingPoint& point) { return point.name == name_of_lug; });
-      is_complete = is_complete && lug != mesh.lifting_points.end();
+      is_complete = is_complete && lug != mesh.lifting_points.end() && !slings[i]->runs_over_edges;
       hook.lugs[i] = static_cast<std::size_t>(lug - mesh.lifting_points.begin());
       hook.slings[i] = slings[i];
       for (std::size_t j = 0; j < i; ++j) is_complete = is_complete && hook.lugs[j] != hook.lugs[i];

@@ -75,8 +75,9 @@ class LoadTables {
       if (!rope.lug.empty()) row["lug"] = rope.lug;
       if (!rope.hoist.empty()) row["hoist"] = rope.hoist;
       row["breaking_load_N"] = rope.breaking_load;
-      if (const RopeInCase& in_case = *case_.find_rope(rope.name); in_case.bend_diameter)
-        row["bend_efficiency"] = bend_efficiency(in_case);
+      if (const RopeInCase& in_case = *case_.find_rope(rope.name);
+          in_case.rope.diameter && find_bend(in_case, lift_))
+        row["bend_efficiency"] = bend_efficiency(in_case, lift_);
       if (const auto& rope_of = lift_.model.system.ropes()[rope.rope];
           rope_of.definition().tension_law)
         row["largest_strain"] = rope_of.definition().tension_law->find_strain(

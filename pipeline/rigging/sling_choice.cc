@@ -36,8 +36,12 @@ std::string obstacle_of_name(const char* key, const std::optional<Located<std::s
 
 std::optional<double> SlingChecks::bend_diameter(const std::string& name) const {
   const RopeInCase* rope = case_.find_rope(name);
-  if (rope && rope->bend_diameter) return rope->bend_diameter->value;
-  return case_.standard ? case_.standard->bend_of(name) : std::nullopt;
+  const std::optional<double> own = rope ? rope->least_bend() : std::nullopt;
+  if (rope && rope->bend_diameter) return own;
+  const std::optional<double> by_standard =
+      case_.standard ? case_.standard->bend_of(name) : std::nullopt;
+  if (own && by_standard) return std::min(*own, *by_standard);
+  return own ? own : by_standard;
 }
 
 std::string SlingChecks::obstacle(const SlingInStock& candidate, const SlingDemand& demand) const {
@@ -63,9 +67,8 @@ std::vector<Check> SlingChecks::of(const SlingInStock& candidate, const SlingDem
   const double factor = case_.checks.rope_safety_factor;
   const RopeModel& rope = candidate.sling.rope;
   const RopeInCase* in_case = case_.find_rope(demand.rope);
-  const double left = in_case && in_case->bend_diameter
-                          ? bend_efficiency(in_case->bend_diameter->value, *rope.diameter)
-                          : 1;
+  const std::optional<double> bend = in_case ? in_case->least_bend() : std::nullopt;
+  const double left = bend ? bend_efficiency(*bend, *rope.diameter) : 1;
   std::vector<Check> checks;
   checks.push_back(check_at_most(fmt::format("breaking load / {:g}", factor),
                                  std::max(demand.at_rest, demand.in_motion),

@@ -42,8 +42,9 @@ struct SlingFacts {
   std::optional<double> diameter;       ///< m
   std::optional<double> bend_diameter;  ///< of what it is bent round, m; none: the standard's
   int slings_on_hook = 1;
-  bool is_at_hook = false;  ///< it begins at the hook, not below a spreader
-  double angle = 0;         ///< at its upper end to the plumb, at the largest load at rest, rad
+  bool is_at_hook = false;       ///< it begins at the hook, not below a spreader
+  bool runs_over_edges = false;  ///< of the load, so that it does not pull at its lug alone
+  double angle = 0;  ///< at its upper end to the plumb, at the largest load at rest, rad
 };
 
 /// Spreader bar.
