@@ -138,8 +138,8 @@ TEST(SlingOverEdge, IsMeasured) {
   EXPECT_NEAR(at_rest("R2 over fore: edge force"), 2 * hand.tension * std::sin(hand.wrap / 2),
               1e-5 * hand.tension);
   EXPECT_NEAR(at_rest("R2 over fore: angle of wrap"), hand.wrap, 1e-7);
-  EXPECT_NEAR(at_rest("R2 over fore: place on the edge"), 1, 1e-6);
-  EXPECT_NEAR(at_rest("R2 over fore: distance from the edge's end"), 1, 1e-6);
+  EXPECT_NEAR(at_rest("R2 over fore: place on edge"), 1, 1e-6);
+  EXPECT_NEAR(at_rest("R2 over fore: distance from edge end"), 1, 1e-6);
   EXPECT_NEAR(at_rest("R2: sling angle"), pi / 2, 1e-6);
   for (const std::string& doubt : list_doubts(lift.lift_case, *lift.run))
     EXPECT_EQ(doubt.find("run off"), std::string::npos) << doubt;
