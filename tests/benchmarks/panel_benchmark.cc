@@ -61,7 +61,7 @@ BENCHMARK(solution)->Arg(24)->Arg(36)->Arg(56)->Unit(benchmark::kMillisecond)->U
 void step(benchmark::State& state) {
   const PanelModel model = make_model(static_cast<int>(state.range(0)), {});
   const RankinePart part(model, {});
-  FreeSurfaceMarch march(part, DampingZone{0.5}.rates(model.surface()), 1.0, state.range(1));
+  FreeSurfaceMarch march(part, DampingZone{0.5}.damping(model.surface(), 1.0), 1.0, state.range(1));
   march.start(Eigen::MatrixXd::Random(model.surface_mesh().size(), state.range(1)), 0.05);
   for (auto unused : state) march.advance();
   state.counters["unknowns"] = model.body_mesh().size() + model.surface_mesh().size();

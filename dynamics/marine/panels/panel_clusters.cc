@@ -13,11 +13,7 @@ namespace {
 
 using Pair = std::pair<int, int>;
 
-/// An edge that two panels have in common.
-struct SharedEdge {
-  Pair panels;
-  double length;  ///< m
-};
+}  // namespace
 
 std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -46,6 +42,8 @@ std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh) {
   }
   return shared;
 }
+
+namespace {
 
 /// What a cluster covers.
 struct Cover {

@@ -1,11 +1,21 @@
 #pragma once
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "dynamics/marine/panels/panel_mesh.h"
 
 namespace blocklift::dynamics {
+
+/// An edge that two panels have in common.
+struct SharedEdge {
+  std::pair<int, int> panels;
+  double length = 0.0;  ///< m
+};
+
+/// All edges that two panels of a mesh share. Images in planes of symmetry share none.
+std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh);
 
 /// Neighbouring panels taken together, as one panel of a coarser mesh.
 struct PanelClusters {

@@ -45,18 +45,29 @@ Eigen::VectorXd DampingZone::rates(const SurfaceMesh& surface) const {
 
 DampingZone damping_zone(double lowest_frequency) { return {1.1 * lowest_frequency}; }
 
-FreeSurfaceMarch::FreeSurfaceMarch(const RankinePart& part, const Eigen::VectorXd& damping,
+FreeSurfaceMarch::FreeSurfaceMarch(const RankinePart& part, const SurfaceDamping& damping,
                                    double gravity, Eigen::Index columns)
     : gravity_(gravity), operator_(part.surface_operator().cast<float>()), damping_(damping) {
   const Eigen::Index n = operator_.rows();
-  operator_.diagonal() += (damping.array().square() / gravity).matrix().cast<float>();
+  operator_.diagonal() += (damping.rates.array().square() / gravity).matrix().cast<float>();
   elevation_ = potential_ = Eigen::MatrixXd::Zero(n, columns);
   single_potential_ = single_velocity_ = Eigen::MatrixXf::Zero(n, columns);
-  step_limit_ = 2.0 / std::sqrt(gravity * find_largest_eigenvalue());
+  differences_ = Eigen::MatrixXd::Zero(damping.rings.rows(), columns);
+  step_limit_ = find_step_limit();
+}
+
+// What is between the first and the second power of the step has no eigenvalue above one once a
+// step that makes it lambda is lambda times shorter.
+double FreeSurfaceMarch::find_step_limit() const {
+  const double without_loss = 2.0 / std::sqrt(gravity_ * find_largest_eigenvalue(1.0, 0.0));
+  if (damping_.rings.rows() == 0) return without_loss;
+  const double with_loss =
+      find_largest_eigenvalue(0.25 * gravity_ * without_loss * without_loss, 0.5 * without_loss);
+  return without_loss / std::max(1.0, with_loss);
 }
 
 /// Lanczos' iteration: the largest eigenvalue of its small tridiagonal matrix.
-double FreeSurfaceMarch::find_largest_eigenvalue() const {
+double FreeSurfaceMarch::find_largest_eigenvalue(double potential, double loss) const {
   const Eigen::Index n = operator_.rows(), steps = std::min<Eigen::Index>(n, 50);
   if (n == 0) return 1.0;
   // Rough fields hold the largest eigenvalue: start from one that changes sign at random.
@@ -71,6 +82,12 @@ double FreeSurfaceMarch::find_largest_eigenvalue() const {
   Eigen::Index k = 0;
   for (float beta = 0.0F; k < steps; ++k) {
     multiply_symmetric(operator_, x, y);
+    y *= static_cast<float>(potential);
+    if (loss > 0.0) {
+      const Eigen::VectorXd lost =
+          damping_.rings.transpose() * (damping_.rings * x.col(0).cast<double>());
+      y += (loss * lost).cast<float>();
+    }
     const float alpha = x.col(0).dot(y.col(0));
     diagonal[k] = static_cast<double>(alpha);
     y -= alpha * x + beta * last;
@@ -95,8 +112,9 @@ void FreeSurfaceMarch::start(const Eigen::MatrixXd& elevation, double step) {
                      std::to_string(step_limit_) + " s: take a shorter step or wider panels");
   }
   step_ = step;
-  before_ = 1.0 - step * damping_.array();
-  after_ = (1.0 + step * damping_.array()).inverse();
+  before_ = 1.0 - step * damping_.rates.array();
+  after_ = (1.0 + step * damping_.rates.array()).inverse();
+  weighted_rings_ = damping_.rings * (step * after_).asDiagonal();
   elevation_ = elevation;
   // Half a step back, so that the potential is zero now to the second order.
   potential_ = 0.5 * step * gravity_ * elevation;
@@ -106,6 +124,7 @@ void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
   potential_.noalias() -= (step_ * gravity_) * elevation_;
   single_potential_ = potential_.cast<float>();
   multiply_symmetric(operator_, single_potential_, single_velocity_);
+  if (damping_.rings.rows() > 0) differences_.noalias() = damping_.rings * elevation_;
   for (Eigen::Index j = 0; j < elevation_.cols(); ++j) {
     for (Eigen::Index i = 0; i < elevation_.rows(); ++i) {
       const double added = supply.size() > 0 ? supply(i, j) : 0.0;
@@ -114,6 +133,8 @@ void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
                        step_ * (static_cast<double>(single_velocity_(i, j)) + added));
     }
   }
+  if (damping_.rings.rows() == 0) return;
+  elevation_.noalias() -= weighted_rings_.transpose() * differences_;
 }
 
 }  // namespace blocklift::dynamics

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/marine/panels/rankine_problem.h"
+#include "dynamics/marine/radiation/ring_loss.h"
 
 namespace blocklift::dynamics {
 
@@ -25,6 +26,12 @@ struct DampingLid {
 /// The planes of symmetry in which each lid, too, is its own image or that of another.
 Symmetry keep_symmetry(const Symmetry& symmetry, const std::vector<DampingLid>& lids);
 
+/// What the surface takes out of waves.
+struct SurfaceDamping {
+  Eigen::VectorXd rates;       ///< nu for each panel, rad/s: all waves fade as exp(-nu t)
+  RingDifferences rings = {};  ///< R of waves too short for the rings; no rows: none
+};
+
 /// Numerical beach: where waves that leave the bodies are damped before they reach the edge of the
 /// surface mesh. The rate nu (rad/s) of the paper's equation (26) grows with the square of the
 /// distance from the circle that holds the bodies.
@@ -34,6 +41,10 @@ struct DampingZone {
 
   /// nu for each panel of the surface, rad/s.
   Eigen::VectorXd rates(const SurfaceMesh& surface) const;
+  /// The same with the loss of waves that the surface's rings cannot carry.
+  SurfaceDamping damping(const SurfaceMesh& surface, double gravity) const {
+    return {rates(surface), make_ring_differences(surface, gravity)};
+  }
 };
 
 /// Damping zone for waves down to a frequency (rad/s): 1.1 times that frequency at the edge.
@@ -42,20 +53,21 @@ DampingZone damping_zone(double lowest_frequency);
 
 /// Free surface of one part, marched in time (the paper's equations 26 and 27):
 ///
-///   d eta/dt = M phi + q v - 2 nu eta + (nu^2/g) phi,      d phi/dt = -g eta,
+///   d eta/dt = M phi + q v - 2 nu eta + (nu^2/g) phi - R^T R eta,      d phi/dt = -g eta,
 ///
 /// eta at t, phi half a step later (leapfrog, second order, no damping of its own); the damping
-/// term 2 nu eta by Crank and Nicolson's rule. All quantities carry the factor W^1/2 of
-/// RankinePart, the operator is held in single precision: that is what a step has to read. Several
-/// histories (columns) are marched at once at little more than the cost of one. No allocation in a
-/// step.
+/// term 2 nu eta by Crank and Nicolson's rule, the rings' loss R^T R eta (RingDifferences) as at
+/// the beginning of the step. All quantities carry the factor W^1/2 of RankinePart, the operator is
+/// held in single precision: that is what a step has to read. Several histories (columns) are
+/// marched at once at little more than the cost of one. No allocation in a step.
 class FreeSurfaceMarch {
  public:
-  /// `damping` is nu for each panel (rad/s), `columns` the number of histories.
-  FreeSurfaceMarch(const RankinePart& part, const Eigen::VectorXd& damping, double gravity,
+  /// `columns` is the number of histories.
+  FreeSurfaceMarch(const RankinePart& part, const SurfaceDamping& damping, double gravity,
                    Eigen::Index columns);
 
-  /// Largest stable step 2/sqrt(largest eigenvalue of g M + nu^2), by Lanczos' iteration, s.
+  /// Largest stable step, s: dt^2 (g M + nu^2)/4 + dt R^T R/2 has no eigenvalue above one, by
+  /// Lanczos' iteration.
   double step_limit() const { return step_limit_; }
 
   /// Elevation W^1/2 eta now (m2); potential W^1/2 phi half a step ago (m3/s).
@@ -69,14 +81,18 @@ class FreeSurfaceMarch {
   void advance(const Eigen::MatrixXd& supply = {});
 
  private:
-  double find_largest_eigenvalue() const;
+  double find_step_limit() const;
+  /// Of potential (g M + nu^2)/g + loss R^T R.
+  double find_largest_eigenvalue(double potential, double loss) const;
 
   double gravity_;
   double step_ = not_a_number;
   double step_limit_ = not_a_number;
   Eigen::MatrixXf operator_;  ///< W^1/2 M W^-1/2 + nu^2/g
-  Eigen::VectorXd damping_, before_, after_;
-  Eigen::MatrixXd elevation_, potential_;
+  SurfaceDamping damping_;
+  Eigen::VectorXd before_, after_;
+  RingDifferences weighted_rings_;  ///< R times the step and what is left of it after 2 nu eta
+  Eigen::MatrixXd elevation_, potential_, differences_;
   Eigen::MatrixXf single_potential_, single_velocity_;
 };
 

@@ -7,15 +7,23 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 FrequencyDomain::FrequencyDomain(const PanelModel& model, const RankinePart& part,
-                                 const Eigen::VectorXd& damping)
+                                 const SurfaceDamping& damping)
     : model_(model), part_(part), damping_(damping) {}
 
 MatrixXcd FrequencyDomain::solve(double frequency, const MatrixXcd& supply) const {
   const double g = model_.water().gravity;
   MatrixXcd matrix = (g * part_.surface_operator()).cast<Complex>();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    const Complex rate(damping_[i], frequency);
+    const Complex rate(damping_.rates[i], frequency);
     matrix(i, i) += rate * rate;
+  }
+  if (damping_.rings.rows() > 0) {
+    const RingDifferences losses = damping_.rings.transpose() * damping_.rings;
+    for (Eigen::Index i = 0; i < losses.rows(); ++i) {
+      for (RingDifferences::InnerIterator loss(losses, i); loss; ++loss) {
+        matrix(i, loss.col()) += Complex(0.0, frequency * loss.value());
+      }
+    }
   }
   MatrixXcd potentials = -g * supply;
   solve_in_place(matrix, potentials, "the matrix of the oscillating surface");

@@ -8,15 +8,15 @@ namespace blocklift::dynamics {
 
 /// Flow of one part in steady oscillation, with the very matrices that are marched in time:
 ///
-///   (g M + (i w + nu)^2) phi_F = -g q v,    phi_B = Phi v + P phi_F,    F_m = i w rho sum n_m W
-///     phi_B.
+///   (g M + (i w + nu)^2 + i w R^T R) phi_F = -g q v,
+///   phi_B = Phi v + P phi_F,    F_m = i w rho sum n_m W phi_B.
 ///
 /// A dense complex system for each frequency: the instrument that tells the errors of the
 /// discretisation, of the damping zone and of the time step from each other, and solves diffraction
 /// without Haskind's relation.
 class FrequencyDomain {
  public:
-  FrequencyDomain(const PanelModel& model, const RankinePart& part, const Eigen::VectorXd& damping);
+  FrequencyDomain(const PanelModel& model, const RankinePart& part, const SurfaceDamping& damping);
 
   /// Added mass and damping of the part's modes (modes() square; kg, kg/s and with lengths).
   void calc_radiation(double frequency, Eigen::MatrixXd& added_mass,
@@ -37,7 +37,7 @@ class FrequencyDomain {
 
   const PanelModel& model_;
   const RankinePart& part_;
-  Eigen::VectorXd damping_;
+  SurfaceDamping damping_;
 };
 
 }  // namespace blocklift::dynamics

@@ -93,7 +93,7 @@ class PartComputation {
 
   const PanelModel& model_;
   const DatabaseSettings& settings_;
-  Eigen::VectorXd damping_rates_;
+  SurfaceDamping damping_;
   RankinePart part_;
   ImpulseRun run_;
   std::optional<ImpulseRun> coarser_run_;
@@ -104,13 +104,16 @@ PartComputation::PartComputation(const PanelModel& model, const Parity& parity,
                                  double damping_strength)
     : model_(model),
       settings_(settings),
-      damping_rates_(DampingZone{damping_strength, settings.lids}.rates(model.surface())),
+      damping_(DampingZone{damping_strength, settings.lids}.damping(model.surface(),
+                                                                    model.water().gravity)),
       part_(model, parity, rankine),
-      run_(part_, damping_rates_, model.water(), settings.frequencies) {
+      run_(part_, damping_, model.water(), settings.frequencies) {
   if (part_.coarser() == nullptr) return;
-  const Eigen::VectorXd rates =
-      rankine.coarser->surface.average(model.surface_areas(), damping_rates_);
-  coarser_run_.emplace(*part_.coarser(), rates, model.water(), settings.frequencies);
+  const PanelClusters& clusters = rankine.coarser->surface;
+  const SurfaceDamping coarser{
+      clusters.average(model.surface_areas(), damping_.rates),
+      make_ring_differences(model.surface(), model.water().gravity, &clusters)};
+  coarser_run_.emplace(*part_.coarser(), coarser, model.water(), settings.frequencies);
 }
 
 double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) const {
@@ -217,7 +220,7 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
 void PartComputation::add_far_field(HydrodynamicDatabase& database) const {
   const Water& water = model_.water();
   const Parity& parity = part_.parity();
-  const FrequencyDomain scattering(model_, part_, damping_rates_);
+  const FrequencyDomain scattering(model_, part_, damping_);
   FarField& far = database.far_field;
   const auto waves_of = [&](double w, const std::vector<double>& angles, double turn,
                             MatrixXcd& potentials, MatrixXcd& velocities) {

@@ -24,13 +24,13 @@ MatrixXd symmetric_part(const MatrixXd& matrix) { return 0.5 * (matrix + matrix.
 
 }  // namespace
 
-ImpulseRun::ImpulseRun(const RankinePart& part, const Eigen::VectorXd& damping_rates,
-                       const Water& water, std::vector<double> frequencies)
+ImpulseRun::ImpulseRun(const RankinePart& part, const SurfaceDamping& damping, const Water& water,
+                       std::vector<double> frequencies)
     : part_(part),
       density_(water.density),
       gravity_(water.gravity),
       frequencies_(std::move(frequencies)),
-      march_(part, damping_rates, water.gravity, part.surface_columns().cols()) {}
+      march_(part, damping, water.gravity, part.surface_columns().cols()) {}
 
 void ImpulseRun::accumulate(double time, double weight) {
   for (std::size_t k = 0; k < frequencies_.size(); ++k) {

@@ -15,9 +15,8 @@ namespace blocklift::dynamics {
 /// damping zone. The part must outlive the run.
 class ImpulseRun {
  public:
-  /// @param damping_rates nu for each panel of the part's surface, rad/s.
   /// @param frequencies rad/s.
-  ImpulseRun(const RankinePart& part, const Eigen::VectorXd& damping_rates, const Water& water,
+  ImpulseRun(const RankinePart& part, const SurfaceDamping& damping, const Water& water,
              std::vector<double> frequencies);
 
   /// Largest stable step, s.

@@ -136,9 +136,9 @@ DirectRadiation::DirectRadiation(const PanelModel& model, const Settings& settin
       infinite_added_mass_(MatrixXd::Zero(model.mode_count(), model.mode_count())) {
   RankineSettings rankine = settings.rankine;
   rankine.keep_factors = !waves_.empty();
-  const VectorXd damping =
-      DampingZone{settings.damping_strength, settings.lids}.rates(model.surface());
   const Water& water = model.water();
+  const SurfaceDamping damping =
+      DampingZone{settings.damping_strength, settings.lids}.damping(model.surface(), water.gravity);
   for (const Parity& parity : model.parities()) {
     if (model.normal_velocities(parity).isZero(0.0)) continue;
     RankinePart part(model, parity, rankine);

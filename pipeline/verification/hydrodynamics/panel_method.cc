@@ -143,8 +143,9 @@ std::vector<VerificationRow> haskind_rows() {
   std::vector<VerificationRow> rows;
   for (const Parity parity : {Parity{1, 1}, Parity{-1, 1}}) {
     const RankinePart part(sphere.model, parity, rankine);
-    const FrequencyDomain direct(sphere.model, part,
-                                 DampingZone{0.8}.rates(sphere.model.surface()));
+    const FrequencyDomain direct(
+        sphere.model, part,
+        DampingZone{0.8}.damping(sphere.model.surface(), sphere.model.water().gravity));
     const int mode = parity.x > 0 ? heave : surge;
     for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
       const double w = settings.frequencies[k];

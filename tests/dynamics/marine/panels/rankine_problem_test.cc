@@ -90,7 +90,7 @@ TEST(RankineProblem, OperatorIsSymmetricAndPositive) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M, Eigen::EigenvaluesOnly);
     EXPECT_GT(eigen.eigenvalues()[0], 0.0);
     // The step limit is that of the largest eigenvalue, found by power iteration.
-    const FreeSurfaceMarch march(part, Eigen::VectorXd::Zero(M.rows()), 1.0, 1);
+    const FreeSurfaceMarch march(part, {Eigen::VectorXd::Zero(M.rows())}, 1.0, 1);
     const double exact = 2.0 / std::sqrt(eigen.eigenvalues()[M.rows() - 1]);
     EXPECT_LE(march.step_limit(), exact);
     EXPECT_GT(march.step_limit(), 0.97 * exact);
@@ -109,7 +109,8 @@ TEST(RankineProblem, TimeAndFrequencyDomainAgree) {
   RankineSettings rankine;
   rankine.keep_factors = true;
   const RankinePart part(model, {1, 1}, rankine);
-  const FrequencyDomain direct(model, part, DampingZone{2.0}.rates(model.surface()));
+  const FrequencyDomain direct(model, part,
+                               DampingZone{2.0}.damping(model.surface(), model.water().gravity));
   for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
     Eigen::MatrixXd A, B;
     const double w = settings.frequencies[k];
