@@ -131,16 +131,15 @@ MarchedWater make_marched_water(const RadiationProblem& problem) {
 }
 
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
-                                                 const dynamics::PanelModel& model) {
+                                                 const dynamics::PanelModel& model,
+                                                 const std::vector<dynamics::BodyGroup>& groups) {
   dynamics::DatabaseSettings settings;
   settings.frequencies = problem.frequencies;
   settings.headings = problem.headings;
   settings.lids = problem.lids;
   settings.with_coarser = true;
   settings.with_far_field = problem.drifting.has_value();
-  const auto groups = find_distant_groups(model, problem.frequencies.back());
-  return groups.size() > 1 ? compute_distant_groups(model, groups, settings)
-                           : compute_database(model, settings);
+  return compute_distant_groups(model, groups, settings);
 }
 
 dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/marine/radiation/distant_groups.h"
 #include "dynamics/marine/radiation/hydrodynamic_series.h"
 #include "dynamics/marine/radiation/radiation.h"
 #include "dynamics/simulation/lift_system.h"
@@ -84,10 +85,12 @@ MarchedWater make_marched_water(const RadiationProblem& problem);
 /// @throws dynamics::ModelError as meshes and dynamics::PanelModel do.
 dynamics::PanelModel make_panel_model(const RadiationProblem& problem);
 
-/// Computes the database of a problem by the panel method, with the model of its panels.
+/// Computes the database of a problem by the panel method, with the model of its panels and the
+/// groups of bodies far from each other in it (dynamics::find_distant_groups).
 /// @throws dynamics::ModelError, dynamics::SimulationError as compute_database.
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
-                                                 const dynamics::PanelModel& model);
+                                                 const dynamics::PanelModel& model,
+                                                 const std::vector<dynamics::BodyGroup>& groups);
 
 /// How closely the memory of vessels' water is fitted: to 0.5 % of its peak, or to 2 or 10 % where
 /// water that swings between hulls would take too many states.

@@ -188,9 +188,7 @@ dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
                                              const HydrodynamicState& state,
                                              dynamics::DatabaseReport* report) {
   dynamics::HydrodynamicDatabase database =
-      state.groups.size() > 1
-          ? compute_distant_groups(*state.model, state.groups, state.settings, report)
-          : compute_database(*state.model, state.settings, report);
+      compute_distant_groups(*state.model, state.groups, state.settings, report);
   const Eigen::Index modes = database.mode_count();
   database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(modes, modes);
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {

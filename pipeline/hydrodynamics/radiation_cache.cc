@@ -155,7 +155,7 @@ dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
         if (const std::string note = note_on_groups(model, groups); !note.empty()) say(note);
         const std::string doubt = doubt_about_coupling(model, groups, p.frequencies.back());
         if (!doubt.empty()) say("warning: " + doubt);
-        return compute_radiation(p, model);
+        return compute_radiation(p, model, groups);
       });
   say_doubt(database, say);
   return database;

@@ -76,8 +76,11 @@ class TwoWays {
     const auto file = read_mechanism("mechanism.yaml", library, diagnostics);
     EXPECT_TRUE(file) << diagnostics.to_text();
     const RadiationProblem problem = radiation_problem(*file);
-    if (!problem.direct && !database_)
-      database_ = {0, {0.0}, {compute_radiation(problem, make_panel_model(problem))}};
+    if (!problem.direct && !database_) {
+      const dynamics::PanelModel model = make_panel_model(problem);
+      const auto groups = find_distant_groups(model, problem.frequencies.back());
+      database_ = {0, {0.0}, {compute_radiation(problem, model, groups)}};
+    }
     const BuiltMechanism built =
         build_mechanism(*file, problem.direct ? nullptr : &*database_, make_marched_water(problem));
     const dynamics::LiftSystem& system = built.system;

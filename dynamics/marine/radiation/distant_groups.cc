@@ -153,6 +153,7 @@ HydrodynamicDatabase compute_distant_groups(const PanelModel& model,
                                             const std::vector<BodyGroup>& groups,
                                             const DatabaseSettings& settings,
                                             DatabaseReport* report) {
+  if (groups.size() < 2) return compute_database(model, settings, report);
   std::vector<HydrodynamicDatabase> databases;
   DatabaseReport account;
   for (const BodyGroup& group : groups) {

@@ -14,11 +14,12 @@ inline constexpr int distant_groups_version = 1;
 /// @returns a single group of all bodies where nothing is gained.
 std::vector<BodyGroup> find_distant_groups(const PanelModel& model, double highest_frequency);
 
-/// Computes each group on a surface of its own and couples them by the waves that go from one to
-/// the other. Symmetry is each group's own.
-/// @param model of all bodies; of its surface nothing is used.
-/// @param settings as for compute_database; `time_step` and `duration` hold for each group, and
-///   there is no far field of all.
+/// A single group is computed as it is (compute_database). Of several each is computed on a surface
+/// of its own, and coupled to the others by the waves that go from one to the other. Symmetry is
+/// each group's own then.
+/// @param model of all bodies; of its surface nothing is used by several groups.
+/// @param settings as for compute_database; of several groups `time_step` and `duration` hold for
+///   each, and there is no far field of all.
 /// @param report figures of all groups together.
 /// @throws ModelError, SimulationError as compute_database.
 HydrodynamicDatabase compute_distant_groups(const PanelModel& model,
