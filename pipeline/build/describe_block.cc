@@ -47,6 +47,7 @@ structure::Stiffeners describe_stiffeners(const PlateModel& plate) {
   stiffeners.centroid = row.profile->centroid - foot;
   stiffeners.material = row.material.value;
   stiffeners.tripping_brackets = row.tripping_brackets.value_or(0);
+  if (row.are_plates) stiffeners.plates = row.profile->plates;
   return stiffeners;
 }
 

@@ -22,7 +22,8 @@ constexpr std::size_t panels_in_summary = 40;
 BlockPanels make_panels(const LiftCase& lift_case, const structure::UnitResponses& responses) {
   std::vector<structure::PlateStiffening> stiffening;
   for (const PlateModel& plate : lift_case.load.model->plates) {
-    if (!plate.stiffeners) continue;
+    // Webs of plates divide the panels as they stand.
+    if (!plate.stiffeners || plate.stiffeners->are_plates) continue;
     const auto along = static_cast<Eigen::Index>(plate.stiffeners->along);
     const Eigen::Matrix3d axes = plate.corners
                                      ? structure::frame_of_polygon(plate.corners->value).axes

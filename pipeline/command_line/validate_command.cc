@@ -12,6 +12,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/build/stiffener_plates.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/file_kind.h"
@@ -50,6 +51,13 @@ std::string summary_of(const LiftCase& lift_case) {
                      schedule.duration);
 }
 
+/// A line for each row of stiffeners that are plates.
+std::string lines_on_stiffener_plates(const BlockModel& block) {
+  std::string lines;
+  for (const std::string& line : describe_stiffener_plates(block)) lines += "\n" + line;
+  return lines;
+}
+
 /// Reads one file of whatever kind; what it is, if it is sound.
 std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
                                     Diagnostics& diagnostics,
@@ -81,12 +89,13 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
     block = library.read_block(path, diagnostics);
     if (!block || diagnostics.error_count() > errors_before) return std::nullopt;
     check_block_model(*block, path.string(), diagnostics);
-    return if_sound(block->mesh ? fmt::format("block of a mesh with {}\n{}",
-                                              count(block->lugs.size(), "lug"),
-                                              describe_block_mesh(*block->mesh))
-                                : fmt::format("block with {} and {}",
-                                              count(block->plates.size(), "kind") + " of plates",
-                                              count(block->lugs.size(), "lug")));
+    return if_sound(
+        block->mesh
+            ? fmt::format("block of a mesh with {}\n{}", count(block->lugs.size(), "lug"),
+                          describe_block_mesh(*block->mesh))
+            : fmt::format("block with {} and {}{}",
+                          count(block->plates.size(), "kind") + " of plates",
+                          count(block->lugs.size(), "lug"), lines_on_stiffener_plates(*block)));
   }
   if (kind == FileKind::rope) {
     library.read_rope(path, diagnostics);
@@ -146,6 +155,7 @@ std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
   std::string summary = fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case));
   if (lift_case->load.model && lift_case->load.model->mesh)
     summary += "\n" + describe_block_mesh(*lift_case->load.model->mesh);
+  if (lift_case->load.model) summary += lines_on_stiffener_plates(*lift_case->load.model);
   for (const std::string& doubt : list_doubts(*lift_case)) summary += "\nwarning: " + doubt;
   return if_sound(std::move(summary));
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/build/stiffener_plates.h"
 #include "pipeline/results/radiation_summary.h"
 
 namespace blocklift::pipeline {
@@ -321,6 +322,8 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
             ? fmt::format(" {} rods without second moments are not looked at.",
                           block.buckling.unknown_rods)
             : ""));
+  for (std::string& sentence : describe_stiffener_plates(*assessment.lift_case.load.model))
+    list.push_back(std::move(sentence));
 }
 
 }  // namespace

@@ -282,6 +282,11 @@ Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool rever
   section.shear_centre = as_seen(section.shear_centre);
   for (Vector2& point : section.stress_points) point = as_seen(point);
   other.centroid = as_seen(other.centroid);
+  if (exchanged || reversed_2) other.plates.reset();
+  if (reversed_3 && other.plates) {
+    auto& [from, to] = other.plates->flange_reach;
+    from = -std::exchange(to, -from);
+  }
   return other;
 }
 
@@ -334,6 +339,7 @@ Profile flat_bar(double height, double thickness) {
   Profile profile = solid_rectangle(height, thickness);
   profile.section.name = "flat bar";
   profile.centroid[0] += height / 2;
+  profile.plates = {height, thickness};
   return profile;
 }
 
@@ -342,16 +348,21 @@ Profile angle_bar(double height, double web, double width, double flange) {
                    {{"height", height}, {"web", web}, {"width", width}, {"flange", flange}});
   require(height > flange && width > web, "angle", "its plates are thicker than it is long");
   const double level = height - flange / 2;
-  return walled_profile("angle", {{0, 0}, {level, 0}, {level, width - web / 2}},
-                        {{0, 1, web, 0, -flange / 2}, {1, 2, flange, web / 2, 0}});
+  Profile profile = walled_profile("angle", {{0, 0}, {level, 0}, {level, width - web / 2}},
+                                   {{0, 1, web, 0, -flange / 2}, {1, 2, flange, web / 2, 0}});
+  profile.plates = {level, web, flange, {0, width - web / 2}};
+  return profile;
 }
 
 Profile tee_bar(double height, double web, double width, double flange) {
   require_positive("tee", {{"height", height}, {"web", web}, {"width", width}, {"flange", flange}});
   require(height > flange && width > web, "tee", "its plates are thicker than it is long");
   const double level = height - flange / 2;
-  return walled_profile("tee", {{level, -width / 2}, {level, 0}, {level, width / 2}, {0, 0}},
-                        {{0, 1, flange}, {2, 1, flange}, {3, 1, web, 0, -flange / 2}});
+  Profile profile =
+      walled_profile("tee", {{level, -width / 2}, {level, 0}, {level, width / 2}, {0, 0}},
+                     {{0, 1, flange}, {2, 1, flange}, {3, 1, web, 0, -flange / 2}});
+  profile.plates = {level, web, flange, {-width / 2, width / 2}};
+  return profile;
 }
 
 Profile bulb_flat(double height, double thickness, double bulb, double radius) {
@@ -400,6 +411,7 @@ Profile bulb_flat(double height, double thickness, double bulb, double radius) {
   profile.section.shear_area_2 = angle.section.shear_area_2;
   profile.section.shear_area_3 = angle.section.shear_area_3;
   profile.section.shear_centre = angle.section.shear_centre + angle.centroid - profile.centroid;
+  profile.plates = angle.plates;
   set_points(profile, {{0, -inner},
                        {0, inner},
                        {height, -inner},

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +12,22 @@
 
 namespace blocklift::structure {
 
+/// Web and flange of a stiffener as plates: their middle lines and thicknesses, m. The web stands on
+/// the origin along axis 2, the flange lies across its end along axis 3.
+struct StiffenerPlates {
+  double web_height = 0;     ///< from the foot to the flange's middle line; without one to the top
+  double web_thickness = 0;  ///< m
+  double flange_thickness = 0;                  ///< 0: it has no flange
+  std::array<double, 2> flange_reach = {0, 0};  ///< along axis 3 from the web's middle
+};
+
 /// Cross-section drawn in axes (x_2, x_3) of its own, whose origin each shape names.
 struct Profile {
   BeamSection section;  ///< about the centroid; its material is unset
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the origin, m
   bool is_round = false;  ///< the same seen from all sides: it stands towards none
+  /// Of flat bars, angles, tees and, as the equivalent angle, bulb flats.
+  std::optional<StiffenerPlates> plates = {};
 };
 
 /// Where the profile begins along axis 2, from its origin, m: what stands on a plate has its foot
@@ -43,7 +56,7 @@ Profile walled_profile(const std::string& name, const std::vector<Eigen::Vector2
                        const std::vector<Wall>& walls);
 
 /// A profile seen in other axes: first 2 and 3 exchanged if asked, then turned to point the other
-/// way.
+/// way. Its plates stay where axis 2 does.
 Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool reversed_3);
 
 // Stiffeners: the origin is the middle of the edge that stands on the plate, axis 2 points away
@@ -58,8 +71,8 @@ Profile tee_bar(double height, double web, double width, double flange);
 /// Bulb flat (Holland profile) of EN 10067: a plate of `height` and `thickness` whose bulb reaches
 /// `bulb` beyond one face, its lower side sloped by 30 degrees, corners rounded by `radius`.
 ///
-/// Area and moments are those of the outline. Torsion, shear area and shear centre are those of the
-/// equivalent angle of the IACS Common Structural Rules (2014), part 1 chapter 3 section 7,
+/// Area and moments are those of the outline. Torsion, shear area, shear centre and plates are those
+/// of the equivalent angle of the IACS Common Structural Rules (2014), part 1 chapter 3 section 7,
 /// [1.4.1].
 Profile bulb_flat(double height, double thickness, double bulb, double radius);
 /// The same by its nominal height and thickness, bulb and radius from the list of EN 10067, whose

@@ -156,6 +156,18 @@ Format<MaterialModel> material_format() {
 }
 
 void check_stiffeners(const StiffenersModel& row, Reading& reading, const Mark& mark) {
+  if (!row.profile && row.are_plates)
+    reading.error(mark, reading.owner() + " is to be plates, but has no profile",
+                  {"without a profile stiffeners are not in the model: they divide panels alone"});
+  else if (row.profile && row.are_plates && !row.profile->plates)
+    reading.error(mark,
+                  fmt::format("{} is to be plates, and has a profile that is none of a web on its "
+                              "plate with or without a flange: {}",
+                              reading.owner(), row.profile->section.name),
+                  {"flat_bar, angle_bar, tee_bar and bulb_flat may be plates; others are beams"});
+  if (row.are_plates && row.tripping_brackets)
+    reading.error(mark, reading.owner() + " is to be plates, and has tripping brackets",
+                  {"tripping is checked by a formula of beams; draw brackets of plates as plates"});
   if (row.profile || (!row.first && row.material.value.empty() && !row.tripping_brackets)) return;
   reading.error(mark,
                 reading.owner() + " has a place, a material or tripping brackets, but no profile",
@@ -167,14 +179,19 @@ Format<StiffenersModel> stiffeners_format(const Axes& along, const std::string& 
   Table<StiffenersModel> table(
       "row of stiffeners",
       "Equal stiffeners that a plate carries, from edge to edge; openings cut them. They divide "
-      "its panels where buckling is checked. With a profile they are beams of the model; without "
-      "one the model leaves them out, and their mass belongs to the outfitting.");
+      "its panels where buckling is checked. With a profile they are beams of the model, or plates "
+      "if asked; without one the model leaves them out, and their mass belongs to the outfitting.");
   table
       .required("along", &StiffenersModel::along, choice<std::size_t>(along), "axis they run along")
       .required("spacing", &StiffenersModel::spacing,
                 quantity(Dimension::length, Range::positive()), "between neighbours")
       .optional("profile", &StiffenersModel::profile, profile_format(),
-                "makes them beams that stand on the plate")
+                "makes them beams or plates that stand on the plate")
+      .by_default("as", &StiffenersModel::are_plates,
+                  choice<bool>({{"beams", false}, {"plates", true}}), "beams",
+                  "what the model has of them: beams, or web and flange as plates that buckle and "
+                  "bend on their own; plates of flat_bar, angle_bar, tee_bar and bulb_flat (its "
+                  "equivalent angle)")
       .by_default("side", &StiffenersModel::side, choice<int>({{"positive", 1}, {"negative", -1}}),
                   "positive", "of the plate on which they stand, along its normal")
       .optional("first", &StiffenersModel::first, quantity(Dimension::length),
@@ -202,8 +219,9 @@ Format<PlateModel> rectangle_format() {
                 "of the plate")
       .optional("material", &PlateModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
-      .optional("stiffeners", &PlateModel::stiffeners, stiffeners_format(axes, "the block"),
-                "that the plate carries: beams with a profile, else left out of the model")
+      .optional(
+          "stiffeners", &PlateModel::stiffeners, stiffeners_format(axes, "the block"),
+          "that the plate carries: beams or plates with a profile, else left out of the model")
       .rule([](const Written<PlateModel>& plate, Reading& reading, const Mark& mark) {
         if (!plate.stiffeners || plate.stiffeners->along != plate.normal) return;
         reading.error(mark,

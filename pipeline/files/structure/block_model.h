@@ -37,11 +37,12 @@ struct Rectangle {
 };
 
 /// Equal stiffeners that a plate carries: they divide its panels in the check of buckling. With a
-/// profile they are beams of the model, too; without one it leaves them out.
+/// profile they are beams or plates of the model, too; without one it leaves them out.
 struct StiffenersModel {
   std::size_t along = 0;  ///< axis: 0, 1, 2 for x, y, z; 0, 1 for u, v of a plate by its corners
   double spacing = std::numeric_limits<double>::quiet_NaN();  ///< m
   std::optional<structure::Profile> profile;                  ///< from its foot on the plate
+  bool are_plates = false;                                    ///< web and flange, instead of beams
   int side = 1;                                               ///< of the plate, along its normal
   std::optional<double> first;    ///< place of one of them across, m; else the plate's lower edge
   Located<std::string> material;  ///< empty: that of the plate

@@ -79,6 +79,9 @@ struct Opening {
 /// Equal stiffeners on plates, in a row: beams that stand on one side and run along an axis, from
 /// edge to edge of the plate. None stands on its edges; openings cut them, and they are left out
 /// where another plate stands in their place.
+///
+/// As plates they are a web from the plate's mid-plane to the flange's, or to the top of a flat
+/// bar, and a flange; what crosses them is joined to them.
 struct Stiffeners {
   std::string name;
   std::string plate;              ///< name of the plates that carry them
@@ -93,6 +96,7 @@ struct Stiffeners {
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< from the profile's foot on the plate, m
   std::string material;                                ///< empty: that of the plate
   double tripping_brackets = 0;                        ///< as Group's, m
+  std::optional<StiffenerPlates> plates = {};          ///< of which they are made instead of beams
 };
 
 /// Thickened region of a plate around a lug: layers on both sides of the plate fill up to

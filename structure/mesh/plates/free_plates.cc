@@ -239,17 +239,20 @@ class BlockDrawing {
                                                 : "bar \"" + other + "\""));
   }
 
-  /// Of a free lug, its pad and its plate, the first that is there; nothing else lies upon another.
+  SheetRank rank(int owner) const {
+    if (owner >= first_free()) return free_sheets_[at(owner - first_free())].rank;
+    return std::min(grid_.sheets()[at(owner)].rank, SheetRank::plate);
+  }
+
+  /// Of a free lug, its pad and its plate, the first that is there; nothing else lies upon another
+  /// but stiffeners, which give way to plates.
   int owner_of_piece(const std::vector<int>& owners) const {
-    const auto rank = [&](int owner) {
-      return owner < first_free() ? SheetRank::plate : free_sheets_[at(owner - first_free())].rank;
-    };
     const int top = *std::max_element(owners.begin(), owners.end(),
                                       [&](int a, int b) { return rank(a) < rank(b); });
     std::set<int> below{top};
     for (int next = base_of(top); next >= 0; next = base_of(next)) below.insert(next);
     for (const int owner : owners)
-      if (below.count(owner) == 0)
+      if (below.count(owner) == 0 && rank(owner) != SheetRank::stiffener)
         throw ModelError(
             fmt::format("plate \"{}\" lies upon {}; where a plate is thicker, divide it",
                         name_of_owner(std::max(owner, top)), name_of_owner(std::min(owner, top))));

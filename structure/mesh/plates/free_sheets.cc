@@ -10,13 +10,13 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/plane_frame.h"
+#include "structure/mesh/plates/line_pieces.h"
 
 namespace blocklift::structure {
 
 namespace {
 
 using Point2 = Eigen::Vector2d;
-using Line = std::vector<Interval>;  // parts of a line, apart from one another, in order
 
 constexpr double out_of_plane = 1e-3, same_line = 1e-6;  // m
 constexpr double most_lines = 1e4;                       // of a row
@@ -82,20 +82,8 @@ void require_thickness(const std::string& what, double thickness) {
         fmt::format("{} has a thickness of {:g} m; it must be positive", what, thickness));
 }
 
-/// Leaves out what lies between two places.
-void leave_out(double from, double to, Line& line) {
-  Line left;
-  for (const Interval& part : line) {
-    if (part.lower < std::min(part.upper, from))
-      left.push_back({part.lower, std::min(part.upper, from)});
-    if (std::max(part.lower, to) < part.upper)
-      left.push_back({std::max(part.lower, to), part.upper});
-  }
-  line = std::move(left);
-}
-
 /// What a line v = place has within a polygon.
-Line within_polygon(const std::vector<Point2>& corners, double place) {
+LinePieces within_polygon(const std::vector<Point2>& corners, double place) {
   std::vector<double> crossings;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Point2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
@@ -103,14 +91,14 @@ Line within_polygon(const std::vector<Point2>& corners, double place) {
     crossings.push_back(a.x() + (b.x() - a.x()) * (place - a.y()) / (b.y() - a.y()));
   }
   std::sort(crossings.begin(), crossings.end());
-  Line line;
+  LinePieces line;
   for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
     line.push_back({crossings[i], crossings[i + 1]});
   return line;
 }
 
 /// Leaves out the sides that lie on the line.
-void leave_out_sides(const std::vector<Point2>& corners, double place, Line& line) {
+void leave_out_sides(const std::vector<Point2>& corners, double place, LinePieces& line) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Point2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
     if (std::abs(a.y() - place) < same_line && std::abs(b.y() - place) < same_line)
@@ -118,7 +106,7 @@ void leave_out_sides(const std::vector<Point2>& corners, double place, Line& lin
   }
 }
 
-void leave_out_circle(const Point2& centre, double radius, double place, Line& line) {
+void leave_out_circle(const Point2& centre, double radius, double place, LinePieces& line) {
   const double half = radius * radius - std::pow(place - centre.y(), 2);
   if (half > 0) leave_out(centre.x() - std::sqrt(half), centre.x() + std::sqrt(half), line);
 }
@@ -132,6 +120,28 @@ class Row {
   }
 
   void add_lines(int number, std::vector<BeamLine>& lines) const {
+    for (const double across : places()) add_line(number, across, lines);
+  }
+
+  void add_sheets(int number, const std::string& material, std::vector<FreeSheet>& sheets) const {
+    for (const double across : places()) {
+      LinePieces line = line_at(across);
+      std::erase_if(line, [](const Interval& p) { return p.upper - p.lower < out_of_plane; });
+      for (const Interval& piece : line) {
+        std::string name = fmt::format("{} at {} = {:g} m", row_.name, "uv"[1 - along()], across);
+        if (line.size() > 1)
+          name += fmt::format(", {} = {:g} m to {:g} m", "uv"[along()], piece.lower, piece.upper);
+        add_sheets({name, SheetRank::stiffener, 0, material, {}, -1, number}, across, piece,
+                   sheets);
+      }
+    }
+  }
+
+ private:
+  int along() const { return static_cast<int>(row_.along); }
+
+  /// Where its stiffeners stand across.
+  std::vector<double> places() const {
     const auto [lowest, highest] =
         std::minmax_element(corners_.begin(), corners_.end(),
                             [](const Point2& a, const Point2& b) { return a.y() < b.y(); });
@@ -144,34 +154,63 @@ class Row {
           fmt::format("{}: a spacing of {:g} m makes {:.2g} stiffeners, and {:.2g} are "
                       "allowed",
                       row_.name, row_.spacing, end - start + 1, most_lines));
-    for (double i = start; i <= end; ++i) add_line(number, first + i * row_.spacing, lines);
+    std::vector<double> found;
+    for (double i = start; i <= end; ++i) found.push_back(first + i * row_.spacing);
+    return found;
   }
-
- private:
-  int along() const { return static_cast<int>(row_.along); }
 
   Point2 seen(const Vector3& point) const {
     const Vector3 own = frame_.coordinates(point);
     return {own[along()], own[1 - along()]};
   }
-  Vector3 point(double along_it, double across) const {
-    Vector3 own = Vector3::Zero();
+  Vector3 point(double along_it, double across, double above = 0) const {
+    Vector3 own(0, 0, row_.side * above);
     own[along()] = along_it;
     own[1 - along()] = across;
     return frame_.point(own);
   }
 
-  void add_line(int number, double across, std::vector<BeamLine>& lines) const {
-    Line line = within_polygon(corners_, across);
+  /// What a line has of the plate.
+  LinePieces line_at(double across) const {
+    LinePieces line = within_polygon(corners_, across);
     leave_out_sides(corners_, across, line);
     for (const FreeOpening& opening : block_.free_openings)
       if (opening.plate == plate_.name) cut(opening, across, line);
-    Line on_plate = line;
+    return line;
+  }
+
+  /// @param pattern a sheet with all but thickness, corners and the end of its name.
+  void add_sheets(const FreeSheet& pattern, double across, const Interval& piece,
+                  std::vector<FreeSheet>& sheets) const {
+    const StiffenerPlates& shape = row_.plates.value();
+    const double far = plate_.thickness / 2 + shape.web_height;
+    const auto corner = [&](double along_it, double above, double aside) {
+      return point(along_it, across + aside, above);
+    };
+    FreeSheet& web = sheets.emplace_back(pattern);
+    web.name += ", web";
+    web.thickness = shape.web_thickness;
+    web.corners = {corner(piece.lower, 0, 0), corner(piece.upper, 0, 0),
+                   corner(piece.upper, far, 0), corner(piece.lower, far, 0)};
+    if (!(shape.flange_thickness > 0)) return;
+    auto [from, to] = shape.flange_reach;
+    // Axis 3 is (along) x (away from the plate): u x n is -v, v x n is u.
+    if ((along() == 1 ? 1 : -1) * row_.side < 0) from = -std::exchange(to, -from);
+    FreeSheet& flange = sheets.emplace_back(pattern);
+    flange.name += ", flange";
+    flange.thickness = shape.flange_thickness;
+    flange.corners = {corner(piece.lower, far, from), corner(piece.upper, far, from),
+                      corner(piece.upper, far, to), corner(piece.lower, far, to)};
+  }
+
+  void add_line(int number, double across, std::vector<BeamLine>& lines) const {
+    const LinePieces line = line_at(across);
+    LinePieces on_plate = line;
     for (const FreePad& pad : block_.free_pads) {
       if (pad.plate != plate_.name) continue;
       const Interval &reach = pad.extent[at(along())], &width = pad.extent[at(1 - along())];
       if (across < width.lower - same_line || across > width.upper + same_line) continue;
-      Line on_pad = line;
+      LinePieces on_pad = line;
       leave_out(-1e9, reach.lower, on_pad);
       leave_out(reach.upper, 1e9, on_pad);
       leave_out(reach.lower, reach.upper, on_plate);
@@ -180,7 +219,7 @@ class Row {
     add_beams(number, across, on_plate, plate_.thickness, lines);
   }
 
-  void cut(const FreeOpening& opening, double across, Line& line) const {
+  void cut(const FreeOpening& opening, double across, LinePieces& line) const {
     std::vector<Point2> corners;
     for (const Vector3& corner : opening.corners) corners.push_back(seen(corner));
     if (opening.corners.empty()) {
@@ -198,7 +237,7 @@ class Row {
     leave_out_sides(corners, across, line);
   }
 
-  void add_beams(int number, double across, const Line& line, double thickness,
+  void add_beams(int number, double across, const LinePieces& line, double thickness,
                  std::vector<BeamLine>& lines) const {
     for (const Interval& part : line) {
       if (part.upper - part.lower < out_of_plane) continue;
@@ -220,6 +259,15 @@ class Row {
   std::vector<Point2> corners_;
 };
 
+/// The plate of a sound row.
+const FreePlate& plate_of_row(const BlockDescription& block, const Stiffeners& row) {
+  const std::string what = "row of stiffeners \"" + row.name + "\"";
+  check_stiffeners(row);
+  if (row.along == Axis::z)
+    throw ModelError(what + " runs along the normal of its plate; it runs along u or v");
+  return plane_plate(block, what, row.plate);
+}
+
 }  // namespace
 
 std::vector<FreeSheet> spread_free_sheets(const BlockDescription& block) {
@@ -228,6 +276,14 @@ std::vector<FreeSheet> spread_free_sheets(const BlockDescription& block) {
     check_plane(plate);
     sheets.push_back(
         {plate.name, SheetRank::plate, plate.thickness, plate.material, plate.corners, -1});
+  }
+  for (std::size_t i = 0; i < block.free_stiffeners.size(); ++i) {
+    const Stiffeners& row = block.free_stiffeners[i];
+    if (!row.plates) continue;
+    const FreePlate& plate = plate_of_row(block, row);
+    Row(block, plate, row)
+        .add_sheets(static_cast<int>(i), row.material.empty() ? plate.material : row.material,
+                    sheets);
   }
   const int first_pad = static_cast<int>(sheets.size());
   for (const FreePad& pad : block.free_pads) {
@@ -266,11 +322,8 @@ std::vector<BeamLine> free_stiffener_lines(const BlockDescription& block) {
   std::vector<BeamLine> lines;
   for (std::size_t i = 0; i < block.free_stiffeners.size(); ++i) {
     const Stiffeners& row = block.free_stiffeners[i];
-    const std::string what = "row of stiffeners \"" + row.name + "\"";
-    check_stiffeners(row);
-    if (row.along == Axis::z)
-      throw ModelError(what + " runs along the normal of its plate; it runs along u or v");
-    Row(block, plane_plate(block, what, row.plate), row).add_lines(static_cast<int>(i), lines);
+    if (!row.plates)
+      Row(block, plate_of_row(block, row), row).add_lines(static_cast<int>(i), lines);
   }
   return lines;
 }

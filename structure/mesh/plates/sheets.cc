@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/mesh/plates/stiffener_sheets.h"
 
 namespace blocklift::structure {
 
@@ -287,6 +288,13 @@ void check_stiffeners(const Stiffeners& row) {
     throw ModelError(
         fmt::format("{} stands on side {} of its plate; +1 and -1 are the sides along its normal",
                     what, row.side));
+  if (!row.plates) return;
+  const double flange = row.plates->flange_reach[1] - row.plates->flange_reach[0];
+  if (flange > row.spacing)
+    throw ModelError(
+        fmt::format("{} has flanges of {:g} mm at a spacing of {:g} mm: as plates they would "
+                    "overlap",
+                    what, 1e3 * flange, 1e3 * row.spacing));
 }
 
 int place_of_material(const BlockDescription& block, const std::string& what,
@@ -316,6 +324,7 @@ std::vector<Sheet> spread_into_sheets(const BlockDescription& block) {
   add_plates(block, sheets);
   cut_openings(block, sheets);
   add_stiffeners(block, sheets);
+  make_stiffener_sheets(block, sheets);
   add_pads_and_lugs(block, sheets);
   return sheets;
 }

@@ -10,7 +10,7 @@
 namespace blocklift::structure {
 
 /// What a sheet is; the higher rank owns the cells that several sheets share.
-enum class SheetRank { plate = 0, pad = 1, lug = 2 };
+enum class SheetRank { stiffener = -1, plate = 0, pad = 1, lug = 2 };
 
 /// One stiffener of a row on a sheet.
 struct StiffenerLine {
@@ -26,10 +26,11 @@ struct Cutout {
   HoleOutline outline;
 };
 
-/// One rectangle of plate, pad or lug at one position: the generator's unit of work.
+/// One rectangle of plate, of a stiffener's web or flange, pad or lug at one position: the
+/// generator's unit of work.
 struct Sheet {
   std::string name;  ///< for messages: "web_frames at x = 4 m"
-  int group = 0;     ///< plates in order, then pads, then lugs
+  int group = 0;     ///< plates in order, then pads, then lugs, then rows of stiffeners
   SheetRank rank = SheetRank::plate;
   int normal = 0;
   double position = 0;
@@ -47,10 +48,12 @@ struct Sheet {
 int place_of_material(const BlockDescription& block, const std::string& what,
                       const std::string& material);
 
-/// @throws ModelError unless a row of stiffeners has spacing, section and side.
+/// @throws ModelError unless a row of stiffeners has spacing, section and side, and room for its
+///   flanges if it is of plates.
 void check_stiffeners(const Stiffeners& row);
 
-/// Spreads a description into sheets, in the order plates, pads, lugs.
+/// Spreads a description into sheets, in the order plates, webs and flanges of stiffeners that are
+/// plates, pads, lugs.
 /// @throws ModelError naming what is wrong: names used twice, unknown materials, plates or pads,
 ///   empty extents, thickness not positive, overlapping plates of different thickness in one plane,
 ///   openings or stiffeners of a plate that does not exist, stiffeners without spacing or section

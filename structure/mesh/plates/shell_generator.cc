@@ -37,7 +37,7 @@ std::array<PanelEdge, 4> edges_of(const SheetPanel& panel) {
 }
 
 /// Groups: plates, pads, lugs, rows of stiffeners, then the free plates, pads, lugs and rows; bars
-/// follow. Regions: the grid's sheets, then the free ones.
+/// follow. Regions: the grid's sheets, then the free ones; webs and flanges belong to their rows.
 void add_groups_and_regions(const BlockDescription& block, const std::vector<Sheet>& sheets,
                             const std::vector<FreeSheet>& free_sheets, Mesh& mesh) {
   mesh.materials = block.materials;
@@ -50,7 +50,15 @@ void add_groups_and_regions(const BlockDescription& block, const std::vector<She
     mesh.groups[at(sheet.group)].material = sheet.material;
     mesh.regions.push_back({sheet.name, sheet.group, sheet.rank == SheetRank::lug});
   }
+  const auto first_row =
+      static_cast<int>(mesh.groups.size()) +
+      static_cast<int>(std::count_if(free_sheets.begin(), free_sheets.end(),
+                                     [](const FreeSheet& sheet) { return sheet.row < 0; }));
   for (const FreeSheet& sheet : free_sheets) {
+    if (sheet.row >= 0) {
+      mesh.regions.push_back({sheet.name, first_row + sheet.row, false});
+      continue;
+    }
     mesh.regions.push_back(
         {sheet.name, static_cast<int>(mesh.groups.size()), sheet.rank == SheetRank::lug});
     mesh.groups.push_back({sheet.name, place_of_material(block, sheet.name, sheet.material)});
@@ -262,12 +270,11 @@ void add_free_lifting_points(const BlockDescription& block,
   }
 }
 
-/// Rows on free plates, each with a region and a section of its own.
+/// Rows on free plates, those that are beams with a region and a section of their own.
 void add_free_stiffeners(const BlockDescription& block, const std::vector<FreeSheet>& free_sheets,
                          Mesh& mesh, std::vector<BeamLine>& lines) {
   const auto first_group = mesh.groups.size() - block.free_stiffeners.size();
-  const auto first_section = static_cast<int>(mesh.beam_sections.size());
-  const auto first_region = static_cast<int>(mesh.regions.size());
+  std::vector<int> sections(block.free_stiffeners.size()), regions(sections.size());
   for (std::size_t i = 0; i < block.free_stiffeners.size(); ++i) {
     const Stiffeners& row = block.free_stiffeners[i];
     const auto plate =
@@ -277,13 +284,17 @@ void add_free_stiffeners(const BlockDescription& block, const std::vector<FreeSh
         row.material.empty() && plate != free_sheets.end() ? plate->material : row.material;
     const auto group = static_cast<int>(first_group + i);
     mesh.groups[at(group)].material = place_of_material(block, row.name, material);
+    if (row.plates) continue;
+    sections[i] = static_cast<int>(mesh.beam_sections.size());
+    regions[i] = static_cast<int>(mesh.regions.size());
     mesh.beam_sections.push_back(row.section);
     mesh.beam_sections.back().material = mesh.groups[at(group)].material;
     mesh.regions.push_back({row.name, group, false});
   }
   for (BeamLine& line : free_stiffener_lines(block)) {
-    line.pattern.section += first_section;
-    line.pattern.region += first_region;
+    const int row = line.pattern.section;
+    line.pattern.section = sections[at(row)];
+    line.pattern.region = regions[at(row)];
     lines.push_back(line);
   }
 }

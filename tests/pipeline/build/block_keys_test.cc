@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/build/describe_block.h"
+#include "pipeline/build/stiffener_plates.h"
 #include "pipeline/files/library/model_library.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
@@ -88,6 +89,41 @@ TEST(BlockKeys, StiffenersHaveTrippingBrackets) {
   EXPECT_THAT(read(deck_with(", stiffeners: {along: x, spacing: 1 m, tripping_brackets: 1.2 m}"))
                   .complaints,
               HasSubstr("has a place, a material or tripping brackets, but no profile"));
+}
+
+TEST(BlockKeys, StiffenersAsPlates) {
+  const std::string text = deck_with(
+      ", stiffeners: {along: x, spacing: 750 mm, side: negative, as: plates, profile: {angle_bar: "
+      "[250 mm, 10 mm, 90 mm, 16 mm]}}");
+  const structure::Mesh mesh = mesh_of(text);
+  EXPECT_TRUE(mesh.beams.empty());
+  const double section = (0.005 + 0.25 - 0.008) * 0.01 + (0.09 - 0.005) * 0.016;
+  EXPECT_NEAR(structure::mass_properties(mesh).mass, density * (12 * 0.01 + 12 * section), 1e-8);
+  // 38.3 cm^2 against the profile's 37.8.
+  const std::vector<std::string> said = describe_stiffener_plates(*read(text).block);
+  ASSERT_EQ(said.size(), 2u);
+  EXPECT_THAT(said[0],
+              HasSubstr("Stiffeners of deck are plates: a web of 247 x 10.0 mm and a flange "
+                        "of 85 x 16.0 mm"));
+  EXPECT_THAT(said[0], HasSubstr("mass +1.3 %"));
+  EXPECT_THAT(said[1], HasSubstr("against tripping as a whole by a formula, they are not"));
+  EXPECT_TRUE(describe_stiffener_plates(*read(deck_with("")).block).empty());
+}
+
+TEST(BlockKeys, SaysWhatStiffenersMayBePlates) {
+  const auto complaints = [](const std::string& keys) {
+    return read(deck_with(", stiffeners: {along: x, spacing: 1 m, " + keys + "}")).complaints;
+  };
+  const std::string mistyped = complaints("as: plate, profile: {flat_bar: [150 mm, 10 mm]}");
+  EXPECT_THAT(mistyped, HasSubstr("block.yaml:5:"));
+  EXPECT_THAT(mistyped, HasSubstr("did you mean \"plates\"?"));
+  EXPECT_EQ(complaints("as: beams, profile: {pipe: [114.3 mm, 6 mm]}"), "");
+  EXPECT_THAT(complaints("as: plates, profile: {pipe: [114.3 mm, 6 mm]}"),
+              HasSubstr("flat_bar, angle_bar, tee_bar and bulb_flat may be plates"));
+  EXPECT_THAT(
+      complaints("as: plates, tripping_brackets: 1 m, profile: {flat_bar: [150 mm, 10 mm]}"),
+      HasSubstr("is to be plates, and has tripping brackets"));
+  EXPECT_THAT(complaints("as: plates"), HasSubstr("is to be plates, but has no profile"));
 }
 
 TEST(BlockKeys, OtherShapesOfProfiles) {

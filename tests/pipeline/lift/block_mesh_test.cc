@@ -68,10 +68,8 @@ void write_as_deck(const test::TemporaryFolder& folder, const structure::Mesh& m
 
 // The box of the small lift by its plates, and as a deck of their shells: eleven digits of each
 // coordinate go through the file.
-TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
+void expect_same_as_deck(const BlockModel& plates, const LiftCase& lift_case) {
   const test::TemporaryFolder folder;
-  const LiftCase lift_case = test::read_small_lift();
-  const BlockModel& plates = *lift_case.load.model;
   Diagnostics diagnostics;
   const auto of_plates = make_block_model(plates, "box", lift_case.structure, diagnostics);
   ASSERT_TRUE(of_plates) << diagnostics.to_text();
@@ -90,6 +88,22 @@ TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
                         found = test::lug_stresses(*of_deck);
   ASSERT_EQ(found.rows(), expected.rows());
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-6 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST(BlockMesh, PlatesWrittenAsADeckAreTheSameBlock) {
+  const LiftCase lift_case = test::read_small_lift();
+  expect_same_as_deck(*lift_case.load.model, lift_case);
+}
+
+TEST(BlockMesh, SoAreStiffenersAsPlates) {
+  const LiftCase lift_case = test::read_small_lift();
+  BlockModel block = *lift_case.load.model;
+  StiffenersModel row;
+  row.spacing = 1;
+  row.profile = structure::angle_bar(0.2, 0.01, 0.09, 0.012);
+  row.are_plates = true;
+  block.plates.front().stiffeners = row;
+  expect_same_as_deck(block, lift_case);
 }
 
 const char* const small_padeye =
