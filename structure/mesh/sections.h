@@ -12,8 +12,8 @@
 
 namespace blocklift::structure {
 
-/// Web and flange of a stiffener as plates: their middle lines and thicknesses, m. The web stands on
-/// the origin along axis 2, the flange lies across its end along axis 3.
+/// Web and flange of a stiffener as plates: their middle lines and thicknesses, m. The web stands
+/// on the origin along axis 2, the flange lies across its end along axis 3.
 struct StiffenerPlates {
   double web_height = 0;     ///< from the foot to the flange's middle line; without one to the top
   double web_thickness = 0;  ///< m
@@ -71,9 +71,9 @@ Profile tee_bar(double height, double web, double width, double flange);
 /// Bulb flat (Holland profile) of EN 10067: a plate of `height` and `thickness` whose bulb reaches
 /// `bulb` beyond one face, its lower side sloped by 30 degrees, corners rounded by `radius`.
 ///
-/// Area and moments are those of the outline. Torsion, shear area, shear centre and plates are those
-/// of the equivalent angle of the IACS Common Structural Rules (2014), part 1 chapter 3 section 7,
-/// [1.4.1].
+/// Area and moments are those of the outline. Torsion, shear area, shear centre and plates are
+/// those of the equivalent angle of the IACS Common Structural Rules (2014), part 1 chapter 3
+/// section 7, [1.4.1].
 Profile bulb_flat(double height, double thickness, double bulb, double radius);
 /// The same by its nominal height and thickness, bulb and radius from the list of EN 10067, whose
 /// heights are 120 to 430 mm.
