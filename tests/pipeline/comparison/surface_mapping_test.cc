@@ -107,7 +107,7 @@ TEST(NearestOnTriangle, IsAPlaceInsideOnAnEdgeOrACorner) {
   const std::array<Vector3d, 3> corners{Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(0, 4, 0)};
   const auto place = [&](const Vector3d& point) -> Vector3d {
     const NearestPlace found = nearest_on_triangle(point, corners);
-    const Vector3d where = found.weights[0] * corners[0] + found.weights[1] * corners[1] +
+    Vector3d where = found.weights[0] * corners[0] + found.weights[1] * corners[1] +
                            found.weights[2] * corners[2];
     EXPECT_NEAR((where - point).norm(), found.distance, 1e-12);
     return where;
