@@ -1,14 +1,27 @@
-// A box on one hook by two slings over its round deck edges, from files: statics by hand.
+// A box on one hook by two slings over its deck edges, from files: statics by hand, loads of the
+// block in balance with the motion, stress.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/assessment/assess.h"
+#include "pipeline/checks/lift_checks.h"
+#include "pipeline/coupling/edge_loads.h"
+#include "pipeline/coupling/load_mapping.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/lift/sling_ends.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/results/doubts.h"
+#include "structure/response/block_field.h"
+#include "structure/response/line_loads.h"
+#include "structure/system/matter.h"
 #include "tests/pipeline/sling_over_edge_lift.h"
 
 namespace blocklift::pipeline {
@@ -18,6 +31,7 @@ using std::numbers::pi;
 using test::sling_over_edge_lift;
 using test::TemporaryFolder;
 using test::with;
+using ::testing::HasSubstr;
 
 /// The lift of the files with its block in elements of degree 1.
 struct OverEdges {
@@ -48,8 +62,8 @@ const OverEdges& over_edges() {
   return lift;
 }
 
-/// The same in the plane, by hand: a hook at the height h above the axes of two rounds of the radius
-/// R, 2 m off on either side, the slings plumb below their edges.
+/// The same in the plane, by hand: a hook at the height h above the axes of two rounds of the
+/// radius R, 2 m off on either side, the slings plumb below their edges.
 struct ByHand {
   static constexpr double EA = 200e6, L0 = 4, R = 0.15, below = 0.65, off = 2, weight = 10e3 * 9.81;
 
@@ -102,8 +116,8 @@ TEST(SlingOverEdge, HangsAsByHand) {
   EXPECT_NEAR(load_on_slings(lift.run->model, history)[0], ByHand::weight, 1e-6 * ByHand::weight);
 }
 
-// In motion, at every instant: the sum of pulls at the lug and forces on the edge is the pull of the
-// span above, and moment and force of the block's ropes are those of the history.
+// In motion, at every instant: the sum of pulls at the lug and forces on the edge is the pull of
+// the span above, and the force of the block's ropes that of the history.
 TEST(SlingOverEdge, ForceIsTheSumOfBothPullsInMotion) {
   const OverEdges& lift = over_edges();
   const dynamics::History& history = lift.run->dynamic_history();
@@ -155,6 +169,213 @@ TEST(SlingOverEdge, IsDoubtedWhereItRunsOff) {
   for (const std::string& doubt : list_doubts(lift.lift_case, *lift.run))
     said = said || doubt.find("Rope R2 touches edge fore up to 0.5") != std::string::npos;
   EXPECT_TRUE(said);
+}
+
+// ---- Loads of the block.
+
+/// What pulls at the block, with its edges.
+struct Loads {
+  explicit Loads(const OverEdges& lift)
+      : basis(*find_edge_basis(*lift.model, lift.run->model, lift.run->static_history,
+                               lift.run->dynamic_history())),
+        attachment(attach_block(lift.run->model.system, lift.run->model.load,
+                                lift.model->mesh().lifting_points)),
+        in_motion(lift.run->dynamic_history(), basis.dynamic_factors) {
+    attachment.added_resultants = basis.resultants;
+    attachment.added_ropes = basis.ropes;
+  }
+  EdgeBasis basis;
+  BlockAttachment attachment;
+  BlockHistory in_motion;
+};
+
+test::SampleLift sharp_edges() {
+  test::SampleLift files = sling_over_edge_lift();
+  files.block = with(files.block, "outside: [-1, 0, 1], radius: 0.15 m", "outside: [-1, 0, 1]");
+  files.block = with(files.block, "outside: [1, 0, 1], radius: 0.15 m", "outside: [1, 0, 1]");
+  return files;
+}
+
+/// The aft edge across the sling: it comes and leaves 6 degrees off the right angle, on a helix.
+test::SampleLift oblique_edge() {
+  test::SampleLift files = sling_over_edge_lift();
+  files.block = with(files.block, "aft: {from: [0 m, -1 m, 1 m], to: [0 m, 1 m, 1 m]",
+                     "aft: {from: [-0.1 m, -1 m, 1 m], to: [0.1 m, 1 m, 1 m]");
+  return files;
+}
+
+// Force and moment of what the block's stress is computed from are those under which the dynamics
+// moved it, which pulls at the places where the rope comes and leaves. Nothing else acts here, so
+// that nothing is left to be spread over the mass.
+TEST(SlingOverEdge, LoadsHaveForceAndMomentOfTheDynamics) {
+  for (const auto& files : {sling_over_edge_lift(), sharp_edges(), oblique_edge()}) {
+    const OverEdges lift(files);
+    const Loads loads(lift);
+    const dynamics::History& history = lift.run->dynamic_history();
+    const dynamics::BodyHistory& body = history.body("load");
+    double advance = 0, largest = 0;
+    for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
+      const structure::LoadCase load =
+          map_instant(loads.in_motion, i, loads.attachment, lift.model->mass_properties());
+      Eigen::Matrix<double, 6, 1> sum = loads.basis.resultants * load.added;
+      for (std::size_t lug = 0; lug < load.lug_forces_B.size(); ++lug) {
+        sum.head<3>() += load.lug_forces_B[lug];
+        sum.tail<3>() += loads.attachment.lugs[lug].p_BPin.cross(load.lug_forces_B[lug]);
+      }
+      const Eigen::Matrix3d R_BW = body.X_WB(i).R.transpose();
+      const Vector3 force = R_BW * Vector3(body.load.row(i).tail<3>());
+      const Vector3 moment = R_BW * Vector3(body.load.row(i).head<3>());
+      EXPECT_LT((sum.head<3>() - force).norm(), 1e-11 * force.norm()) << i;
+      EXPECT_LT((sum.tail<3>() - moment).norm(), 1e-11 * force.norm()) << i;
+      const dynamics::EdgeHistory& aft = lift.rope(history, 0).edges[0];
+      advance = std::max(advance, std::abs(aft.last_place[i] - aft.first_place[i]));
+      largest = std::max(largest, load.added.cwiseAbs().maxCoeff());
+    }
+    EXPECT_GT(largest, 1e3);
+    if (files.block == oblique_edge().block) {
+      EXPECT_GT(advance, 3e-3);  // R wrap times the slope
+    }
+  }
+}
+
+// The part of a helix's pull that a cylinder bears is the sum of pressure towards its axis.
+TEST(SlingOverEdge, PushesAddUpToTheForceOnTheEdge) {
+  const OverEdges lift(oblique_edge());
+  const dynamics::History& history = lift.run->dynamic_history();
+  const int rope = lift.run->model.ropes[0].rope;
+  for (Eigen::Index i = 0; i < history.sample_count(); i += 7) {
+    Vector3 sum = Vector3::Zero();
+    for (const EdgePush& push : edge_pushes(history, i, lift.run->model.system, rope, 0))
+      sum += push.force_B;
+    const Vector3 force = lift.rope(history, 0).edges[0].force.row(i);
+    EXPECT_LT((history.body("load").X_WB(i).R * sum - force).norm(), 1e-12 * force.norm());
+  }
+}
+
+// A unit force along a line enters the plates with its moment, wherever they are beside it, and no
+// node farther than they are carries of it.
+TEST(LineLoads, HaveTheResultantOfAForceThroughTheMiddle) {
+  const OverEdges& lift = over_edges();
+  const structure::Space& space = lift.model->space();
+  const structure::LineLoads lines(space);
+  structure::LineStretch stretch;
+  stretch.along_B = Vector3(0, 1, 0.2).normalized();
+  stretch.half_length = 0.2;
+  for (const Vector3& middle : {Vector3(0, 0.1, 1), Vector3(0.1, -0.95, 0.9)})
+    for (const Vector3& aside : {Vector3(0, 0, 0), Vector3(-0.1, 0, 0.1)}) {
+      stretch.middle_B = middle;
+      stretch.to_plates_B = aside;
+      const Eigen::MatrixXd loads = lines.unit_forces(stretch);
+      for (int axis = 0; axis < 3; ++axis) {
+        const structure::Wrench sum = structure::resultant(space, loads.col(axis));
+        EXPECT_LT((sum.force - Vector3::Unit(axis)).norm(), 1e-13);
+        EXPECT_LT((sum.moment - middle.cross(Vector3::Unit(axis))).norm(), 1e-13);
+      }
+    }
+  EXPECT_NEAR(*lines.find_distance({2, 0.3, 1.25}, 1), 0.25, 1e-12);
+  EXPECT_NEAR(*lines.find_distance({-0.3, 1.4, 0.5}, 1), 0.5, 1e-12);
+  EXPECT_FALSE(lines.find_distance({2, 0, 2.5}, 1));
+  stretch.middle_B = {2, 0, 3};
+  EXPECT_THROW(lines.unit_forces(stretch), structure::ModelError);
+}
+
+TEST(SlingOverEdge, IsComplainedOfFarFromPlates) {
+  test::SampleLift files = sling_over_edge_lift();
+  files.block =
+      with(files.block, "fore: {from: [4 m, -1 m, 1 m]", "fore: {from: [4 m, -1 m, 2.2 m]");
+  const TemporaryFolder folder;
+  files.write(folder);
+  const LiftCase lift_case = read_lift_case(".");
+  Diagnostics diagnostics;
+  EXPECT_EQ(make_block_model(*lift_case.load.model, "plate", lift_case.structure, diagnostics),
+            nullptr);
+  EXPECT_THAT(diagnostics.to_text(), HasSubstr("plate.yaml:"));
+  EXPECT_THAT(diagnostics.to_text(), HasSubstr("edge fore runs at (4.106, -1, 2.306) m, and no "
+                                               "plate of the block is within 1 m"));
+}
+
+/// The lift assessed in coarse elements.
+Assessment assessed(const test::SampleLift& files, const TemporaryFolder& folder) {
+  files.write(folder);
+  LiftCase lift_case = read_lift_case(".");
+  lift_case.structure.element_degree = 2;
+  lift_case.structure.accuracy = 1;
+  return assess(std::move(lift_case), OverEdges::nothing);
+}
+
+/// Force along x that the plates pass on between the pads and the middle web, N: a mean over
+/// sections, by midpoints along each plate.
+double force_through(const BlockRun& block, const structure::LoadCase& load) {
+  const structure::SteelFinder finder(block.model->space());
+  const Eigen::VectorXd motion = block.responses->displacement(load);
+  double force = 0;
+  const auto add = [&](const Vector3& from, const Vector3& to, double area) {
+    constexpr int points = 20;
+    const Vector3 normal = (to - from).cross(Vector3::UnitX()).normalized();
+    for (int i = 0; i < points; ++i) {
+      const Vector3 place = from + (i + 0.5) / points * (to - from);
+      force += structure::stresses_at(*block.model, motion, finder.find(place, normal))(0, 0) *
+               area / points;
+    }
+  };
+  constexpr int sections = 15;
+  for (int k = 0; k < sections; ++k) {
+    const double x = 0.5 + (k + 0.5) / sections * 1.5;
+    add({x, -1, 0}, {x, 1, 0}, 2 * 0.02 / sections);
+    add({x, -1, 1}, {x, 1, 1}, 2 * 0.02 / sections);
+    add({x, 0, 0}, {x, 0, 1}, 0.015 / sections);
+  }
+  return force;
+}
+
+// The box is a strut: at rest it is pressed by the level part of the slings' pull above, H = T
+// sin(wrap), which comes by the edges: at the lugs the slings are plumb, or nearly so. All load
+// cases are in balance, and the block's support bears nothing.
+TEST(SlingOverEdge, PressesTheBlock) {
+  for (const bool sharp : {false, true}) {
+    const TemporaryFolder folder;
+    const Assessment assessment = assessed(sharp ? sharp_edges() : sling_over_edge_lift(), folder);
+    const BlockRun& block = assessment.block;
+    ASSERT_TRUE(block.edges);
+    EXPECT_LT(block.history->static_state.largest_force_residual, 1e-10);
+    EXPECT_LT(block.history->dynamic_state.largest_moment_residual, 1e-10);
+    for (const LoadComparison& loads : block.assessment.simultaneous_by_rope)
+      EXPECT_LT(loads.dynamic_state.result.balance.reaction_over_weight, 1e-7);
+    const LoadComparison& maxima = block.assessment.per_rope_maxima;
+    EXPECT_LT(maxima.dynamic_state.result.balance.reaction_over_weight, 1e-7);
+    EXPECT_GT(maxima.dynamic_state.load.added.norm(), 1e3);
+
+    const dynamics::RopeHistory& sling = assessment.lift->static_history.rope("R1");
+    const LoadComparison& most = block.assessment.simultaneous_by_rope[0];
+    const Eigen::Index sample = Eigen::Index(std::find(assessment.lift->static_history.time.begin(),
+                                                       assessment.lift->static_history.time.end(),
+                                                       *most.static_state.time) -
+                                             assessment.lift->static_history.time.begin());
+    // Of a sharp edge the lug's pull has a small level part, too: together they are the pull above.
+    const double pressed = std::abs(sling.first_force(sample, 0));
+    EXPECT_GT(pressed, 2e4);
+    EXPECT_NEAR(-force_through(block, most.static_state.load), pressed, 0.02 * pressed);
+  }
+}
+
+// Round edges of 0.3 m across leave 1 - 0.5 / sqrt(4) = 3/4 of the breaking load of a wire rope of
+// 75 mm, as long as it touches them.
+TEST(SlingOverEdge, BendsTheRope) {
+  test::SampleLift files = sling_over_edge_lift();
+  files.rope += "diameter: 75 mm\n";
+  const OverEdges lift(files);
+  const std::vector<Check> checks = check_lift(lift.lift_case, *lift.run);
+  const auto of = [&](const std::string& name) {
+    for (const Check& check : checks)
+      if (check.name.starts_with(name)) return check;
+    throw std::logic_error(name);
+  };
+  EXPECT_NEAR(of("rope R1").limit, 0.75 * 1e6 / 5, 1e-6);
+  EXPECT_THAT(of("rope R2").note,
+              HasSubstr("bent round D/d 4.00 of edge fore: 75.0 % of the breaking load is left"));
+  const std::vector<Check> without = check_lift(over_edges().lift_case, *over_edges().run);
+  EXPECT_NEAR(without[0].limit, 1e6 / 5, 1e-6);
+  EXPECT_THAT(without[0].note, HasSubstr("no loss by bending is counted"));
 }
 
 }  // namespace

@@ -84,6 +84,14 @@ TEST(EdgesOfALoad, WithoutLengthOrSide) {
               HasSubstr("radius"));
 }
 
+TEST(EdgesOfALoad, OfABlockStandInItsFile) {
+  EXPECT_THAT(
+      about_case("load: {model: plate,",
+                 "load: {model: plate, edges: {rail: {from: [0 m, 0 m, 0 m], to: [1 m, 0 m, "
+                 "0 m], outside: [0, 0, 1]}},"),
+      HasSubstr("a block's edges stand in its model file"));
+}
+
 TEST(EdgesOfALoad, RoundALug) {
   const std::string text =
       about_block("outside: [-1, 0, 1], radius: 0.15 m", "outside: [-1, 0, 1], radius: 0.7 m");
