@@ -87,6 +87,11 @@ class LugMaker {
   void find_by_place() {
     int vertex = lug_.vertex;
     point_.p_BPin = lug_.pin ? *lug_.pin : mesh_.vertices[at(vertex)];
+    if (mesh_.shells.empty() && (vertex < 0 || lug_.radius > 0))
+      throw ModelError(
+          fmt::format("lug {}: the mesh has no plates that a pin at {} could hang on; name the "
+                      "node that carries it, or the set of bars",
+                      lug_.name, text_of(point_.p_BPin)));
     if (lug_.radius > 0) {
       take_shells([&](int corner) {
         return (mesh_.vertices[at(corner)] - point_.p_BPin).norm() <= lug_.radius;

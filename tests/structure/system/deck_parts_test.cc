@@ -2,6 +2,7 @@
 // their own, vertices between a shell's corners, layered plates, lugs.
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -182,6 +183,19 @@ TEST(DeckParts, LugsAreCarriedByWhatIsThere) {
     }
   EXPECT_THROW(add_lug(mesh, {.name = "far", .pin = Vector3(0, 0, 5)}), ModelError);
   EXPECT_THROW(add_lug(mesh, {.name = "far", .pin = Vector3(0, 0, 5), .radius = 2}), ModelError);
+}
+
+// Without plates nothing is near a pin: the node that carries it must be named.
+TEST(DeckParts, PinsNeedPlates) {
+  Mesh mesh = strip(1);
+  mesh.shells.clear();
+  try {
+    add_lug(mesh, {.name = "L1", .pin = Vector3(0, 0, 0.2), .radius = 0.5});
+    FAIL() << "a lug without plates";
+  } catch (const ModelError& error) {
+    EXPECT_NE(std::string(error.what()).find("lug L1: the mesh has no plates"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -64,6 +64,12 @@ void DeckLog::miss(SourceLine line, const std::string& name, const DeckOptions& 
     leave_out(name, "as was asked for");
     return;
   }
+  if (name.find(' ') != std::string::npos && !name.starts_with('*')) {
+    complain(line, fmt::format("the line has a comma, so that its fields end at commas, and \"{}\" "
+                               "is the name of no card",
+                               name));
+    return;
+  }
   complain(line, fmt::format("{} {} is not known here: what it says would be missing from the "
                              "model; leave_out names what may be missing",
                              name.starts_with('*') ? "the keyword" : "the card", name));

@@ -378,7 +378,9 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
   } catch (const UnusableProperty&) {
     throw;
   } catch (const CardError& error) {
-    model.log.complain(card.line(), error.text);
+    const std::string whose = fmt::format("{} {}", name, property);
+    model.log.complain(card.line(),
+                       error.text.starts_with(whose) ? error.text : whose + ": " + error.text);
     throw UnusableProperty{{fmt::format("{} {} cannot be used", name, property)}};
   }
 }

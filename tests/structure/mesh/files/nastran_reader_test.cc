@@ -392,6 +392,17 @@ SPC1,1,789,1
   EXPECT_THROW(read_nastran("/nowhere/deck.bdf", UnitSystem()), DeckError);
 }
 
+// A decimal comma in a small field makes the whole line one of free fields.
+TEST(NastranReader, SaysThatACommaDividesALine) {
+  EXPECT_THAT(complaints_of_nastran(square + "GRID    9               1.0     0.0     0,0\n"),
+              HasSubstr("the line has a comma, so that its fields end at commas, and \"GRID    9"));
+}
+
+TEST(NastranReader, NamesThePropertyThatLacksADimension) {
+  EXPECT_THAT(complaints_of_nastran(square + "CBEAM,9,9,1,2,0.,0.,1.\nPBEAML,9,7,,I\n,.1,.2,.3\n"),
+              HasSubstr("PBEAML 9: the dimension is missing"));
+}
+
 TEST(NastranReader, LeavesOutUnknownCardsThatItsUserNames) {
   EXPECT_THAT(complaints_of_nastran(square + "CBEND,9,9,1,2,0.,0.,1.,1\n"),
               HasSubstr("CBEND: curved bars are not known; make straight CBAR or CBEAM"));
