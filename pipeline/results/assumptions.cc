@@ -241,8 +241,13 @@ std::string deck_sentence(const MeshModel& mesh) {
       "The block is read from {} (units {}). A lug there is a place: its force is spread over the "
       "plates that meet in it or are named, or acts on the link or beam that it stands at. "
       "Stresses "
-      "of layered plates are their mean. Cards that are not used: {}.",
-      mesh.file.value, mesh.units.value, left_out.empty() ? "none" : left_out);
+      "of layered plates are their mean.{} Cards that are not used: {}.",
+      mesh.file.value, mesh.units.value,
+      mesh.deck && !mesh.deck->mesh.elasticities.empty()
+          ? " Solids whose material depends on the direction are checked by their von Mises "
+            "stress, which says little of their strength."
+          : "",
+      left_out.empty() ? "none" : left_out);
 }
 
 void add_block_assumptions(const Assessment& assessment, std::vector<std::string>& list) {

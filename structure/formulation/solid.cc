@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "structure/index.h"
+#include "structure/mesh/directional.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -23,14 +24,6 @@ Eigen::MatrixXd strain_operator(const Eigen::Matrix3Xd& g) {
     own.row(5) << g(2, i), 0, g(0, i);
   }
   return strain;
-}
-
-Eigen::Matrix<double, 6, 6> stiffness_law(const Material& material) {
-  Eigen::Matrix<double, 6, 6> law = Eigen::Matrix<double, 6, 6>::Zero();
-  law.topLeftCorner<3, 3>().setConstant(material.lame_lambda());
-  law.diagonal().head<3>().array() += 2 * material.shear_modulus();
-  law.diagonal().tail<3>().setConstant(material.shear_modulus());
-  return law;
 }
 
 }  // namespace
@@ -83,6 +76,16 @@ Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd&
   return stiffness;
 }
 
+Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd& places,
+                                const Elasticity& elasticity) {
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * kind.nodes, 3 * kind.nodes);
+  for (const SolidPoint& point : solid_points(kind, places)) {
+    const Eigen::MatrixXd strain = strain_operator(point.gradients);
+    stiffness.noalias() += strain.transpose() * (point.weight * elasticity * strain);
+  }
+  return stiffness;
+}
+
 Eigen::MatrixXd solid_mass(const ElementKind& kind, const Eigen::Matrix3Xd& places,
                            double density) {
   Eigen::MatrixXd of_nodes = Eigen::MatrixXd::Zero(kind.nodes, kind.nodes);
@@ -100,15 +103,18 @@ std::vector<SolidPoint> solid_points(const Mesh& mesh, const Solid& solid) {
 }
 
 Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid) {
-  return solid_stiffness(topology_of(solid.shape).kind, places_of(mesh, solid),
-                         mesh.materials[at(solid.material)]);
+  const ElementKind& kind = topology_of(solid.shape).kind;
+  const Eigen::Matrix3Xd places = places_of(mesh, solid);
+  return solid.elasticity >= 0
+             ? solid_stiffness(kind, places, mesh.elasticities[at(solid.elasticity)])
+             : solid_stiffness(kind, places, mesh.materials[at(solid.material)]);
 }
 
 Eigen::MatrixXd solid_stresses(const Space& space, int solid,
                                const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Mesh& mesh = space.mesh();
   const Solid& element = mesh.solids[at(solid)];
-  const Eigen::Matrix<double, 6, 6> law = stiffness_law(mesh.materials[at(element.material)]);
+  const Elasticity law = elasticity_of(mesh, element);
   const int* nodes = space.solid_nodes(solid);
   Eigen::MatrixXd local(3 * static_cast<Eigen::Index>(element.vertices.size()), motions.cols());
   for (std::size_t i = 0; i < element.vertices.size(); ++i)

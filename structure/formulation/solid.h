@@ -27,6 +27,10 @@ std::vector<SolidPoint> solid_points(const ElementKind& kind, const Eigen::Matri
 Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd& places,
                                 const Material& material);
 
+/// The same of any elasticity along the world's axes: K = int B' C B dV.
+Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd& places,
+                                const Elasticity& elasticity);
+
 /// Consistent mass of a solid, kg, its unknowns likewise: int rho N_i N_j dV for each axis.
 Eigen::MatrixXd solid_mass(const ElementKind& kind, const Eigen::Matrix3Xd& places, double density);
 

@@ -16,6 +16,7 @@ namespace {
 bool spans(int corners, int nodes, int i, int j, int k) {
   const bool quadratic = nodes > corners;
   if (corners == 4) return i + j + k <= (quadratic ? 2 : 1);
+  if (corners == 5) return i + j + k <= (quadratic ? 2 : 1);
   if (corners == 8) {
     if (!quadratic) return std::max({i, j, k}) <= 1;
     return nodes == 27 || (i == 2) + (j == 2) + (k == 2) <= 1;
@@ -25,12 +26,15 @@ bool spans(int corners, int nodes, int i, int j, int k) {
   return (i + j <= 2 && k <= 1) || (i + j <= 1 && k == 2);
 }
 
-Eigen::VectorXd monomials(const Eigen::Matrix3Xi& exponents, const Vector3& xi) {
+Eigen::VectorXd monomials(const Eigen::Matrix4Xi& exponents, const Vector3& xi) {
   Eigen::VectorXd values(exponents.cols());
+  const double left = 1 - xi.z();
+  const bool is_tip = std::abs(left) < 1e-12;  // x and y are zero there, along the axis
   for (Eigen::Index m = 0; m < values.size(); ++m) {
-    values[m] = 1;
+    values[m] = is_tip && exponents(3, m) > 0 ? 0 : 1;
     for (int a = 0; a < 3; ++a)
       for (int e = 0; e < exponents(a, m); ++e) values[m] *= xi[a];
+    for (int e = 0; !is_tip && e < exponents(3, m); ++e) values[m] /= left;
   }
   return values;
 }
@@ -38,14 +42,19 @@ Eigen::VectorXd monomials(const Eigen::Matrix3Xi& exponents, const Vector3& xi) 
 }  // namespace
 
 ElementShape::ElementShape(const ElementKind& kind) : corners_(kind.corners) {
-  std::vector<Eigen::Vector3i> list;
+  std::vector<Eigen::Vector4i> list;
   for (int k = 0; k <= 2; ++k)
     for (int j = 0; j <= 2; ++j)
       for (int i = 0; i <= 2; ++i)
-        if (spans(kind.corners, kind.nodes, i, j, k)) list.emplace_back(i, j, k);
+        if (spans(kind.corners, kind.nodes, i, j, k)) list.emplace_back(i, j, k, 0);
+  if (kind.corners == 5) list.emplace_back(1, 1, 0, 1);
+  if (kind.corners == 5 && kind.nodes > 5) {
+    list.emplace_back(2, 1, 0, 1);
+    list.emplace_back(1, 2, 0, 1);
+  }
   if (kind.dimension != 3 || static_cast<int>(list.size()) != kind.nodes)
     throw ModelError("elements of kind " + kind.name + " are not known");
-  exponents_.resize(3, kind.nodes);
+  exponents_.resize(4, kind.nodes);
   for (int m = 0; m < kind.nodes; ++m) exponents_.col(m) = list[static_cast<std::size_t>(m)];
   Eigen::MatrixXd at_nodes(kind.nodes, kind.nodes);  // (monomial, node)
   for (int n = 0; n < kind.nodes; ++n) at_nodes.col(n) = monomials(exponents_, kind.local.col(n));
@@ -59,17 +68,22 @@ Eigen::VectorXd ElementShape::values(const Vector3& xi) const {
 Eigen::MatrixX3d ElementShape::gradients(const Vector3& xi) const {
   Eigen::MatrixX3d slopes(exponents_.cols(), 3);
   for (int a = 0; a < 3; ++a) {
-    Eigen::Matrix3Xi lowered = exponents_;
+    Eigen::Matrix4Xi lowered = exponents_;
     lowered.row(a) = (lowered.row(a).array() - 1).max(0);
     slopes.col(a) =
         monomials(lowered, xi).cwiseProduct(exponents_.row(a).transpose().cast<double>());
   }
+  Eigen::Matrix4Xi raised = exponents_;  // d/dz of 1 / (1 - z)
+  raised.row(3).array() += 1;
+  slopes.col(2) += monomials(raised, xi).cwiseProduct(exponents_.row(3).transpose().cast<double>());
   return coefficients_ * slopes;
 }
 
 bool ElementShape::inside(const Vector3& xi, double slack) const {
   if (corners_ == 8) return xi.cwiseAbs().maxCoeff() <= 1 + slack;
   if (corners_ == 4) return xi.minCoeff() >= -slack && xi.sum() <= 1 + slack;
+  if (corners_ == 5)
+    return xi.z() >= -slack && xi.head<2>().cwiseAbs().maxCoeff() <= 1 - xi.z() + slack;
   return xi.head<2>().minCoeff() >= -slack && xi.head<2>().sum() <= 1 + slack &&
          std::abs(xi.z()) <= 1 + slack;
 }
@@ -78,6 +92,7 @@ bool ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place, d
                           Vector3& xi) const {
   xi = corners_ == 8   ? Vector3(0, 0, 0)
        : corners_ == 4 ? Vector3(0.25, 0.25, 0.25)
+       : corners_ == 5 ? Vector3(0, 0, 0.25)
                        : Vector3(1 / 3.0, 1 / 3.0, 0);
   for (int step = 0; step < 20; ++step) {
     const Vector3 miss = place - nodes * values(xi);

@@ -9,6 +9,12 @@ namespace blocklift::structure {
 /// Shape functions of an element kind at any place, through its nodes: polynomials of the space
 /// that the kind spans (complete for tetrahedra, products for hexahedra and wedges, serendipity
 /// where the inner nodes are missing). Source: Zienkiewicz, Taylor, Zhu (2013), chapter 6.
+///
+/// A pyramid over the square [-1, 1] x [-1, 1] at z = 0 with its tip at z = 1 has, beside the
+/// complete polynomials, x y / (1 - z), and of second order x^2 y / (1 - z) and x y^2 / (1 - z): on
+/// its faces these are the polynomials of its neighbours. Source: Bedrosian (1992), International
+/// Journal for Numerical Methods in Engineering 35. At the tip their slopes depend on the side from
+/// which it is looked at; those along the axis are given.
 class ElementShape {
  public:
   /// @throws ModelError if the kind is no solid that is known.
@@ -26,7 +32,7 @@ class ElementShape {
   bool inside(const Vector3& xi, double slack) const;
 
   int corners_;
-  Eigen::Matrix3Xi exponents_;    ///< of the monomials
+  Eigen::Matrix4Xi exponents_;    ///< of x, y, z and 1 / (1 - z) in the monomials
   Eigen::MatrixXd coefficients_;  ///< nodes x monomials
 };
 

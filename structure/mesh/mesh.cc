@@ -260,6 +260,7 @@ void check_mesh(const Mesh& mesh) {
             solid.label, "has another number of nodes than its shape");
     require(solid.material >= 0 && solid.material < count(mesh.materials), "solid", solid.label,
             "has no material");
+    require(solid.elasticity < count(mesh.elasticities), "solid", solid.label, "has no elasticity");
     require(least_jacobian_ratio(mesh, solid) > 0, "solid", solid.label,
             "is folded or has no volume");
   }

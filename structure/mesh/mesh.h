@@ -88,8 +88,12 @@ struct Beam {
   long label = 0;
 };
 
-/// Form of a solid: 4, 6 or 8 corners.
-enum class SolidShape { tetrahedron, wedge, hexahedron };
+/// Stiffness of a solid whose material depends on the direction, along the block's axes, Pa:
+///   sigma = C epsilon, both in the order xx, yy, zz, xy, yz, zx, strains of shear 2 epsilon_xy.
+using Elasticity = Eigen::Matrix<double, 6, 6>;
+
+/// Form of a solid: 4, 6, 8 or 5 corners.
+enum class SolidShape { tetrahedron, wedge, hexahedron, pyramid };
 
 /// Quadratic solid element. Its vertices move without turning: a plate or beam that ends on them is
 /// hinged there.
@@ -100,6 +104,9 @@ struct Solid {
   int material = 0;  ///< place in Mesh::materials
   int region = 0;    ///< place in Mesh::regions
   long label = 0;
+  /// Place in Mesh::elasticities where the material, but for its density and yield stress, is the
+  /// isotropic one that comes nearest; -1: it is all there is.
+  int elasticity = -1;
 };
 
 /// Mass at a vertex.
@@ -212,6 +219,7 @@ struct Mesh {
   std::vector<BeamSection> beam_sections;
   std::vector<Beam> beams;
   std::vector<Solid> solids;
+  std::vector<Elasticity> elasticities;
   std::vector<PointMass> masses;
   std::vector<RigidLink> rigid_links;
   std::vector<DistributingLink> distributing_links;

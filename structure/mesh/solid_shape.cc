@@ -12,7 +12,25 @@ namespace blocklift::structure {
 
 namespace {
 
+/// Gauss' rule in the coordinates in which a pyramid is a cube: x = (1 - z) xi, y = (1 - z) eta.
+/// There its shape functions and their slopes are polynomials.
+dealii::Quadrature<3> pyramid_rule() {
+  const dealii::QGauss<1> across(3), up(4);
+  std::vector<dealii::Point<3>> points;
+  std::vector<double> weights;
+  for (unsigned k = 0; k < up.size(); ++k)
+    for (unsigned j = 0; j < across.size(); ++j)
+      for (unsigned i = 0; i < across.size(); ++i) {
+        const double left = 1 - up.point(k)[0];
+        points.emplace_back(left * (2 * across.point(i)[0] - 1),
+                            left * (2 * across.point(j)[0] - 1), up.point(k)[0]);
+        weights.push_back(4 * left * left * across.weight(i) * across.weight(j) * up.weight(k));
+      }
+  return {points, weights};
+}
+
 dealii::Quadrature<3> unit_rule(int corners) {
+  if (corners == 5) return pyramid_rule();
   if (corners == 4) return dealii::QGaussSimplex<3>(3);
   if (corners == 6) return dealii::QGaussWedge<3>(3);
   return dealii::QGauss<3>(3);
@@ -120,9 +138,18 @@ SolidTopology hexahedron() {
       {4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11, 16, 17, 18, 19});
 }
 
-// The three shapes, in the order of SolidShape.
-const std::array<SolidTopology, 3>& topologies() {
-  static const std::array<SolidTopology, 3> all{tetrahedron(), wedge(), hexahedron()};
+SolidTopology pyramid() {
+  Eigen::Matrix3Xd corners(3, 5);
+  corners << -1, 1, 1, -1, 0, -1, -1, 1, 1, 0, 0, 0, 0, 0, 1;
+  return make_topology("pyramid", corners,
+                       {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
+                       {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}},
+                       {0, 3, 2, 1, 4, 8, 7, 6, 5, 9, 12, 11, 10});
+}
+
+// The shapes, in the order of SolidShape.
+const std::array<SolidTopology, 4>& topologies() {
+  static const std::array<SolidTopology, 4> all{tetrahedron(), wedge(), hexahedron(), pyramid()};
   return all;
 }
 
@@ -137,16 +164,16 @@ const SolidTopology& topology_of(SolidShape shape) {
 }
 
 const ElementShape& shape_of(SolidShape shape) {
-  static const std::array<ElementShape, 3> all{ElementShape(topologies()[0].kind),
-                                               ElementShape(topologies()[1].kind),
-                                               ElementShape(topologies()[2].kind)};
+  static const std::array<ElementShape, 4> all{
+      ElementShape(topologies()[0].kind), ElementShape(topologies()[1].kind),
+      ElementShape(topologies()[2].kind), ElementShape(topologies()[3].kind)};
   return all[static_cast<std::size_t>(shape)];
 }
 
 const ElementShape& linear_shape_of(SolidShape shape) {
-  static const std::array<ElementShape, 3> all{ElementShape(topologies()[0].linear_kind),
-                                               ElementShape(topologies()[1].linear_kind),
-                                               ElementShape(topologies()[2].linear_kind)};
+  static const std::array<ElementShape, 4> all{
+      ElementShape(topologies()[0].linear_kind), ElementShape(topologies()[1].linear_kind),
+      ElementShape(topologies()[2].linear_kind), ElementShape(topologies()[3].linear_kind)};
   return all[static_cast<std::size_t>(shape)];
 }
 

@@ -20,7 +20,8 @@ struct SolidTopology {
   std::vector<std::vector<int>> faces;    ///< corners around each, seen from outside
   std::vector<int> mirrored;              ///< nodes in the order that turns the solid's inside out
   /// Quadratic, with a rule that is exact for the stiffness of solids with straight edges and
-  /// parallel faces: 27 points of a hexahedron, 10 of a tetrahedron, 18 of a wedge at least.
+  /// parallel faces: 27 points of a hexahedron, 10 of a tetrahedron, 18 of a wedge at least, 36 of
+  /// a pyramid.
   ElementKind kind;
   ElementKind linear_kind;       ///< of the corners alone, without a rule
   Eigen::MatrixXd from_corners;  ///< points of the rule x corners: the corners' shape functions

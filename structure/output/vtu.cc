@@ -27,7 +27,7 @@ namespace {
 
 /// VTK's numbers of cells' shapes.
 constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quad = 9, vtk_tetra = 10,
-                       vtk_hexahedron = 12, vtk_wedge = 13;
+                       vtk_hexahedron = 12, vtk_wedge = 13, vtk_pyramid = 14;
 
 struct Content {
   std::vector<float> points, displacement, von_mises, top, bottom, membrane, thickness;
@@ -109,7 +109,10 @@ class Collector {
     static constexpr std::array<std::int32_t, 6> wedge{0, 2, 1, 3, 5, 4};
     for (int corner = 0; corner < corners; ++corner)
       content_.connectivity.push_back(first + (corners == 6 ? wedge[at(corner)] : corner));
-    content_.types.push_back(corners == 4 ? vtk_tetra : corners == 6 ? vtk_wedge : vtk_hexahedron);
+    content_.types.push_back(corners == 4   ? vtk_tetra
+                             : corners == 5 ? vtk_pyramid
+                             : corners == 6 ? vtk_wedge
+                                            : vtk_hexahedron);
     add_cell(solid.region, solid.material, 0);
   }
 

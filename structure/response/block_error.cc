@@ -11,6 +11,7 @@
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/mesh/directional.h"
 #include "structure/mesh/fields.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
@@ -202,7 +203,8 @@ SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, 
   in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
     for (int s = first; s < first + many; ++s) {
       const Solid& solid = mesh.solids[at(s)];
-      const Material& material = mesh.materials[at(solid.material)];
+      const Elasticity compliance = elasticity_of(mesh, solid).inverse();
+      const auto energy = [&](const Stress& stress) { return stress.dot(compliance * stress); };
       const Eigen::VectorXd own = solid_stresses(space, s, motion);
       const Resultants smooth =
           corners.of(at(s)) * topology_of(solid.shape).from_corners.transpose();
@@ -210,9 +212,8 @@ SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, 
       for (std::size_t q = 0; q < points.size(); ++q) {
         const auto column = static_cast<Eigen::Index>(q);
         const Stress s_h = own.segment<6>(6 * column);
-        norms.error[s] +=
-            points[q].weight * complementary_energy(material, smooth.col(column) - s_h);
-        norms.norm[s] += points[q].weight * complementary_energy(material, s_h);
+        norms.error[s] += points[q].weight * energy(smooth.col(column) - s_h);
+        norms.norm[s] += points[q].weight * energy(s_h);
       }
     }
   });

@@ -159,8 +159,8 @@ TEST_F(MeshCommand, BadDecksAreRefusedWithTheirLine) {
   const std::vector<Spoiled> all{
       {"box.bdf", "CQUAD4,1,1,1,2,3,4", "CQUAD4,1,77,1,2,3,4", "box.bdf:209",
        "error: CQUAD4: property 77 does not exist"},
-      {"box.bdf", "ENDDATA", "CPYRAM,9100,1,1,2,3,4\nENDDATA", "box.bdf:474",
-       "error: CPYRAM: pyramids are not known"},
+      {"box.bdf", "ENDDATA", "CBEND,9100,1,1,2,0.,0.,1.,1\nENDDATA", "box.bdf:474",
+       "error: CBEND: curved bars are not known"},
       {"box.bdf", "ENDDATA", "WEIRD,1,2\nENDDATA", "box.bdf:474",
        "error: the card WEIRD is not known here"},
       {"box.bdf", "ENDDATA", "CONROD,9100,1,9100,7,100.\nGRID,9100,,9.+3,0.,0.\nENDDATA",

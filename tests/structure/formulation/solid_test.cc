@@ -1,8 +1,12 @@
 // Solids among plates and beams: shapes, stiffness, mass, stresses, joints with plates.
 #include "structure/formulation/solid.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -10,6 +14,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/directional.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/system/assembly.h"
@@ -44,31 +49,51 @@ void add_grid(Mesh& mesh, const Vector3& size, const std::array<int, 3>& cells, 
       }
 }
 
-/// A box of solids of one shape: hexahedra, two wedges or six tetrahedra to each.
-Mesh box(SolidShape shape, const Vector3& size, const std::array<int, 3>& cells,
-         double disorder = 0) {
+/// Corners of the solids of one shape that make up a hexahedron with corners 0 to 7 and its middle
+/// 8: itself, two wedges, six tetrahedra or six pyramids.
+std::vector<std::vector<int>> parts_of(SolidShape shape) {
+  switch (shape) {
+    case SolidShape::tetrahedron:
+      return {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
+    case SolidShape::wedge:
+      return {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+    case SolidShape::pyramid:
+      return {{0, 1, 2, 3, 8}, {4, 5, 6, 7, 8}, {0, 1, 5, 4, 8},
+              {1, 2, 6, 5, 8}, {2, 3, 7, 6, 8}, {3, 0, 4, 7, 8}};
+    case SolidShape::hexahedron:
+      break;
+  }
+  return {{0, 1, 2, 3, 4, 5, 6, 7}};
+}
+
+/// A box of solids, the cells of which are in turn of either shape.
+Mesh box(const std::array<SolidShape, 2>& shapes, const Vector3& size,
+         const std::array<int, 3>& cells, double disorder = 0) {
   Mesh mesh = empty_mesh();
   add_grid(mesh, size, cells, disorder);
   const auto vertex = [&](int i, int j, int k) {
     return (k * (cells[1] + 1) + j) * (cells[0] + 1) + i;
   };
-  std::vector<std::vector<int>> parts{{0, 1, 2, 3, 4, 5, 6, 7}};
-  if (shape == SolidShape::wedge) parts = {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
-  if (shape == SolidShape::tetrahedron)
-    parts = {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
   SolidEdgeMiddles middles(mesh);
   for (int k = 0; k < cells[2]; ++k)
     for (int j = 0; j < cells[1]; ++j)
       for (int i = 0; i < cells[0]; ++i) {
-        const std::array<int, 8> corners{vertex(i, j, k),
-                                         vertex(i + 1, j, k),
-                                         vertex(i + 1, j + 1, k),
-                                         vertex(i, j + 1, k),
-                                         vertex(i, j, k + 1),
-                                         vertex(i + 1, j, k + 1),
-                                         vertex(i + 1, j + 1, k + 1),
-                                         vertex(i, j + 1, k + 1)};
-        for (const std::vector<int>& part : parts) {
+        std::vector<int> corners{vertex(i, j, k),
+                                 vertex(i + 1, j, k),
+                                 vertex(i + 1, j + 1, k),
+                                 vertex(i, j + 1, k),
+                                 vertex(i, j, k + 1),
+                                 vertex(i + 1, j, k + 1),
+                                 vertex(i + 1, j + 1, k + 1),
+                                 vertex(i, j + 1, k + 1)};
+        const SolidShape shape = shapes[at((i + j + k) % 2)];
+        if (shape == SolidShape::pyramid) {
+          Vector3 middle = Vector3::Zero();
+          for (const int corner : corners) middle += mesh.vertices[at(corner)] / 8;
+          corners.push_back(static_cast<int>(mesh.vertices.size()));
+          mesh.vertices.push_back(middle);
+        }
+        for (const std::vector<int>& part : parts_of(shape)) {
           Solid solid;
           solid.shape = shape;
           for (const int corner : part) solid.vertices.push_back(corners[at(corner)]);
@@ -79,55 +104,125 @@ Mesh box(SolidShape shape, const Vector3& size, const std::array<int, 3>& cells,
   return mesh;
 }
 
+/// A box of solids of one shape.
+Mesh box(SolidShape shape, const Vector3& size, const std::array<int, 3>& cells,
+         double disorder = 0) {
+  return box(std::array<SolidShape, 2>{shape, shape}, size, cells, disorder);
+}
+
 Eigen::SparseMatrix<double> whole(const SparseLower& lower) {
   Eigen::SparseMatrix<double> matrix = lower.cast<double>();
   return matrix.selfadjointView<Eigen::Lower>();
 }
 
-const std::array<SolidShape, 3> all_shapes{SolidShape::tetrahedron, SolidShape::wedge,
-                                           SolidShape::hexahedron};
+const std::array<SolidShape, 4> all_shapes{SolidShape::tetrahedron, SolidShape::wedge,
+                                           SolidShape::hexahedron, SolidShape::pyramid};
 
-// Patch test (Irons): under a linear displacement disordered solids have one stress, and no force
-// is left within.
+using SixStresses = Eigen::Matrix<double, 6, 1>;  // xx, yy, zz, xy, yz, zx
+
+/// Patch test (Irons): under a linear displacement disordered solids of a box have one stress, and
+/// no force is left within.
+void expect_patch(const Mesh& mesh, const Vector3& size, const Eigen::Matrix3d& slope,
+                  const SixStresses& exact) {
+  const Space space(mesh, {.degree = 2, .largest_edge = {}});
+  EXPECT_EQ(space.unknowns(), 3 * space.node_count());
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(space.freedoms());
+  for (Eigen::Index n = 0; n < space.node_count(); ++n)
+    motion.segment<3>(6 * n) = slope * space.nodes().col(n);
+  double worst = 0;
+  for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
+    const Eigen::MatrixXd stress = solid_corner_stresses(space, s, motion);
+    for (Eigen::Index c = 0; c < stress.rows() / 6; ++c)
+      worst = std::max(worst, (stress.col(0).segment<6>(6 * c) - exact).norm());
+  }
+  EXPECT_LT(worst, 1e-10 * exact.norm());
+  Eigen::VectorXd unknowns(space.unknowns());
+  for (int f = 0; f < space.freedoms(); ++f)
+    for (const Space::Term* term = space.begin_of(f); term != space.end_of(f); ++term)
+      unknowns[term->unknown] = motion[f];
+  const Eigen::VectorXd forces = whole(assemble_stiffness(space)) * unknowns;
+  double inner = 0;
+  Vector3 pull = Vector3::Zero();  // on the face at the end of x, and its edges
+  for (Eigen::Index n = 0; n < space.node_count(); ++n) {
+    const Vector3 place = space.nodes().col(n);
+    const double wall = std::min(place.minCoeff(), (size - place).minCoeff());
+    for (int c = 0; c < 3; ++c) {
+      const double force = forces[space.begin_of(static_cast<int>(6 * n) + c)->unknown];
+      if (wall > 1e-9) inner = std::max(inner, std::abs(force));
+      if (place.x() > size.x() - 1e-9) pull[c] += force;
+    }
+  }
+  EXPECT_LT(inner, 1e-10 * forces.cwiseAbs().maxCoeff());
+  if (exact.tail<5>().isZero(0)) {
+    EXPECT_NEAR(pull.x(), exact[0] * size.y() * size.z(), 1e-9 * pull.x());
+  }
+}
+
 TEST(Solids, PatchOfEachShape) {
   Eigen::Matrix3d slope;
   slope << 1e-4, 2e-4, -1e-4, 3e-4, -2e-4, 1e-4, 2e-4, 1e-4, 3e-4;
   const Eigen::Matrix3d strain = 0.5 * (slope + slope.transpose());
-  const Eigen::Matrix3d exact = metal.lame_lambda() * strain.trace() * Eigen::Matrix3d::Identity() +
-                                2 * metal.shear_modulus() * strain;
+  const Eigen::Matrix3d t = metal.lame_lambda() * strain.trace() * Eigen::Matrix3d::Identity() +
+                            2 * metal.shear_modulus() * strain;
+  SixStresses exact;
+  exact << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0);
+  const Vector3 size(3, 2, 2);
+  for (const SolidShape shape : all_shapes)
+    expect_patch(box(shape, size, {3, 2, 2}, 0.2), size, slope, exact);
+  // Faces of pyramids are those of their neighbours.
+  expect_patch(box({SolidShape::hexahedron, SolidShape::pyramid}, size, {3, 2, 2}, 0.2), size,
+               slope, exact);
+}
+
+// A block of an orthotropic material whose axis 1 stands 30 degrees from x towards y, pulled along
+// x: it grows longer by 1 / E_x, and shears. Closed form: Jones (1999), equations 2.88 and 2.97;
+// across the plane the contraction is that of both axes' shares.
+TEST(Solids, OrthotropicBlockPulledOffItsAxes) {
+  const OrthotropicConstants wood{{12e9, 0.9e9, 0.5e9}, {0.4, 0.45, 0.35}, {0.8e9, 0.7e9, 0.05e9}};
+  const Vector3 &e = wood.youngs_moduli, &nu = wood.poisson_ratios;
+  const double angle = std::acos(-1.0) / 6, c = std::cos(angle), s = std::sin(angle);
+  const double s11 = 1 / e[0], s12 = -nu[0] / e[0], s22 = 1 / e[1], s66 = 1 / wood.shear_moduli[0];
+  const double pull = 1e6;
+  const double along = s11 * c * c * c * c + (2 * s12 + s66) * c * c * s * s + s22 * s * s * s * s;
+  const double across = s12 * (c * c * c * c + s * s * s * s) + (s11 + s22 - s66) * c * c * s * s;
+  const double shear =
+      (2 * s11 - 2 * s12 - s66) * s * c * c * c - (2 * s22 - 2 * s12 - s66) * s * s * s * c;
+  Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
+  slope(0, 0) = pull * along;
+  slope(1, 1) = pull * across;
+  slope(2, 2) = -pull * (nu[1] / e[0] * c * c + nu[2] / e[1] * s * s);
+  slope(0, 1) = pull * shear;
+  SixStresses exact = SixStresses::Zero();
+  exact[0] = pull;
+  const Eigen::Matrix3d axes = Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+  const Vector3 size(3, 2, 2);
   for (const SolidShape shape : all_shapes) {
-    const Mesh mesh = box(shape, {3, 2, 2}, {3, 2, 2}, 0.2);
-    const Space space(mesh, {.degree = 2, .largest_edge = {}});
-    EXPECT_EQ(space.unknowns(), 3 * space.node_count());
-    Eigen::VectorXd motion = Eigen::VectorXd::Zero(space.freedoms());
-    for (Eigen::Index n = 0; n < space.node_count(); ++n)
-      motion.segment<3>(6 * n) = slope * space.nodes().col(n);
-    double worst = 0;
-    for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
-      const Eigen::MatrixXd stress = solid_corner_stresses(space, s, motion);
-      for (Eigen::Index c = 0; c < stress.rows() / 6; ++c) {
-        Eigen::Matrix<double, 6, 1> expected;
-        expected << exact(0, 0), exact(1, 1), exact(2, 2), exact(0, 1), exact(1, 2), exact(2, 0);
-        worst = std::max(worst, (stress.col(0).segment<6>(6 * c) - expected).norm());
-      }
-    }
-    EXPECT_LT(worst, 1e-10 * exact.norm());
-    // Forces at nodes within the box.
-    Eigen::VectorXd unknowns(space.unknowns());
-    for (int f = 0; f < space.freedoms(); ++f)
-      for (const Space::Term* term = space.begin_of(f); term != space.end_of(f); ++term)
-        unknowns[term->unknown] = motion[f];
-    const Eigen::VectorXd forces = whole(assemble_stiffness(space)) * unknowns;
-    double inner = 0;
-    for (Eigen::Index n = 0; n < space.node_count(); ++n) {
-      const Vector3 place = space.nodes().col(n);
-      const double wall = std::min({place.minCoeff(), 3 - place.x(), 2 - place.y(), 2 - place.z()});
-      if (wall < 1e-9) continue;
-      for (int c = 0; c < 3; ++c)
-        inner =
-            std::max(inner, std::abs(forces[space.begin_of(static_cast<int>(6 * n) + c)->unknown]));
-    }
-    EXPECT_LT(inner, 1e-10 * forces.cwiseAbs().maxCoeff());
+    Mesh mesh = box(shape, size, {3, 2, 2}, 0.2);
+    mesh.elasticities = {turned(orthotropic_elasticity(wood), axes)};
+    for (Solid& solid : mesh.solids) solid.elasticity = 0;
+    expect_patch(mesh, size, slope, exact);
+    EXPECT_NEAR(mass_properties(mesh).mass, 12 * metal.density, 1e-6);
+  }
+  EXPECT_TRUE(is_positive(orthotropic_elasticity(wood)));
+  EXPECT_FALSE(is_isotropic(orthotropic_elasticity(wood)));
+}
+
+// The elasticity of an isotropic material, by its nine constants and however it is turned, is that
+// of the formulation for such materials.
+TEST(Solids, IsotropicElasticityByItsConstants) {
+  const double e = metal.youngs_modulus, nu = metal.poisson_ratio, g = metal.shear_modulus();
+  const Elasticity law = turned(orthotropic_elasticity({{e, e, e}, {nu, nu, nu}, {g, g, g}}),
+                                Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).matrix());
+  EXPECT_TRUE(is_isotropic(law));
+  const Material nearest = nearest_isotropic(law);
+  EXPECT_NEAR(nearest.youngs_modulus, e, 1e-9 * e);
+  EXPECT_NEAR(nearest.poisson_ratio, nu, 1e-9);
+  for (const SolidShape shape : all_shapes) {
+    const Mesh mesh = box(shape, {1, 1.2, 0.8}, {1, 1, 1});
+    const Eigen::MatrixXd own = solid_stiffness(mesh, mesh.solids.front());
+    const Eigen::MatrixXd other =
+        solid_stiffness(topology_of(shape).kind, places_of(mesh, mesh.solids.front()), law);
+    EXPECT_LT((own - other).norm(), 1e-10 * own.norm());
   }
 }
 
@@ -209,6 +304,7 @@ TEST(Solids, CantileverOfTimoshenko) {
   EXPECT_GT(fine, coarse);
   EXPECT_NEAR(cantilever_ratio(SolidShape::wedge, {10, 2, 2}), 1, 0.02);
   EXPECT_NEAR(cantilever_ratio(SolidShape::tetrahedron, {10, 2, 2}), 1, 0.025);
+  EXPECT_NEAR(cantilever_ratio(SolidShape::pyramid, {10, 1, 1}), 1, 0.025);
 }
 
 // A plate of shells that goes on along the top of solids follows them: under a linear motion of

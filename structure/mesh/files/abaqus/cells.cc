@@ -43,6 +43,7 @@ const std::map<std::string, ElementType>& element_types() {
       {"SPRINGA", {Kind::spring, 2, 2}},   {"R3D3", {Kind::rigid, 3, 3}},
       {"R3D4", {Kind::rigid, 4, 4}},       {"RB3D2", {Kind::rigid, 2, 2}},
       {"C3D4", {Kind::solid, 4, 4}},       {"C3D4H", {Kind::solid, 4, 4}},
+      {"C3D5", {Kind::solid, 5, 5}},       {"C3D5H", {Kind::solid, 5, 5}},
       {"C3D6", {Kind::solid, 6, 6}},       {"C3D8", {Kind::solid, 8, 8}},
       {"C3D8R", {Kind::solid, 8, 8}},      {"C3D8I", {Kind::solid, 8, 8}},
       {"C3D8H", {Kind::solid, 8, 8}},      {"C3D10", {Kind::solid, 10, 10}},

@@ -1,11 +1,13 @@
 // Materials: elasticity, density, and the yield stress of a plastic curve.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/plausibility.h"
 
@@ -35,9 +37,9 @@ class MaterialBlocks {
     if (block.data.size() > lines_of(block.value("TYPE")) && block.name != "PLASTIC")
       model_.log.leave_out("*" + block.name, "values at other temperatures: the first are used");
     auto fields = block.data.front().fields();
-    if (lines_of(block.value("TYPE")) > 1 && block.data.size() > 1) {
-      fields.resize(8);  // the first line is full
-      const auto more = block.data[1].fields();
+    for (std::size_t i = 1; i < lines_of(block.value("TYPE")) && i < block.data.size(); ++i) {
+      fields.resize(8 * i);  // lines before the last are full
+      const auto more = block.data[i].fields();
       fields.insert(fields.end(), more.begin(), more.end());
     }
     if (block.name == "DENSITY")
@@ -95,10 +97,14 @@ class MaterialBlocks {
       read_orthotropic(type.starts_with("ORTHO"), fields);
       return;
     }
+    if (type.starts_with("ANISO")) {
+      read_matrix(fields);
+      return;
+    }
     if (type != "LAMINA")
       throw CardError{
-          fmt::format("elasticity of type {} is not known; ISOTROPIC, LAMINA, ORTHOTROPIC and "
-                      "ENGINEERING CONSTANTS are",
+          fmt::format("elasticity of type {} is not known; ISOTROPIC, LAMINA, ORTHOTROPIC, "
+                      "ENGINEERING CONSTANTS and ANISOTROPIC are",
                       type)};
     // E1, E2, nu12, G12, G13, G23
     std::array<double, 6> value{};
@@ -114,8 +120,7 @@ class MaterialBlocks {
   }
 
   // E1, E2, E3, nu12, nu13, nu23, G12, G13 / G23, or D1111, D1122, D2222, D1133, D2233, D3333,
-  // D1212, D1313 / D2323. A plate of it is in plane stress; a solid must be the same in all
-  // directions.
+  // D1212, D1313 / D2323. A plate of it is in plane stress.
   void read_orthotropic(bool is_by_stiffness, const std::vector<std::string_view>& fields) {
     const double stress = model_.units.stress();
     std::array<double, 9> v{};
@@ -147,9 +152,35 @@ class MaterialBlocks {
             rounding;
     material_.isotropic.youngs_modulus = material_.is_isotropic ? modulus : 1 / c(0, 0);
     material_.isotropic.poisson_ratio = material_.is_isotropic ? ratio : -c(0, 1) / c(0, 0);
-    if (!material_.is_isotropic)
-      material_.ply =
-          orthotropic_ply(1 / c(0, 0), 1 / c(1, 1), -c(0, 1) / c(0, 0), v[6], v[7], v[8], 0);
+    if (material_.is_isotropic) return;
+    material_.ply =
+        orthotropic_ply(1 / c(0, 0), 1 / c(1, 1), -c(0, 1) / c(0, 0), v[6], v[7], v[8], 0);
+    material_.of_solids =
+        orthotropic_elasticity({{1 / c(0, 0), 1 / c(1, 1), 1 / c(2, 2)},
+                                {-c(0, 1) / c(0, 0), -c(0, 2) / c(0, 0), -c(1, 2) / c(1, 1)},
+                                shear});
+  }
+
+  // D1111, D1122, D2222, D1133, D2233, D3333, D1112, D2212 / D3312, D1212, D1113, D2213, D3313,
+  // D1213, D1313, D1123 / D2223, D3323, D1223, D1323, D2323: of 11, 22, 33, 12, 13, 23 the upper
+  // half, column by column.
+  void read_matrix(const std::vector<std::string_view>& fields) {
+    static constexpr std::array<Eigen::Index, 6> order{0, 1, 2, 3, 5, 4};
+    Elasticity d;
+    std::size_t field = 0;
+    for (std::size_t j = 0; j < order.size(); ++j)
+      for (std::size_t i = 0; i <= j; ++i)
+        d(order[i], order[j]) = d(order[j], order[i]) =
+            abaqus_real(fields, field++, "elastic constant") * model_.units.stress();
+    if (!is_positive(d))
+      throw CardError{"the elastic constants belong to no material: its energy is not positive"};
+    const Material nearest = nearest_isotropic(d);
+    material_.isotropic.youngs_modulus = nearest.youngs_modulus;
+    material_.isotropic.poisson_ratio = nearest.poisson_ratio;
+    material_.is_isotropic = is_isotropic(d);
+    if (material_.is_isotropic) return;
+    material_.of_solids = d;
+    material_.is_for_solids_alone = true;
   }
 
   AbaqusModel& model_;
@@ -172,6 +203,24 @@ void read_abaqus_materials(AbaqusModel& model) {
       });
     }
   }
+}
+
+int abaqus_solid_material(AbaqusModel& model, const std::string& name) {
+  const auto found = model.materials.find(name);
+  if (found == model.materials.end() || !found->second.of_solids)
+    return abaqus_material(model, name);
+  AbaqusMaterial& material = found->second;
+  if (material.directional_place < 0) {
+    Material nearest = nearest_isotropic(*material.of_solids);
+    nearest.name = material.isotropic.name;
+    nearest.density = material.isotropic.density;
+    nearest.yield_stress = material.isotropic.yield_stress;
+    check_plausible(nearest, "material " + nearest.name, model.units, model.log, material.line,
+                    1e3);  // cores are soft
+    material.directional_place = static_cast<int>(model.deck.mesh.materials.size());
+    model.deck.mesh.materials.push_back(nearest);
+  }
+  return material.directional_place;
 }
 
 int abaqus_material(AbaqusModel& model, const std::string& name) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -60,8 +61,12 @@ struct AbaqusMaterial {
   Material isotropic;
   PlyMaterial ply;
   bool is_isotropic = true;
+  bool is_for_solids_alone = false;
+  /// What a solid has of it where it is not isotropic, in axes of its own.
+  std::optional<Elasticity> of_solids = std::nullopt;
   SourceLine line;
-  int place = -1;  ///< in Mesh::materials
+  int place = -1;              ///< in Mesh::materials
+  int directional_place = -1;  ///< likewise, of its nearest isotropic one
 };
 
 /// What the stages of reading share.
@@ -117,5 +122,16 @@ void read_abaqus_steps(AbaqusModel& model);
 void read_abaqus_materials(AbaqusModel& model);
 /// Place of a material in the mesh. @throws CardError if it does not exist or depends on direction.
 int abaqus_material(AbaqusModel& model, const std::string& name);
+/// The same for solids, which may depend on the direction.
+int abaqus_solid_material(AbaqusModel& model, const std::string& name);
+
+/// *ORIENTATION of a name in a scope. @throws CardError if there is none.
+const AbaqusBlock& abaqus_orientation(const AbaqusScope& scope, const std::string& name);
+/// Makes solids of the elements that a section has, of a place in the mesh's materials and one of
+/// its regions.
+void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const AbaqusBlock& section,
+                       const std::vector<int>& elements, int material, int region);
+/// Gives solids the middles of their edges.
+void complete_abaqus_solids(AbaqusModel& model);
 
 }  // namespace blocklift::structure

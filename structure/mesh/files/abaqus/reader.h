@@ -15,9 +15,9 @@ namespace blocklift::structure {
 /// - *TIE, *CONTACT PAIR that is tied
 /// - *ELEMENT: S3, S4, S8, STRI65 and their kin, B31, B32, B33, PIPE31, PIPE32 (a quadratic beam is
 ///   two), T3D2, T3D3, MASS, ROTARYI, SPRING1, SPRING2, SPRINGA, rigid R3D3 and R3D4;
-///   C3D4, C3D6, C3D8, C3D10, C3D15, C3D20 and their kin
-/// - *MATERIAL with ELASTIC (isotropic, LAMINA, ORTHOTROPIC, ENGINEERING CONSTANTS), DENSITY, the
-///   first stress of PLASTIC as yield stress
+///   C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20 and their kin
+/// - *MATERIAL with ELASTIC (isotropic, LAMINA, ORTHOTROPIC, ENGINEERING CONSTANTS, ANISOTROPIC of
+///   solids), DENSITY, the first stress of PLASTIC as yield stress; *ORIENTATION
 /// - *SHELL SECTION with OFFSET and COMPOSITE, *BEAM SECTION (BOX, CIRC, I, L, PIPE, RECT), *BEAM
 ///   GENERAL SECTION with CENTROID, SHEAR CENTER, SECTION POINTS, TRANSVERSE SHEAR STIFFNESS,
 ///   *SOLID SECTION of trusses and solids, *MASS, *ROTARY INERTIA, *NONSTRUCTURAL MASS, *RELEASE

@@ -12,7 +12,6 @@
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
-#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -57,7 +56,7 @@ class Sections {
       for (const AbaqusBlock* block : scope.blocks)
         if (block->name == "RELEASE") model_.guarded(*block, [&] { release(scope, *block); });
     check_all_have_sections();
-    complete_solids();
+    complete_abaqus_solids(model_);
   }
 
  private:
@@ -96,6 +95,7 @@ class Sections {
       if (!(section.thickness > 0)) throw CardError{"the thickness must be positive"};
       const std::string name = block.required("MATERIAL");
       const auto found = model_.materials.find(name);
+      if (found != model_.materials.end()) refuse_solids_alone(found->second);
       if (found != model_.materials.end() && !found->second.is_isotropic)
         laminate({{found->second.ply, section.thickness, 0}}, block, section);
       else
@@ -169,6 +169,14 @@ class Sections {
     return *share;
   }
 
+  static void refuse_solids_alone(const AbaqusMaterial& material) {
+    if (material.is_for_solids_alone)
+      throw CardError{
+          fmt::format("material {} is given as solids have it (ANISOTROPIC); a plate "
+                      "takes LAMINA, ORTHOTROPIC or ENGINEERING CONSTANTS",
+                      material.isotropic.name)};
+  }
+
   void read_layers(const AbaqusBlock& block, ShellSection& section) {
     std::vector<Ply> plies;
     std::vector<std::string> names;
@@ -179,6 +187,7 @@ class Sections {
       const auto found = model_.materials.find(names.back());
       if (found == model_.materials.end())
         throw CardError{fmt::format("material {} does not exist", fields[2])};
+      refuse_solids_alone(found->second);
       Ply ply;
       ply.material = found->second.ply;
       ply.thickness = abaqus_real(fields, 0, "thickness") * model_.units.length;
@@ -219,21 +228,18 @@ class Sections {
   Vector3 laminate_axis(const SectionBlocks& blocks) const {
     const std::string name = blocks.block->value("ORIENTATION");
     if (name.empty()) return blocks.scope->turn * Vector3::UnitX();
-    for (const AbaqusBlock* block : blocks.scope->blocks) {
-      if (block->name != "ORIENTATION" || block->value("NAME") != name) continue;
-      const std::string system = block->value("SYSTEM");
-      const bool is_plain =
-          (system.empty() || system == "RECTANGULAR") && !block->data.empty() &&
-          (block->data.size() < 2 || abaqus_real(block->data[1].fields(), 1, "angle", 0.0) == 0);
-      if (!is_plain)
-        throw CardError{
-            fmt::format("orientation {} is none of straight axes without further turn", name)};
-      const Fields fields = block->data[0].fields();
-      return blocks.scope->turn * Vector3(abaqus_real(fields, 0, "axis"),
-                                          abaqus_real(fields, 1, "axis"),
-                                          abaqus_real(fields, 2, "axis"));
-    }
-    throw CardError{fmt::format("orientation {} does not exist", name)};
+    const AbaqusBlock& block = abaqus_orientation(*blocks.scope, name);
+    const std::string system = block.value("SYSTEM");
+    const bool is_plain =
+        (system.empty() || system == "RECTANGULAR") && !block.data.empty() &&
+        (block.data.size() < 2 || abaqus_real(block.data[1].fields(), 1, "angle", 0.0) == 0);
+    if (!is_plain)
+      throw CardError{
+          fmt::format("orientation {} is none of straight axes without further turn", name)};
+    const Fields fields = block.data[0].fields();
+    return blocks.scope->turn * Vector3(abaqus_real(fields, 0, "axis"),
+                                        abaqus_real(fields, 1, "axis"),
+                                        abaqus_real(fields, 2, "axis"));
   }
 
   void add_shell(AbaqusDeckElement& element, int section, int of_region, const Vector3& axis_1) {
@@ -344,43 +350,8 @@ class Sections {
   void add_solids(const SectionBlocks& blocks, const std::vector<int>& solids) {
     const AbaqusBlock& block = *blocks.block;
     if (block.has("COMPOSITE")) throw CardError{"solids of layers are not known"};
-    const int material = abaqus_material(model_, block.required("MATERIAL"));
-    const int of_region = region(blocks, material);
-    for (const int e : solids) {
-      AbaqusDeckElement& element = model_.elements[at(e)];
-      if (element.solid >= 0)
-        throw CardError{fmt::format("element {} has two sections", element.label)};
-      Solid solid;
-      const std::size_t count = element.nodes.size();
-      solid.shape = count == 4 || count == 10   ? SolidShape::tetrahedron
-                    : count == 6 || count == 15 ? SolidShape::wedge
-                                                : SolidShape::hexahedron;
-      solid.vertices = element.nodes;
-      const auto corners = solid.vertices.begin() + topology_of(solid.shape).corners;
-      for (auto corner = solid.vertices.begin(); corner != corners; ++corner)
-        if (std::find(corner + 1, corners, *corner) != corners)
-          throw CardError{
-              fmt::format("element {} has one node twice: a solid whose corners fall "
-                          "together is not known; give it as a C3D6 or C3D4",
-                          element.label)};
-      solid.material = material;
-      solid.region = of_region;
-      solid.label = element.label;
-      element.solid = static_cast<int>(mesh_.solids.size());
-      mesh_.solids.push_back(std::move(solid));
-    }
-  }
-
-  /// First those that tell their edges' middles, which others have in common with them.
-  void complete_solids() {
-    SolidEdgeMiddles middles(mesh_);
-    for (const bool is_told : {true, false})
-      for (Solid& solid : mesh_.solids) {
-        const SolidTopology& topology = topology_of(solid.shape);
-        const bool is_quadratic = static_cast<int>(solid.vertices.size()) > topology.corners &&
-                                  solid.vertices.back() >= 0;
-        if (is_told == is_quadratic) complete_solid(mesh_, solid, middles);
-      }
+    const int material = abaqus_solid_material(model_, block.required("MATERIAL"));
+    add_abaqus_solids(model_, *blocks.scope, block, solids, material, region(blocks, material));
   }
 
   void add_trusses(const SectionBlocks& blocks, const std::vector<int>& trusses) {
@@ -448,24 +419,6 @@ class Sections {
 };
 
 }  // namespace
-
-std::vector<int> corners_of_face(const AbaqusDeckElement& solid, const std::string& face) {
-  // The faces of C3D4, C3D6 and C3D8 as Abaqus numbers them.
-  static const std::array<std::vector<std::vector<std::size_t>>, 3> faces{
-      {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
-       {{0, 1, 2}, {3, 5, 4}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
-       {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}}};
-  const std::size_t count = solid.nodes.size();
-  const auto& own = faces[count == 4 || count == 10 ? 0 : count == 6 || count == 15 ? 1 : 2];
-  const auto number =
-      face.size() == 2 && face[0] == 'S' ? static_cast<std::size_t>(face[1] - '1') : own.size();
-  if (number >= own.size())
-    throw CardError{fmt::format("face {} of element {} ({}) is not known; S1 to S{} are", face,
-                                solid.label, solid.type, own.size())};
-  std::vector<int> corners;
-  for (const std::size_t i : own[number]) corners.push_back(solid.nodes[i]);
-  return corners;
-}
 
 void read_abaqus_sections(AbaqusModel& model) {
   read_abaqus_materials(model);

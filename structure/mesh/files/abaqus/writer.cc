@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -102,14 +103,18 @@ class AbaqusText {
       line(fmt::format("*MATERIAL, NAME=M{}", m + 1));
       line("*ELASTIC");
       line(exact(material.youngs_modulus / units_.stress()) + ", " + exact(material.poisson_ratio));
-      if (material.density > 0) {
-        line("*DENSITY");
-        line(exact(material.density / units_.density()) + ",");
-      }
-      if (material.yield_stress > 0) {
-        line("*PLASTIC");
-        line(exact(material.yield_stress / units_.stress()) + ", 0.");
-      }
+      write_density_and_yield(material);
+    }
+  }
+
+  void write_density_and_yield(const Material& material) {
+    if (material.density > 0) {
+      line("*DENSITY");
+      line(exact(material.density / units_.density()) + ",");
+    }
+    if (material.yield_stress > 0) {
+      line("*PLASTIC");
+      line(exact(material.yield_stress / units_.stress()) + ", 0.");
     }
   }
 
@@ -286,11 +291,16 @@ class AbaqusText {
 
   /// One set and section for each region's solids of one shape and material.
   void write_solids() {
-    std::map<std::tuple<int, int, SolidShape>, std::vector<const Solid*>> kinds;
-    for (const Solid& solid : mesh_.solids)
-      kinds[{solid.region, solid.material, solid.shape}].push_back(&solid);
+    std::map<std::tuple<int, int, int, SolidShape>, std::vector<const Solid*>> kinds;
+    for (const Solid& solid : mesh_.solids) {
+      if (solid.shape == SolidShape::pyramid)
+        throw ModelError(fmt::format(
+            "solid {} is a pyramid with middles of its edges, which is not written here",
+            solid.label));
+      kinds[{solid.region, solid.material, solid.elasticity, solid.shape}].push_back(&solid);
+    }
     for (const auto& [kind, solids] : kinds) {
-      const auto& [region, material, shape] = kind;
+      const auto& [region, material, elasticity, shape] = kind;
       const std::string set = new_set();
       line(fmt::format("*ELEMENT, TYPE=C3D{}, ELSET={}", topology_of(shape).nodes(), set));
       for (const Solid* solid : solids) {
@@ -299,8 +309,37 @@ class AbaqusText {
           text += fmt::format("{}{}", i == 10 ? ",\n" : ", ", label(solid->vertices[i]));
         line(text);
       }
-      line(fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M{}", set, material + 1));
+      if (elasticity < 0) {
+        line(fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M{}", set, material + 1));
+        continue;
+      }
+      write_directional(material, elasticity);
+      line(fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M{}D{}, ORIENTATION=BASIC", set,
+                       material + 1, elasticity + 1));
     }
+  }
+
+  /// A material by its stiffness along the basic axes, once for each section that has it.
+  void write_directional(int material, int elasticity) {
+    if (written_.empty()) {
+      line("*ORIENTATION, NAME=BASIC");
+      line("1., 0., 0., 0., 1., 0.");
+    }
+    if (!written_.insert({material, elasticity}).second) return;
+    line(fmt::format("*MATERIAL, NAME=M{}D{}", material + 1, elasticity + 1));
+    line("*ELASTIC, TYPE=ANISOTROPIC");
+    // Of 11, 22, 33, 12, 13, 23 the upper half, column by column, eight on a line.
+    static constexpr std::array<Eigen::Index, 6> order{0, 1, 2, 3, 5, 4};
+    const Elasticity d = mesh_.elasticities[at(elasticity)] / units_.stress();
+    std::string text;
+    int count = 0;
+    for (std::size_t j = 0; j < order.size(); ++j)
+      for (std::size_t i = 0; i <= j; ++i) {
+        text += exact(d(order[i], order[j]));
+        text += ++count % 8 == 0 ? ",\n" : count < 21 ? ", " : "";
+      }
+    line(text);
+    write_density_and_yield(mesh_.materials[at(material)]);
   }
 
   /// A node of its own, rigidly held by a vertex.
@@ -481,6 +520,7 @@ class AbaqusText {
   std::vector<long> node_number_, shell_number_, beam_number_;
   std::vector<std::vector<int>> middles_;
   std::vector<std::string> element_sets_;
+  std::set<std::pair<int, int>> written_;  ///< materials with elasticities
   std::string text_;
 };
 

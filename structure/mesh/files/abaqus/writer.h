@@ -14,9 +14,9 @@ namespace blocklift::structure {
 /// masses away from their vertex hang on a node of their own. Load cases become steps that each
 /// state all supports and loads anew.
 ///
-/// @throws ModelError for what no keyword says: laminates, beams with other offsets at either end
-///   or released against displacement, springs with arms, links that bind a part of the
-///   displacements or rotations along axes of their own.
+/// @throws ModelError for what no keyword says: laminates, quadratic pyramids, beams with other
+///   offsets at either end or released against displacement, springs with arms, links that bind a
+///   part of the displacements or rotations along axes of their own.
 std::string to_abaqus(const Deck& deck);
 
 /// @throws ModelError also if the file cannot be written.

@@ -33,4 +33,11 @@ void check_poisson_ratio(const Material& material, const std::string& name) {
                                 name, material.poisson_ratio)};
 }
 
+std::string remark_on_directional_solids(int count) {
+  return fmt::format(
+      "{} {} of a material that depends on the direction: what is checked of such solids is the "
+      "von Mises stress, which says little of their strength",
+      count, count == 1 ? "solid is" : "solids are");
+}
+
 }  // namespace blocklift::structure

@@ -17,4 +17,7 @@ void check_plausible(const Material& material, const std::string& name, const Un
 /// apart, whatever ratio these stand for.)
 void check_poisson_ratio(const Material& material, const std::string& name);
 
+/// What is to be said of solids whose material depends on the direction.
+std::string remark_on_directional_solids(int count);
+
 }  // namespace blocklift::structure

@@ -367,7 +367,7 @@ void read_nastran_cells(NastranModel& model) {
     if (model.material_read.count(number) == 0)
       model.log.leave_out(card.name(), "some are of no element");
   for (const auto& [number, card] : model.properties)
-    if (model.bar_read.count(number) == 0 && model.solid_material_of.count(number) == 0 &&
+    if (model.bar_read.count(number) == 0 && model.solid_properties.count(number) == 0 &&
         std::none_of(
             model.shell_section_of.begin(), model.shell_section_of.end(),
             [&, number = number](const auto& entry) { return std::get<0>(entry.first) == number; }))

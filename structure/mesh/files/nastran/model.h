@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <unordered_map>
@@ -24,6 +25,8 @@ struct NastranMaterial {
   bool is_matrix = false;  ///< MAT2: its shear across the plate is known as MID3 alone
   /// MAT1 whose E and G stand for no Poisson's ratio of a plate or solid: it has no ply.
   bool is_for_bars_alone = false;
+  /// MAT9, MAT11: what a solid has of it, in axes of its own.
+  std::optional<Elasticity> of_solids = std::nullopt;
 };
 
 /// Property of a bar, beam or rod.
@@ -64,9 +67,9 @@ struct NastranModel {
   /// Numbers that are taken: by plates, bars and springs; by rigid elements; by masses.
   std::array<std::unordered_set<long>, 3> elements;
   std::unordered_set<long> solids;                   ///< read or left out
+  std::unordered_set<long> solid_properties;         ///< that solids have
   std::unordered_set<long> any_elements;             ///< that the deck has, known here or not
   std::vector<std::pair<long, long>> scalar_points;  ///< ranges of numbers, ends included
-  std::unordered_map<long, int> solid_material_of;   ///< property, place in Mesh::materials
   std::unordered_map<long, CardView> materials, properties;
   std::unordered_map<long, NastranMaterial> material_read;
   std::unordered_map<long, int> material_place;
@@ -103,7 +106,7 @@ struct NastranModel {
 void read_nastran_grids(NastranModel& model);
 /// CQUAD4 and so on, CBAR and so on, with their properties.
 void read_nastran_cells(NastranModel& model);
-/// CHEXA, CPENTA and CTETRA with PSOLID.
+/// CHEXA, CPENTA, CTETRA and CPYRAM with PSOLID.
 void read_nastran_solids(NastranModel& model);
 /// CONM1, CONM2, CMASS1, CMASS2.
 void read_nastran_masses(NastranModel& model);
@@ -133,7 +136,7 @@ struct UnusableProperty : CardError {};
 
 /// @throws CardError if there is no such material; UnusableProperty if what it says cannot be.
 const NastranMaterial& nastran_material(NastranModel& model, long number);
-/// The same; @throws CardError also if no plate or solid can be of it.
+/// The same; @throws CardError also if no plate can be of it.
 const NastranMaterial& nastran_plate_material(NastranModel& model, long number);
 /// Place of an isotropic material in the mesh. @throws CardError also if it is not isotropic.
 int nastran_material_place(NastranModel& model, long number);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/directional.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/nastran/model.h"
 
@@ -94,6 +95,49 @@ NastranMaterial read_anisotropic(NastranModel& model, const CardView& card) {
   material.is_isotropic = false;
   material.is_matrix = true;
   return material;
+}
+
+/// What MAT9 and MAT11 have in common: the elasticity in axes of its own, Pa.
+NastranMaterial of_solids(NastranModel& model, const CardView& card, const Elasticity& elasticity,
+                          double density) {
+  const std::string name = fmt::format("{} {}", card.name(), card.text(0));
+  if (!is_positive(elasticity))
+    throw CardError{
+        fmt::format("{}: the constants belong to no material: its energy is not positive", name)};
+  NastranMaterial material;
+  material.isotropic = nearest_isotropic(elasticity);
+  material.isotropic.name = name;
+  material.isotropic.density = density * model.units.density() * model.mass_factor;
+  check_plausible(material.isotropic, name, model.units, model.log, card.line(),
+                  least_modulus_of_cores);
+  material.is_isotropic = is_isotropic(elasticity);
+  if (material.is_isotropic)
+    material.ply = isotropic_ply(material.isotropic);
+  else
+    material.of_solids = elasticity;
+  return material;
+}
+
+/// MAT9 MID G11 G12 G13 G14 G15 G16 G22 / G23 ... G36 / G44 G45 G46 G55 G56 G66 RHO
+NastranMaterial read_solid_matrix(NastranModel& model, const CardView& card) {
+  Elasticity elasticity;
+  std::size_t field = 1;
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = i; j < 6; ++j)
+      elasticity(i, j) = elasticity(j, i) =
+          card.real(field++, "stiffness", 0.0) * model.units.stress();
+  return of_solids(model, card, elasticity, card.real(field, "density", 0.0));
+}
+
+/// MAT11 MID E1 E2 E3 NU12 NU13 NU23 G12 / G13 G23 RHO
+NastranMaterial read_solid_constants(NastranModel& model, const CardView& card) {
+  std::array<double, 9> v{};
+  static constexpr std::array<const char*, 9> names{"E1",   "E2",  "E3",  "NU12", "NU13",
+                                                    "NU23", "G12", "G13", "G23"};
+  for (std::size_t i = 0; i < v.size(); ++i)
+    v[i] = card.real(i + 1, names[i]) * (i >= 3 && i < 6 ? 1.0 : model.units.stress());
+  const OrthotropicConstants constants{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}};
+  return of_solids(model, card, orthotropic_elasticity(constants), card.real(10, "density", 0.0));
 }
 
 /// A plate's layers, whose stiffness is that of a plate of one material or is kept beside it.
@@ -287,10 +331,10 @@ const NastranMaterial& nastran_material(NastranModel& model, long number) {
     if (card.name() == "MAT1") return read_isotropic(model, card);
     if (card.name() == "MAT8") return read_orthotropic(model, card);
     if (card.name() == "MAT2") return read_anisotropic(model, card);
-    throw CardError{fmt::format(
-        "material {} depends on the direction in a solid, which is not known; give it a MAT1 that "
-        "is as stiff along what it bears, or leave solids out (leave_solids_out: true)",
-        number)};
+    if (card.name() == "MAT9") return read_solid_matrix(model, card);
+    if (card.name() == "MAT11") return read_solid_constants(model, card);
+    throw CardError{
+        fmt::format("material {} is a {}, which nothing here can be of", number, card.name())};
   });
   model.log.use(card.name());
   return model.material_read[number] = material;
@@ -299,6 +343,9 @@ const NastranMaterial& nastran_material(NastranModel& model, long number) {
 const NastranMaterial& nastran_plate_material(NastranModel& model, long number) {
   const NastranMaterial& material = nastran_material(model, number);
   if (material.is_for_bars_alone) check_poisson_ratio(material.isotropic, material.isotropic.name);
+  if (material.of_solids)
+    throw CardError{fmt::format("{} is a material of solids; a plate takes MAT1, MAT2 or MAT8",
+                                material.isotropic.name)};
   return material;
 }
 

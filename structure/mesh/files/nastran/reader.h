@@ -15,7 +15,8 @@ namespace blocklift::structure {
 ///   isotropic material becomes a laminate, its nearest isotropic plate beside it
 /// - CBAR, CBEAM with offsets and pin flags, CROD, CTUBE, CONROD; PBAR, PBARL, PBEAM, PBEAML (of
 ///   one section from end to end), PROD, PTUBE
-/// - CHEXA, CPENTA, CTETRA with and without middles of edges, PSOLID
+/// - CHEXA, CPENTA, CTETRA, CPYRAM with and without middles of edges, PSOLID with CORDM; MAT9,
+///   MAT11
 /// - CONM1, CONM2, CMASS1, CMASS2 (of all three directions), NSM, NSM1, NSML, NSML1, NSMADD,
 ///   PARAM WTMASS; RBE1, RBE2, RBE3, RBAR, RROD, RTRPLT, RJOINT; MPC that resists no motion of the
 ///   whole, or holds one freedom; CELAS1, CELAS2, CBUSH, CBUSH1D, PELAS, PBUSH,

@@ -1,12 +1,16 @@
 // Solid elements and their property.
 
 #include <array>
+#include <optional>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/directional.h"
+#include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/nastran/model.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -22,12 +26,13 @@ struct SolidCard {
   std::vector<int> middles;
 };
 
-const std::array<SolidCard, 3>& solid_cards() {
+const std::array<SolidCard, 4>& solid_cards() {
   // Nastran counts the upright edges before the upper ones.
-  static const std::array<SolidCard, 3> cards{
+  static const std::array<SolidCard, 4> cards{
       {{"CTETRA", SolidShape::tetrahedron, {4, 5, 6, 7, 8, 9}},
        {"CPENTA", SolidShape::wedge, {6, 7, 8, 12, 13, 14, 9, 10, 11}},
-       {"CHEXA", SolidShape::hexahedron, {8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}}}};
+       {"CHEXA", SolidShape::hexahedron, {8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}},
+       {"CPYRAM", SolidShape::pyramid, {5, 6, 7, 8, 9, 10, 11, 12}}}};
   return cards;
 }
 
@@ -48,6 +53,8 @@ class Solids {
     for (const bool is_told : {true, false})
       for (std::size_t s = 0; s < mesh.solids.size(); ++s)
         if (tells_middles_[s] == is_told) complete_solid(mesh, mesh.solids[s], middles);
+    if (directional_ > 0)
+      model_.log.remark(first_directional_, remark_on_directional_solids(directional_));
   }
 
  private:
@@ -75,17 +82,29 @@ class Solids {
       tells_middles = true;
     }
     const long property = card.label(1, "property");
-    solid.material = material_of(property);
+    const SolidProperty& of = property_of(property);
+    solid.material = of.material;
+    if (of.elasticity) {
+      if (directional_++ == 0) first_directional_ = card.line();
+      solid.elasticity = elasticity_of(property, of, solid, topology.corners);
+    }
     solid.region = nastran_region(model_, property, solid.material);
     model_.solids.insert(solid.label);
     model_.deck.mesh.solids.push_back(std::move(solid));
     tells_middles_.push_back(tells_middles);
   }
 
+  /// Of a property the place of its material in the mesh, and where that depends on the direction
+  /// its elasticity in the axes of a coordinate system.
+  struct SolidProperty {
+    int material = -1;
+    std::optional<Elasticity> elasticity;
+    long system = 0;
+  };
+
   // PSOLID PID MID CORDM IN STRESS ISOP FCTN
-  int material_of(long property) {
-    if (const auto known = model_.solid_material_of.find(property);
-        known != model_.solid_material_of.end())
+  const SolidProperty& property_of(long property) {
+    if (const auto known = properties_.find(property); known != properties_.end())
       return known->second;
     const auto found = model_.properties.find(property);
     if (found == model_.properties.end())
@@ -94,14 +113,60 @@ class Solids {
     if (card.name() != "PSOLID")
       throw CardError{fmt::format("a solid has property {}, which is a {}", property, card.name())};
     if (card.is(6, "PFLUID")) throw CardError{fmt::format("property {} is of a fluid", property)};
-    nastran_plate_material(model_, card.label(1, "material"));
-    const int material = nastran_material_place(model_, card.label(1, "material"));
+    const long number = card.label(1, "material");
+    const NastranMaterial& material = nastran_material(model_, number);
+    SolidProperty of;
+    if (material.of_solids) {
+      of.elasticity = material.of_solids;
+      of.system = card.integer(2, "CORDM", 0);
+      if (of.system < 0)
+        throw CardError{fmt::format(
+            "PSOLID {} has its material along the axes of each element (CORDM = {}), which are not "
+            "known; name a coordinate system",
+            property, of.system)};
+      model_.systems.get(of.system);  // is it there?
+      of.material = directional_place(number, material);
+    } else {
+      nastran_plate_material(model_, number);  // Poisson's ratio
+      of.material = nastran_material_place(model_, number);
+    }
     model_.log.use(card.name());
-    return model_.solid_material_of[property] = material;
+    model_.solid_properties.insert(property);
+    return properties_[property] = of;
+  }
+
+  int directional_place(long number, const NastranMaterial& material) {
+    std::vector<Material>& materials = model_.deck.mesh.materials;
+    const auto [found, is_new] =
+        directional_places_.try_emplace(number, static_cast<int>(materials.size()));
+    if (is_new) materials.push_back(material.isotropic);
+    return found->second;
+  }
+
+  /// One for all solids of a property along straight axes; about a cylinder or sphere each solid
+  /// has that of its centre.
+  int elasticity_of(long property, const SolidProperty& of, const Solid& solid, int corners) {
+    std::vector<Elasticity>& all = model_.deck.mesh.elasticities;
+    const LocalSystem& system = model_.systems.get(of.system);
+    const bool is_straight = system.kind == SystemKind::rectangular;
+    if (const auto known = straight_.find(property); is_straight && known != straight_.end())
+      return known->second;
+    Vector3 centre = Vector3::Zero();
+    for (int i = 0; i < corners; ++i)
+      centre += model_.place(solid.vertices[at(i)]) / (corners * model_.units.length);
+    all.push_back(turned(*of.elasticity, system.axes_at(centre)));
+    const int place = static_cast<int>(all.size()) - 1;
+    if (is_straight) straight_[property] = place;
+    return place;
   }
 
   NastranModel& model_;
   std::vector<bool> tells_middles_;
+  std::unordered_map<long, SolidProperty> properties_;
+  std::unordered_map<long, int> directional_places_;  ///< by material
+  std::unordered_map<long, int> straight_;            ///< elasticities by property
+  int directional_ = 0;                               ///< solids
+  SourceLine first_directional_;
 };
 
 }  // namespace

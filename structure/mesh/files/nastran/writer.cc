@@ -363,13 +363,15 @@ class NastranText {
         {SolidShape::tetrahedron, {"CTETRA", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}},
         {SolidShape::wedge, {"CPENTA", {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11}}},
         {SolidShape::hexahedron,
-         {"CHEXA", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}}}};
-    std::map<std::pair<int, int>, long> properties;
+         {"CHEXA", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}}},
+        {SolidShape::pyramid, {"CPYRAM", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}}}};
+    std::map<std::tuple<int, int, int>, long> properties;
     for (const Solid& solid : mesh_.solids) {
-      const auto [found, is_new] = properties.try_emplace({solid.region, solid.material}, 0);
+      const auto [found, is_new] =
+          properties.try_emplace({solid.region, solid.material, solid.elasticity}, 0);
       if (is_new) {
         found->second = properties_.take(0);
-        out_.card("PSOLID", {found->second, static_cast<long>(solid.material) + 1});
+        out_.card("PSOLID", {found->second, material_of(solid)});
         note_group(found->second, solid.region);
       }
       const auto& [name, order] = cards.at(solid.shape);
@@ -377,6 +379,18 @@ class NastranText {
       for (const int node : order) fields.emplace_back(label(solid.vertices[at(node)]));
       out_.card(name, fields);
     }
+  }
+
+  /// Where it depends on the direction a MAT9 along the basic axes, which PSOLID means.
+  long material_of(const Solid& solid) {
+    if (solid.elasticity < 0) return static_cast<long>(solid.material) + 1;
+    const Elasticity g = mesh_.elasticities[at(solid.elasticity)] / units_.stress();
+    Fields fields{++next_material_};
+    for (Eigen::Index i = 0; i < 6; ++i)
+      for (Eigen::Index j = i; j < 6; ++j) fields.emplace_back(g(i, j));
+    fields.emplace_back(mesh_.materials[at(solid.material)].density / units_.density());
+    out_.card("MAT9", fields);
+    return next_material_;
   }
 
   void write_masses() {

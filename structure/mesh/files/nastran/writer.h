@@ -13,7 +13,8 @@ namespace blocklift::structure {
 /// Fields are small where all of a card's values are short, else large: reals keep eleven digits.
 /// Cards: GRID, CORD2R, CQUAD4, CQUAD8, CTRIA3, CTRIA6, PSHELL (laminates by MAT2), MAT1, CBAR,
 /// CBEAM (where the shear centre is not the centroid), CROD, CONM2, RBE2, RBE3, CELAS2, CBUSH
-/// (springs with arms), SPC1, SPC, FORCE, MOMENT, PLOAD4, PLOAD1, GRAV, LOAD.
+/// (springs with arms), CTETRA, CPENTA, CHEXA, CPYRAM, PSOLID, MAT9, SPC1, SPC, FORCE, MOMENT,
+/// PLOAD4, PLOAD1, GRAV, LOAD.
 ///
 /// @throws ModelError for what no card says: shells without section or curved beyond quadratic,
 ///   supports along different axes at a vertex, springs whose arms do not meet.

@@ -158,15 +158,20 @@ TEST(AbaqusMaterials, ByDirections) {
       HasSubstr("the elastic constants belong to no material"));
 }
 
-// Solids bear alike in all directions here.
-TEST(AbaqusMaterials, SolidsOfDirectionsAreRefused) {
+// A lamina says nothing of what lies across it, and 21 constants are more than a plate has.
+TEST(AbaqusMaterials, PlatesAndSolidsOfDirections) {
   EXPECT_THAT(
-      complaints_of_abaqus(
-          "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n"
-          "*ELEMENT, TYPE=C3D4, ELSET=ALL\n1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n"
-          "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n135.E9, 10.E9, 10.E9, .3, .3, .4, 5.E9, 5.E9\n"
-          "3.5E9\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n"),
+      complaints_of_abaqus("*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n"
+                           "*ELEMENT, TYPE=C3D4, ELSET=ALL\n1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n"
+                           "*ELASTIC, TYPE=LAMINA\n135.E9, 10.E9, .3, 5.E9, 5.E9, 3.5E9\n"
+                           "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n"),
       HasSubstr("material M depends on the direction; an isotropic one is due"));
+  EXPECT_THAT(complaints_of_abaqus(one_shell + "*MATERIAL, NAME=M\n*ELASTIC, TYPE=ANISOTROPIC\n"
+                                               "10.E9, 1.E9, 20.E9, 1.E9, 1.E9, 30.E9, 0., 0.\n"
+                                               "0., 4.E9, 0., 0., 0., 0., 5.E9, 0.\n"
+                                               "0., 0., 0., 0., 6.E9\n"
+                                               "*SHELL SECTION, ELSET=ALL, MATERIAL=M\n.01\n"),
+              HasSubstr("material M is given as solids have it (ANISOTROPIC)"));
 }
 
 }  // namespace

@@ -1,10 +1,15 @@
 // Solids of Nastran's and Abaqus' decks.
 #include <algorithm>
+#include <cmath>
+#include <string>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "structure/error.h"
 #include "structure/mesh/diagnosis.h"
+#include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/reader.h"
@@ -39,6 +44,161 @@ PSOLID,5,7
 PSOLID,6,7
 MAT1,7,206.+9,,.3,7850.
 )";
+
+const std::string abaqus_solids = R"(*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+9, .5, .5, 3.
+*ELEMENT, TYPE=C3D8R, ELSET=CUBE
+10, 1, 2, 3, 4, 5, 6, 7, 8
+*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL
+*SURFACE, NAME=TOP
+CUBE, S2
+*COUPLING, REF NODE=9, SURFACE=TOP, CONSTRAINT NAME=C
+*DISTRIBUTING
+*MATERIAL, NAME=STEEL
+*ELASTIC
+206.E9, .3
+*DENSITY
+7850.
+)";
+
+/// With a pyramid on the side of the cube.
+const std::string abaqus_solids_with_pyramid = [] {
+  std::string deck = abaqus_solids;
+  deck.insert(deck.find("*ELEMENT"), "20, 2., .5, .5\n");
+  deck.insert(deck.find("*SOLID"), "*ELEMENT, TYPE=C3D5, ELSET=CUBE\n11, 2, 3, 7, 6, 20\n");
+  deck.replace(deck.find("CUBE, S2"), 8, "11, S3");
+  return deck;
+}();
+
+const std::string nastran_wood = "MAT11,7,12.+9,.9+9,.5+9,.4,.45,.35,.8+9\n,.7+9,.05+9,500.\n";
+
+/// The same, in axes of its own.
+Elasticity wood() {
+  return orthotropic_elasticity({{12e9, 0.9e9, 0.5e9}, {0.4, 0.45, 0.35}, {0.8e9, 0.7e9, 0.05e9}});
+}
+
+Eigen::Matrix3d turn_about_z(double degrees) {
+  return Eigen::AngleAxisd(degrees * std::acos(-1.0) / 180, Vector3::UnitZ()).toRotationMatrix();
+}
+
+const Elasticity& elasticity_in(const Deck& deck, std::size_t solid) {
+  return deck.mesh.elasticities.at(static_cast<std::size_t>(deck.mesh.solids.at(solid).elasticity));
+}
+
+// A pyramid of a third of a cube beside the cube, on its face x = 1.
+TEST(SolidDecks, PyramidsStandOnHexahedra) {
+  const std::string grids = nastran_solids.substr(0, nastran_solids.find("GRID,9"));
+  const std::string tip = "GRID,20,,2.,.5,.5\n";
+  const Deck deck = nastran(grids + tip +
+                            "CHEXA,101,5,1,2,3,4,5,6\n,7,8\nCPYRAM,102,5,2,3,7,6,20\n"
+                            "PSOLID,5,7\nMAT1,7,206.+9,,.3,7850.\n");
+  ASSERT_EQ(deck.mesh.solids.size(), 2U);
+  EXPECT_EQ(deck.mesh.solids[1].shape, SolidShape::pyramid);
+  EXPECT_EQ(deck.mesh.solids[1].vertices.size(), 13U);
+  EXPECT_EQ(deck.mesh.vertices.size(), 8U + 1 + 12 + 8 - 4);  // the base's middles are the cube's
+  EXPECT_EQ(outer_faces(deck.mesh).size(), 5U + 4);
+  const MeshMass mass = mass_properties(deck.mesh);
+  EXPECT_NEAR(mass.mass, 7850 * (1 + 1 / 3.0), 1e-8 * 7850);
+  // The centre of a pyramid lies a quarter of its height from the base.
+  EXPECT_NEAR(mass.centre.x(), (0.5 + 1.25 / 3) / (1 + 1 / 3.0), 1e-10);
+  EXPECT_EQ(diagnose(deck.mesh, {}).parts, 1);
+  const DeckFolder folder;
+  write_nastran(deck, folder.path() / "again.bdf");
+  const Deck again = read_nastran(folder.path() / "again.bdf", deck.units);
+  EXPECT_LT(
+      (places_of(again.mesh, again.mesh.solids[1]) - places_of(deck.mesh, deck.mesh.solids[1]))
+          .norm(),
+      1e-10);
+  EXPECT_THROW(write_abaqus(deck, folder.path() / "again.inp"), ModelError);
+  const std::string abaqus_deck = abaqus_solids_with_pyramid;
+  const Deck other = abaqus(abaqus_deck);
+  EXPECT_EQ(other.mesh.solids.at(1).shape, SolidShape::pyramid);
+  EXPECT_NEAR(mass_properties(other.mesh).mass, mass.mass, 1e-8 * 7850);
+  // S3 of a C3D5 is that of its second, fifth and third node.
+  ASSERT_EQ(other.mesh.distributing_links.size(), 1U);
+  EXPECT_EQ(other.mesh.distributing_links[0].vertices.size(), 3U);
+}
+
+// Axis 1 stands 30 degrees from x; the same by constants, by the matrix, and by Abaqus' words.
+TEST(SolidDecks, DirectionalMaterialsHaveAxesOfTheirOwn) {
+  const std::string cube =
+      nastran_solids.substr(0, nastran_solids.find("GRID,9")) + "CHEXA,101,5,1,2,3,4,5,6\n,7,8\n";
+  const std::string system = "CORD2R,3,,0.,0.,0.,0.,0.,1.\n,.8660254037844387,.5,0.\n";
+  const Deck deck = nastran(cube + system + "PSOLID,5,7,3\n" + nastran_wood);
+  const Elasticity expected = turned(wood(), turn_about_z(30));
+  EXPECT_LT((elasticity_in(deck, 0) - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_NEAR(mass_properties(deck.mesh).mass, 500, 1e-6);
+  ASSERT_FALSE(deck.remarks.empty());
+  EXPECT_THAT(deck.remarks.back().text, HasSubstr("1 solid is of a material that depends on the"));
+  EXPECT_EQ(entry(deck, "MAT11").used, 1);
+  // Written as MAT9 in the basic axes, and as an anisotropic material, and read again.
+  const DeckFolder folder;
+  write_nastran(deck, folder.path() / "again.bdf");
+  const Deck again = read_nastran(folder.path() / "again.bdf", deck.units);
+  EXPECT_LT((elasticity_in(again, 0) - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_NEAR(mass_properties(again.mesh).mass, 500, 1e-6);
+  write_abaqus(deck, folder.path() / "again.inp");
+  const Deck other = read_abaqus(folder.path() / "again.inp", deck.units);
+  EXPECT_LT((elasticity_in(other, 0) - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_NEAR(mass_properties(other.mesh).mass, 500, 1e-6);
+  // A MAT9 that is the same in all directions is a MAT1.
+  const Deck even = nastran(cube +
+                                "PSOLID,5,7\nMAT9,7,3.+9,1.+9,1.+9,,,,3.+9\n,1.+9,,,,3.+9,,,\n"
+                                ",1.+9,,,1.+9,,1.+9,500.\n",
+                            "m-kg-N", {});
+  EXPECT_TRUE(even.mesh.elasticities.empty());
+}
+
+// About a cylinder each solid has the axes at its centre.
+TEST(SolidDecks, DirectionalMaterialsAboutACylinder) {
+  const std::string solids = nastran_solids.substr(0, nastran_solids.find("GRID,9")) +
+                             "GRID,9,,2.,0.,0.\nGRID,10,,2.,1.,0.\nGRID,11,,2.,1.,1.\n"
+                             "GRID,12,,2.,0.,1.\nCHEXA,101,5,1,2,3,4,5,6\n,7,8\n"
+                             "CHEXA,102,5,2,9,10,3,6,12\n,11,7\n";
+  const std::string system = "CORD2C,3,,0.5,-0.5,0.,.5,-.5,1.\n,1.5,-.5,0.\n";
+  const Deck deck = nastran(solids + system + "PSOLID,5,7,3\n" + nastran_wood);
+  ASSERT_EQ(deck.mesh.elasticities.size(), 2U);
+  const Elasticity above = turned(wood(), turn_about_z(90)),
+                   slanting = turned(wood(), turn_about_z(45));
+  EXPECT_LT((elasticity_in(deck, 0) - above).norm(), 1e-9 * above.norm());
+  EXPECT_LT((elasticity_in(deck, 1) - slanting).norm(), 1e-9 * slanting.norm());
+}
+
+TEST(SolidDecks, AbaqusOrientationsOfSolids) {
+  std::string wooden = abaqus_solids.substr(0, abaqus_solids.find("*MATERIAL"));
+  wooden.replace(wooden.find("MATERIAL=STEEL"), 14, "MATERIAL=WOOD, ORIENTATION=GRAIN");
+  wooden +=
+      "*MATERIAL, NAME=WOOD\n*DENSITY\n500.\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
+      "12.E9, .9E9, .5E9, .4, .45, .35, .8E9, .7E9,\n.05E9\n";
+  const auto with = [&](const std::string& orientation) {
+    return abaqus(wooden + "*ORIENTATION, NAME=GRAIN" + orientation);
+  };
+  const auto expect_turned = [&](const Deck& deck, double degrees) {
+    const Elasticity expected = turned(wood(), turn_about_z(degrees));
+    EXPECT_LT((elasticity_in(deck, 0) - expected).norm(), 1e-9 * expected.norm()) << degrees;
+    EXPECT_NEAR(mass_properties(deck.mesh).mass, 500, 1e-6);
+  };
+  expect_turned(with("\n1., 0., 0., 0., 1., 0.\n"), 0);
+  expect_turned(with("\n1., 0., 0., 0., 1., 0.\n3, 30.\n"), 30);
+  expect_turned(with("\n0., 1., 0., -1., 0., 0.\n"), 90);
+  // About an axis through (0.5, -0.5): the cube's centre lies above it.
+  expect_turned(with(", SYSTEM=CYLINDRICAL\n.5, -.5, 0., .5, -.5, 1.\n"), 90);
+  const auto complaints = [&](const std::string& orientation) {
+    return complaints_of_abaqus(wooden + "*ORIENTATION, NAME=GRAIN" + orientation);
+  };
+  EXPECT_THAT(complaints(", SYSTEM=SPHERICAL\n0., 0., 0., 0., 0., 1.\n"),
+              HasSubstr("SYSTEM = SPHERICAL of orientation GRAIN is not known"));
+  EXPECT_THAT(complaints("\n1., 0., 0., 2., 0., 0.\n"), HasSubstr("lie on a line"));
+  EXPECT_THAT(complaints_of_abaqus(wooden), HasSubstr("orientation GRAIN does not exist"));
+}
 
 TEST(SolidDecks, NastransCardsMakeQuadraticSolids) {
   const Deck deck = nastran(nastran_solids);
@@ -81,30 +241,6 @@ TEST(SolidDecks, NastransMiddlesStandWhereTheyAreTold) {
     EXPECT_LT((place(8 + e) - middle).norm(), 1e-12) << e;
   }
 }
-
-const std::string abaqus_solids = R"(*NODE
-1, 0., 0., 0.
-2, 1., 0., 0.
-3, 1., 1., 0.
-4, 0., 1., 0.
-5, 0., 0., 1.
-6, 1., 0., 1.
-7, 1., 1., 1.
-8, 0., 1., 1.
-9, .5, .5, 3.
-*ELEMENT, TYPE=C3D8R, ELSET=CUBE
-10, 1, 2, 3, 4, 5, 6, 7, 8
-*SOLID SECTION, ELSET=CUBE, MATERIAL=STEEL
-*SURFACE, NAME=TOP
-CUBE, S2
-*COUPLING, REF NODE=9, SURFACE=TOP, CONSTRAINT NAME=C
-*DISTRIBUTING
-*MATERIAL, NAME=STEEL
-*ELASTIC
-206.E9, .3
-*DENSITY
-7850.
-)";
 
 TEST(SolidDecks, AbaqusSolidsAndCouplingsOfTheirFaces) {
   const Deck deck = abaqus(abaqus_solids);
@@ -209,12 +345,18 @@ TEST(SolidDecks, SaysWhatIsWrong) {
               HasSubstr("CTETRA: property 6 does not exist"));
   EXPECT_THAT(complaints_of_nastran(grids + "CTETRA,103,6,2,12,3,6\nPSHELL,6,7,.01\n" + material),
               HasSubstr("a solid has property 6, which is a PSHELL"));
-  EXPECT_THAT(complaints_of_nastran(grids + "CPYRAM,103,6,1,2,3,4,5\n"),
-              HasSubstr("CPYRAM: pyramids are not known"));
-  const std::string in_directions = complaints_of_nastran(
-      grids + "CTETRA,103,6,2,12,3,6\nPSOLID,6,7\nMAT9,7,2.+11,6.+10,6.+10\n");
-  EXPECT_THAT(in_directions, HasSubstr("MAT9: material 7 depends on the direction in a solid"));
-  EXPECT_THAT(in_directions, ::testing::Not(HasSubstr("does not exist")));
+  EXPECT_THAT(complaints_of_nastran(grids + "CPYRAM,103,6,1,2,3,4\nPSOLID,6,7\n" + material),
+              HasSubstr("CPYRAM"));
+  // Poisson's ratio of 2 with three equal moduli: it would give off energy.
+  EXPECT_THAT(complaints_of_nastran(grids + "CTETRA,103,6,2,12,3,6\nPSOLID,6,7\n"
+                                            "MAT11,7,2.+9,2.+9,2.+9,2.,2.,2.,1.+9\n,1.+9,1.+9\n"),
+              HasSubstr("MAT11 7: the constants belong to no material"));
+  EXPECT_THAT(
+      complaints_of_nastran(grids + "CTETRA,103,6,2,12,3,6\nPSOLID,6,7,-1\n" + nastran_wood),
+      HasSubstr("along the axes of each element (CORDM = -1)"));
+  EXPECT_THAT(
+      complaints_of_nastran(grids + "CQUAD4,103,6,1,2,3,4\nPSHELL,6,7,.01\n" + nastran_wood),
+      HasSubstr("MAT11 7 is a material of solids; a plate takes MAT1, MAT2 or MAT8"));
   std::string without = abaqus_solids;
   without.erase(without.find("*SOLID SECTION"), 43);
   EXPECT_THAT(complaints_of_abaqus(without), HasSubstr("solids have no *SOLID SECTION"));

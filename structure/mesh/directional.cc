@@ -1,0 +1,78 @@
+#include "structure/mesh/directional.h"
+
+#include <array>
+
+#include <Eigen/Dense>
+
+#include "structure/index.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// The tensor's components behind the six numbers of a stress: xx, yy, zz, xy, yz, zx.
+constexpr std::array<std::array<Eigen::Index, 2>, 6> places{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+}  // namespace
+
+Elasticity orthotropic_elasticity(const OrthotropicConstants& constants) {
+  const Vector3 &e = constants.youngs_moduli, &nu = constants.poisson_ratios,
+                &g = constants.shear_moduli;
+  Elasticity compliance = Elasticity::Zero();
+  compliance.topLeftCorner<3, 3>() << 1 / e[0], -nu[0] / e[0], -nu[1] / e[0], -nu[0] / e[0],
+      1 / e[1], -nu[2] / e[1], -nu[1] / e[0], -nu[2] / e[1], 1 / e[2];
+  compliance.diagonal().tail<3>() << 1 / g[0], 1 / g[2], 1 / g[1];  // 12, 23, 31
+  return compliance.inverse();
+}
+
+bool is_positive(const Elasticity& elasticity) {
+  if (!elasticity.allFinite()) return false;
+  const Eigen::SelfAdjointEigenSolver<Elasticity> solver(elasticity, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] > 1e-9 * solver.eigenvalues()[5];
+}
+
+// Stresses turn as sigma = T sigma_own; since both have one energy, epsilon_own = T' epsilon.
+Elasticity turned(const Elasticity& own, const Eigen::Matrix3d& axes) {
+  Elasticity turn;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
+    stress(places[k][0], places[k][1]) = stress(places[k][1], places[k][0]) = 1;
+    const Eigen::Matrix3d seen = axes * stress * axes.transpose();
+    for (std::size_t c = 0; c < places.size(); ++c)
+      turn(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)) =
+          seen(places[c][0], places[c][1]);
+  }
+  return turn * own * turn.transpose();
+}
+
+Material nearest_isotropic(const Elasticity& elasticity) {
+  const double direct = elasticity.topLeftCorner<3, 3>().trace();
+  const double across = elasticity(0, 1) + elasticity(1, 2) + elasticity(2, 0);
+  const double shear = elasticity.diagonal().tail<3>().sum();
+  const double k = (direct + 2 * across) / 9, g = (direct - across + 3 * shear) / 15;
+  Material material;
+  material.youngs_modulus = 9 * k * g / (3 * k + g);
+  material.poisson_ratio = (3 * k - 2 * g) / (2 * (3 * k + g));
+  return material;
+}
+
+bool is_isotropic(const Elasticity& elasticity) {
+  const Elasticity even = isotropic_elasticity(nearest_isotropic(elasticity));
+  return (elasticity - even).cwiseAbs().maxCoeff() < 1e-3 * even.diagonal().minCoeff();
+}
+
+Elasticity isotropic_elasticity(const Material& material) {
+  Elasticity law = Elasticity::Zero();
+  law.topLeftCorner<3, 3>().setConstant(material.lame_lambda());
+  law.diagonal().head<3>().array() += 2 * material.shear_modulus();
+  law.diagonal().tail<3>().setConstant(material.shear_modulus());
+  return law;
+}
+
+Elasticity elasticity_of(const Mesh& mesh, const Solid& solid) {
+  return solid.elasticity >= 0 ? mesh.elasticities[at(solid.elasticity)]
+                               : isotropic_elasticity(mesh.materials[at(solid.material)]);
+}
+
+}  // namespace blocklift::structure
