@@ -138,7 +138,7 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
       known = all;
     }
     for (int i = 0; i < count; ++i) {
-        LargestValue& in_set = known.von_mises[set_of(first + i)];
+      LargestValue& in_set = known.von_mises[set_of(first + i)];
       const StressFound floor{as_floor(in_set), as_floor(known.largest_principal),
                               as_floor(known.smallest_principal)};
       const StressFound found =
