@@ -20,9 +20,9 @@ for program in "${programs[@]}"; do
   # memory that is kept for long most of the caches.
   # Gmsh and HDF5 keep what they allocate until the process ends: leaks are not looked for.
   ASAN_OPTIONS=malloc_context_size=1:quarantine_size_mb=32 nice build/fuzz/tests/fuzz/fuzz_"$program" \
-    -max_total_time=$((seconds / ${#programs[@]})) -timeout=10 -rss_limit_mb=2048 -max_len=20000 -detect_leaks=0 -entropic=0 -print_final_stats=1 \
-    -artifact_prefix="build/fuzz/finds/$program-" "$kept" "tests/fuzz/corpus/$program" \
-    >"build/fuzz/$program.log" 2>&1 || failed+=("$program")
+    -max_total_time=$((seconds / ${#programs[@]})) -timeout=10 -rss_limit_mb=2048 -max_len=20000 \
+    -detect_leaks=0 -entropic=0 -print_final_stats=1 -artifact_prefix="build/fuzz/finds/$program-" \
+    "$kept" "tests/fuzz/corpus/$program" >"build/fuzz/$program.log" 2>&1 || failed+=("$program")
   grep -E '^stat::(number_of_executed_units|slowest_unit_time_sec|peak_rss_mb)|SUMMARY|Test unit written' \
     "build/fuzz/$program.log" || true
 done
