@@ -367,7 +367,8 @@ std::vector<BlockBars::WorstOfSpan> BlockBars::find_worst(const Eigen::MatrixXd&
       const BarSpan& span = spans_[s];
       const bool trips = span.tripping_strength > 0;
       const double critical = trips ? euler_load(span.column, 0) : 0;
-      auto& [column, tripping] = result[s];
+      Worst& column = result[s].column;
+      WorstTripping& tripping = result[s].tripping;
       look_at(s, factors, [&](std::size_t place, int instant, const auto& here) {
         const ColumnForces bears{-here[0], {here[1], here[2]}};
         const double utilisation = column_utilisation(span.column, bears, factor);
