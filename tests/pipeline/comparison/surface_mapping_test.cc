@@ -108,7 +108,7 @@ TEST(NearestOnTriangle, IsAPlaceInsideOnAnEdgeOrACorner) {
   const auto place = [&](const Vector3d& point) -> Vector3d {
     const NearestPlace found = nearest_on_triangle(point, corners);
     Vector3d where = found.weights[0] * corners[0] + found.weights[1] * corners[1] +
-                           found.weights[2] * corners[2];
+                     found.weights[2] * corners[2];
     EXPECT_NEAR((where - point).norm(), found.distance, 1e-12);
     return where;
   };
