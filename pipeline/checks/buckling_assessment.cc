@@ -20,17 +20,8 @@ using structure::BlockPanels;
 constexpr std::size_t panels_in_summary = 40;
 
 BlockPanels make_panels(const LiftCase& lift_case, const structure::UnitResponses& responses) {
-  std::vector<structure::PlateStiffening> stiffening;
-  for (const PlateModel& plate : lift_case.load.model->plates) {
-    // Webs of plates divide the panels as they stand.
-    if (!plate.stiffeners || plate.stiffeners->are_plates) continue;
-    const auto along = static_cast<Eigen::Index>(plate.stiffeners->along);
-    const Eigen::Matrix3d axes = plate.corners
-                                     ? structure::frame_of_polygon(plate.corners->value).axes
-                                     : Eigen::Matrix3d::Identity();
-    stiffening.push_back({plate.name.value, axes.col(along), plate.stiffeners->spacing});
-  }
-  return {responses.model(), responses.displacements(), stiffening};
+  return {responses.model(), responses.displacements(),
+          stiffening_beside_mesh(*lift_case.load.model)};
 }
 
 /// States of the block: factors of the unit responses, a column a state, and times if there are
@@ -152,6 +143,19 @@ void check_tripping(const BucklingAssessment& buckling, std::vector<Check>& chec
 }
 
 }  // namespace
+
+std::vector<structure::PlateStiffening> stiffening_beside_mesh(const BlockModel& block) {
+  std::vector<structure::PlateStiffening> stiffening;
+  for (const PlateModel& plate : block.plates) {
+    if (!plate.stiffeners || plate.stiffeners->profile) continue;
+    const auto along = static_cast<Eigen::Index>(plate.stiffeners->along);
+    const Eigen::Matrix3d axes = plate.corners
+                                     ? structure::frame_of_polygon(plate.corners->value).axes
+                                     : Eigen::Matrix3d::Identity();
+    stiffening.push_back({plate.name.value, axes.col(along), plate.stiffeners->spacing});
+  }
+  return stiffening;
+}
 
 BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const structure::UnitResponses& responses,

@@ -45,6 +45,10 @@ struct BucklingAssessment {
   double evaluation_s = 0;  ///< wall-clock time
 };
 
+/// Stiffeners without a profile, which the mesh does not have and which divide panels all the same.
+/// Those with one divide panels where their beams or webs stand, and nowhere else.
+std::vector<structure::PlateStiffening> stiffening_beside_mesh(const BlockModel& block);
+
 /// Looks at every panel and bar at every instant of both histories.
 BucklingAssessment assess_buckling(const LiftCase& lift_case,
                                    const structure::UnitResponses& responses,

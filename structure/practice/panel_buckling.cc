@@ -249,8 +249,8 @@ bool runs_along_1(const Panel& panel, const Vector3& along) {
 }
 
 /// The most compressed of `fields` fields that divide a side over which a stress varies linearly.
-void take_field(double& mean, double& gradient, int fields) {
-  mean -= std::abs(gradient) * (1 - 1.0 / fields);
+void take_field(double& mean, double& gradient, double fields) {
+  mean -= std::abs(gradient) * (1 - 1 / fields);
   gradient /= fields;
 }
 
@@ -342,8 +342,7 @@ void BlockPanels::stiffen(const std::vector<PlateStiffening>& stiffening) {
         continue;
       const bool across_b = along_1 >= along_2;
       const double side = across_b ? panel.size.b : panel.size.a;
-      (across_b ? panel.fields_b : panel.fields_a) =
-          std::max(1, static_cast<int>(std::ceil(side / stiffeners.spacing - 1e-6)));
+      (across_b ? panel.fields_b : panel.fields_a) = std::max(1.0, side / stiffeners.spacing);
     }
 }
 
@@ -396,7 +395,7 @@ Eigen::RowVectorXd BlockPanels::stress_beside(int panel, const Vector3& along,
   const Panel& of = panels_[at(panel)];
   const bool along_1 = runs_along_1(of, along);
   const Eigen::Index first = rows_per_panel * panel + (along_1 ? 0 : 1);
-  const int fields = along_1 ? of.fields_b : of.fields_a;
+  const double fields = along_1 ? of.fields_b : of.fields_a;
   const double side = (along_1 ? of.e_2 : of.e_1).dot(place - of.centre_B) < 0 ? -1 : 1;
   return components_.row(first) + side * (1 - 0.5 / fields) * components_.row(first + 3);
 }

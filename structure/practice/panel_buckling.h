@@ -79,11 +79,15 @@ struct Panel {
   /// Of its bounding rectangle along e_1 and e_2; thickness of the thinnest plate of a tenth of it.
   PanelSize size;
   FreeEdges free;
-  int fields_a = 1, fields_b = 1;  ///< that stiffeners divide the sides a and b into
-  int material = 0;                ///< place in Mesh::materials
+  /// How many fields between stiffeners the sides a and b are wide. Where stiffeners stand is not
+  /// known, so that one field is taken to be as wide as their spacing; this need not be whole.
+  double fields_a = 1, fields_b = 1;
+  int material = 0;  ///< place in Mesh::materials
 };
 
-/// Stiffeners that a plate carries and the mesh does not: they divide each of its panels.
+/// Stiffeners that a plate carries and the mesh does not: they divide each of its panels. Those of
+/// the mesh divide its fields as they stand and must not be told here: a panel past the end of a
+/// beam would count as divided.
 struct PlateStiffening {
   std::string group;  ///< name of the plates
   Vector3 along =

@@ -100,6 +100,28 @@ TEST(BucklingAssessment, TheSummaryHasBarsAndRods) {
   EXPECT_EQ(json["bars"][0]["time_s"], 12.5);
 }
 
+// Beams and webs divide panels where they stand. Only stiffeners that the mesh leaves out are told
+// by their spacing: past a beam that an opening cuts, a panel would else count as divided.
+TEST(BucklingAssessment, StiffenersOfTheMeshAreNotToldBySpacing) {
+  BlockModel block;
+  PlateModel plate;
+  plate.name = {"deck"};
+  plate.stiffeners = StiffenersModel{};
+  plate.stiffeners->spacing = 0.7;
+  block.plates.push_back(plate);
+  plate.name = {"bottom"};
+  plate.stiffeners->profile = structure::flat_bar(0.2, 0.01);
+  block.plates.push_back(plate);
+  plate.name = {"sides"};
+  plate.stiffeners->are_plates = true;
+  block.plates.push_back(plate);
+  const std::vector<structure::PlateStiffening> stiffening = stiffening_beside_mesh(block);
+  ASSERT_EQ(stiffening.size(), 1U);
+  EXPECT_EQ(stiffening[0].group, "deck");
+  EXPECT_EQ(stiffening[0].along, Vector3::UnitX());
+  EXPECT_EQ(stiffening[0].spacing, 0.7);
+}
+
 // A block of plates alone has no word of bars.
 TEST(BucklingAssessment, WithoutBarsNothingIsSaidOfThem) {
   const nlohmann::ordered_json json = buckling_json({});

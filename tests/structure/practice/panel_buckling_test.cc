@@ -102,7 +102,7 @@ TEST(BlockPanels, AreTheFieldsBetweenCrossingPlates) {
       EXPECT_EQ(panel.free.along_a + panel.free.along_b, 0);
       EXPECT_DOUBLE_EQ(panel.size.thickness, 0.010);
       EXPECT_NEAR(panel.centre_B.z(), 1, 1e-12);
-      EXPECT_EQ(panel.fields_a * panel.fields_b, 1);  // none run across a plate
+      EXPECT_DOUBLE_EQ(panel.fields_a * panel.fields_b, 1);  // none run across a plate
     } else if (panel.group == "web") {
       ++webs;
       EXPECT_EQ(panel.free.along_a, 1);
@@ -110,13 +110,35 @@ TEST(BlockPanels, AreTheFieldsBetweenCrossingPlates) {
     } else if (panel.group == "bottom") {
       ++bottoms;  // a square lies along x
       EXPECT_NEAR(panel.e_1.x(), 1, 1e-12);
-      EXPECT_EQ(panel.fields_b, 4);
-      EXPECT_EQ(panel.fields_a, 1);
+      EXPECT_DOUBLE_EQ(panel.fields_b, 4);
+      EXPECT_DOUBLE_EQ(panel.fields_a, 1);
     }
   }
   EXPECT_EQ(decks, 4);
   EXPECT_EQ(webs, 2);
   EXPECT_EQ(bottoms, 2);
+}
+
+// Stiffeners that are not in the mesh stand 0.75 m apart, and where is not known: a panel 2 m wide
+// has a field of 0.75 m, not three of 0.67 m. One narrower than their spacing has none to count on.
+TEST(BlockPanels, FieldsAreAsWideAsTheSpacing) {
+  const ElasticModel model(generate_shell_mesh(box()), {2, {}});
+  const std::vector<PlateStiffening> stiffening = {{"bottom", Vector3::UnitX(), 0.75},
+                                                   {"deck", Vector3::UnitX(), 1.5}};
+  const BlockPanels panels = panels_at_rest(model, stiffening);
+  PanelStress stress;
+  stress.s11 = -60e6;
+  for (std::size_t p = 0; p < panels.panels().size(); ++p) {
+    const Panel& panel = panels.panels()[p];
+    const int number = static_cast<int>(p);
+    if (panel.group == "bottom") {
+      EXPECT_NEAR(panels.field_width(number, Vector3::UnitX()), 0.75, 1e-9);
+      EXPECT_NEAR(panels.utilisation(number, stress).elastic,
+                  buckling_utilisation({2, 0.75, 0.012}, {}, steel, stress).elastic, 1e-9);
+    } else if (panel.group == "deck") {
+      EXPECT_NEAR(panels.field_width(number, Vector3::UnitX()), 1, 1e-9);
+    }
+  }
 }
 
 // A step in thickness holds nothing: pads belong to their plate's panel. Lugs are none, and hold
