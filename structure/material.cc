@@ -19,7 +19,8 @@ void check_material(const Material& material) {
     refuse("Poisson's ratio", material.poisson_ratio, "above -1 and below 0.5 (steel: 0.3)");
   if (!(std::isfinite(material.density) && material.density >= 0))
     refuse("the density", material.density, "zero or positive, in kg/m^3 (steel: 7850)");
-  if (!positive(material.yield_stress))
+  // Infinite: it is not known, and nothing is held against it.
+  if (!(material.yield_stress > 0))
     refuse("the yield stress", material.yield_stress, "positive, in Pa");
 }
 

@@ -115,13 +115,17 @@ void add_expect(CLI::App& app, int& code) {
 
 void add_stress(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
-      "stress", "Solve a part on any mesh that Gmsh reads: stress, deformation, reactions, probes");
+      "stress",
+      "Solve a part on any mesh that Gmsh reads, or the load cases that a block's deck has");
   auto options = std::make_shared<StressOptions>();
-  command->add_option("PART", options->part, "file of the part")->required();
+  command->add_option("PART", options->part, "file of the part, or of a block with a deck")
+      ->required();
   command->add_option("-o,--output", options->output,
                       "folder of the results (results/<name of the part> if not given)");
   command->add_flag("--calculix", options->calculix,
                     "write part.inp as well: the same model for CalculiX");
+  command->add_option("--degree", options->degree, "degree of a deck's elements (that of its own)")
+      ->check(CLI::Range(1, 4));
   add_limits(*command);
   add_allow_outside(*command);
   command->callback([options, &code] { code = stress(*options); });

@@ -11,6 +11,10 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/stress_of_deck.h"
+#include "pipeline/files/file_kind.h"
+#include "pipeline/files/library/model_library.h"
+#include "pipeline/part/deck_assessment.h"
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
@@ -18,12 +22,9 @@
 
 namespace blocklift::pipeline {
 
-namespace {
+namespace fs = std::filesystem;
 
-std::string point_text(const structure::Vector3& point) {
-  // A sum with 0 makes 0 of -0.
-  return fmt::format("{:.4g}, {:.4g}, {:.4g}", point.x() + 0.0, point.y() + 0.0, point.z() + 0.0);
-}
+namespace {
 
 void print_probes(const std::vector<ProbeResult>& probes) {
   if (probes.empty()) return;
@@ -41,7 +42,7 @@ void print_probes(const std::vector<ProbeResult>& probes) {
                    {"v. Mises", 4}});
   for (const ProbeResult& probe : probes) {
     for (const structure::PartProbe& point : probe.points) {
-      std::vector<TextTable::Cell> row = {probe.name, point_text(point.point)};
+      std::vector<TextTable::Cell> row = {probe.name, place_text(point.point)};
       if (!point.inside) {
         row.emplace_back("outside");
       } else {
@@ -104,7 +105,7 @@ void print_groups(const structure::PartSolution& solution) {
   TextTable table({{"group"}, {"von Mises MPa", 4}, {"displaced mm", 4}, {"at x, y, z, m"}});
   for (const structure::PartGroupResult& group : solution.groups)
     table.add_row(
-        {group.group, group.von_mises / 1e6, 1e3 * group.displacement, point_text(group.point)});
+        {group.group, group.von_mises / 1e6, 1e3 * group.displacement, place_text(group.point)});
   fmt::print("\n{}", table.text());
 }
 
@@ -187,13 +188,47 @@ void print_table(const PartAssessment& assessment) {
 
 namespace {
 
+fs::path folder_of(const StressOptions& options, const std::string& name) {
+  return options.output ? fs::path(*options.output) : fs::path("results") / name;
+}
+
+void refuse_option(const StressOptions& options, const std::string& message,
+                   const std::string& hint) {
+  Diagnostics diagnostics;
+  diagnostics.error({std::make_shared<const std::string>(options.part)}, message, {hint});
+  throw InputError(diagnostics);
+}
+
+int stress_of_deck(const StressOptions& options) {
+  if (options.calculix)
+    refuse_option(options, "--calculix is for parts", "a block's deck is such an input itself");
+  Diagnostics diagnostics;
+  ModelLibrary library = ModelLibrary::of_installation();
+  const auto block = library.read_block_of_own_cases(options.part, diagnostics);
+  if (!block || diagnostics.has_errors()) throw InputError(diagnostics);
+  const std::string name = fs::path(options.part).stem().string();
+  const fs::path folder = folder_of(options, name);
+  require_writable(folder);
+  const DeckAssessment assessment = assess_deck(block, name, options.degree);
+  {
+    const HeldSignals until_all_is_in_place;
+    write_deck_results(assessment, folder);
+  }
+  if (!is_quiet()) {
+    print_deck_cases(assessment);
+    fmt::print("results: {}\n", folder.string());
+  }
+  return exit_code::done;
+}
+
 int stress_of(const StressOptions& options, structure::PartTeam* team) {
+  if (options.degree)
+    refuse_option(options, "--degree is for blocks with a deck",
+                  "a part's file has the key element_order");
   Diagnostics diagnostics;
   std::optional<PartFile> file = read_part_file(options.part, diagnostics);
   if (!file) throw InputError(diagnostics);
-  const std::filesystem::path folder = options.output
-                                           ? std::filesystem::path(*options.output)
-                                           : std::filesystem::path("results") / file->name;
+  const fs::path folder = folder_of(options, file->name);
   require_writable(folder);
   const PartAssessment assessment = assess_part(std::move(*file), team);
   {
@@ -208,6 +243,7 @@ int stress_of(const StressOptions& options, structure::PartTeam* team) {
 }  // namespace
 
 int stress(const StressOptions& options) {
+  if (kind_of_file(options.part) == FileKind::block) return stress_of_deck(options);
   if (structure::ProcessGroup::launched() == 1) return stress_of(options, nullptr);
   const structure::ProcessGroup& group = structure::ProcessGroup::of_this_run();
   if (!group.leads()) {

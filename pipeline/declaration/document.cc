@@ -1,11 +1,15 @@
 #include "pipeline/declaration/document.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <sstream>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -203,7 +207,30 @@ std::optional<TextFile> load_text(const fs::path& path, Diagnostics& diagnostics
   return TextFile{file, std::move(*text)};
 }
 
+namespace {
+
+/// Decks, meshes and CAD files, which are not YAML whatever stands in them.
+bool is_mesh_file(const fs::path& path) {
+  static constexpr std::array endings = {".bdf",  ".nas", ".dat", ".inp",  ".msh",
+                                         ".step", ".stp", ".igs", ".iges", ".brep"};
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+}  // namespace
+
 std::optional<Document> load_document(const fs::path& path, Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (is_mesh_file(path) && fs::is_regular_file(path, ignored)) {
+    diagnostics.error({std::make_shared<const std::string>(path.string()), 0, 0},
+                      "this is the mesh of a block, by its ending",
+                      {fmt::format("a block's file names it: \"kind: block\", then "
+                                   "\"mesh: {{file: {}, units: mm-t-N}}\" with the deck's units",
+                                   path.filename().string())});
+    return std::nullopt;
+  }
   std::optional<TextFile> loaded = load_text(path, diagnostics);
   if (!loaded) return std::nullopt;
   Document document;

@@ -184,13 +184,13 @@ std::vector<std::string> names_of(const List& list) {
 }  // namespace
 
 // deal.II's DataOut has neither names as field data nor lines and squares in one piece.
-void write_vtu(const std::string& path, const UnitResponses& responses, const LoadCase& load_case) {
-  const Mesh& mesh = responses.model().mesh();
-  const Eigen::VectorXd motion = responses.without_rigid_motion(responses.displacement(load_case));
-  const Content content = Collector(responses.model().space(), motion).collect();
+void write_vtu(const std::string& path, const ElasticModel& model, const std::string& name,
+               const Eigen::VectorXd& motion) {
+  const Mesh& mesh = model.mesh();
+  const Content content = Collector(model.space(), motion).collect();
   std::ofstream file(path, std::ios::binary);
   file << vtk_head("UnstructuredGrid") << "<UnstructuredGrid>\n<FieldData>\n";
-  write_names(file, "load_case", {load_case.name});
+  write_names(file, "load_case", {name});
   write_names(file, "group_names", names_of(mesh.groups));
   write_names(file, "material_names", names_of(mesh.materials));
   write_names(file, "plate_names", names_of(mesh.regions));
@@ -199,6 +199,11 @@ void write_vtu(const std::string& path, const UnitResponses& responses, const Lo
   file << "</UnstructuredGrid>\n</VTKFile>\n";
   file.close();
   if (!file) throw ModelError("cannot write \"" + path + "\"");
+}
+
+void write_vtu(const std::string& path, const UnitResponses& responses, const LoadCase& load_case) {
+  write_vtu(path, responses.model(), load_case.name,
+            responses.without_rigid_motion(responses.displacement(load_case)));
 }
 
 }  // namespace blocklift::structure

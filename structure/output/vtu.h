@@ -19,4 +19,8 @@ namespace blocklift::structure {
 /// @throws ModelError if the file cannot be written.
 void write_vtu(const std::string& path, const UnitResponses& responses, const LoadCase& load_case);
 
+/// The same for a motion of a model (six rows a node), whose `displacement` is as it is given.
+void write_vtu(const std::string& path, const ElasticModel& model, const std::string& name,
+               const Eigen::VectorXd& motion);
+
 }  // namespace blocklift::structure

@@ -34,7 +34,7 @@ struct RunningExtreme {
 class Maxima {
  public:
   Maxima() = default;
-  explicit Maxima(const StressRecovery& recovery, const Mesh& mesh)
+  explicit Maxima(const MotionStress& recovery, const Mesh& mesh)
       : recovery_(&recovery),
         mesh_(&mesh),
         groups_(mesh.groups.size()),
@@ -65,7 +65,7 @@ class Maxima {
   Extreme lug(std::size_t lug) const { return lugs_[lug].named(*mesh_); }
 
  private:
-  const StressRecovery* recovery_ = nullptr;
+  const MotionStress* recovery_ = nullptr;
   const Mesh* mesh_ = nullptr;
   RunningExtreme all_;
   std::vector<RunningExtreme> groups_, lugs_;
@@ -121,7 +121,7 @@ Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::Vect
   return moved;
 }
 
-void fill_in(const StressRecovery& recovery, const Mesh& mesh, const Maxima& checked,
+void fill_in(const MotionStress& recovery, const Mesh& mesh, const Maxima& checked,
              const BySite<Maxima>& at_site, const Maxima& peak, const Maxima& moved,
              LoadCaseResult& result) {
   // Beams and solids have no squares: their peak counts as a field's.
@@ -154,11 +154,40 @@ void fill_in(const StressRecovery& recovery, const Mesh& mesh, const Maxima& che
 
 }  // namespace
 
-StressRecovery::StressRecovery(const UnitResponses& responses, const Options& options)
-    : responses_(responses),
+MotionStress::MotionStress(const ElasticModel& model,
+                           const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                           const RecoveryOptions& options)
+    : model_(model),
       options_(options),
-      checked_(responses.model(), responses.displacements(), options.square_size),
-      points_(responses.model().space()) {}
+      checked_(model, motions, options.square_size),
+      points_(model.space()) {}
+
+std::vector<LoadCaseResult> MotionStress::evaluate(const Eigen::MatrixXd& factors,
+                                                   const Eigen::MatrixXd& moved) const {
+  const Maxima none(*this, model_.mesh());
+  const std::vector<Maxima> peaks = find_peaks(points_, moved, none);
+  std::vector<LoadCaseResult> results;
+  for (Eigen::Index c = 0; c < factors.cols(); ++c) {
+    Maxima checked = none;
+    BySite<Maxima> at_site;
+    for (const SquareSite site : square_sites) at_site[site] = none;
+    const Eigen::VectorXd membrane = checked_.von_mises(factors.col(c));
+    for (std::size_t s = 0; s < checked_.squares().size(); ++s) {
+      const Square& square = checked_.squares()[s];
+      const double value = membrane[s];
+      checked.take(value, square.centre_B, square.region);
+      at_site[square.site].take(value, square.centre_B, square.region);
+    }
+    const Maxima displaced = find_displacements(model_.space(), moved.col(c), none);
+    LoadCaseResult& result = results.emplace_back();
+    fill_in(*this, model_.mesh(), checked, at_site, peaks[at(c)], displaced, result);
+    result.field_von_mises = at_site[SquareSite::field].all();
+  }
+  return results;
+}
+
+StressRecovery::StressRecovery(const UnitResponses& responses, const Options& options)
+    : responses_(responses), of_motions_(responses.model(), responses.displacements(), options) {}
 
 LoadCaseResult StressRecovery::evaluate(const LoadCase& load_case) const {
   return std::move(evaluate(std::vector<LoadCase>{load_case}).front());
@@ -166,35 +195,17 @@ LoadCaseResult StressRecovery::evaluate(const LoadCase& load_case) const {
 
 std::vector<LoadCaseResult> StressRecovery::evaluate(
     const std::vector<LoadCase>& load_cases) const {
-  const ElasticModel& model = responses_.model();
-  Eigen::MatrixXd relative(responses_.displacements().rows(),
-                           static_cast<Eigen::Index>(load_cases.size()));
-  for (std::size_t c = 0; c < load_cases.size(); ++c)
-    relative.col(static_cast<Eigen::Index>(c)) =
-        responses_.without_rigid_motion(responses_.displacement(load_cases[c]));
-  const Maxima none(*this, model.mesh());
-  const std::vector<Maxima> peaks = find_peaks(points_, relative, none);
-
-  std::vector<LoadCaseResult> results;
+  const auto cases = static_cast<Eigen::Index>(load_cases.size());
+  Eigen::MatrixXd factors(responses_.count(), cases);
+  Eigen::MatrixXd relative(responses_.displacements().rows(), cases);
+  for (Eigen::Index c = 0; c < cases; ++c) {
+    factors.col(c) = responses_.coefficients(load_cases[at(c)]);
+    relative.col(c) = responses_.without_rigid_motion(responses_.displacement(load_cases[at(c)]));
+  }
+  std::vector<LoadCaseResult> results = of_motions_.evaluate(factors, relative);
   for (std::size_t c = 0; c < load_cases.size(); ++c) {
-    LoadCaseResult result;
-    result.name = load_cases[c].name;
-    result.balance = responses_.balance(load_cases[c]);
-    Maxima checked = none;
-    BySite<Maxima> at_site;
-    for (const SquareSite site : square_sites) at_site[site] = none;
-    const Eigen::VectorXd membrane = checked_.von_mises(responses_.coefficients(load_cases[c]));
-    for (std::size_t s = 0; s < checked_.squares().size(); ++s) {
-      const Square& square = checked_.squares()[s];
-      const double value = membrane[s];
-      checked.take(value, square.centre_B, square.region);
-      at_site[square.site].take(value, square.centre_B, square.region);
-    }
-    const Maxima moved =
-        find_displacements(model.space(), relative.col(static_cast<Eigen::Index>(c)), none);
-    fill_in(*this, model.mesh(), checked, at_site, peaks[c], moved, result);
-    result.field_von_mises = at_site[SquareSite::field].all();
-    results.push_back(std::move(result));
+    results[c].name = load_cases[c].name;
+    results[c].balance = responses_.balance(load_cases[c]);
   }
   return results;
 }

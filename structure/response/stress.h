@@ -51,23 +51,26 @@ struct LoadCaseResult {
   LoadBalance balance;
 };
 
-/// Evaluates load cases from unit responses. The checked stress costs a product with stored unit
-/// stresses; the raw peak needs the superposed displacement once through all cells.
-class StressRecovery {
+/// Settings of stress recovery.
+struct RecoveryOptions {
+  double square_size = 0.05;  ///< of the checked stress, m
+  /// Radius about each pin that counts as its neighbourhood, m; 0: as far as pad and lug reach.
+  double lug_radius = 3;
+};
+
+/// Stress and deformation of a block that moves by sums of given motions.
+class MotionStress {
  public:
-  struct Options {
-    double square_size = 0.05;  ///< of the checked stress, m
-    /// Radius about each pin that counts as its neighbourhood, m; 0: as far as pad and lug reach.
-    double lug_radius = 3;
-  };
+  /// @param motions freedoms x m, m and rad. The model must outlive this object.
+  MotionStress(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+               const RecoveryOptions& options);
 
-  /// The responses must outlive this object.
-  explicit StressRecovery(const UnitResponses& responses) : StressRecovery(responses, Options{}) {}
-  StressRecovery(const UnitResponses& responses, const Options& options);
-
-  LoadCaseResult evaluate(const LoadCase& load_case) const;
-  /// Several at once, in their order: one pass through all cells serves them all.
-  std::vector<LoadCaseResult> evaluate(const std::vector<LoadCase>& load_cases) const;
+  /// A column a case; one pass through all cells serves them all.
+  /// @param factors of the motions, m x cases. @param moved the motions that they make up, from
+  ///   which displacements are told, freedoms x cases: a rigid motion may be taken out.
+  /// @returns results without names and balance.
+  std::vector<LoadCaseResult> evaluate(const Eigen::MatrixXd& factors,
+                                       const Eigen::MatrixXd& moved) const;
   const CheckedStress& checked() const { return checked_; }
   const StressPoints& points() const { return points_; }
   /// Radius about a lug's pin that counts as its neighbourhood, m.
@@ -76,10 +79,33 @@ class StressRecovery {
   }
 
  private:
-  const UnitResponses& responses_;
-  Options options_;
+  const ElasticModel& model_;
+  RecoveryOptions options_;
   CheckedStress checked_;
   StressPoints points_;
+};
+
+/// Evaluates load cases from unit responses. The checked stress costs a product with stored unit
+/// stresses; the raw peak needs the superposed displacement once through all cells.
+class StressRecovery {
+ public:
+  using Options = RecoveryOptions;
+
+  /// The responses must outlive this object.
+  explicit StressRecovery(const UnitResponses& responses) : StressRecovery(responses, Options{}) {}
+  StressRecovery(const UnitResponses& responses, const Options& options);
+
+  LoadCaseResult evaluate(const LoadCase& load_case) const;
+  /// Several at once, in their order: one pass through all cells serves them all.
+  std::vector<LoadCaseResult> evaluate(const std::vector<LoadCase>& load_cases) const;
+  const CheckedStress& checked() const { return of_motions_.checked(); }
+  const StressPoints& points() const { return of_motions_.points(); }
+  /// Radius about a lug's pin that counts as its neighbourhood, m.
+  double lug_radius(const LiftingPoint& lug) const { return of_motions_.lug_radius(lug); }
+
+ private:
+  const UnitResponses& responses_;
+  MotionStress of_motions_;
 };
 
 }  // namespace blocklift::structure

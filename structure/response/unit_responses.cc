@@ -12,6 +12,7 @@
 
 #include "structure/error.h"
 #include "structure/limits.h"
+#include "structure/space/freedom_text.h"
 #include "structure/stopwatch.h"
 #include "structure/system/assembly.h"
 #include "structure/system/linear_solver.h"
@@ -30,31 +31,10 @@ namespace {
 
 constexpr double standard_gravity = 9.80665;  // m/s^2
 
-/// Where and how a freedom moves: "at (1, 2, 3) m, displacement along x".
-std::string describe_freedom(const Space& space, int freedom) {
-  const Vector3 place = space.nodes().col(freedom / 6);
-  return fmt::format("at ({:.4g}, {:.4g}, {:.4g}) m, {} {}", place.x(), place.y(), place.z(),
-                     freedom % 6 < 3 ? "displacement along" : "rotation about",
-                     static_cast<char>('x' + freedom % 3));
-}
-
 [[noreturn]] void refuse_mechanism(const Space& space, int freedom) {
   throw ModelError(fmt::format(
       "the block is a mechanism: a part of it can move against the rest, and nothing resists ({})",
       describe_freedom(space, freedom)));
-}
-
-/// The freedom that depends most on an unknown.
-int freedom_of(const Space& space, int unknown) {
-  int found = 0;
-  double largest = 0;
-  for (int freedom = 0; freedom < space.freedoms(); ++freedom)
-    for (const Space::Term* term = space.begin_of(freedom); term != space.end_of(freedom); ++term)
-      if (term->unknown == unknown && std::abs(term->weight) > largest) {
-        largest = std::abs(term->weight);
-        found = freedom;
-      }
-  return found;
 }
 
 }  // namespace

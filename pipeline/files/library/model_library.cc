@@ -306,6 +306,15 @@ std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
   return blocks_[file] = block;
 }
 
+std::shared_ptr<const BlockModel> ModelLibrary::read_block_of_own_cases(const fs::path& file,
+                                                                        Diagnostics& diagnostics) {
+  const std::shared_ptr<BlockModel> block =
+      read_model(load(file, diagnostics), "block", format_once<block_model_format>(), diagnostics);
+  if (block)
+    read_block_mesh(*block, file.parent_path(), diagnostics, std::nullopt, MeshUse::own_cases);
+  return block;
+}
+
 std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
                                                          Diagnostics& diagnostics) {
   const auto known = ropes_.find(file);

@@ -104,6 +104,9 @@ class ModelLibrary {
   std::shared_ptr<const BlockModel> read_block(
       const std::filesystem::path& file, Diagnostics& diagnostics,
       const std::optional<std::filesystem::path>& of_case = std::nullopt);
+  /// Reads a block's file for the load cases of its own deck. It is not kept.
+  std::shared_ptr<const BlockModel> read_block_of_own_cases(const std::filesystem::path& file,
+                                                            Diagnostics& diagnostics);
   std::shared_ptr<const RopeModel> read_rope(const std::filesystem::path& file,
                                              Diagnostics& diagnostics);
   std::shared_ptr<const StandardRules> read_standard(const std::filesystem::path& file,

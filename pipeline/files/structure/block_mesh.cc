@@ -95,12 +95,13 @@ std::string described(const structure::Finding& finding) {
 
 class MeshReader {
  public:
-  MeshReader(BlockModel& block, const fs::path& folder, std::vector<fs::path> homes,
+  MeshReader(BlockModel& block, const fs::path& folder, std::vector<fs::path> homes, MeshUse use,
              Diagnostics& diagnostics)
       : block_(block),
         mesh_model_(*block.mesh),
         folder_(folder),
         homes_(std::move(homes)),
+        use_(use),
         diagnostics_(diagnostics) {}
 
   void read() {
@@ -111,7 +112,7 @@ class MeshReader {
     give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
     give_tripping_brackets(deck->mesh);
-    let_go(*deck);
+    if (use_ == MeshUse::lift) let_go(*deck);
     remark_on_solids(*deck);
     if (diagnostics_.error_count() > before) return;
     mesh_model_.diagnosis =
@@ -304,6 +305,8 @@ class MeshReader {
       if (material.yield_stress > 0) continue;
       if (mesh_model_.yield_stress)
         material.yield_stress = *mesh_model_.yield_stress;
+      else if (use_ == MeshUse::own_cases)
+        material.yield_stress = std::numeric_limits<double>::infinity();  // nothing is checked
       else
         without.push_back(material.name);
     }
@@ -339,7 +342,7 @@ class MeshReader {
   void check_diagnosis(const Deck& deck) {
     const structure::Diagnosis& diagnosis = *mesh_model_.diagnosis;
     for (const structure::Finding& finding : diagnosis.findings)
-      if (finding.severity == structure::Severity::error)
+      if (finding.severity == structure::Severity::error && concerns_use(finding))
         complain(fmt::format("{}: {}", mesh_model_.file.value, described(finding)));
     Vector3 low = deck.mesh.vertices.front(), high = low;
     for (const Vector3& vertex : deck.mesh.vertices) {
@@ -355,6 +358,13 @@ class MeshReader {
       complain(fmt::format("the block weighs {:.4g} t if units are {}", diagnosis.mass.mass / 1000,
                            mesh_model_.units.value),
                {"the heaviest lifts are of some 50,000 t: is the deck in other units?"});
+  }
+
+  /// What hangs on nothing in a lift may be held by the deck's own supports; whether it is shows when
+  /// its cases are solved.
+  bool concerns_use(const structure::Finding& finding) const {
+    return use_ == MeshUse::lift || finding.kind.starts_with("shells without") ||
+           finding.kind == "folded solids";
   }
 
   /// @returns false after a complaint.
@@ -450,6 +460,7 @@ class MeshReader {
   MeshModel& mesh_model_;
   const fs::path& folder_;
   std::vector<fs::path> homes_;
+  MeshUse use_;
   Diagnostics& diagnostics_;
 };
 
@@ -514,7 +525,7 @@ bool is_bare(const MeshModel& mesh) {
 }
 
 void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics,
-                     const std::optional<fs::path>& of_case) {
+                     const std::optional<fs::path>& of_case, MeshUse use) {
   if (!block.mesh || block.mesh->file.value.empty() || block.mesh->units.value.empty()) return;
   for (const auto& given : block.mesh->thicknesses) {
     MeshGroupModel group;
@@ -524,7 +535,7 @@ void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& dia
   }
   std::vector<fs::path> homes;
   if (of_case) homes.push_back(*of_case);
-  MeshReader(block, folder, std::move(homes), diagnostics).read();
+  MeshReader(block, folder, std::move(homes), use, diagnostics).read();
 }
 
 std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh) {

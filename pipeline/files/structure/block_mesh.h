@@ -44,13 +44,20 @@ Format<MeshModel> mesh_model_format();
 /// Is the file one without properties of its own: a mesh of Gmsh or CAD surfaces?
 bool is_bare(const MeshModel& mesh);
 
+/// What a block's mesh is read for.
+enum class MeshUse {
+  lift,      ///< it hangs on its ropes: the deck's supports and springs to the ground do not hold
+  own_cases  ///< the deck's supports and springs hold it in its own load cases
+};
+
 /// Reads the file of a block that names one, puts the block's lugs on it, and looks it over. All
 /// that is wrong is said by the deck's own files and lines, or by the block's.
 /// @param folder of the block's file.
 /// @param of_case the folder of the case that names the block, in which the file may lie too.
 void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
                      Diagnostics& diagnostics,
-                     const std::optional<std::filesystem::path>& of_case = std::nullopt);
+                     const std::optional<std::filesystem::path>& of_case = std::nullopt,
+                     MeshUse use = MeshUse::lift);
 
 /// The deck's cards that are not, or not all, in the block; its loads and supports are among them.
 std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh);

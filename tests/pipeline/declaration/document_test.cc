@@ -43,6 +43,15 @@ TEST(DocumentTest, RefusesAnEmptyFile) {
   EXPECT_EQ(complaints_about("# nothing but a comment\n\n"), message);
 }
 
+TEST(DocumentTest, TellsHowADeckIsNamed) {
+  const test::TemporaryFolder folder;
+  folder.write("Hull.BDF", "SOL 101\n");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load_document("Hull.BDF", diagnostics));
+  EXPECT_NE(diagnostics.to_text().find("mesh: {file: Hull.BDF, units: mm-t-N}"), std::string::npos)
+      << diagnostics.to_text();
+}
+
 TEST(DocumentTest, RefusesWhatIsNoText) {
   EXPECT_EQ(complaints_about(std::string_view("\x7f"
                                               "ELF\0\1",

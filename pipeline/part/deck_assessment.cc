@@ -1,0 +1,95 @@
+#include "pipeline/part/deck_assessment.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/lift/stopwatch.h"
+#include "structure/error.h"
+
+namespace blocklift::pipeline {
+
+namespace {
+
+[[noreturn]] void refuse(const Mark& mark, const std::string& message,
+                         const std::vector<std::string>& hints = {}) {
+  Diagnostics diagnostics;
+  diagnostics.error(mark, message, hints);
+  throw InputError(diagnostics);
+}
+
+std::string why_none(const structure::Deck& deck, const structure::DeckSolution& solution) {
+  if (solution.skipped.empty()) return "it has no subcase or step";
+  std::string text;
+  for (const structure::SkippedCase& skipped : solution.skipped) {
+    if (!text.empty()) text += "; ";
+    text += fmt::format("{} {}", skipped.is_held ? "no load acts in" : "nothing holds",
+                        name_of(deck.load_cases[static_cast<std::size_t>(skipped.load_case)]));
+  }
+  return text;
+}
+
+/// What a solver is to print, or how it is to go about.
+bool is_wish_of_solver(const structure::LedgerEntry& entry) {
+  return entry.name.starts_with("case control ") || entry.name == "PARAM";
+}
+
+/// The deck's mesh; one without mass, to which no weight belongs, is given some, since a model has a
+/// centre of mass.
+structure::Mesh mesh_of(const structure::Deck& deck, bool is_massless, const Mark& mark) {
+  structure::Mesh mesh = deck.mesh;
+  if (!is_massless) return mesh;
+  for (const structure::LoadSet& set : deck.load_sets)
+    if (!set.gravity.isZero(0))
+      refuse(mark, "the deck's materials have no density, and gravity acts in its cases",
+             {"give its materials a density (RHO of MAT1, *DENSITY)"});
+  for (structure::Material& material : mesh.materials) material.density = 1;
+  return mesh;
+}
+
+}  // namespace
+
+DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::string& name,
+                           std::optional<int> degree) {
+  if (!block->mesh || !block->mesh->deck)
+    refuse(block->place,
+           fmt::format("block {} is of plates by keys, which have no load cases", name),
+           {"load cases come from a deck of Nastran or Abaqus: mesh: {file: ...}",
+            "a block of plates is loaded by a case: blocklift assess"});
+  const Mark& mark = block->mesh->file.mark;
+  DeckAssessment assessment;
+  assessment.block = std::move(block);
+  assessment.name = name;
+  const structure::Deck& deck = assessment.deck();
+  Stopwatch watch;
+  try {
+    assessment.is_massless = !(assessment.block->mesh->diagnosis->mass.mass > 0);
+    assessment.model = std::make_unique<structure::ElasticModel>(
+        mesh_of(deck, assessment.is_massless, mark),
+        structure::Resolution{degree.value_or(own_degree(deck)), {}});
+    assessment.solution = structure::solve_deck(*assessment.model, deck);
+  } catch (const structure::ModelError& error) {
+    refuse(mark, error.what());
+  }
+  assessment.solution_s = watch.lap();
+  if (assessment.solution.cases.empty())
+    refuse(
+        mark,
+        fmt::format("\"{}\" has no load case of its own that could be solved: {}",
+                    assessment.block->mesh->file.value, why_none(deck, assessment.solution)),
+        {"a case needs supports and loads: SPC and LOAD in Nastran's case control, *BOUNDARY and "
+         "*CLOAD, *DLOAD or *DSLOAD in Abaqus' step",
+         "a block without them is loaded by a case: blocklift assess"});
+  return assessment;
+}
+
+std::vector<std::string> left_out_of_cases(const structure::Deck& deck) {
+  std::vector<std::string> sentences;
+  for (const structure::LedgerEntry& entry : deck.ledger)
+    if (!entry.left_out.empty() && !is_wish_of_solver(entry))
+      sentences.push_back(fmt::format("{}: {} of {} used; left out: {}", entry.name, entry.used,
+                                      entry.read, entry.left_out));
+  return sentences;
+}
+
+}  // namespace blocklift::pipeline

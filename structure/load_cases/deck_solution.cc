@@ -1,0 +1,192 @@
+#include "structure/load_cases/deck_solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "structure/error.h"
+#include "structure/index.h"
+#include "structure/load_cases/deck_loads.h"
+#include "structure/load_cases/deck_supports.h"
+#include "structure/response/block_error.h"
+#include "structure/space/freedom_text.h"
+#include "structure/system/assembly.h"
+#include "structure/system/held_sums.h"
+#include "structure/system/matter.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Load cases that the same sets of supports hold.
+using CasesOfSupports = std::map<std::vector<int>, std::vector<int>>;
+
+std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets) {
+  std::vector<Support> supports;
+  for (const int set : sets) {
+    const auto& of_set = deck.support_sets[at(set)].supports;
+    supports.insert(supports.end(), of_set.begin(), of_set.end());
+  }
+  return supports;
+}
+
+[[noreturn]] void refuse_loose(const Space& space, const DeckLoadCase& load_case, int unknown) {
+  const int freedom = freedom_of(space, unknown);
+  throw ModelError(fmt::format("the supports of {} leave a part free to move: nothing resists {}",
+                               name_of(load_case), describe_freedom(space, freedom)));
+}
+
+/// The place on the line between a direction's holders at which their shares balance.
+Vector3 place_between(const Mesh& mesh, const HeldDirection& held) {
+  Vector3 place = Vector3::Zero();
+  for (const auto& [vertex, share] : held.holders)
+    if (vertex >= 0) place += share * mesh.vertices[at(vertex)];
+  return place;
+}
+
+/// Reactions by the deck's vertices from forces along held directions.
+std::vector<SupportReaction> reactions_at(const Space& space,
+                                          const std::vector<HeldDirection>& directions,
+                                          const Eigen::Ref<const Eigen::VectorXd>& forces) {
+  std::map<int, SupportReaction> of_vertex;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const HeldDirection& held = directions[i];
+    for (const auto& [vertex, share] : held.holders) {
+      if (vertex < 0) continue;
+      SupportReaction& reaction = of_vertex[vertex];
+      reaction.vertex = vertex;
+      const Vector3 vector = share * forces[static_cast<Eigen::Index>(i)] * held.axis;
+      if (held.is_rotation) {
+        reaction.moment += vector;
+        continue;
+      }
+      reaction.force += vector;
+      // What lies beside the line between its holders turns about them.
+      const Vector3 arm = space.nodes().col(held.node) - place_between(space.mesh(), held);
+      reaction.moment += arm.cross(vector);
+    }
+  }
+  std::vector<SupportReaction> reactions;
+  for (const auto& [vertex, reaction] : of_vertex) reactions.push_back(reaction);
+  return reactions;
+}
+
+void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& solution) {
+  solution.applied = resultant(space, load);
+  double forces = 0, moments = 0;
+  for (const SupportReaction& reaction : solution.reactions) {
+    const Vector3& place = space.mesh().vertices[at(reaction.vertex)];
+    const Vector3 moment = place.cross(reaction.force) + reaction.moment;
+    solution.supported.force += reaction.force;
+    solution.supported.moment += moment;
+    forces += reaction.force.norm();
+    moments += moment.norm();
+  }
+  const auto share = [](const Vector3& left, double of) { return of > 0 ? left.norm() / of : 0; };
+  solution.force_residual = share(solution.applied.force + solution.supported.force, forces);
+  solution.moment_residual = share(solution.applied.moment + solution.supported.moment, moments);
+}
+
+/// Solves the cases that some supports hold.
+void solve_supported(const ElasticModel& model, const Deck& deck, const std::vector<int>& sets,
+                     const std::vector<int>& cases, int threads, DeckSolution& result) {
+  const Space& space = model.space();
+  const std::vector<HeldDirection> directions =
+      find_held_directions(space, supports_of(deck, sets));
+  HeldSystem system(assemble_stiffness(space, threads), as_sums(space, directions));
+  try {
+    system.factorise();
+  } catch (const LooseUnknown& loose) {
+    if (directions.empty()) {  // springs to the ground, which do not hold it alone
+      for (const int load_case : cases) result.skipped.push_back({load_case, false});
+      return;
+    }
+    refuse_loose(space, deck.load_cases[at(cases.front())], loose.unknown);
+  }
+  Eigen::MatrixXd loads(model.freedoms(), static_cast<Eigen::Index>(cases.size()));
+  for (std::size_t c = 0; c < cases.size(); ++c)
+    loads.col(static_cast<Eigen::Index>(c)) = load_of(model, deck, deck.load_cases[at(cases[c])]);
+  const Eigen::MatrixXd acting = space.reduce(loads);
+  const Eigen::MatrixXd unknowns = system.solve(acting);
+  const Eigen::MatrixXd forces = system.reactions(unknowns, acting);
+  const Eigen::MatrixXd motions = space.expand(unknowns);
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    const auto column = static_cast<Eigen::Index>(c);
+    DeckCaseSolution& solution = result.cases.emplace_back();
+    solution.load_case = cases[c];
+    solution.motion = motions.col(column);
+    solution.reactions = reactions_at(space, directions, forces.col(column));
+    solution.strain_energy = system.energy(unknowns.col(column));
+    solution.estimated_error = estimate_block_error(model, solution.motion, threads).relative;
+    sum_up(space, loads.col(column), solution);
+  }
+}
+
+CasesOfSupports sort_cases(const Deck& deck, DeckSolution& result) {
+  CasesOfSupports sorted;
+  for (std::size_t c = 0; c < deck.load_cases.size(); ++c) {
+    const DeckLoadCase& load_case = deck.load_cases[c];
+    std::vector<int> sets = load_case.supports;
+    std::sort(sets.begin(), sets.end());
+    const std::vector<Support> supports = supports_of(deck, sets);
+    const bool is_moved = std::any_of(supports.begin(), supports.end(), [](const Support& one) {
+      return std::any_of(one.value.begin(), one.value.end(), [](double v) { return v != 0; });
+    });
+    const bool is_grounded = std::any_of(
+        deck.mesh.springs.begin(), deck.mesh.springs.end(),
+        [](const Spring& spring) { return spring.vertices[0] < 0 || spring.vertices[1] < 0; });
+    if (supports.empty() && !is_grounded)
+      result.skipped.push_back({static_cast<int>(c), false});
+    else if (load_case.loads.empty() && !is_moved)
+      result.skipped.push_back({static_cast<int>(c), true});
+    else
+      sorted[sets].push_back(static_cast<int>(c));
+  }
+  return sorted;
+}
+
+void find_idle_supports(const ElasticModel& model, const Deck& deck, DeckSolution& result) {
+  std::set<int> idle;
+  for (const SupportSet& set : deck.support_sets)
+    for (const Support& support : set.supports)
+      if (model.space().node_of_vertex(support.vertex) < 0) idle.insert(support.vertex);
+  result.idle_supports.assign(idle.begin(), idle.end());
+}
+
+}  // namespace
+
+std::string name_of(const DeckLoadCase& load_case) {
+  return load_case.title.empty() ? fmt::format("case {}", load_case.label)
+                                 : fmt::format("case {} ({})", load_case.label, load_case.title);
+}
+
+int own_degree(const Deck& deck) { return deck.mesh.curved_shells.empty() ? 1 : 2; }
+
+DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads) {
+  DeckSolution result;
+  for (const auto& [sets, cases] : sort_cases(deck, result))
+    solve_supported(model, deck, sets, cases, threads, result);
+  std::sort(result.cases.begin(), result.cases.end(),
+            [](const auto& a, const auto& b) { return a.load_case < b.load_case; });
+  std::sort(result.skipped.begin(), result.skipped.end(),
+            [](const auto& a, const auto& b) { return a.load_case < b.load_case; });
+  find_idle_supports(model, deck, result);
+  if (result.cases.empty()) return result;
+  const auto count = static_cast<Eigen::Index>(result.cases.size());
+  Eigen::MatrixXd motions(model.freedoms(), count);
+  for (Eigen::Index c = 0; c < count; ++c) motions.col(c) = result.cases[at(c)].motion;
+  std::vector<LoadCaseResult> stresses =
+      MotionStress(model, motions, {}).evaluate(Eigen::MatrixXd::Identity(count, count), motions);
+  for (std::size_t c = 0; c < stresses.size(); ++c) {
+    stresses[c].name = name_of(deck.load_cases[at(result.cases[c].load_case)]);
+    result.cases[c].stress = std::move(stresses[c]);
+  }
+  return result;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,155 @@
+#include "structure/load_cases/deck_supports.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "structure/index.h"
+#include "structure/mesh/solid_shape.h"
+#include "structure/space/joints.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+/// A held axis of a vertex.
+struct HeldAxis {
+  Vector3 axis = Vector3::Zero();
+  bool is_rotation = false;
+  double value = 0;
+};
+
+using AxesOfVertices = std::map<int, std::vector<HeldAxis>>;
+
+constexpr double parallel = 1 - 1e-9;  // cosine
+
+AxesOfVertices held_axes(const std::vector<Support>& supports) {
+  AxesOfVertices axes;
+  for (const Support& support : supports)
+    for (Eigen::Index c = 0; c < 6; ++c) {
+      if (!support.held[at(c)]) continue;
+      HeldAxis held{support.axes.col(c % 3), c >= 3, support.value[at(c)]};
+      auto& of_vertex = axes[support.vertex];
+      // A deck may say the same twice: the last word counts.
+      const auto same = std::find_if(of_vertex.begin(), of_vertex.end(), [&](const HeldAxis& one) {
+        return one.is_rotation == held.is_rotation && std::abs(one.axis.dot(held.axis)) > parallel;
+      });
+      if (same == of_vertex.end())
+        of_vertex.push_back(held);
+      else
+        *same = held;
+    }
+  return axes;
+}
+
+/// Holds a vertex's node, and what lies on edges between two held vertices.
+class Holder {
+ public:
+  Holder(const Space& space, const AxesOfVertices& axes) : space_(space), axes_(axes) {}
+
+  std::vector<HeldDirection> hold() {
+    for (const auto& [vertex, axes] : axes_) {
+      const int node = space_.node_of_vertex(vertex);
+      if (node < 0) continue;
+      done_.insert(node);
+      for (const HeldAxis& held : axes)
+        directions_.push_back(
+            {node, held.axis, held.is_rotation, held.value, {{{vertex, 1}, {-1, 0}}}});
+    }
+    for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell) hold_shell(cell);
+    for (const BeamCell& cell : space_.beams()) hold_beam(cell);
+    for (std::size_t solid = 0; solid < space_.mesh().solids.size(); ++solid) hold_solid(solid);
+    return std::move(directions_);
+  }
+
+ private:
+  void hold_shell(int cell) {
+    const ShellCell& located = space_.shells()[at(cell)];
+    const auto& corners = space_.mesh().shells[at(located.shell)].vertices;
+    const std::vector<double> places = lagrange_places(space_.degree());
+    const int* node = space_.shell_nodes(cell);
+    for (const double y : places)
+      for (const double x : places) {
+        const Eigen::Vector2d xi = located.origin + located.size * Eigen::Vector2d(x, y);
+        if (xi.y() == 0) hold_between(*node, corners[0], corners[1], xi.x());
+        if (xi.y() == 1) hold_between(*node, corners[2], corners[3], xi.x());
+        if (xi.x() == 0) hold_between(*node, corners[0], corners[2], xi.y());
+        if (xi.x() == 1) hold_between(*node, corners[1], corners[3], xi.y());
+        ++node;
+      }
+  }
+
+  void hold_beam(const BeamCell& cell) {
+    const auto& ends = space_.mesh().beams[at(cell.beam)].vertices;
+    const std::vector<double> places = lagrange_places(cell.degree);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      hold_between(cell.nodes[i], ends[0], ends[1], cell.origin + cell.size * places[i]);
+  }
+
+  void hold_solid(std::size_t number) {
+    const Solid& solid = space_.mesh().solids[number];
+    const SolidTopology& topology = topology_of(solid.shape);
+    const int* nodes = space_.solid_nodes(static_cast<int>(number));
+    for (std::size_t edge = 0; edge < topology.edges.size(); ++edge)
+      hold_between(nodes[at(topology.corners) + edge], solid.vertices[at(topology.edges[edge][0])],
+                   solid.vertices[at(topology.edges[edge][1])], 0.5);
+  }
+
+  void hold_between(int node, int from, int to, double share) {
+    if (from == to || share == 0 || share == 1) return;
+    const auto at_from = axes_.find(from), at_to = axes_.find(to);
+    if (at_from == axes_.end() || at_to == axes_.end() || !done_.insert(node).second) return;
+    for (const HeldAxis& one : at_from->second) {
+      // About a cylinder axes turn from vertex to vertex.
+      const auto match = std::max_element(at_to->second.begin(), at_to->second.end(),
+                                          [&](const HeldAxis& a, const HeldAxis& b) {
+                                            return likeness(one, a) < likeness(one, b);
+                                          });
+      if (likeness(one, *match) < 0.8) continue;
+      const double sign = one.axis.dot(match->axis) < 0 ? -1 : 1;
+      directions_.push_back({node,
+                             ((1 - share) * one.axis + share * sign * match->axis).normalized(),
+                             one.is_rotation,
+                             (1 - share) * one.value + share * sign * match->value,
+                             {{{from, 1 - share}, {to, share}}}});
+    }
+  }
+
+  static double likeness(const HeldAxis& a, const HeldAxis& b) {
+    return a.is_rotation == b.is_rotation ? std::abs(a.axis.dot(b.axis)) : -1;
+  }
+
+  const Space& space_;
+  const AxesOfVertices& axes_;
+  std::set<int> done_;
+  std::vector<HeldDirection> directions_;
+};
+
+}  // namespace
+
+std::vector<HeldDirection> find_held_directions(const Space& space,
+                                                const std::vector<Support>& supports) {
+  const AxesOfVertices axes = held_axes(supports);
+  return Holder(space, axes).hold();
+}
+
+std::vector<HeldSum> as_sums(const Space& space, const std::vector<HeldDirection>& directions) {
+  std::vector<HeldSum> sums;
+  for (const HeldDirection& held : directions) {
+    HeldSum& sum = sums.emplace_back();
+    sum.value = held.value;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (held.axis[axis] == 0) continue;
+      const int freedom = 6 * held.node + (held.is_rotation ? 3 : 0) + axis;
+      for (const Space::Term* term = space.begin_of(freedom); term != space.end_of(freedom); ++term)
+        sum.coefficients[term->unknown] += held.axis[axis] * term->weight;
+    }
+  }
+  return sums;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,28 @@
+#include "structure/space/freedom_text.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace blocklift::structure {
+
+std::string describe_freedom(const Space& space, int freedom) {
+  const Vector3 place = space.nodes().col(freedom / 6);
+  return fmt::format("at ({:.4g}, {:.4g}, {:.4g}) m, {} {}", place.x(), place.y(), place.z(),
+                     freedom % 6 < 3 ? "displacement along" : "rotation about",
+                     static_cast<char>('x' + freedom % 3));
+}
+
+int freedom_of(const Space& space, int unknown) {
+  int found = 0;
+  double largest = 0;
+  for (int freedom = 0; freedom < space.freedoms(); ++freedom)
+    for (const Space::Term* term = space.begin_of(freedom); term != space.end_of(freedom); ++term)
+      if (term->unknown == unknown && std::abs(term->weight) > largest) {
+        largest = std::abs(term->weight);
+        found = freedom;
+      }
+  return found;
+}
+
+}  // namespace blocklift::structure
