@@ -309,8 +309,9 @@ struct ShellOperator::Mean {
 
 ShellOperator::~ShellOperator() = default;
 
-ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points)
+ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points, Source source)
     : space_(space),
+      has_ties_(source == Source::ties || space.degree() == 1),
       points_(at(points.cols())),
       table_(std::make_unique<Tabulation>(space.implementation(), points, surface_flags)),
       mean_(std::make_unique<Mean>(space)) {
@@ -322,7 +323,7 @@ ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points)
   if (space.degree() == 1) {
     tie({0.5}, {0.0, 1.0}, {shear_1});
     tie({0.0, 1.0}, {0.5}, {shear_2});
-  } else {
+  } else if (has_ties_) {
     const auto few = gauss_places(space.degree()), many = gauss_places(space.degree() + 1);
     tie(few, many, {membrane_11, shear_1});
     tie(many, few, {membrane_22, shear_2});
@@ -358,7 +359,7 @@ void ShellOperator::reinit(int cell) {
     point.area = surface.area;
     turns.push_back(turn_to(surface, point.e_1, point.e_2));
   }
-  const bool is_balanced = space_.degree() > 1 && mean_->is_even();
+  const bool is_balanced = !has_ties_ || (space_.degree() > 1 && mean_->is_even());
   mean_->strains.resize(3, 0);
   if (!is_balanced) find_mean_strains(offset);
   tie_strains(offset);

@@ -57,9 +57,15 @@ struct ShellPoint {
 /// One object serves one thread.
 class ShellOperator {
  public:
+  /// Where the strains of degree 2 and above come from.
+  enum class Source {
+    ties,          ///< as the stiffness has them
+    displacements  ///< from the displacements at the point itself
+  };
+
   /// @param points of the unit square, 2 x m, at which strains are wanted; the space must outlive
   /// this.
-  ShellOperator(const Space& space, const Eigen::Matrix2Xd& points);
+  ShellOperator(const Space& space, const Eigen::Matrix2Xd& points, Source source = Source::ties);
   ~ShellOperator();
 
   /// Goes to a cell of Space::shells().
@@ -74,6 +80,7 @@ class ShellOperator {
   void find_mean_strains(double offset);
 
   const Space& space_;
+  bool has_ties_;
   std::vector<ShellPoint> points_;
   std::unique_ptr<Tabulation> table_;
   std::vector<TiedStrains> ties_;

@@ -28,9 +28,9 @@ bool has_triangles(const Mesh& mesh) {
 
 ShellStress::ShellStress(const Space& space, const Eigen::Matrix2Xd& points)
     : space_(space), of_squares_(space, points) {
-  if (points.cols() > 0 && points.row(1).maxCoeff() > farthest_in_triangle &&
-      has_triangles(space.mesh()))
-    of_triangles_ = std::make_unique<ShellOperator>(space, pulled_in(points));
+  if (points.cols() > 0 && has_triangles(space.mesh()))
+    of_triangles_ = std::make_unique<ShellOperator>(space, pulled_in(points),
+                                                    ShellOperator::Source::displacements);
 }
 
 Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
