@@ -166,7 +166,7 @@ void respond(const LiftCase& the_case, const Progress& progress, BlockRun& block
   std::optional<structure::OneBlasThread> whatever_the_threads;
   if (the_case.dynamics.flexibility != Flexibility::rigid) whatever_the_threads.emplace();
   progress("block: stiffness, factorisation, unit responses", 0, "");
-  block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  block.responses = make_unit_responses(*block.model, *the_case.load.model);
 }
 
 /// How the block gives way; none if it is taken as rigid.

@@ -1,16 +1,20 @@
 #include "pipeline/lift/block_preparation.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "pipeline/build/build_lift.h"
 #include "pipeline/build/describe_block.h"
+#include "pipeline/files/structure/deck_supports.h"
 #include "structure/error.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/practice/hot_spot.h"
 #include "structure/response/block_field.h"
 #include "structure/response/line_loads.h"
+#include "structure/response/loose_block.h"
 
 namespace blocklift::pipeline {
 
@@ -85,6 +89,20 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
   } catch (const structure::ModelError& error) {
     diagnostics.error(block.place, error.what());
     return nullptr;
+  }
+}
+
+std::unique_ptr<structure::UnitResponses> make_unit_responses(const structure::ElasticModel& model,
+                                                              const BlockModel& block) {
+  try {
+    return std::make_unique<structure::UnitResponses>(model);
+  } catch (const structure::LooseBlock& loose) {
+    Diagnostics diagnostics;
+    diagnostics.error(block.place, loose.what(),
+                      block.mesh
+                          ? supports_at_mechanism(*block.mesh->deck, loose.place, loose.freedom)
+                          : std::vector<std::string>{});
+    throw InputError(diagnostics);
   }
 }
 

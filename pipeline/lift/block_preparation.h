@@ -5,6 +5,7 @@
 
 #include "pipeline/files/lift_case/lift_case.h"
 #include "structure/response/elastic_model.h"
+#include "structure/response/unit_responses.h"
 
 namespace blocklift::pipeline {
 
@@ -20,8 +21,17 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
                                                           const StructureSettings& settings,
                                                           Diagnostics& diagnostics);
 
-/// The same complaints at little cost: the block in coarse elements of degree 1, made and
-/// forgotten.
+/// Stiffness of the block, its factor, and responses to unit loads. The model must outlive them.
+///
+/// A mechanism is wrong in the input, too: it is said by the block's file, with what the supports of
+/// a deck, which a lift leaves out, had to do with it.
+/// @throws InputError if a part of the block can move and nothing resists.
+/// @throws structure::NotEnoughMemory
+std::unique_ptr<structure::UnitResponses> make_unit_responses(const structure::ElasticModel& model,
+                                                              const BlockModel& block);
+
+/// The complaints of make_block_model at little cost: the block in coarse elements of degree 1,
+/// made and forgotten.
 void check_block_model(const BlockModel& block, const std::string& name, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

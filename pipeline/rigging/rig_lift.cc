@@ -80,7 +80,7 @@ class LiftRunner {
     if (!gives_way && !the_case().standard) return;
     progress_("block: stiffness, factorisation, unit responses", 0, "");
     const structure::OneBlasThread whatever_the_threads;
-    block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+    block.responses = make_unit_responses(*block.model, *the_case().load.model);
     if (gives_way) flexibility_ = make_flexibility(*block.responses, the_case().dynamics);
   }
 

@@ -93,7 +93,8 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   if (lift_case.dynamics.flexibility != Flexibility::rigid) {
     progress("block: stiffness, factorisation, unit responses", 0, "");
     const structure::OneBlasThread whatever_the_threads;
-    flexibility = make_flexibility(structure::UnitResponses(*block), lift_case.dynamics);
+    flexibility =
+        make_flexibility(*make_unit_responses(*block, *lift_case.load.model), lift_case.dynamics);
   }
   return simulate_lift(
       std::move(lift_case),

@@ -173,7 +173,7 @@ KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& val
       load_mass(mass_of(*block.model, as_lifted)), block.model->mesh().lifting_points, {}};
   if (lift_case.dynamics.flexibility == Flexibility::rigid) return known;
   const structure::OneBlasThread whatever_the_threads;
-  if (!block.responses) block.responses = std::make_unique<structure::UnitResponses>(*block.model);
+  if (!block.responses) block.responses = make_unit_responses(*block.model, as_lifted);
   const auto model =
       block.model->with_mass(stated(as_lifted.mass), stated(as_lifted.centre_of_mass));
   known.flexibility =
@@ -186,7 +186,7 @@ structure::StressBasis StudyBlocks::basis_of(const Eigen::VectorXd& values) cons
   const LiftCase lift_case = member_case(study_, values, &changing_);
   auto model = model_of(lift_case);
   const structure::OneBlasThread whatever_the_threads;
-  auto responses = std::make_unique<structure::UnitResponses>(*model);
+  auto responses = make_unit_responses(*model, *lift_case.load.model);
   std::optional<LoadFlexibility> flexibility;
   if (lift_case.dynamics.flexibility != Flexibility::rigid)
     flexibility = make_flexibility(*responses, lift_case.dynamics);

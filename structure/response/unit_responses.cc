@@ -12,6 +12,7 @@
 
 #include "structure/error.h"
 #include "structure/limits.h"
+#include "structure/response/loose_block.h"
 #include "structure/space/freedom_text.h"
 #include "structure/stopwatch.h"
 #include "structure/system/assembly.h"
@@ -32,9 +33,11 @@ namespace {
 constexpr double standard_gravity = 9.80665;  // m/s^2
 
 [[noreturn]] void refuse_mechanism(const Space& space, int freedom) {
-  throw ModelError(fmt::format(
-      "the block is a mechanism: a part of it can move against the rest, and nothing resists ({})",
-      describe_freedom(space, freedom)));
+  throw LooseBlock(
+      fmt::format("the block is a mechanism: a part of it can move against the rest, and nothing "
+                  "resists ({})",
+                  describe_freedom(space, freedom)),
+      space.nodes().col(freedom / 6), freedom % 6);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class UnitResponses {
  public:
   /// Assembles, factorises and solves. The model must outlive this object.
   /// @param threads of the assembly; 0: as many as the machine has. OpenBLAS has its own setting.
-  /// @throws ModelError if memory does not suffice or a part is free to move.
+  /// @throws NotEnoughMemory; LooseBlock if a part is free to move.
   explicit UnitResponses(const ElasticModel& model, int threads = 0);
   /// The same for a model that has its elements, and so its stiffness, from another's
   /// (ElasticModel::with_mass): the factor is shared and responses are solved anew, bit for bit as

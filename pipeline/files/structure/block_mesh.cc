@@ -11,6 +11,7 @@
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/files/structure/block_model.h"
+#include "pipeline/files/structure/deck_supports.h"
 #include "pipeline/formats/content_hash.h"
 #include "structure/error.h"
 #include "structure/mesh/files/abaqus/reader.h"
@@ -343,7 +344,8 @@ class MeshReader {
     const structure::Diagnosis& diagnosis = *mesh_model_.diagnosis;
     for (const structure::Finding& finding : diagnosis.findings)
       if (finding.severity == structure::Severity::error && concerns_use(finding))
-        complain(fmt::format("{}: {}", mesh_model_.file.value, described(finding)));
+        complain(fmt::format("{}: {}", mesh_model_.file.value, described(finding)),
+                 supports_of_what_is_loose(deck, finding));
     Vector3 low = deck.mesh.vertices.front(), high = low;
     for (const Vector3& vertex : deck.mesh.vertices) {
       low = low.cwiseMin(vertex);

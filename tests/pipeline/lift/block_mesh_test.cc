@@ -201,6 +201,72 @@ std::string complaints_after(const std::string& block, const std::string& old_te
   return complaints;
 }
 
+// What the deck's supports held, which a lift leaves out: the complaint says so.
+TEST(BlockMesh, SupportsOfTheDeckThatHeldWhatIsLooseAreNamed) {
+  const std::string mesh =
+      "mesh: {file: box.bdf, units: mm-t-N, yield_stress: 355 MPa}\nlugs: {L1: {node: 9001}}\n";
+  // A rod that only its support keeps from swinging.
+  const std::string rod =
+      "PLOTEL,9900,1,2\nGRID,8001,,-500.,0.,0.\nCONROD,8000,1,8001,7,500.\nSPC1,3,23,8001\n";
+  const std::string swings = complaints_after(mesh, "PLOTEL,9900,1,2\n", rod);
+  EXPECT_THAT(swings, HasSubstr("1 vertices can move in a direction that nothing there resists"));
+  EXPECT_THAT(swings,
+              HasSubstr("the deck's own supports hold node 8001 there (constraint set 3); a "
+                        "lift leaves them out"));
+  // The same without a support: nothing is said of any.
+  EXPECT_THAT(complaints_after(mesh, "PLOTEL,9900,1,2\n", rod.substr(0, rod.find("SPC1"))),
+              Not(HasSubstr("own supports")));
+  // A plate of its own, which stands on supports at two of its corners.
+  EXPECT_THAT(complaints_after(mesh, "PLOTEL,9900,1,2\n",
+                               "GRID,8001,,9000.,0.,0.\nGRID,8002,,9500.,0.,0.\nGRID,8003,,9500.,"
+                               "500.,0.\nCTRIA3,8000,1,8001,8002,8003\nSPC1,3,123,8002,8003\n"),
+              HasSubstr("the deck's own supports hold 2 nodes, such as 8002 there"));
+}
+
+/// What is said of a mechanism that only the whole stiffness shows.
+std::string mechanism_of(const test::TemporaryFolder& folder, const std::string& supports) {
+  // A door of one plate: two of its corners are hinged to two bars that stand out from the box.
+  const fs::path source = fs::path(BLOCKLIFT_MESH_LIFT);
+  std::ifstream deck_file(source / "box.bdf");
+  std::string deck{std::istreambuf_iterator<char>(deck_file), {}};
+  const std::string old_text = "PLOTEL,9900,1,2\n";
+  deck.replace(deck.find(old_text), old_text.size(),
+               "GRID,8001,,0.,0.,0.\nGRID,8002,,500.,0.,0.\nGRID,8003,,500.,-400.,0.\n"
+               "GRID,8004,,0.,-400.,0.\nCQUAD4,8000,1,8001,8002,8003,8004\n"
+               "RBE2,8005,1,123,8001\nRBE2,8006,2,123,8002\n" +
+                   supports);
+  folder.write("box.bdf", deck);
+  folder.write("block.yaml",
+               "kind: block\nmesh: {file: box.bdf, units: mm-t-N, yield_stress: 355 MPa}\n"
+               "lugs: {L1: {node: 9001}}\n");
+  std::string complaints;
+  const auto block = read_block("block.yaml", complaints);
+  EXPECT_EQ(complaints, "");
+  Diagnostics diagnostics;
+  StructureSettings settings;
+  settings.element_degree = 1;
+  settings.largest_element = 1;
+  const auto model = make_block_model(*block, "box", settings, diagnostics);
+  EXPECT_EQ(diagnostics.to_text(), "");
+  try {
+    make_unit_responses(*model, *block);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "it is stiff";
+}
+
+TEST(BlockMesh, AMechanismIsWrongInputAndSaysWhatHeldItInTheDeck) {
+  const test::TemporaryFolder folder;
+  const std::string nothing = mechanism_of(folder, "");
+  EXPECT_THAT(nothing, testing::StartsWith("block.yaml:"));
+  EXPECT_THAT(nothing, HasSubstr("the block is a mechanism: a part of it can move"));
+  EXPECT_THAT(nothing, HasSubstr("the deck's own supports, the nearest at node 1 "));
+  const std::string everywhere = mechanism_of(folder, "SPC1,7,123456,8001,THRU,8004\n");
+  EXPECT_THAT(everywhere, HasSubstr("the deck's own supports hold node 800"));
+  EXPECT_THAT(everywhere, HasSubstr("there (constraint set 7); a lift leaves them out: fasten it"));
+}
+
 TEST(BlockMesh, WhatIsWrongIsSaidWithFileAndLine) {
   const std::string mesh = "mesh: {file: box.bdf, units: mm-t-N, yield_stress: 355 MPa}\n";
   EXPECT_EQ(complaints_after(mesh + "lugs: {L1: {node: 9001}}\n", "", ""), "");

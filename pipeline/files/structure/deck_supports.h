@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/files/deck/deck.h"
+
+namespace blocklift::pipeline {
+
+/// What the supports of a deck, which a lift leaves out, have to do with a part of its block that
+/// nothing else holds, as a hint beside the complaint; none where they have nothing to do with it.
+
+/// @param finding places of vertices, beams or parts that can move.
+std::vector<std::string> supports_of_what_is_loose(const structure::Deck& deck,
+                                                   const structure::Finding& finding);
+/// @param place, freedom of the mechanism, as structure::LooseBlock has them.
+std::vector<std::string> supports_at_mechanism(const structure::Deck& deck,
+                                               const structure::Vector3& place, int freedom);
+
+}  // namespace blocklift::pipeline
