@@ -2,6 +2,8 @@
 
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -141,6 +143,17 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
   return names;
 }
 
+/// All of them, with their asterisk.
+const std::vector<std::string>& all_names() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> names;
+    for (const auto* some : {&keywords_read(), &keywords_left_out()})
+      for (const std::string& name : *some) names.push_back("*" + name);
+    return names;
+  }();
+  return all;
+}
+
 /// Gives names that are written without the blanks within them, such as ENDSTEP, their own.
 void restore_blanks(std::vector<AbaqusBlock>& blocks) {
   std::map<std::string, std::string> name_of;
@@ -165,7 +178,7 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
     else if (in_step)
       model.log.leave_out("*" + block.name, "what a step does beyond its supports and forces");
     else
-      model.log.miss(block.line, "*" + block.name, model.options);
+      model.log.miss(block.line, "*" + block.name, model.options, all_names());
   }
 }
 

@@ -6,8 +6,18 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/nearest_name.h"
 
 namespace blocklift::structure {
+
+namespace {
+
+/// " (did you mean X?)"; nothing where no name is near.
+std::string question(const std::string& meant) {
+  return meant.empty() ? std::string() : fmt::format(" (did you mean {}?)", meant);
+}
+
+}  // namespace
 
 int DeckLog::add_file(const std::string& path) {
   files_.push_back(path);
@@ -55,7 +65,8 @@ void DeckLog::leave_out(std::string_view name, const std::string& reason) {
   if (card.left_out.empty()) card.left_out = reason;
 }
 
-void DeckLog::miss(SourceLine line, const std::string& name, const DeckOptions& options) {
+void DeckLog::miss(SourceLine line, const std::string& name, const DeckOptions& options,
+                   const std::vector<std::string>& known, std::string_view instead) {
   const auto is_asked = [&](const std::string& asked) {
     return asked == name || "*" + asked == name;
   };
@@ -70,18 +81,30 @@ void DeckLog::miss(SourceLine line, const std::string& name, const DeckOptions& 
                                name));
     return;
   }
-  complain(line, fmt::format("{} {} is not known here: what it says would be missing from the "
-                             "model; leave_out names what may be missing",
-                             name.starts_with('*') ? "the keyword" : "the card", name));
+  const auto [found, is_new] = unknown_.try_emplace(name);
+  if (!instead.empty()) {
+    complain(line, fmt::format("{}: {}; leave_out names what may be missing", name, instead));
+    return;
+  }
+  if (is_new) found->second = question(nearest_name(name, known));
+  complain(line,
+           fmt::format("{} {} is not known here{}: what it says would be missing from the "
+                       "model; leave_out names what may be missing",
+                       name.starts_with('*') ? "the keyword" : "the card", name, found->second));
 }
 
 void DeckLog::check_left_out(const DeckOptions& options) {
-  for (const std::string& asked : options.leave_out)
-    if (!missed_.contains(asked) && !missed_.contains("*" + asked))
-      complain({}, fmt::format("leave_out names {}, which {}", asked,
-                               ledger_.contains(asked) || ledger_.contains("*" + asked)
-                                   ? "is known here: only what is not can be left out"
-                                   : "the deck does not have"));
+  std::vector<std::string> unknown;
+  for (const auto& [name, meant] : unknown_)
+    unknown.push_back(name.starts_with('*') ? name.substr(1) : name);
+  for (const std::string& asked : options.leave_out) {
+    if (missed_.contains(asked) || missed_.contains("*" + asked)) continue;
+    const bool is_known = ledger_.contains(asked) || ledger_.contains("*" + asked);
+    complain({}, fmt::format(
+                     "leave_out names {}, which {}", asked,
+                     is_known ? "is known here: only what is not can be left out"
+                              : "the deck does not have" + question(nearest_name(asked, unknown))));
+  }
 }
 
 void DeckLog::check() const {
@@ -99,7 +122,11 @@ void DeckLog::check() const {
 }
 
 void DeckLog::hand_over(Deck& deck) {
-  for (auto& [name, card] : ledger_) deck.ledger.push_back(std::move(card));
+  for (auto& [name, card] : ledger_) {
+    // What a part has is in the model once for each of its instances.
+    card.used = std::min(card.used, card.read);
+    deck.ledger.push_back(std::move(card));
+  }
   for (const Complaint& remark : remarks_)
     deck.remarks.push_back({place(remark.line), remark.text, remark.count});
 }

@@ -37,7 +37,10 @@ class DeckLog {
 
   /// Leaves out cards that are not known, where the deck's user asks for it, and complains of each
   /// other one.
-  void miss(SourceLine line, const std::string& name, const DeckOptions& options);
+  /// @param known names that a reader knows, among which the one that was meant may be.
+  /// @param instead how to say otherwise what the card says; empty: there may be no such card.
+  void miss(SourceLine line, const std::string& name, const DeckOptions& options,
+            const std::vector<std::string>& known, std::string_view instead = {});
   /// Complains of names in the options that no card was missed by.
   void check_left_out(const DeckOptions& options);
 
@@ -59,7 +62,9 @@ class DeckLog {
   std::vector<Complaint> complaints_, remarks_;
   std::unordered_map<std::string, std::size_t> complaint_of_, remark_of_;
   std::map<std::string, LedgerEntry, std::less<>> ledger_;
-  std::set<std::string, std::less<>> missed_;
+  std::set<std::string, std::less<>> missed_;  ///< as was asked for
+  /// Other names that are not known, with what was meant by each: ": did you mean X?", or nothing.
+  std::map<std::string, std::string, std::less<>> unknown_;
 };
 
 /// One card or keyword is wrong; the reader adds file and line.

@@ -98,17 +98,65 @@ const std::vector<Reason>& reasons() {
   return all;
 }
 
-/// How to say what a card that is not known says; empty: nobody asked yet.
+/// Cards that there are, that are not known here, and how to say otherwise what they say.
+struct Instead {
+  const char* text;
+  std::vector<std::string_view> names;
+};
+
+const std::vector<Instead>& others() {
+  static const std::vector<Instead> all{
+      {"curved bars are not known; make straight CBAR or CBEAM of each: six to a quarter of a "
+       "circle bend as it does within 1.5 %, eight within 1 %",
+       {"CBEND"}},
+      {"beams of three grids are not known; make two CBEAM of each", {"CBEAM3"}},
+      {"what touches or gapes is not known, for a lift is linear; join the parts by CBUSH or RBE2 "
+       "where they bear on each other",
+       {"CGAP",    "BCTABLE", "BCTABL1", "BCONP",   "BCONPRG", "BCPARA",  "BCTPARA", "BCTPARM",
+        "BCTSET",  "BCTADD",  "BCPROP",  "BCPROPS", "BCRPARA", "BCGRID",  "BCBODY",  "BCBODY1",
+        "BCBDPRP", "BCSURF",  "BCONECT", "BSURF",   "BSURFS",  "BLSEG",   "BFRIC",   "BWIDTH",
+        "BOUTPUT", "BEDGE",   "BGSET",   "BGADD",   "BGPARM",  "CONTACT", "PCONT",   "TIE",
+        "GLUE",    "BCAUTOP", "BCHANGE", "BCMATL",  "BCMOVE",  "BCNURBS", "BCPATCH", "BCSEG"}},
+      {"spot welds and seams are not known; join the plates by CBUSH, or by RBE2 or RBE3, at each",
+       {"CWELD", "CFAST", "CSEAM", "SWLDPRM"}},
+      {"bodies of revolution and plane strain cannot be lifted",
+       {"CTRIAX",  "CTRIAX6", "CQUADX",  "CQUADX4", "CQUADX8", "CTRAX3",  "CTRAX6",
+        "CONEAX",  "CCONEAX", "PCONEAX", "CPLSTN3", "CPLSTN4", "CPLSTN6", "CPLSTN8",
+        "CPLSTS3", "CPLSTS4", "CPLSTS6", "CPLSTS8", "AXIC",    "AXIF",    "RINGAX"}},
+      {"plates of a hyperelastic material are not known; make CQUAD4 or CQUAD8 of each",
+       {"CQUAD", "CTRIA"}},
+      {"a stiffness or mass that is given as a matrix is not known; give the parts themselves",
+       {"DMIG", "DMIG1", "GENEL", "K2GG", "EXTRN", "CBUSH2D"}},
+      {"superelements cannot be lifted; give the deck as one",
+       {"CSUPER", "CSUPEXT", "SEBULK", "SECONCT", "SEELT", "SEEXCLD", "SELABEL", "SELOC", "SEMPLN",
+        "SESET", "SETREE", "RELEASE"}},
+      {"cracks are not known", {"CRAC2D", "CRAC3D"}},
+      {"fluids and their panels are not known",
+       {"CHACAB", "CHACBR", "CAABSF", "CACINF3", "CACINF4", "CAXIF2", "CAXIF3", "CAXIF4", "CFLUID2",
+        "CFLUID3", "CFLUID4", "CSLOT3", "CSLOT4", "MFLUID", "ELIST", "BNDGRID", "FSLIST"}},
+      {"a bolt's preload is not known; its bars alone can stand in the deck",
+       {"BOLT", "BOLTFOR", "BOLTFRC", "BOLTLD"}},
+  };
+  return all;
+}
+
+/// How to say otherwise what a card says that is not known; empty: there may be no such card.
 std::string_view what_instead_of(std::string_view card) {
-  if (card == "CBEND")
-    return "curved bars are not known; make straight CBAR or CBEAM of each: six to a quarter of a "
-           "circle bend as it does within 1.5 %, eight within 1 %";
+  for (const Instead& other : others())
+    if (std::find(other.names.begin(), other.names.end(), card) != other.names.end())
+      return other.text;
   return {};
 }
 
-bool is_asked_for(const DeckOptions& options, const std::string& card) {
-  return std::find(options.leave_out.begin(), options.leave_out.end(), card) !=
-         options.leave_out.end();
+/// All names that may have been meant by one that is not known.
+const std::vector<std::string>& all_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all(cards_read().begin(), cards_read().end());
+    for (const Reason& reason : reasons())
+      all.insert(all.end(), reason.names.begin(), reason.names.end());
+    return all;
+  }();
+  return names;
 }
 
 /// Notes numbers of elements, read or not, and of scalar points.
@@ -162,11 +210,8 @@ void take_stock_of_nastran_cards(NastranModel& model) {
       model.log.leave_out(card.name, found->second);
     else if (card.name.starts_with("TABLE"))
       model.log.leave_out(card.name, "a table, which says nothing by itself");
-    else if (const std::string_view instead = what_instead_of(card.name);
-             !instead.empty() && !is_asked_for(model.options, card.name))
-      model.log.complain(card.line, fmt::format("{}: {}", card.name, instead));
     else
-      model.log.miss(card.line, card.name, model.options);
+      model.log.miss(card.line, card.name, model.options, all_names(), what_instead_of(card.name));
   }
 }
 

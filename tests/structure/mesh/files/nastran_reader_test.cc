@@ -422,6 +422,9 @@ TEST(NastranReader, LeavesOutUnknownCardsThatItsUserNames) {
   };
   EXPECT_THAT(complaints({"CBEND"}), HasSubstr("leave_out names what may be missing (2 times)"));
   EXPECT_THAT(complaints({"BCTABLE"}), HasSubstr("make straight CBAR or CBEAM"));
+  EXPECT_THAT(
+      complaints({"BCTABLE", "CBEMD"}),
+      HasSubstr("leave_out names CBEMD, which the deck does not have (did you mean CBEND?)"));
   EXPECT_THAT(complaints({"BCTABLE", "CBEND", "CGAP"}),
               HasSubstr("leave_out names CGAP, which the deck does not have"));
   EXPECT_THAT(complaints({"BCTABLE", "CBEND", "CQUAD4"}),
@@ -429,6 +432,17 @@ TEST(NastranReader, LeavesOutUnknownCardsThatItsUserNames) {
 }
 
 // As a public deck of MYSTRAN's has them.
+TEST(NastranReader, AsksWhatWasMeantByACardThatThereIsNot) {
+  EXPECT_THAT(complaints_of_nastran(square + "CQAUD4,11,6,1,2,3,4\n"),
+              HasSubstr("the card CQAUD4 is not known here (did you mean CQUAD4?): what it says"));
+  EXPECT_THAT(complaints_of_nastran(square + "GIRD,11,,1.,2.,3.\n"), HasSubstr("mean GRID?"));
+  EXPECT_THAT(complaints_of_nastran(square + "PARM,POST,-1\n"), HasSubstr("mean PARAM?"));
+  // There are such cards, near as their names may be to others.
+  EXPECT_THAT(complaints_of_nastran(square + "CBEAM3,11,6,1,2,3\n"),
+              HasSubstr("CBEAM3: beams of three grids are not known; make two CBEAM of each"));
+  EXPECT_THAT(complaints_of_nastran(square + "CQUADX,11,6,1,2,3,4\n"), Not(HasSubstr("did you")));
+}
+
 TEST(NastranReader, BlanksBetweenComponents) {
   const Deck deck = nastran(square + "SPC1    998     12 456  1       2\nDEBUG   192     2\n");
   ASSERT_FALSE(deck.support_sets.empty());
