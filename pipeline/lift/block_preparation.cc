@@ -99,9 +99,8 @@ std::unique_ptr<structure::UnitResponses> make_unit_responses(const structure::E
   } catch (const structure::LooseBlock& loose) {
     Diagnostics diagnostics;
     diagnostics.error(block.place, loose.what(),
-                      block.mesh
-                          ? supports_at_mechanism(*block.mesh->deck, loose.place, loose.freedom)
-                          : std::vector<std::string>{});
+                      block.mesh ? supports_of_mechanism(*block.mesh->deck, loose.motion)
+                                 : std::vector<std::string>{});
     throw InputError(diagnostics);
   }
 }

@@ -13,7 +13,6 @@
 #include "structure/error.h"
 #include "structure/limits.h"
 #include "structure/response/loose_block.h"
-#include "structure/space/freedom_text.h"
 #include "structure/stopwatch.h"
 #include "structure/system/assembly.h"
 #include "structure/system/linear_solver.h"
@@ -32,14 +31,6 @@ namespace {
 
 constexpr double standard_gravity = 9.80665;  // m/s^2
 
-[[noreturn]] void refuse_mechanism(const Space& space, int freedom) {
-  throw LooseBlock(
-      fmt::format("the block is a mechanism: a part of it can move against the rest, and nothing "
-                  "resists ({})",
-                  describe_freedom(space, freedom)),
-      space.nodes().col(freedom / 6), freedom % 6);
-}
-
 }  // namespace
 
 UnitResponses::~UnitResponses() = default;
@@ -49,14 +40,15 @@ UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(mo
   Stopwatch watch;
   SparseLower stiffness = assemble_stiffness(model.space(), threads);
   timing_.assembly_s = watch.lap();
-  const auto system =
+  auto system =
       std::make_shared<System>(std::move(stiffness), statically_determinate_support(model.space()));
   timing_.factor_bytes = system->equations.factor_bytes();
   timing_.analysis_s = watch.lap();
   try {
     system->equations.factorise();
   } catch (const LooseUnknown& loose) {
-    refuse_mechanism(model.space(), freedom_of(model.space(), loose.unknown));
+    system.reset();
+    refuse_mechanism(model.space(), statically_determinate_support(model.space()), loose, threads);
   }
   system_ = system;
   timing_.factorisation_s = watch.lap();
@@ -113,8 +105,11 @@ void UnitResponses::check_stiffness() const {
   for (int freedom = 0; freedom < space.freedoms(); ++freedom)
     if (freedom % 6 < 3 &&
         !(standard_gravity * displacements_.row(freedom).tail<6>().head<3>().cwiseAbs().maxCoeff() <
-          farthest))
-      refuse_mechanism(space, freedom);
+          farthest)) {
+      Eigen::Index column = 0;
+      displacements_.row(freedom).tail<6>().head<3>().cwiseAbs().maxCoeff(&column);
+      refuse_mechanism(space, displacements_.col(displacements_.cols() - 6 + column));
+    }
 }
 
 Eigen::MatrixXd UnitResponses::solve(const Eigen::MatrixXd& loads,

@@ -507,9 +507,11 @@ Format<MeshModel> mesh_model_format() {
       .by_default("leave_solids_out", &MeshModel::leave_solids_out, boolean(), "false",
                   "lift without the file's solids; those of CAD files and of Gmsh's meshes are "
                   "refused otherwise, those of decks computed")
-      .optional("leave_out", &MeshModel::leave_out, list_of(located(text()), 1),
-                "cards of a Nastran deck or keywords of an Abaqus deck that are not known here and "
-                "that the lift may do without, such as [BCTABLE, CGAP]; they are refused otherwise")
+      .optional(
+          "leave_out", &MeshModel::leave_out, list_of(located(text()), 1),
+          "cards of a Nastran deck, or keywords and types of elements of an Abaqus deck, that "
+          "are not known here and that the lift may do without, such as [BCTABLE, CGAP]; they "
+          "are refused otherwise")
       .optional("element_size", &MeshModel::element_size,
                 located(quantity(Dimension::length, Range::positive())),
                 "longest edge of the elements that CAD surfaces are meshed with; circles have 24 "

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,36 +23,12 @@ using structure::Support;
 using structure::SupportSet;
 using structure::Vector3;
 
-constexpr const char* what_to_do =
-    "a lift leaves them out: fasten it to the block by a link, a spring or the part that is "
-    "missing";
-
-/// Distance within which two places are one, m.
-double nearness(const Mesh& mesh) {
-  Vector3 low = mesh.vertices.front(), high = low;
-  for (const Vector3& vertex : mesh.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
-  return 1e-6 * (high - low).norm();
-}
-
 long label_of(const Mesh& mesh, int vertex) {
   return mesh.vertex_labels.empty() ? vertex + 1 : mesh.vertex_labels[at(vertex)];
 }
 
 bool holds_anything(const Support& support) {
   return std::any_of(support.held.begin(), support.held.end(), [](bool held) { return held; });
-}
-
-/// Does a support resist a displacement along (0 to 2), or a rotation about, an axis of the block?
-bool resists(const Support& support, int freedom) {
-  const std::size_t first = freedom < 3 ? 0 : 3;
-  for (std::size_t i = 0; i < 3; ++i)
-    if (support.held[first + i] &&
-        std::abs(support.axes(freedom % 3, static_cast<Eigen::Index>(i))) > 0.5)
-      return true;
-  return false;
 }
 
 /// For each vertex: does what a finding says is loose have it?
@@ -75,6 +50,29 @@ std::vector<char> vertices_of(const Mesh& mesh, const structure::Finding& findin
   return is_loose;
 }
 
+/// Names nodes and sets of the supports that hold what is loose, if any do.
+template <typename Holds>
+std::vector<std::string> describe_holding(const Deck& deck, const Holds& holds) {
+  std::set<long> held;
+  std::vector<std::string> sets;
+  for (const SupportSet& set : deck.support_sets) {
+    bool has_any = false;
+    for (const Support& support : set.supports) {
+      if (!holds(support)) continue;
+      held.insert(label_of(deck.mesh, support.vertex));
+      has_any = true;
+    }
+    if (has_any) sets.push_back(set.name);
+  }
+  if (held.empty()) return {};
+  return {fmt::format(
+      "the deck's own supports hold {} of it ({}); a lift leaves them out: fasten it to the block "
+      "by a link, a spring or the part that is missing",
+      held.size() == 1 ? fmt::format("node {}", *held.begin())
+                       : fmt::format("{} nodes, such as {},", held.size(), *held.begin()),
+      fmt::join(sets, ", "))};
+}
+
 }  // namespace
 
 std::vector<std::string> supports_of_what_is_loose(const Deck& deck,
@@ -83,48 +81,26 @@ std::vector<std::string> supports_of_what_is_loose(const Deck& deck,
                                            "unconnected parts", "masses of nothing"};
   if (deck.support_sets.empty() || kinds.count(finding.kind) == 0) return {};
   const std::vector<char> is_loose = vertices_of(deck.mesh, finding);
-  std::set<long> held;
-  std::vector<std::string> sets;
-  for (const SupportSet& set : deck.support_sets) {
-    bool has_any = false;
-    for (const Support& support : set.supports) {
-      if (is_loose[at(support.vertex)] == 0 || !holds_anything(support)) continue;
-      held.insert(label_of(deck.mesh, support.vertex));
-      has_any = true;
-    }
-    if (has_any) sets.push_back(set.name);
-  }
-  if (held.empty()) return {};
-  return {fmt::format("the deck's own supports hold {} there ({}); {}",
-                      held.size() == 1
-                          ? fmt::format("node {}", *held.begin())
-                          : fmt::format("{} nodes, such as {}", held.size(), *held.begin()),
-                      fmt::join(sets, ", "), what_to_do)};
+  return describe_holding(deck, [&](const Support& support) {
+    return is_loose[at(support.vertex)] != 0 && holds_anything(support);
+  });
 }
 
-std::vector<std::string> supports_at_mechanism(const Deck& deck, const Vector3& place,
-                                               int freedom) {
-  const double near = nearness(deck.mesh);
-  double least = std::numeric_limits<double>::infinity();
-  const SupportSet* nearest_set = nullptr;
-  int nearest = 0;
-  for (const SupportSet& set : deck.support_sets)
-    for (const Support& support : set.supports) {
-      if (!holds_anything(support)) continue;
-      const double distance = (deck.mesh.vertices[at(support.vertex)] - place).norm();
-      if (distance <= near && resists(support, freedom))
-        return {fmt::format("the deck's own supports hold node {} there ({}); {}",
-                            label_of(deck.mesh, support.vertex), set.name, what_to_do)};
-      if (distance >= least) continue;
-      least = distance;
-      nearest = support.vertex;
-      nearest_set = &set;
+std::vector<std::string> supports_of_mechanism(
+    const Deck& deck, const Eigen::Ref<const Eigen::Matrix<double, 6, -1>>& motion) {
+  if (deck.support_sets.empty() || motion.cols() != std::ssize(deck.mesh.vertices)) return {};
+  // What most of the block does against itself is rounding.
+  const std::array<double, 2> least{0.01 * motion.topRows<3>().colwise().norm().maxCoeff(),
+                                    0.01 * motion.bottomRows<3>().colwise().norm().maxCoeff()};
+  return describe_holding(deck, [&](const Support& support) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto part = motion.col(support.vertex).segment<3>(i < 3 ? 0 : 3);
+      if (support.held[i] &&
+          std::abs(support.axes.col(static_cast<Eigen::Index>(i % 3)).dot(part)) > least[i / 3])
+        return true;
     }
-  if (nearest_set == nullptr) return {};
-  return {fmt::format(
-      "the deck's own supports, the nearest at node {} ({}), {:.3g} m away, may be what held that "
-      "part; {}",
-      label_of(deck.mesh, nearest), nearest_set->name, least, what_to_do)};
+    return false;
+  });
 }
 
 }  // namespace blocklift::pipeline

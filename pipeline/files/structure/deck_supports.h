@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "structure/mesh/diagnosis.h"
 #include "structure/mesh/files/deck/deck.h"
 
@@ -14,8 +16,9 @@ namespace blocklift::pipeline {
 /// @param finding places of vertices, beams or parts that can move.
 std::vector<std::string> supports_of_what_is_loose(const structure::Deck& deck,
                                                    const structure::Finding& finding);
-/// @param place, freedom of the mechanism, as structure::LooseBlock has them.
-std::vector<std::string> supports_at_mechanism(const structure::Deck& deck,
-                                               const structure::Vector3& place, int freedom);
+/// @param motion six rows, displacement and rotation, a column a vertex: how a mechanism moves
+///   against most of the block, by any factor; empty: not known.
+std::vector<std::string> supports_of_mechanism(
+    const structure::Deck& deck, const Eigen::Ref<const Eigen::Matrix<double, 6, -1>>& motion);
 
 }  // namespace blocklift::pipeline

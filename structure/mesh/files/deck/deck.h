@@ -125,8 +125,8 @@ struct Deck {
 
 struct DeckOptions {
   bool leave_solids_out = false;  ///< list solid elements as left out rather than refuse them
-  /// Cards or keywords that are not known, in capitals, "*" before a keyword or not: they are
-  /// listed as left out rather than refused.
+  /// Cards, keywords ("*" before them or not) and Abaqus' types of elements that are not known, in
+  /// capitals: they are listed as left out rather than refused.
   std::vector<std::string> leave_out = {};
 };
 

@@ -65,13 +65,17 @@ void DeckLog::leave_out(std::string_view name, const std::string& reason) {
   if (card.left_out.empty()) card.left_out = reason;
 }
 
+bool DeckLog::leaves_out(const std::string& name, const DeckOptions& options) {
+  const bool is_asked =
+      std::any_of(options.leave_out.begin(), options.leave_out.end(),
+                  [&](const std::string& asked) { return asked == name || "*" + asked == name; });
+  if (is_asked) missed_.insert(name);
+  return is_asked;
+}
+
 void DeckLog::miss(SourceLine line, const std::string& name, const DeckOptions& options,
                    const std::vector<std::string>& known, std::string_view instead) {
-  const auto is_asked = [&](const std::string& asked) {
-    return asked == name || "*" + asked == name;
-  };
-  if (std::any_of(options.leave_out.begin(), options.leave_out.end(), is_asked)) {
-    missed_.insert(name);
+  if (leaves_out(name, options)) {
     leave_out(name, "as was asked for");
     return;
   }

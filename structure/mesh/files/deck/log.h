@@ -35,6 +35,8 @@ class DeckLog {
   /// Why a card, or a part of it, is not in the model; the first reason stays.
   void leave_out(std::string_view name, const std::string& reason);
 
+  /// Does the deck's user ask to do without what has this name? It is noted that the deck has it.
+  bool leaves_out(const std::string& name, const DeckOptions& options);
   /// Leaves out cards that are not known, where the deck's user asks for it, and complains of each
   /// other one.
   /// @param known names that a reader knows, among which the one that was meant may be.
