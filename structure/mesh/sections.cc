@@ -7,11 +7,11 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/thin_walls.h"
 
 namespace blocklift::structure {
 
@@ -53,6 +53,24 @@ struct Moments {
     add(part, centre, lengthwise * c * c + across * s * s, lengthwise * s * s + across * c * c,
         (lengthwise - across) * c * s);
   }
+  /// Polygon by its corners in turn, either way round, as triangles; sign -1: a hole.
+  void add_polygon(const std::vector<Vector2>& corners, double sign) {
+    const auto twice = [](const Vector2& a, const Vector2& b) { return a[0] * b[1] - a[1] * b[0]; };
+    double whole = 0;
+    for (std::size_t i = 2; i < corners.size(); ++i)
+      whole += twice(corners[i - 1] - corners[0], corners[i] - corners[0]);
+    if (whole < 0) sign = -sign;
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const Vector2 a = corners[i - 1] - corners[0], b = corners[i] - corners[0];
+      const double part = sign * twice(a, b) / 2;
+      const Vector2 centre = corners[0] + (a + b) / 3;
+      const auto own = [&](int j, int k) {  // of a triangle about its centre
+        const Vector2 c = -(a + b) / 3, d = a + c, e = b + c;
+        return part * (c[j] * c[k] + d[j] * d[k] + e[j] * e[k]) / 12;
+      };
+      add(part, centre, own(0, 0), own(1, 1), own(0, 1));
+    }
+  }
 };
 
 Profile profile_of(std::string name, const Moments& moments) {
@@ -77,142 +95,6 @@ std::vector<Vector2> corners(double bottom, double top, double left, double righ
   return {{top, right}, {bottom, right}, {bottom, left}, {top, left}};
 }
 
-/// Shear flow along thin walls for a force of one along either axis: along a wall it is a
-/// quadratic, held by its values at the start, the middle and the end.
-class ShearFlow {
- public:
-  ShearFlow(std::vector<Vector2> nodes, const std::vector<Wall>& walls)
-      : nodes_(std::move(nodes)), walls_(walls), is_ring_(walls.size() == nodes_.size()) {
-    Moments moments;
-    for (const Wall& wall : walls_) {
-      const Vector2 along = end(wall) - start(wall);
-      // Walls as lines: their own second moment across is left out.
-      const double part = along.norm() * wall.thickness;
-      moments.add(part, (start(wall) + end(wall)) / 2, part * along[0] * along[0] / 12,
-                  part * along[1] * along[1] / 12, part * along[0] * along[1] / 12);
-    }
-    const Vector2 centroid = moments.first / moments.area;
-    for (Vector2& node : nodes_) node -= centroid;
-    centroid_ = centroid;
-    tensor_ << moments.second_22 - moments.area * centroid[0] * centroid[0],
-        moments.second_23 - moments.area * centroid[0] * centroid[1], 0,
-        moments.second_33 - moments.area * centroid[1] * centroid[1];
-    tensor_(1, 0) = tensor_(0, 1);
-  }
-
-  /// 1 / int q^2 / t ds for a force along an axis; 0 if no wall carries it.
-  double shear_area(int axis) const {
-    if (!carries(axis)) return 0;
-    double sum = 0;
-    const auto flows = calc_flows(axis);
-    for (std::size_t i = 0; i < walls_.size(); ++i) {
-      const auto& [a, m, b] = flows[i];
-      // The square of a quadratic by its three values.
-      const double mean = (2 * a * a + 8 * m * m + 2 * b * b + 2 * a * m + 2 * m * b - a * b) / 15;
-      sum += mean * length(walls_[i]) / walls_[i].thickness;
-    }
-    return 1 / sum;
-  }
-
-  /// From the origin in which the nodes were given.
-  Vector2 shear_centre() const {
-    Vector2 centre = Vector2::Zero();
-    if (carries(0)) centre[1] = -moment(0);
-    if (carries(1)) centre[0] = moment(1);
-    return centre + centroid_;
-  }
-
- private:
-  Vector2 start(const Wall& wall) const { return nodes_[at(wall.from)]; }
-  Vector2 end(const Wall& wall) const { return nodes_[at(wall.to)]; }
-  double length(const Wall& wall) const { return (end(wall) - start(wall)).norm(); }
-  bool carries(int axis) const {
-    return tensor_.determinant() > 1e-12 * tensor_.trace() * tensor_.trace() ||
-           tensor_(axis, axis) > 1e-6 * tensor_.trace();
-  }
-
-  /// First moment that the force of one needs to grow by along the beam, at a point.
-  double growth(int axis, const Vector2& point) const {
-    const double determinant = tensor_.determinant();
-    if (!(determinant > 1e-12 * tensor_.trace() * tensor_.trace()))
-      return point[axis] / tensor_(axis, axis);
-    const int other = 1 - axis;
-    return (tensor_(other, other) * point[axis] - tensor_(0, 1) * point[other]) / determinant;
-  }
-
-  std::vector<std::array<double, 3>> calc_flows(int axis) const {
-    std::vector<std::array<double, 3>> flows(walls_.size());
-    const auto along = [&](std::size_t i, double first) {
-      const Wall& wall = walls_[i];
-      const double grows = length(wall) * wall.thickness;
-      const double at_start = growth(axis, start(wall)), at_end = growth(axis, end(wall));
-      const double half = (3 * at_start + at_end) / 8, whole = (at_start + at_end) / 2;
-      flows[i] = {first, first - grows * half, first - grows * whole};
-    };
-    if (is_ring_) {
-      double flow = 0, around = 0, compliance = 0;
-      for (std::size_t i = 0; i < walls_.size(); ++i) {
-        along(i, flow);
-        const auto& [a, m, b] = flows[i];
-        around += (a + 4 * m + b) / 6 * length(walls_[i]) / walls_[i].thickness;
-        compliance += length(walls_[i]) / walls_[i].thickness;
-        flow = b;
-      }
-      for (auto& values : flows)
-        for (double& value : values) value -= around / compliance;
-      return flows;
-    }
-    std::vector<char> done(walls_.size(), 0);
-    for (std::size_t i = 0; i < walls_.size(); ++i) follow(i, along, flows, done);
-    return flows;
-  }
-
-  // What flows into a wall at its start is what flows out of the others there; a free end has none.
-  // The walls are listed so that one end of each is met by walls listed before it alone.
-  template <typename Along>
-  void follow(std::size_t i, const Along& along, std::vector<std::array<double, 3>>& flows,
-              std::vector<char>& done) const {
-    double first = 0;
-    for (std::size_t j = 0; j < walls_.size(); ++j) {
-      if (j == i || done[j] == 0) continue;
-      if (walls_[j].to == walls_[i].from) first += flows[j][2];
-      if (walls_[j].from == walls_[i].from) first -= flows[j][0];
-    }
-    along(i, first);
-    done[i] = 1;
-  }
-
-  /// Moment of the flow about the centroid, about axis 1.
-  double moment(int axis) const {
-    const auto flows = calc_flows(axis);
-    double sum = 0;
-    for (std::size_t i = 0; i < walls_.size(); ++i) {
-      const auto& [a, m, b] = flows[i];
-      const Vector2 from = start(walls_[i]), to = end(walls_[i]);
-      sum += (a + 4 * m + b) / 6 * (from[0] * to[1] - from[1] * to[0]);
-    }
-    return sum;
-  }
-
-  std::vector<Vector2> nodes_;
-  const std::vector<Wall>& walls_;
-  bool is_ring_;
-  Vector2 centroid_ = Vector2::Zero();
-  Eigen::Matrix2d tensor_ = Eigen::Matrix2d::Zero();
-};
-
-double torsion_of(const std::vector<Vector2>& nodes, const std::vector<Wall>& walls) {
-  double open = 0, around = 0, enclosed = 0;
-  for (const Wall& wall : walls) {
-    const Vector2 &from = nodes[at(wall.from)], &to = nodes[at(wall.to)];
-    const double length = (to - from).norm();
-    open += length * std::pow(wall.thickness, 3) / 3;
-    around += length / wall.thickness;
-    enclosed += (from[0] * to[1] - from[1] * to[0]) / 2;
-  }
-  return walls.size() == nodes.size() ? 4 * enclosed * enclosed / around : open;
-}
-
 /// Roark (1989), table 20, case 4: rectangle with sides a >= b.
 double torsion_of_rectangle(double height, double width) {
   const double a = std::max(height, width), b = std::min(height, width), ratio = b / a;
@@ -228,11 +110,22 @@ double shear_share_of_pipe(double ratio) {
 
 }  // namespace
 
+namespace {
+
+/// What follows from the walls' middle lines.
+void set_wall_figures(const std::vector<Vector2>& nodes, const std::vector<Wall>& walls,
+                      Profile& profile) {
+  const ThinWalls lines(nodes, walls);
+  profile.section.torsion = lines.torsion();
+  profile.section.shear_area_2 = lines.shear_area(0);
+  profile.section.shear_area_3 = lines.shear_area(1);
+  profile.section.shear_centre = lines.shear_centre() - profile.centroid;
+}
+
+}  // namespace
+
 Profile walled_profile(const std::string& name, const std::vector<Vector2>& nodes,
                        const std::vector<Wall>& walls) {
-  const bool is_ring = walls.size() == nodes.size();
-  if (!is_ring && walls.size() + 1 != nodes.size())
-    throw ModelError(name + ": the walls are neither a tree nor a ring");
   Moments moments;
   std::vector<Vector2> outline;
   for (const Wall& wall : walls) {
@@ -251,12 +144,35 @@ Profile walled_profile(const std::string& name, const std::vector<Vector2>& node
     }
   }
   Profile profile = profile_of(name, moments);
-  const ShearFlow flow(nodes, walls);
-  profile.section.torsion = torsion_of(nodes, walls);
-  profile.section.shear_area_2 = flow.shear_area(0);
-  profile.section.shear_area_3 = flow.shear_area(1);
-  profile.section.shear_centre = flow.shear_centre() - profile.centroid;
+  set_wall_figures(nodes, walls, profile);
   set_points(profile, outline);
+  return profile;
+}
+
+Profile outlined_profile(const std::string& name, const std::vector<Outline>& outlines,
+                         const std::vector<Vector2>& nodes, const std::vector<Wall>& walls) {
+  Moments moments;
+  std::vector<Vector2> points;
+  for (const Outline& outline : outlines) {
+    moments.add_polygon(outline.corners, outline.is_hole ? -1 : 1);
+    if (!outline.is_hole)
+      points.insert(points.end(), outline.corners.begin(), outline.corners.end());
+  }
+  Profile profile = profile_of(name, moments);
+  set_wall_figures(nodes, walls, profile);
+  set_points(profile, points);
+  return profile;
+}
+
+Profile solid_polygon(const std::string& name, const std::vector<Vector2>& corners) {
+  Moments moments;
+  moments.add_polygon(corners, 1);
+  Profile profile = profile_of(name, moments);
+  BeamSection& section = profile.section;
+  section.torsion =
+      std::pow(section.area, 4) / (40 * (section.second_moment_2 + section.second_moment_3));
+  section.shear_area_2 = section.shear_area_3 = 5.0 / 6 * section.area;
+  set_points(profile, corners);
   return profile;
 }
 
@@ -390,16 +306,7 @@ Profile bulb_flat(double height, double thickness, double bulb, double radius) {
   // The lower round ends where the slope of 30 degrees begins.
   arc(upper, 0, -std::numbers::pi / 3);
   outline.emplace_back(height - face - bulb * slope, inner);
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vector2 a = outline[i] - outline[0], b = outline[(i + 1) % outline.size()] - outline[0];
-    const double part = (a[0] * b[1] - a[1] * b[0]) / 2;
-    const Vector2 centre = outline[0] + (a + b) / 3;
-    const auto own = [&](int j, int k) {  // of a triangle about its centre
-      const Vector2 c = -(a + b) / 3, d = a + c, e = b + c;
-      return part * (c[j] * c[k] + d[j] * d[k] + e[j] * e[k]) / 12;
-    };
-    moments.add(part, centre, own(0, 0), own(1, 1), own(0, 1));
-  }
+  moments.add_polygon(outline, 1);
   Profile profile = profile_of("bulb flat", moments);
   constexpr double mm = 1e-3;
   const double factor = height > 0.12 ? 1.0 : 1.1 + std::pow(0.12 - height, 2) / (3000 * mm * mm);

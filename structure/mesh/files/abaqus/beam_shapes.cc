@@ -2,6 +2,7 @@
 #include "structure/mesh/files/abaqus/beam_shapes.h"
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -22,11 +23,7 @@ class BeamShapeReader {
   BeamShape read_by_dimensions(const SectionBlocks& blocks) {
     const AbaqusBlock& block = *blocks.block;
     BeamShape beam;
-    try {
-      beam.profile = shape(block.required("SECTION"), dimensions(block));
-    } catch (const ModelError& error) {
-      throw CardError{error.what()};
-    }
+    beam.profile = shape_of(block, block.required("SECTION"));
     beam.material = abaqus_material(model_, block.required("MATERIAL"));
     beam.axis_2 = direction(blocks);
     beam.profile.centroid += offset_by_sizes(block);
@@ -54,11 +51,7 @@ class BeamShapeReader {
       if (!(section.area > 0) || section.second_moment_2 < 0 || section.second_moment_3 < 0)
         throw CardError{"area must be positive, second moments not negative"};
     } else {
-      try {
-        beam.profile = shape(kind, dimensions(block));
-      } catch (const ModelError& error) {
-        throw CardError{error.what()};
-      }
+      beam.profile = shape_of(block, kind);
     }
     if (block.has("MATERIAL")) {  // as CalculiX has it
       beam.material = abaqus_material(model_, block.required("MATERIAL"));
@@ -67,8 +60,9 @@ class BeamShapeReader {
       read_details(blocks, beam);
       return beam;
     }
-    if (block.data.size() < 3) throw CardError{"the line of E and G is missing"};
-    const Fields elastic = block.data[2].fields();
+    const std::size_t line = lines_of_shape(block) + 1;
+    if (block.data.size() <= line) throw CardError{"the line of E and G is missing"};
+    const Fields elastic = block.data[line].fields();
     Material material;
     material.name = "of " + block.required("ELSET");
     material.youngs_modulus = abaqus_real(elastic, 0, "E") * model_.units.stress();
@@ -120,8 +114,81 @@ class BeamShapeReader {
       profile.centroid[0] += d[0] - d[3] / 2;
       return profile;
     }
-    throw CardError{fmt::format(
-        "SECTION = {} is not known; BOX, CIRC, I, L, PIPE, RECT and GENERAL are", name)};
+    if (name == "TRAPEZOID") {
+      need(4);
+      return solid_polygon("trapezoid", {{-d[0] / 2, -d[3]},
+                                         {d[0] / 2, -d[3]},
+                                         {d[2] / 2, d[1] - d[3]},
+                                         {-d[2] / 2, d[1] - d[3]}});
+    }
+    if (name == "HEX") return need(2), hexagonal_pipe(d[0], d[1]);
+    throw CardError{
+        fmt::format("SECTION = {} is not known; ARBITRARY, BOX, CIRC, HEX, I, L, PIPE, RECT, "
+                    "TRAPEZOID are, and GENERAL of a *BEAM GENERAL SECTION",
+                    name)};
+  }
+
+  /// By the radius of the circle about it and the thickness of its walls.
+  static Profile hexagonal_pipe(double radius, double thickness) {
+    const double apothem = radius * std::sqrt(0.75);
+    if (!(thickness > 0 && thickness < apothem))
+      throw CardError{"the walls of a hexagon are to be thinner than it is wide"};
+    const auto corners = [](double around) {
+      std::vector<Eigen::Vector2d> places;
+      for (int i = 0; i < 6; ++i)
+        places.emplace_back(around * std::cos(i * std::numbers::pi / 3),
+                            around * std::sin(i * std::numbers::pi / 3));
+      return places;
+    };
+    std::vector<Wall> walls;
+    for (int i = 0; i < 6; ++i) walls.push_back({i, (i + 1) % 6, thickness});
+    const auto inside = [&](double depth) { return radius * (1 - depth / apothem); };
+    return outlined_profile("hexagon", {{corners(radius)}, {corners(inside(thickness)), true}},
+                            corners(inside(thickness / 2)), walls);
+  }
+
+  /// Lines of data that a shape takes, before the one of its direction.
+  std::size_t lines_of_shape(const AbaqusBlock& block) const {
+    if (block.value("SECTION") != "ARBITRARY") return 1;
+    if (block.data.empty()) throw CardError{"the segments are missing"};
+    return static_cast<std::size_t>(
+        abaqus_label(block.data.front().fields().front(), "number of segments"));
+  }
+
+  // Number of segments, two points, thickness / a point, the thickness up to it / ...
+  Profile walls_of(const AbaqusBlock& block) const {
+    const std::size_t count = lines_of_shape(block);
+    if (block.data.size() < count) throw CardError{fmt::format("{} segments are due", count)};
+    std::vector<Eigen::Vector2d> nodes;
+    std::vector<Wall> walls;
+    int last = 0;
+    // A point that was there already closes a cell.
+    const auto node = [&](const Fields& fields, std::size_t first) {
+      const Eigen::Vector2d place =
+          model_.units.length * Eigen::Vector2d(abaqus_real(fields, first, "coordinate"),
+                                                abaqus_real(fields, first + 1, "coordinate"));
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        if ((nodes[i] - place).norm() < 1e-9) return static_cast<int>(i);
+      nodes.push_back(place);
+      return static_cast<int>(nodes.size()) - 1;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      const Fields fields = block.data[i].fields();
+      if (i == 0) last = node(fields, 1);
+      const int next = node(fields, i == 0 ? 3 : 0);
+      walls.push_back(
+          {last, next, abaqus_real(fields, i == 0 ? 5 : 2, "thickness") * model_.units.length});
+      last = next;
+    }
+    return walled_profile("walls", nodes, walls);
+  }
+
+  Profile shape_of(const AbaqusBlock& block, const std::string& kind) const {
+    try {
+      return kind == "ARBITRARY" ? walls_of(block) : shape(kind, dimensions(block));
+    } catch (const ModelError& error) {
+      throw CardError{error.what()};
+    }
   }
 
   std::vector<double> dimensions(const AbaqusBlock& block) const {
@@ -136,8 +203,9 @@ class BeamShapeReader {
   Vector3 direction(const SectionBlocks& blocks) const {
     const AbaqusBlock& block = *blocks.block;
     Vector3 given = -Vector3::UnitZ();
-    if (block.data.size() > 1 && !block.data[1].fields().empty()) {
-      const Fields fields = block.data[1].fields();
+    const std::size_t line = lines_of_shape(block);
+    if (block.data.size() > line && !block.data[line].fields().empty()) {
+      const Fields fields = block.data[line].fields();
       given = Vector3(abaqus_real(fields, 0, "n1", 0.0), abaqus_real(fields, 1, "n1", 0.0),
                       abaqus_real(fields, 2, "n1", 0.0));
     }
