@@ -27,9 +27,17 @@ constexpr std::array<double, 3> places_in_cell{0, 0.5, 1};
 /// Of a station: N, M_y, M_z, stresses of a stiffener's centroid and of its farthest fibre.
 constexpr Eigen::Index rows_of_station = 5;
 
-bool are_one_bar(const Beam& a, const Beam& b) {
-  return a.section == b.section && a.end_section < 0 && b.end_section < 0 &&
-         std::abs(a.axis_2.dot(b.axis_2)) > parallel_cosine;
+/// Axis 2 of a bar: its vector may lean along the bar and be of any length.
+Vector3 across(const Mesh& mesh, const Beam& beam) {
+  const Vector3 e_1 = reach_of(mesh, beam).normalized();
+  return (beam.axis_2 - e_1 * e_1.dot(beam.axis_2)).normalized();
+}
+
+/// What tapers is one column with what goes on from it, of the weakest section along it.
+bool are_one_bar(const Mesh& mesh, const Beam& a, const Beam& b) {
+  const bool tapers = a.end_section >= 0 || b.end_section >= 0;
+  return (a.section == b.section || tapers) &&
+         std::abs(across(mesh, a).dot(across(mesh, b))) > parallel_cosine;
 }
 
 bool is_held(const MeetingPoints& points, int vertex) {
@@ -49,7 +57,7 @@ std::vector<BarChain> find_free_chains(const Mesh& mesh, const MeetingPoints& po
   }
   return find_bar_chains(mesh, points, beams, straight, [&](int beam, int next, int vertex) {
     return points.beams(vertex).size() == 2 && !is_held(points, vertex) &&
-           are_one_bar(mesh.beams[at(beam)], mesh.beams[at(next)]);
+           are_one_bar(mesh, mesh.beams[at(beam)], mesh.beams[at(next)]);
   });
 }
 
@@ -82,16 +90,20 @@ void weaken(const BeamSection& section, const Eigen::Matrix2d& axes, Column& col
   }
 }
 
-Column column_of(const Mesh& mesh, const Beam& first, const Eigen::Matrix2d& axes) {
+/// The weakest section along a chain.
+Column column_of(const Mesh& mesh, const BarChain& chain, const Eigen::Matrix2d& axes) {
   constexpr double no_limit = std::numeric_limits<double>::infinity();
-  const Material& material = mesh.materials[at(mesh.section_of(first).material)];
   Column column;
-  column.elastic_modulus = material.youngs_modulus;
-  column.yield_stress = material.yield_stress;
-  column.area = no_limit;
+  column.elastic_modulus = column.yield_stress = column.area = no_limit;
   column.second_moments = column.section_moduli = {no_limit, no_limit};
-  weaken(mesh.section_of(first), axes, column);
-  if (first.end_section >= 0) weaken(mesh.beam_sections[at(first.end_section)], axes, column);
+  for (const auto& [number, reversed] : chain.beams) {
+    const Beam& beam = mesh.beams[at(number)];
+    const Material& material = mesh.materials[at(mesh.section_of(beam).material)];
+    column.elastic_modulus = std::min(column.elastic_modulus, material.youngs_modulus);
+    column.yield_stress = std::min(column.yield_stress, material.yield_stress);
+    weaken(mesh.section_of(beam), axes, column);
+    if (beam.end_section >= 0) weaken(mesh.beam_sections[at(beam.end_section)], axes, column);
+  }
   return column;
 }
 
@@ -161,7 +173,7 @@ class BarForces {
     const Beam& beam = mesh_.beams[at(space_.beams()[at(cell)].beam)];
     const double share = share_at(cell, xi);
     const Vector3 e_1 = reach_of(mesh_, beam).normalized();
-    const Vector3 e_2 = (beam.axis_2 - e_1 * e_1.dot(beam.axis_2)).normalized();
+    const Vector3 e_2 = across(mesh_, beam);
     const BeamSection section = section_at(mesh_, beam, share);
     const Eigen::MatrixXd forces = beam_forces(space_, cell, xi, motions_);
     const Eigen::MatrixXd scaled_curvatures =  // times the modulus of elasticity
@@ -302,7 +314,7 @@ BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::Ma
     const Beam& first = mesh.beams[at(chain.beams.front().first)];
     const Eigen::Matrix2d axes = principal_axes(mesh.section_of(first));
     BarSpan& span = spans_.emplace_back(span_of(mesh, chain));
-    span.column = column_of(mesh, first, axes);
+    span.column = column_of(mesh, chain, axes);
     const bool has_free_end = is_free(points, chain.from) || is_free(points, chain.to);
     span.column.length = (has_free_end ? 2 : 1) * chain.length;
     found.push_back(

@@ -115,6 +115,26 @@ TEST(BarBuckling, AnAngleBendsAboutItsPrincipalAxes) {
     EXPECT_NEAR(std::abs(part), moment * std::sqrt(0.5), 1e-4 * moment);
 }
 
+// What tapers is one column of its weakest section with what goes on from it; the vectors that
+// orient its pieces may lean along them and be of any length.
+TEST(BarBuckling, TaperedPiecesAreOneColumn) {
+  const Profile thick = pipe(0.08, 0.07), thin = pipe(0.06, 0.055);
+  Mesh mesh = bar_between_lugs(thick, 12);
+  mesh.beam_sections.push_back(thin.section);
+  for (const std::size_t beside_middle : {1U, 2U}) mesh.beams[beside_middle].end_section = 2;
+  for (std::size_t i = 0; i < 4; ++i)
+    mesh.beams[i].axis_2 = Vector3(2.0 * static_cast<double>(i) - 3, 0, i % 2 == 0 ? 0.01 : 5.01);
+  const ElasticModel model(std::move(mesh), {.degree = 2, .largest_edge = {}});
+  const UnitResponses responses(model);
+  const BlockBars bars = bars_of(model, responses.displacements());
+  ASSERT_EQ(bars.spans().size(), 5U);
+  const Column& column = bars.spans().front().column;
+  EXPECT_DOUBLE_EQ(column.length, 12);
+  EXPECT_DOUBLE_EQ(column.area, thin.section.area);
+  EXPECT_NEAR(column.second_moments[0], thin.section.second_moment_2, 1e-15);
+  EXPECT_NEAR(column.section_moduli[1], thin.section.second_moment_3 / 0.06, 1e-9);
+}
+
 /// A deck of 4 x 3 m with bulkheads below at x = 0, 2, 4 and flat bars beneath it at y = 1 and 2.
 Mesh stiffened_deck() {
   BlockDescription block;

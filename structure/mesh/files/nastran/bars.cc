@@ -59,6 +59,72 @@ Profile ell(const Dimensions& d) {
   return seen(angle_bar(d[1], d[3], d[0], d[2]), false, true, false);
 }
 
+using Corners = std::vector<Eigen::Vector2d>;
+
+Corners rectangle(double low, double high, double left, double right) {
+  return {{low, left}, {high, left}, {high, right}, {low, right}};
+}
+
+/// A hexagon with two sides along axis 3: how far its tips reach beyond these, width, height.
+Profile hexagon(const Dimensions& d) {
+  const double half = d[2] / 2, tip = d[1] / 2, side = tip - d[0];
+  if (!(d[0] > 0 && side > 0 && half > 0))
+    throw ModelError("HEXA: its tips are to be positive and less than half of the width");
+  return solid_polygon(
+      "hexagon", {{half, side}, {half, -side}, {0, -tip}, {-half, -side}, {-half, side}, {0, tip}});
+}
+
+/// A hat on a plate: width, height over all, width of the top, thickness of hat and of plate. The
+/// hat's lips reach to the plate's edges.
+Profile closed_hat(const Dimensions& d) {
+  const double edge = d[0] / 2, height = d[1], top = d[2] / 2, hat = d[3], plate = d[4];
+  if (!(hat > 0 && plate > 0 && top > hat && edge > top && height > plate + 2 * hat))
+    throw ModelError("HAT1: its dimensions make no hat on a plate");
+  const double lip = plate + hat, under = height - hat;
+  const Corners outer{{plate, -edge},     {lip, -edge},       {lip, -top},
+                      {height, -top},     {height, top},      {lip, top},
+                      {lip, edge},        {plate, edge},      {plate, top - hat},
+                      {under, top - hat}, {under, hat - top}, {plate, hat - top}};
+  const double web = top - hat / 2, low = plate / 2, high = height - hat / 2;
+  return outlined_profile(
+      "closed hat", {{rectangle(0, plate, -edge, edge)}, {outer}},
+      {{low, -edge}, {low, -web}, {high, -web}, {high, web}, {low, web}, {low, edge}},
+      {{0, 1, lip}, {1, 2, hat}, {2, 3, hat}, {3, 4, hat}, {4, 5, lip}, {1, 4, plate}});
+}
+
+/// Two boxes side by side: width, height, width from the left edge to the middle wall's middle;
+/// walls on the left, in the middle, on the right; top and bottom on the left, on the right.
+Profile double_box(const Dimensions& d) {
+  const double half = d[1] / 2, left = -d[0] / 2, right = d[0] / 2, middle = left + d[2];
+  const auto hole = [&](double from, double to, double top, double bottom) -> Outline {
+    if (!(from < to && bottom - half < half - top))
+      throw ModelError("DBOX: its walls leave nothing inside");
+    return {rectangle(bottom - half, half - top, from, to), true};
+  };
+  for (std::size_t i = 0; i < 10; ++i)
+    if (!(d[i] > 0)) throw ModelError("DBOX: its dimensions are to be positive");
+  // Between top and bottom walls of different thickness the middle wall goes to their mean.
+  const double low = -half + (d[7] + d[9]) / 4, high = half - (d[6] + d[8]) / 4;
+  const double from = left + d[3] / 2, to = right - d[5] / 2;
+  return outlined_profile("double box",
+                          {{rectangle(-half, half, left, right)},
+                           hole(left + d[3], middle - d[4] / 2, d[6], d[7]),
+                           hole(middle + d[4] / 2, right - d[5], d[8], d[9])},
+                          {{-half + d[7] / 2, from},
+                           {half - d[6] / 2, from},
+                           {high, middle},
+                           {low, middle},
+                           {half - d[8] / 2, to},
+                           {-half + d[9] / 2, to}},
+                          {{0, 1, d[3]},
+                           {1, 2, d[6]},
+                           {2, 3, d[4]},
+                           {3, 0, d[7]},
+                           {2, 4, d[8]},
+                           {4, 5, d[5]},
+                           {5, 3, d[9]}});
+}
+
 /// Shapes of PBARL and PBEAML in the element's axes y, z. Source: MSC Nastran Quick Reference
 /// Guide, PBARL, figures of the cross-sections.
 const Shape* find_shape(std::string_view name) {
@@ -100,11 +166,21 @@ const Shape* find_shape(std::string_view name) {
       Shape{"Z", 4, zee},
       Shape{"CROSS", 4, cross},
       Shape{"HAT", 4, hat},
+      Shape{"HAT1", 5, closed_hat},
+      Shape{"HEXA", 3, hexagon},
+      Shape{"DBOX", 10, double_box},
       Shape{"L", 4, ell}};
   for (const Shape& shape : shapes)
     if (is_same(shape.name, name)) return &shape;
   return nullptr;
 }
+
+/// Section between the ends.
+struct StationCard {
+  double share = 0;  ///< of the length from the first end
+  BeamSection section = {};
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+};
 
 struct BarCard {
   BeamSection section;
@@ -112,15 +188,51 @@ struct BarCard {
   long material = 0;
   std::optional<BeamSection> end = {};  ///< at the second end, if it is another
   Eigen::Vector2d end_centroid = Eigen::Vector2d::Zero();
+  std::vector<StationCard> stations = {};  ///< where it is not linear from end to end
 };
 
-/// Stations between the ends must lie on the line between these, to a hundredth.
-void require_straight(const CardView& card, const char* what, double given, double from, double to,
-                      double share) {
-  const double due = from + share * (to - from);
-  if (std::abs(given - due) > 0.01 * std::max(std::abs(from), std::abs(to)))
-    throw CardError{fmt::format("{} {}: {} is not linear from end to end: divide its beams",
-                                card.name(), card.text(0), what)};
+/// What a card says of a place along a beam: its dimensions, or area and moments, in their order.
+using Figures = std::vector<double>;
+struct GivenStation {
+  double share = 0;  ///< of the length from the first end
+  Figures figures = {};
+  std::vector<Eigen::Vector2d> points = {};
+};
+
+/// Figures on the line from end to end.
+Figures between(const Figures& from, const Figures& to, double share) {
+  Figures middle;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    middle.push_back(from[i] + share * (to[i] - from[i]));
+  return middle;
+}
+
+/// The share of a station's length. @throws CardError if it is none between the ends.
+double share_of(const CardView& card, std::size_t i) {
+  const double share = card.real(i, "X/XB", 1.0);
+  if (!(share > 0)) throw CardError{fmt::format("X/XB is {:g}; more than 0 is due", share)};
+  return share;
+}
+
+/// The stations between the ends in their order; none if all lie on the line from end to end, to a
+/// hundredth.
+std::vector<GivenStation> bends_of(std::vector<GivenStation> stations, const Figures& from,
+                                   const Figures& to) {
+  const auto is_on_line = [&](const GivenStation& station) {
+    const Figures due = between(from, to, station.share);
+    for (std::size_t i = 0; i < due.size(); ++i)
+      if (std::abs(station.figures[i] - due[i]) >
+          0.01 * std::max(std::abs(from[i]), std::abs(to[i])))
+        return false;
+    return true;
+  };
+  if (std::all_of(stations.begin(), stations.end(), is_on_line)) return {};
+  std::sort(stations.begin(), stations.end(),
+            [](const auto& a, const auto& b) { return a.share < b.share; });
+  for (std::size_t i = 1; i < stations.size(); ++i)
+    if (stations[i].share - stations[i - 1].share < 1e-6)
+      throw CardError{fmt::format("two stations are at X/XB = {:g}", stations[i].share)};
+  return stations;
 }
 
 double line_mass(const NastranModel& model, double given) {
@@ -173,61 +285,75 @@ BarCard read_bar(NastranModel& model, const CardView& card) {
 BarCard read_shaped(NastranModel& model, const CardView& card) {
   const Shape* shape = find_shape(card.text(3));
   if (shape == nullptr)
-    throw CardError{
-        fmt::format("{} {}: the shape \"{}\" is not known; BAR, BOX, BOX1, CHAN, CHAN1, "
-                    "CHAN2, CROSS, H, HAT, I, I1, L, ROD, T, T1, T2, TUBE, TUBE2, Z are",
-                    card.name(), card.text(0), card.text(3))};
+    throw CardError{fmt::format(
+        "{} {}: the shape \"{}\" is not known; BAR, BOX, BOX1, CHAN, CHAN1, "
+        "CHAN2, CROSS, DBOX, H, HAT, HAT1, HEXA, I, I1, L, ROD, T, T1, T2, TUBE, TUBE2, "
+        "Z are",
+        card.name(), card.text(0), card.text(3))};
   Dimensions dimensions;
   for (std::size_t i = 0; i < shape->dimensions; ++i)
     dimensions.push_back(card.real(8 + i, "dimension") * model.units.length);
   BarCard bar;
   bar.material = card.label(1, "material");
-  const std::size_t after = 8 + shape->dimensions;
+  const std::size_t count = shape->dimensions, after = 8 + count;
   const bool is_beam = card.name() == "PBEAML";
   const double length = model.units.length;
-  const double mass = card.real(after, "mass beyond the bar's", 0.0);
-  const auto build = [&](const Dimensions& of_end, double mass_of_end) {
+  Figures figures = dimensions;
+  figures.push_back(card.real(after, "mass beyond the bar's", 0.0));
+  const auto build = [&](const Figures& here) {
     try {
-      Profile profile = shape->build(of_end);
-      profile.section.mass_per_length = line_mass(model, mass_of_end);
+      Profile profile = shape->build(Dimensions(here.begin(), here.end() - 1));
+      profile.section.mass_per_length = line_mass(model, here.back());
       return profile.section;
     } catch (const ModelError& error) {
       throw CardError{fmt::format("{} {}: {}", card.name(), card.text(0), error.what())};
     }
   };
-  bar.section = build(dimensions, mass);
-  // A beam's axis is its shear centre's, a bar's its centroid's.
-  if (is_beam) bar.centroid = bar.end_centroid = -bar.section.shear_centre;
+  bar.section = build(figures);
   if (!is_beam) return bar;
-  const auto each_station = [&](const auto& take) {
-    for (std::size_t i = after + 1; i + 1 < card.size(); i += shape->dimensions + 3)
-      if (card.has(i) || card.has(i + 1)) take(i, card.real(i + 1, "X/XB", 1.0));
+  // A beam's axis is its shear centre's, a bar's its centroid's.
+  bar.centroid = bar.end_centroid = -bar.section.shear_centre;
+  const auto figures_at = [&](std::size_t i, Figures here) {
+    for (std::size_t j = 0; j < count; ++j)
+      if (card.has(i + 2 + j)) here[j] = card.real(i + 2 + j, "dimension") * length;
+    here[count] = card.real(i + 2 + count, "mass beyond the bar's", here[count]);
+    return here;
   };
-  Dimensions at_end = dimensions;
-  each_station([&](std::size_t i, double share) {
-    if (share < 1) return;
-    for (std::size_t j = 0; j < shape->dimensions; ++j)
-      at_end[j] = card.real(i + 2 + j, "dimension", dimensions[j] / length) * length;
-    const double end_mass =
-        card.real(i + 2 + shape->dimensions, "mass beyond the bar's at the end", mass);
-    if (at_end == dimensions && end_mass == mass) return;
-    bar.end = build(at_end, end_mass);
+  Figures at_end = figures;
+  std::vector<std::size_t> between_ends;
+  for (std::size_t i = after + 1; i + 1 < card.size(); i += count + 3) {
+    if (!card.has(i) && !card.has(i + 1)) continue;
+    if (share_of(card, i + 1) < 1)
+      between_ends.push_back(i);
+    else
+      at_end = figures_at(i, figures);
+  }
+  std::vector<GivenStation> stations;
+  for (const std::size_t i : between_ends) {
+    const double share = share_of(card, i + 1);
+    stations.push_back({share, figures_at(i, between(figures, at_end, share))});
+  }
+  for (const GivenStation& station : bends_of(std::move(stations), figures, at_end)) {
+    const BeamSection section = build(station.figures);
+    bar.stations.push_back({station.share, section, -section.shear_centre});
+  }
+  if (at_end != figures) {
+    bar.end = build(at_end);
     bar.end_centroid = -bar.end->shear_centre;
-  });
-  each_station([&](std::size_t i, double share) {
-    for (std::size_t j = 0; j < shape->dimensions; ++j)
-      if (share < 1 && card.has(i + 2 + j))
-        require_straight(card, "a dimension", card.real(i + 2 + j, "dimension") * length,
-                         dimensions[j], at_end[j], share);
-  });
+  }
   return bar;
 }
 
-/// A section of a PBEAM in the deck's units, by A, I1, I2, I12, J, NSM.
-using BeamFigures = std::array<double, 6>;
+/// Of a section of a PBEAM, in the deck's units.
 constexpr std::array beam_figure_names{"A", "I1", "I2", "I12", "J", "NSM"};
 
-BeamSection section_of(const NastranModel& model, const BeamFigures& figures,
+Figures beam_figures(const CardView& card, std::size_t first, Figures otherwise) {
+  for (std::size_t j = 0; j < otherwise.size(); ++j)
+    otherwise[j] = card.real(first + j, beam_figure_names[j], otherwise[j]);
+  return otherwise;
+}
+
+BeamSection section_of(const NastranModel& model, const Figures& figures,
                        std::vector<Eigen::Vector2d> points, double k1, double k2) {
   BeamSection section;
   section.area = figures[0];
@@ -254,33 +380,43 @@ std::vector<Eigen::Vector2d> points_of(const CardView& card, std::size_t first) 
 BarCard read_beam(NastranModel& model, const CardView& card) {
   BarCard bar;
   bar.material = card.label(1, "material");
-  BeamFigures figures{};
-  for (std::size_t i = 0; i < figures.size(); ++i)
-    figures[i] = card.real(2 + i, beam_figure_names[i], 0.0);
-  const std::vector<Eigen::Vector2d> points = points_of(card, 8);
-  BeamFigures at_end = figures;
+  const Figures figures = beam_figures(card, 2, Figures(beam_figure_names.size(), 0.0));
+  const auto is_station = [&](std::size_t field) {
+    return card.is(field, "YES") || card.is(field, "YESA") || card.is(field, "NO");
+  };
+  // The line of stress points may be left out before stations.
+  std::size_t i = is_station(8) ? 8 : 16;
+  std::vector<Eigen::Vector2d> points;
+  if (i == 16) points = points_of(card, 8);
+  Figures at_end = figures;
   std::vector<Eigen::Vector2d> end_points = points;
-  std::vector<std::size_t> stations;
-  std::size_t i = 16;
-  while (card.is(i, "YES") || card.is(i, "YESA") || card.is(i, "NO")) {
-    stations.push_back(i);
-    const bool has_points = card.is(i, "YES");
-    if (card.real(i + 1, "X/XB", 1.0) >= 1) {
-      for (std::size_t j = 0; j < figures.size(); ++j)
-        at_end[j] = card.real(i + 2 + j, beam_figure_names[j], figures[j]);
-      if (has_points && points_of(card, i + 8).size() == points.size())
-        end_points = points_of(card, i + 8);
+  const auto points_at = [&](std::size_t field) {
+    std::vector<Eigen::Vector2d> own;
+    if (card.is(field, "YES")) own = points_of(card, field + 8);
+    return own.size() == points.size() ? own : points;
+  };
+  std::vector<std::size_t> between_ends;
+  for (; is_station(i); i += card.is(i, "YES") ? 16 : 8) {
+    if (share_of(card, i + 1) < 1) {
+      between_ends.push_back(i);
+      continue;
     }
-    i += has_points ? 16 : 8;
+    at_end = beam_figures(card, i + 2, figures);
+    end_points = points_at(i);
   }
-  for (const std::size_t station : stations)
-    for (std::size_t j = 0; j < figures.size(); ++j)
-      if (card.has(station + 2 + j))
-        require_straight(card, beam_figure_names[j], card.real(station + 2 + j, "figure"),
-                         figures[j], at_end[j], card.real(station + 1, "X/XB", 1.0));
+  std::vector<GivenStation> stations;
+  for (const std::size_t field : between_ends) {
+    const double share = share_of(card, field + 1);
+    stations.push_back(
+        {share, beam_figures(card, field + 2, between(figures, at_end, share)), points_at(field)});
+  }
   const double length = model.units.length;
   const double k1 = card.real(i, "K1", 1.0), k2 = card.real(i + 1, "K2", 1.0);
   bar.section = section_of(model, figures, points, k1, k2);
+  if (card.real(i + 2, "S1", 0.0) != 0 || card.real(i + 3, "S2", 0.0) != 0)
+    model.log.leave_out("PBEAM", "relief of shear by the taper (S1, S2)");
+  if (card.real(i + 4, "NSI(A)", 0.0) != 0 || card.real(i + 5, "NSI(B)", 0.0) != 0)
+    model.log.leave_out("PBEAM", "the extra mass' own moment of inertia (NSI)");
   for (const std::size_t field : {i + 6, i + 7})
     if (card.real(field, "warping coefficient", 0.0) != 0)
       model.log.leave_out("PBEAM", "warping stiffness (CW)");
@@ -291,6 +427,14 @@ BarCard read_beam(NastranModel& model, const CardView& card) {
   bar.end_centroid =
       length * Eigen::Vector2d(card.real(i + 14, "N1", n1), card.real(i + 15, "N2", n2));
   bar.section.shear_centre = -bar.centroid;
+  for (GivenStation& station : bends_of(std::move(stations), figures, at_end)) {
+    StationCard here;
+    here.share = station.share;
+    here.centroid = bar.centroid + station.share * (bar.end_centroid - bar.centroid);
+    here.section = section_of(model, station.figures, std::move(station.points), k1, k2);
+    here.section.shear_centre = -here.centroid;
+    bar.stations.push_back(std::move(here));
+  }
   if (at_end != figures || end_points != points || bar.end_centroid != bar.centroid) {
     bar.end = section_of(model, at_end, end_points, k1, k2);
     bar.end->shear_centre = -bar.end_centroid;
@@ -373,6 +517,14 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
     read.centroid = bar.centroid;
     read.end_centroid = bar.end_centroid;
     read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
+    if (read.is_rod && !bar.stations.empty())
+      throw CardError{
+          "its section is not linear from end to end, and it does not bend: a rod cannot be "
+          "divided at its stations"};
+    for (const StationCard& station : bar.stations)
+      read.stations.push_back({station.share,
+                               add_section(model, name, bar.material, station.section, property),
+                               station.centroid});
     model.log.use(name);
     return model.bar_read[property] = read;
   } catch (const UnusableProperty&) {

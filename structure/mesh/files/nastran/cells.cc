@@ -5,6 +5,9 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -56,7 +59,9 @@ class Shells {
       throw CardError{fmt::format("{} {} has two corners in one grid", card.name(), card.text(0))};
     shell.vertices = lexicographic(corners);
     const double thickness = own_thickness(card, layout, property);
-    const double offset = card.real(layout.offset, "offset", 0.0) * model_.units.length;
+    const double offset =
+        nastran_plate_offset(model_, card, layout.offset,
+                             thickness > 0 ? thickness : nastran_shell_thickness(model_, property));
     shell.section = nastran_shell_section(model_, property, thickness, offset);
     shell.region = nastran_region(model_, property, material_of(shell));
     const auto place = static_cast<int>(mesh_.shells.size());
@@ -215,6 +220,9 @@ class Bars {
     const Eigen::Matrix3d axes_a = model_.output_axes(beam.vertices[0]);
     const Vector3 line = model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);
     beam.axis_2 = direction(card, beam, options[0] == 'B' ? Eigen::Matrix3d::Identity() : axes_a);
+    if (!bar.is_rod && beam.axis_2.isZero(0))
+      throw CardError{fmt::format("{} {} has neither a vector nor a grid that orients it",
+                                  card.name(), card.text(0))};
     if (!bar.is_rod && !(line.cross(beam.axis_2).norm() > 1e-6 * line.norm() * beam.axis_2.norm()))
       throw CardError{fmt::format("{} {} runs along the vector that is to orient it", card.name(),
                                   card.text(0))};
@@ -235,11 +243,65 @@ class Bars {
     }
     if (card.name() == "CBEAM" && (card.has(16) || card.has(17)))
       model_.log.leave_out("CBEAM", "warping (SA, SB)");
-    const Eigen::Matrix3d shifted = triad(line + beam.offset[1] - beam.offset[0], beam.axis_2);
-    beam.offset[0] += shifted.rightCols<2>() * bar.centroid;
-    beam.offset[1] += shifted.rightCols<2>() * bar.end_centroid;
     beam.end_section = bar.end_section;
-    add(beam, property);
+    add_pieces(beam, bar, property);
+  }
+
+  /// A beam, in pieces from station to station where its section is not linear from end to end.
+  void add_pieces(const Beam& whole, const NastranBar& bar, long property) {
+    const auto [first, last] = whole.vertices;
+    if (!bar.stations.empty() && runs_along_shell(first, last))
+      throw CardError{fmt::format(
+          "the section of property {} is not linear from end to end, and its beam runs along the "
+          "edge of a plate: divide the beam and the plate at its stations",
+          property)};
+    const Vector3 from = model_.place(first), line = model_.place(last) - from;
+    const Eigen::Matrix3d axes = triad(line + whole.offset[1] - whole.offset[0], whole.axis_2);
+    const auto offset = [&](double share, const Eigen::Vector2d& centroid) -> Vector3 {
+      return whole.offset[0] + share * (whole.offset[1] - whole.offset[0]) +
+             axes.rightCols<2>() * centroid;
+    };
+    Beam piece = whole;
+    piece.offset[0] = offset(0, bar.centroid);
+    for (const NastranStation& station : bar.stations) {
+      piece.vertices[1] = new_vertex(from + station.share * line);
+      piece.end_section = station.section;
+      piece.offset[1] = offset(station.share, station.centroid);
+      piece.release[1] = BeamRelease{};
+      add(piece, property);
+      piece.vertices[0] = piece.vertices[1];
+      piece.section = station.section;
+      piece.offset[0] = piece.offset[1];
+      piece.release[0] = BeamRelease{};
+    }
+    piece.vertices[1] = last;
+    piece.end_section =
+        whole.end_section >= 0 || bar.stations.empty() ? whole.end_section : whole.section;
+    piece.offset[1] = offset(1, bar.end_centroid);
+    piece.release[1] = whole.release[1];
+    add(piece, property);
+  }
+
+  /// A vertex that no grid of the deck is: it has a number beyond all of theirs.
+  int new_vertex(const Vector3& place) {
+    std::vector<long>& labels = mesh_.vertex_labels;
+    if (next_label_ == 0) next_label_ = *std::max_element(labels.begin(), labels.end()) + 1;
+    labels.push_back(next_label_++);
+    mesh_.vertices.push_back(place);
+    model_.output_system.push_back(0);
+    return static_cast<int>(mesh_.vertices.size()) - 1;
+  }
+
+  bool runs_along_shell(int a, int b) {
+    if (edges_.empty())
+      for (const Shell& shell : mesh_.shells) {
+        const auto& v = shell.vertices;
+        const std::vector<int> corners = shell.is_triangle() ? std::vector{v[0], v[1], v[2]}
+                                                             : std::vector{v[0], v[1], v[3], v[2]};
+        for (std::size_t i = 0; i < corners.size(); ++i)
+          edges_.insert(std::minmax(corners[i], corners[(i + 1) % corners.size()]));
+      }
+    return edges_.count(std::minmax(a, b)) > 0;
   }
 
   Beam begin(const CardView& card, std::size_t first) {
@@ -255,7 +317,7 @@ class Bars {
 
   void add(Beam& beam, long property) {
     beam.region = nastran_region(model_, property, mesh_.section_of(beam).material);
-    model_.beam_of[beam.label] = static_cast<int>(mesh_.beams.size());
+    model_.beam_of.try_emplace(beam.label, static_cast<int>(mesh_.beams.size()));
     mesh_.beams.push_back(beam);
   }
 
@@ -292,8 +354,7 @@ class Bars {
     const Vector3 given(source.real(4, "vector that orients it", 0.0),
                         source.real(5, "vector that orients it", 0.0),
                         source.real(6, "vector that orients it", 0.0));
-    if (!(given.norm() > 0))
-      return model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);  // refused above
+    if (!(given.norm() > 0)) return Vector3::Zero();
     return axes * given.normalized();
   }
 
@@ -325,6 +386,9 @@ class Bars {
   NastranModel& model_;
   Mesh& mesh_;
   Defaults bar_defaults_, beam_defaults_;
+  std::set<std::pair<int, int>>
+      edges_;            ///< of shells, by their corners; found when they are needed
+  long next_label_ = 0;  ///< of vertices that are made here; 0: not known yet
 };
 
 /// Cards that a material's number may stand for; what is none of plates and beams is told of where

@@ -105,6 +105,7 @@ class Grids {
     model_.output_system.push_back(output);
     const std::string held = card.has(6) ? std::string(card.text(6)) : held_;
     if (!held.empty() && held != "0") {
+      model_.log.leave_out("GRID", "constraints of the grids themselves (PS), as other supports");
       Support support;
       support.vertex = vertex;
       support.held = card.has(6) ? card.components(6, "permanent constraint") : digits(held);
@@ -197,6 +198,14 @@ bool NastranModel::is_scalar_point(long label) const {
   return std::any_of(scalar_points.begin(), scalar_points.end(), [&](const auto& range) {
     return range.first <= label && label <= range.second;
   });
+}
+
+std::vector<int> NastranModel::pieces_of_beam(int first) const {
+  const std::vector<Beam>& beams = deck.mesh.beams;
+  std::vector<int> pieces;
+  for (std::size_t b = at(first); b < beams.size() && beams[b].label == beams[at(first)].label; ++b)
+    pieces.push_back(static_cast<int>(b));
+  return pieces;
 }
 
 Eigen::Matrix3d NastranModel::output_axes(int vertex) {

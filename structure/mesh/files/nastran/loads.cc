@@ -195,7 +195,8 @@ class Loads {
       return;
     }
     const Beam& beam = mesh_.beams[at(found->second)];
-    const Vector3 line = model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]);
+    const Beam& last = mesh_.beams[at(model_.pieces_of_beam(found->second).back())];
+    const Vector3 line = model_.place(last.vertices[1]) - model_.place(beam.vertices[0]);
     const Vector3 axis_1 = line.normalized();
     const Vector3 axis_3 = axis_1.cross(beam.axis_2).normalized();
     const std::map<std::string, Vector3> directions{
@@ -212,8 +213,9 @@ class Loads {
       model_.log.leave_out(card.name(), "loads other than even forces over the whole length");
       return;
     }
-    set(card).beam_loads.push_back(
-        {found->second, p * model_.units.force / model_.units.length * direction->second});
+    for (const int piece : model_.pieces_of_beam(found->second))
+      set(card).beam_loads.push_back(
+          {piece, p * model_.units.force / model_.units.length * direction->second});
   }
 
   NastranModel& model_;

@@ -29,6 +29,14 @@ struct NastranMaterial {
   std::optional<Elasticity> of_solids = std::nullopt;
 };
 
+/// Section of a beam between its ends.
+struct NastranStation {
+  double share = 0;  ///< of the length from its first end
+  int section = 0;   ///< place in Mesh::beam_sections
+  /// Centroid from the line that the element's offsets lead to, along axes 2 and 3, m.
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+};
+
 /// Property of a bar, beam or rod.
 struct NastranBar {
   int section = 0;       ///< place in Mesh::beam_sections
@@ -37,6 +45,8 @@ struct NastranBar {
   /// Centroid from the line that the element's offsets lead to, along axes 2 and 3, m.
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
   Eigen::Vector2d end_centroid = Eigen::Vector2d::Zero();  ///< the same at the second end
+  /// In their order, where the section is not linear from end to end: what it is linear between.
+  std::vector<NastranStation> stations = {};
 };
 
 /// Properties of plates of which the same is said: how many, the first, and the worst of them.
@@ -62,8 +72,9 @@ struct NastranModel {
   const UnitSystem units;
   CoordinateSystems systems;  ///< in the deck's units
   double mass_factor = 1;     ///< PARAM WTMASS
-  std::unordered_map<long, int> vertex_of, shell_of, beam_of, region_of;
-  std::vector<long> output_system;  ///< of each vertex
+  std::unordered_map<long, int> vertex_of, shell_of, region_of;
+  std::unordered_map<long, int> beam_of;  ///< of several pieces the first; they are in a row
+  std::vector<long> output_system;        ///< of each vertex
   /// Numbers that are taken: by plates, bars and springs; by rigid elements; by masses.
   std::array<std::unordered_set<long>, 3> elements;
   std::unordered_set<long> solids;                   ///< read or left out
@@ -94,6 +105,8 @@ struct NastranModel {
   }
   /// Is a point one without a place (SPOINT, EPOINT)?
   bool is_scalar_point(long label) const;
+  /// The pieces of a beam, by the place of the first.
+  std::vector<int> pieces_of_beam(int first) const;
   /// Directions of a grid's displacements, columns.
   Eigen::Matrix3d output_axes(int vertex);
   /// A vector given in a coordinate system, as seen from a vertex.
@@ -143,6 +156,10 @@ int nastran_material_place(NastranModel& model, long number);
 /// Section of a shell with a property, a thickness of its own (0: the property's) and an offset, m.
 /// -1 if the deck has no properties at all.
 int nastran_shell_section(NastranModel& model, long property, double thickness, double offset);
+/// Offset of a plate's middle from its grids, m: a number, or, as OptiStruct has it, which of its
+/// surfaces (TOP, BOTTOM) lies in the grids' plane. @throws CardError for anything else.
+double nastran_plate_offset(const NastranModel& model, const CardView& card, std::size_t field,
+                            double thickness);
 /// Thickness that a property gives, m; 0: none.
 double nastran_shell_thickness(NastranModel& model, long property);
 const NastranBar& nastran_bar(NastranModel& model, long property);

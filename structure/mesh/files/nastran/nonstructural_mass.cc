@@ -95,7 +95,8 @@ class SpreadMasses {
       for (const auto& [number, shell] : model_.shell_of)
         if (is_named(number) && card.is(1, "ELEMENT")) cells.shells.push_back(shell);
       for (const auto& [number, beam] : model_.beam_of)
-        if (is_named(number)) cells.beams.push_back(beam);
+        if (is_named(number))
+          for (const int piece : model_.pieces_of_beam(beam)) cells.beams.push_back(piece);
     } else {
       std::vector<char> is_of(mesh.regions.size(), 0);
       for (const auto& [number, region] : model_.region_of)

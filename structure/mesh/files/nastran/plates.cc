@@ -149,7 +149,7 @@ struct Plate {
   std::string name;
 };
 
-/// PSHELL PID MID1 T MID2 12I/T3 MID3 TS/T NSM / Z1 Z2 MID4
+/// PSHELL PID MID1 T MID2 12I/T3 MID3 TS/T NSM / Z1 Z2 MID4, and in OptiStruct T0 ZOFFS
 Plate read_shell(NastranModel& model, const CardView& card, double own_thickness) {
   Plate plate;
   plate.name = fmt::format("PSHELL {}", card.text(0));
@@ -176,6 +176,8 @@ Plate read_shell(NastranModel& model, const CardView& card, double own_thickness
     throw CardError{fmt::format("{}: 12I/T3 and TS/T must be positive", plate.name)};
   if (card.has(8) || card.has(9))
     model.log.leave_out("PSHELL", "Z1, Z2: stresses are those of the surfaces");
+  if (card.has(11)) model.log.leave_out("PSHELL", "T0, the least thickness of an optimisation");
+  plate.offset = nastran_plate_offset(model, card, 12, t);
   const bool is_plain = membrane.is_isotropic && bending_number == membrane_number &&
                         shear_number == membrane_number && std::abs(bending_ratio - 1) < 1e-6 &&
                         std::abs(shear_ratio - 5.0 / 6) < 2e-3 && !card.has(10);
@@ -236,7 +238,10 @@ Plate read_layers(NastranModel& model, const CardView& card) {
     plate.laminate.coupling.setZero();
     plate.laminate.bending = plate.laminate.membrane * plate.thickness * plate.thickness / 12;
   }
-  if (card.has(1)) plate.offset = card.real(1, "Z0") * length + plate.thickness / 2;
+  // A number is the place of the lower surface.
+  if (card.has(1))
+    plate.offset = nastran_plate_offset(model, card, 1, plate.thickness) +
+                   (to_real(card.text(1)) ? plate.thickness / 2 : 0);
   plate.mass_per_area = card.real(2, "mass beyond the plate's", 0.0) * model.units.mass() /
                         (length * length) * model.mass_factor;
   const bool one_material = std::all_of(numbers.begin(), numbers.end(),
@@ -258,7 +263,9 @@ int add_section(NastranModel& model, const CardView& card, Plate plate, double o
   Mesh& mesh = model.deck.mesh;
   ShellSection section;
   section.thickness = plate.thickness;
-  section.offset = plate.offset + offset;
+  // What an element says goes before its PSHELL's, and is added to that of layers.
+  const bool is_own = offset != 0 && card.name() == "PSHELL";
+  section.offset = is_own ? offset : plate.offset + offset;
   section.mass_per_area = plate.mass_per_area;
   section.label = card.label(0, "property");
   section.material = plate.material;
@@ -359,6 +366,16 @@ int nastran_material_place(NastranModel& model, long number) {
   const auto place = static_cast<int>(model.deck.mesh.materials.size());
   model.deck.mesh.materials.push_back(material.isotropic);
   return model.material_place[number] = place;
+}
+
+double nastran_plate_offset(const NastranModel& model, const CardView& card, std::size_t field,
+                            double thickness) {
+  const bool is_top = card.is(field, "TOP"), is_bottom = card.is(field, "BOTTOM");
+  if (!is_top && !is_bottom) return card.real(field, "offset", 0.0) * model.units.length;
+  if (!(thickness > 0))
+    throw CardError{
+        fmt::format("{} as offset of a plate whose thickness is not known here", card.text(field))};
+  return (is_top ? -0.5 : 0.5) * thickness;
 }
 
 double nastran_shell_thickness(NastranModel& model, long property) {

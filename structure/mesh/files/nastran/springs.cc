@@ -137,7 +137,10 @@ class Springs {
     const bool has_end = spring.vertices[1] >= 0;
     const Vector3 from = model_.place(spring.vertices[0]);
     const Vector3 to = from + line_of(spring);
-    spring.axes[0] = spring.axes[1] = bush_axes(card, spring, from, to);
+    const std::array<double, 6> stiffness = bush_stiffness(property);
+    const bool is_along_line =
+        stiffness[1] == 0 && stiffness[2] == 0 && stiffness[4] == 0 && stiffness[5] == 0;
+    spring.axes[0] = spring.axes[1] = bush_axes(card, spring, from, to, is_along_line);
     Vector3 place = from + card.real(8, "place of the spring", 0.5) * (to - from);
     if (const long system = card.integer(9, "system of its place", -1); system >= 0) {
       const Vector3 given(card.real(10, "place", 0.0), card.real(11, "place", 0.0),
@@ -146,15 +149,15 @@ class Springs {
     }
     spring.arms[0] = place - from;
     if (has_end) spring.arms[1] = place - to;
-    const std::array<double, 6> stiffness = bush_stiffness(property);
     for (int i = 0; i < 6; ++i) {
       spring.components = {i, i};
       add(card, spring, stiffness[at(i)] * unit(i));
     }
   }
 
+  /// Where it resists nothing but along and about its line, any vector across serves.
   Eigen::Matrix3d bush_axes(const CardView& card, const Spring& spring, const Vector3& from,
-                            const Vector3& to) {
+                            const Vector3& to, bool is_along_line) {
     if (card.has(7))
       return model_.axes_at(card.integer(7, "coordinate system"), spring.vertices[0]);
     const Vector3 line = to - from;
@@ -168,6 +171,8 @@ class Springs {
       vector = model_.output_axes(spring.vertices[0]) * Vector3(card.real(4, "vector", 0.0),
                                                                 card.real(5, "vector", 0.0),
                                                                 card.real(6, "vector", 0.0));
+    else if (is_along_line)
+      vector = line.unitOrthogonal();
     if (!(line.cross(vector).norm() > 1e-6 * line.norm() * vector.norm()))
       throw CardError{
           fmt::format("CBUSH {} has neither a coordinate system nor a vector that "

@@ -127,8 +127,8 @@ TEST(NastranReader, ShapesOfBars) {
   // A mass beyond the bar's follows the dimensions: t/mm is 1e6 kg/m.
   EXPECT_NEAR(bar("BAR\n,10.,20.,1.-6").mass_per_length, 1.0, 1e-12);
   EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,1,5,1,2,0.,0.,1.\n"
-                                    "PBARL,5,7,,HEXA\n,1.,2.,3.\nMAT1,7,2.+11,,.3"),
-              HasSubstr("deck.bdf:4: error: PBARL 5: the shape \"HEXA\" is not known"));
+                                    "PBARL,5,7,,HAT9\n,1.,2.,3.\nMAT1,7,2.+11,,.3"),
+              HasSubstr("deck.bdf:4: error: PBARL 5: the shape \"HAT9\" is not known"));
 }
 
 // The axis of a PBEAML's T is its shear centre, in the flange: the centroid hangs below.
@@ -184,10 +184,82 @@ TEST(NastranReader, TaperedBeams) {
   expect_near(end.stress_points.at(0), Eigen::Vector2d(0.05, 0.05), 1e-15);
   EXPECT_NEAR(given.mesh.beams[0].offset[0].norm(), 0.03, 1e-12);
   EXPECT_NEAR(given.mesh.beams[0].offset[1].norm(), 0.01, 1e-12);
+}
+
+// Between stations its figures are linear: each part is a beam of its own. The line of stress
+// points is left out.
+TEST(NastranReader, BeamsThatAreNotLinearFromEndToEndAreDivided) {
+  const std::string line = "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nCBEAM,9,5,1,2,0.,0.,1.\n";
+  const std::string ends = ",5,45,0.,0.,.1,0.,0.,.3\n";
+  const std::string material = "MAT1,7,206.+9,,.3,7850.\n";
+  const Deck deck = nastran(line + ends +
+                            "PBEAM,5,7,.02,4.-6,1.-6,0.,2.-6,3.\n,NO,.5,.01,6.-6,,,,5.\n,NO,.25,"
+                            ".04,,2.-6\n,NO,1.\n,1.,.5\n,,,,,.04,0.,.08,0.\n" +
+                            material);
+  const Mesh& mesh = deck.mesh;
+  ASSERT_EQ(mesh.beams.size(), 3U);
+  EXPECT_THAT(mesh.vertex_labels, ElementsAre(1, 2, 3, 4));
+  expect_near(mesh.vertices[2], Vector3(1, 0, 0), 1e-12);
+  expect_near(mesh.vertices[3], Vector3(2, 0, 0), 1e-12);
+  const std::vector<std::array<int, 2>> ways{{0, 2}, {2, 3}, {3, 1}};
+  const std::vector<double> areas{0.02, 0.04, 0.01, 0.02}, moments{4e-6, 4e-6, 6e-6, 4e-6},
+      others{1e-6, 2e-6, 1e-6, 1e-6}, extra{3, 3, 5, 3}, places{0, 1, 2, 4};
+  // Offsets and the neutral axis, which lies across the line between the ends' offsets, are linear
+  // from end to end.
+  const Vector3 across = Vector3(-0.2, 0, 4).normalized();
+  const auto offset = [&](double x) -> Vector3 {
+    return Vector3(0, 0, 0.1 + 0.05 * x) + (0.04 + 0.01 * x) * across;
+  };
+  const double slope = (Vector3(4, 0, 0) + offset(4) - offset(0)).norm() / 4;
+  double mass = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Beam& beam = mesh.beams[i];
+    EXPECT_EQ(beam.label, 9);
+    EXPECT_EQ(beam.vertices, ways[i]);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const BeamSection section = section_at(mesh, beam, static_cast<double>(end));
+      EXPECT_DOUBLE_EQ(section.area, areas[i + end]);
+      EXPECT_DOUBLE_EQ(section.second_moment_3, moments[i + end]);
+      EXPECT_DOUBLE_EQ(section.second_moment_2, others[i + end]);
+      EXPECT_DOUBLE_EQ(section.mass_per_length, extra[i + end]);
+      EXPECT_DOUBLE_EQ(section.shear_area_3, areas[i + end] / 2);
+      expect_near(beam.offset[end], offset(places[i + end]), 1e-12);
+    }
+    mass += (places[i + 1] - places[i]) *
+            (7850 * (areas[i] + areas[i + 1]) + extra[i] + extra[i + 1]) / 2;
+  }
+  EXPECT_NEAR(mass_properties(mesh).mass / mass, slope, 1e-12);
+  EXPECT_TRUE(mesh.beams[0].release[0][4]);
+  EXPECT_EQ(mesh.beams[0].release[1], BeamRelease{});
+  EXPECT_EQ(mesh.beams[1].release[0], BeamRelease{});
+  EXPECT_THAT(mesh.beams[2].release[1], ElementsAre(false, false, false, true, true, false));
+}
+
+TEST(NastranReader, ShapedBeamsAreDividedAtTheirStations) {
+  const Deck deck = nastran(
+      "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nCBEAM,9,5,1,2,0.,0.,1.\nPBEAML,5,7,,BAR\n"
+      ",.2,.4,,NO,.25,.1\n,NO,1.\nMAT1,7,206.+9,,.3,7850.\nPLOAD1,3,9,FZ,FR,0.,-5.,1.,-5.\n");
+  ASSERT_EQ(deck.mesh.beams.size(), 2U);
+  EXPECT_NEAR(section_at(deck.mesh, deck.mesh.beams[0], 1).area, 0.04, 1e-12);
+  EXPECT_NEAR(section_at(deck.mesh, deck.mesh.beams[0], 1).second_moment_3, 0.1 * 0.064 / 12,
+              1e-12);
+  EXPECT_NEAR(section_at(deck.mesh, deck.mesh.beams[1], 1).area, 0.08, 1e-12);
+  // What acts on the beam acts on both.
+  EXPECT_EQ(deck.load_sets.at(0).beam_loads.size(), 2U);
+}
+
+TEST(NastranReader, StationsThatCannotBeDividedAt) {
+  const std::string plate =
+      "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nGRID,3,,4.,1.,0.\nGRID,4,,0.,1.,0.\n"
+      "CQUAD4,1,6,1,2,3,4\nPSHELL,6,7,.01,7,,7\nMAT1,7,206.+9,,.3,7850.\nCBEAM,9,5,1,2,0.,0.,1.\n";
   EXPECT_THAT(
-      complaints_of_nastran(
-          line + "PBEAM,5,7,.02,4.-6,1.-6,0.,2.-6\n,,,,,,,,\n,NO,.5,.01\n,NO,1.,.01\n" + material),
-      HasSubstr("PBEAM 5: A is not linear from end to end"));
+      complaints_of_nastran(plate + "PBEAM,5,7,.02,4.-6,1.-6,0.,2.-6\n,NO,.5,.01\n,NO,1.\n"),
+      HasSubstr("its beam runs along the edge of a plate: divide the beam and the plate"));
+  EXPECT_THAT(complaints_of_nastran(
+                  plate + "PBEAM,5,7,.02,4.-6,1.-6,0.,2.-6\n,NO,.5,.01\n,NO,.5,.02\n,NO,1.\n"),
+              HasSubstr("two stations are at X/XB = 0.5"));
+  EXPECT_THAT(complaints_of_nastran(plate + "PBEAM,5,7,.02,4.-6,1.-6,0.,2.-6\n,NO,0.,.01\n"),
+              HasSubstr("X/XB is 0; more than 0 is due"));
 }
 
 TEST(NastranReader, Rods) {

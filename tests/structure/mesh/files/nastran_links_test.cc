@@ -79,6 +79,18 @@ TEST(NastranLinks, RodsAndJoints) {
 
 // With displacements alone the general mean is the distributing link; with rotations it is a second
 // least-squares problem, solved by hand for two grids on a line.
+// A bush that resists nothing across its line needs no vector there.
+TEST(NastranLinks, BushesAlongTheirLine) {
+  const std::string deck =
+      "GRID,1,,0.,0.,0.\nGRID,2,,0.,0.,2.\nCBUSH,1,5,1,2\nPBUSH,5,K,1000.,,,50.\n";
+  const Mesh mesh = nastran(deck).mesh;
+  ASSERT_EQ(mesh.springs.size(), 2U);
+  for (const Spring& spring : mesh.springs)
+    expect_near(spring.axes[0].col(0), Vector3::UnitZ(), 1e-12);
+  EXPECT_THAT(complaints_of_nastran(deck + "CBUSH,2,6,1,2\nPBUSH,6,K,1000.,1000.\n"),
+              HasSubstr("CBUSH 2 has neither a coordinate system nor a vector"));
+}
+
 TEST(NastranLinks, MeansOfAnyComponents) {
   const Deck plain = nastran(grids + "RBE3,1,,4,123456,1.,123,1,2\n,2.,123,3\n", "mm-t-N");
   ASSERT_EQ(plain.mesh.distributing_links.size(), 1U);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "structure/mesh/mass_properties.h"
 #include "tests/structure/mesh/files/deck_text.h"
 
 namespace blocklift::structure::test {
@@ -196,6 +197,41 @@ ENDDATA
   EXPECT_LE((deck.mesh.beams[1].offset[0] - Vector3(0, 0, 0.02)).norm(), 1e-12);
   EXPECT_LE((deck.mesh.beams[2].axis_2 - Vector3(0, -1, 0)).norm(), 1e-12);
   EXPECT_EQ(deck.support_sets.at(0).supports.size(), 5U);
+}
+
+// OptiStruct's offsets: of the property after T0, by the surface that lies in the grids' plane, and
+// of elements, which go before it.
+TEST(Preprocessors, OptiStructOffsets) {
+  const std::string plates =
+      "GRID,1,,0.,0.,0.\nGRID,2,,1000.,0.,0.\nGRID,3,,1000.,1000.,0.\nGRID,4,,0.,1000.,0.\n"
+      "MAT1,7,206000.,,.3,7.85-9\nCQUAD4,1,5,1,2,3,4";
+  const auto offset = [&](const std::string& of_element, const std::string& property) {
+    const Deck deck = nastran(plates + of_element + "\n" + property + "\n", "mm-t-N");
+    return 1000 * deck.mesh.section_of(deck.mesh.shells.at(0)).offset;
+  };
+  EXPECT_NEAR(offset("", "PSHELL,5,7,20.,7,,7\n,,,,18.,5."), 5, 1e-12);
+  EXPECT_NEAR(offset("", "PSHELL,5,7,20.,7,,7\n,,,,,Bottom"), 10, 1e-12);
+  EXPECT_NEAR(offset(",,TOP", "PSHELL,5,7,20.,7,,7\n,,,,,5."), -10, 1e-12);
+  EXPECT_NEAR(offset("", "PCOMP,5,TOP\n,7,5.,0.,,7,5.,90."), -5, 1e-12);
+  EXPECT_NEAR(offset("", "PCOMP,5,-4.\n,7,5.,0.,,7,5.,90."), 1, 1e-12);
+  EXPECT_THAT(complaints_of_nastran(plates + ",,SURF\nPSHELL,5,7,20.,7,,7\n", "mm-t-N"),
+              HasSubstr("\"SURF\" as offset"));
+}
+
+// Constraints in the grids' own field are left out as others are, and that is said.
+TEST(Preprocessors, ConstraintsOfGrids) {
+  const std::string bar =
+      "CBAR,1,5,1,2,0.,0.,1.\nPBAR,5,7,.01,1.-6,1.-6,2.-6\n"
+      "MAT1,7,206.+9,,.3,7850.\n";
+  const Deck deck = nastran("GRID,1,,0.,0.,0.,,345\nGRID,2,,1.,0.,0.\n" + bar);
+  EXPECT_THAT(entry(deck, "GRID").left_out, HasSubstr("constraints of the grids themselves"));
+  ASSERT_EQ(deck.support_sets.size(), 1U);
+  EXPECT_THAT(deck.support_sets[0].supports.at(0).held,
+              ElementsAre(false, false, true, true, true, false));
+  EXPECT_EQ(entry(nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n" + bar), "GRID").left_out, "");
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,1,5,1,2\n"
+                                    "PBAR,5,7,.01,1.-6,1.-6,2.-6\nMAT1,7,206.+9,,.3,7850.\n"),
+              HasSubstr("CBAR 1 has neither a vector nor a grid that orients it"));
 }
 
 TEST(Preprocessors, ADeckThatIsCutOffIsRefused) {
