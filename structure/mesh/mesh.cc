@@ -232,7 +232,8 @@ void check_mesh(const Mesh& mesh) {
     const auto vertex = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
     const double area = 0.5 * ((vertex(3) - vertex(0)).cross(vertex(2) - vertex(1))).norm();
     const double size = longest_edge(mesh, shell);
-    require(area > 1e-8 * size * size, "shell", shell.label, "has no area");
+    require(area > 1e-8 * size * size, "shell", shell.label,
+            "has no area, or its corners are not in turn about it");
   }
   for (const Beam& beam : mesh.beams) {
     require(exists(beam.vertices[0]) && exists(beam.vertices[1]), "beam", beam.label,

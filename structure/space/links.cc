@@ -1,8 +1,10 @@
 #include "structure/space/links.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -202,6 +204,16 @@ void tie_by_equations(const Mesh& mesh, const std::vector<int>& node_of,
 
 }  // namespace
 
+std::string describe_node(const Mesh& mesh, const std::vector<int>& node_of_vertex,
+                          const Eigen::Matrix3Xd& nodes, int node) {
+  std::string name = "a vertex";
+  const auto vertex = std::find(node_of_vertex.begin(), node_of_vertex.end(), node);
+  if (vertex != node_of_vertex.end() && !mesh.vertex_labels.empty())
+    name = fmt::format("node {}", mesh.vertex_labels[at(vertex - node_of_vertex.begin())]);
+  return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m", name, nodes(0, node), nodes(1, node),
+                     nodes(2, node));
+}
+
 std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>& node_of_vertex,
                                        const Eigen::Matrix3Xd& nodes) {
   std::vector<FreedomTie> ties;
@@ -209,10 +221,9 @@ std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>&
   const auto require_once = [&](std::size_t first, const char* what, long label) {
     for (std::size_t i = first; i < ties.size(); ++i)
       if (!tied.insert(ties[i].freedom).second)
-        throw ModelError(fmt::format(
-            "{} {}: a vertex at ({:.6g}, {:.6g}, {:.6g}) m follows two links in one freedom", what,
-            label, nodes(0, ties[i].freedom / 6), nodes(1, ties[i].freedom / 6),
-            nodes(2, ties[i].freedom / 6)));
+        throw ModelError(
+            fmt::format("{} {}: {} follows two links in one freedom", what, label,
+                        describe_node(mesh, node_of_vertex, nodes, ties[i].freedom / 6)));
   };
   for (const RigidLink& link : mesh.rigid_links) {
     const std::size_t first = ties.size();

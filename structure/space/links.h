@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "structure/space/space.h"
@@ -27,5 +28,9 @@ struct FreedomTie {
 /// @throws ModelError if a freedom follows two links, or two equations say the same.
 std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>& node_of_vertex,
                                        const Eigen::Matrix3Xd& nodes);
+
+/// "node 801 at (1.5, 1, 0.5) m", by the file's number of a vertex that is there, if it has one.
+std::string describe_node(const Mesh& mesh, const std::vector<int>& node_of_vertex,
+                          const Eigen::Matrix3Xd& nodes, int node);
 
 }  // namespace blocklift::structure

@@ -500,7 +500,9 @@ void Space::number_unknowns() {
   std::vector<Term> terms;
   std::function<void(int, double, int)> expand_freedom = [&](int freedom, double weight,
                                                              int depth) {
-    if (depth > 50) throw ModelError("links or equations follow one another in a circle");
+    if (depth > 50)
+      throw ModelError("links or equations follow one another in a circle: one is of " +
+                       describe_node(*mesh_, node_of_vertex_, nodes_, freedom / 6));
     const auto take = [&](int node, double share) {
       const int own_freedom = 6 * node + freedom % 6;
       const auto link = links.find(own_freedom);

@@ -11,6 +11,7 @@
 #include "structure/mesh/files/abaqus/generation.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/label_range.h"
+#include "structure/nearest_name.h"
 
 namespace blocklift::structure {
 
@@ -54,6 +55,37 @@ const std::map<std::string, ElementType>& element_types() {
       {"DCOUP3D", {Kind::coupling, 1, 1}}, {"DASHPOT1", {Kind::nothing, 1, 1}},
       {"DASHPOT2", {Kind::nothing, 2, 2}}, {"DASHPOTA", {Kind::nothing, 2, 2}}};
   return types;
+}
+
+/// What to give in place of elements that are not known; empty: nobody asked yet.
+std::string instead_of_type(const std::string& type) {
+  static const std::vector<std::pair<const char*, const char*>> beginnings{
+      {"S9R5", "S8R5, without the node in the middle, is"},
+      {"SC", "give S4R or S8R on the middle surface in place of continuum shells"},
+      {"CONN", "say by *COUPLING, *MPC, *EQUATION or *SPRING what connectors join"},
+      {"M3D", "membranes do not bend; S3, S4R, S6 and S8R do"},
+      {"SFM", "surface elements bear nothing; take them out of the deck"},
+      {"B31OS", "warping is not known; B31 is"},
+      {"B32OS", "warping is not known; B32 is"},
+      {"ELBOW", "PIPE31 and PIPE32 are"},
+      {"FRAME", "B33 is"},
+      {"GAP", "what gapes is not known, for a lift is linear"},
+      {"ITS", "what touches is not known, for a lift is linear"},
+      {"JOINT", "say by *SPRING what joints resist"},
+      {"CAX", "bodies of revolution cannot be lifted"},
+      {"SAX", "bodies of revolution cannot be lifted"},
+      {"CPE", "plane bodies cannot be lifted"},
+      {"CPS", "plane bodies cannot be lifted; S4R and S8R are plates"},
+      {"B2", "plane frames cannot be lifted; B31 is"},
+      {"T2D", "plane frames cannot be lifted; T3D2 is"},
+      {"AC", "fluids are not known"},
+      {"COH", "layers of glue are not known; *TIE joins what they join"}};
+  for (const auto& [beginning, text] : beginnings)
+    if (type.starts_with(beginning)) return fmt::format("; {}", text);
+  std::vector<std::string> names;
+  for (const auto& [name, what] : element_types()) names.push_back(name);
+  const std::string nearest = nearest_name(type, names);
+  return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
 }
 
 class Cells {
@@ -271,8 +303,10 @@ class Cells {
       if (!model_.scopes[s].nodes.empty() && s > 0)
         model_.log.remark(
             model_.scopes[s].blocks.front()->line,
-            fmt::format("numbers of instance {} are raised by {}, so that each is one",
-                        model_.scopes[s].name, step * static_cast<long>(s)));
+            fmt::format("numbers of {} are raised by {}, so that each is one",
+                        model_.scopes[s].name.empty() ? "the assembly"
+                                                      : "instance " + model_.scopes[s].name,
+                        step * static_cast<long>(s)));
   }
 
   void add_elements(const AbaqusBlock& block) {
@@ -285,10 +319,16 @@ class Cells {
       known = {AbaqusKind::nothing, 1, 99};
     } else if (const auto found = element_types().find(type); found != element_types().end()) {
       known = found->second;
+      if (known.kind == AbaqusKind::nothing) model_.log.leave_out("*ELEMENT", "dampers");
+    } else if (model_.log.leaves_out(type, model_.options)) {
+      model_.log.leave_out("*ELEMENT", fmt::format("elements of type {}, as was asked for", type));
+      known = {AbaqusKind::nothing, 1, 99};
     } else {
-      throw CardError{fmt::format("elements of type {} are not known here", type)};
+      throw CardError{
+          fmt::format("elements of type {} are not known here{}; leave_out names what may "
+                      "be missing",
+                      type, instead_of_type(type))};
     }
-    if (known.kind == AbaqusKind::nothing && !is_solid) model_.log.leave_out("*ELEMENT", "dampers");
     // A line that ends in a comma goes on in the next.
     std::vector<std::string_view> all;
     for (const AbaqusLine& line : block.data) {

@@ -99,7 +99,7 @@ class LinkBlocks {
     }
   }
 
-  // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER AREA | MASS PER LENGTH | TOTAL MASS
+  // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER VOLUME | AREA | LENGTH, TOTAL MASS
   void add_spread_mass(const AbaqusBlock& block) {
     const std::string units = block.required("UNITS");
     double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
@@ -109,6 +109,10 @@ class LinkBlocks {
       const AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.shell >= 0) shells.push_back(element.shell);
       beams.insert(beams.end(), element.beams.begin(), element.beams.end());
+    }
+    if (units == "MASS PER VOLUME") {
+      add_mass_per_volume(shells, beams, value / (length * length * length));
+      return;
     }
     if (units == "MASS PER AREA" && beams.empty()) {
       value /= length * length;
@@ -120,12 +124,23 @@ class LinkBlocks {
       value /= size;
     } else {
       throw CardError{
-          fmt::format("UNITS = {} of these elements is not known; MASS PER AREA of "
-                      "shells, MASS PER LENGTH of beams, TOTAL MASS of either are",
+          fmt::format("UNITS = {} of these elements is not known; MASS PER VOLUME, MASS PER AREA "
+                      "of shells, MASS PER LENGTH of beams, TOTAL MASS of either are",
                       units)};
     }
     add_mass_per_area(mesh_, shells, value);
     add_mass_per_length(mesh_, beams, value);
+  }
+
+  void add_mass_per_volume(const std::vector<int>& shells, const std::vector<int>& beams,
+                           double value) {
+    std::map<double, std::vector<int>> of_thickness, of_area;
+    for (const int s : shells)
+      of_thickness[mesh_.section_of(mesh_.shells[at(s)]).thickness].push_back(s);
+    for (const int b : beams) of_area[mesh_.section_of(mesh_.beams[at(b)]).area].push_back(b);
+    for (const auto& [thickness, some] : of_thickness)
+      add_mass_per_area(mesh_, some, value * thickness);
+    for (const auto& [area, some] : of_area) add_mass_per_length(mesh_, some, value * area);
   }
 
   // *SPRING, ELSET = / freedoms (none for SPRINGA) / stiffness

@@ -125,8 +125,6 @@ int abaqus_material(AbaqusModel& model, const std::string& name);
 /// The same for solids, which may depend on the direction.
 int abaqus_solid_material(AbaqusModel& model, const std::string& name);
 
-/// *ORIENTATION of a name in a scope. @throws CardError if there is none.
-const AbaqusBlock& abaqus_orientation(const AbaqusScope& scope, const std::string& name);
 /// Makes solids of the elements that a section has, of a place in the mesh's materials and one of
 /// its regions.
 void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const AbaqusBlock& section,

@@ -1,8 +1,10 @@
 #include "structure/mesh/files/abaqus/reader.h"
 
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -143,6 +145,28 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
   return names;
 }
 
+/// Keywords that there are, that are not known here, and what to give in their place.
+std::string_view instead_of_keyword(const std::string& keyword) {
+  static const std::map<std::string, const char*, std::less<>> all{
+      {"CONNECTOR SECTION", "say by *COUPLING, *MPC, *EQUATION or *SPRING what connectors join"},
+      {"CONNECTOR BEHAVIOR", "say by *SPRING what connectors resist"},
+      {"CONNECTOR ELASTICITY", "say by *SPRING what connectors resist"},
+      {"FASTENER", "join the plates by *COUPLING or *MPC at each fastener"},
+      {"FASTENER PROPERTY", "join the plates by *COUPLING or *MPC at each fastener"},
+      {"MEMBRANE SECTION", "membranes do not bend; S3, S4R, S6 and S8R with *SHELL SECTION do"},
+      {"SURFACE SECTION", "surface elements bear nothing; take them out of the deck"},
+      {"COHESIVE SECTION", "layers of glue are not known; *TIE joins what they join"},
+      {"GASKET SECTION", "gaskets are not known; *TIE joins what they join"},
+      {"GAP", "what gapes is not known, for a lift is linear"},
+      {"USER ELEMENT", "elements of the user's own are not known"},
+      {"PRE-TENSION SECTION", "a bolt's preload is not known; its solids or bars alone can stand"},
+      {"EMBEDDED ELEMENT", "give embedded bars nodes of their host"},
+      {"SUBSTRUCTURE GENERATE", "give the parts themselves in place of a substructure"},
+      {"MATRIX INPUT", "give the parts themselves in place of a matrix"}};
+  const auto found = all.find(keyword);
+  return found == all.end() ? std::string_view() : found->second;
+}
+
 /// All of them, with their asterisk.
 const std::vector<std::string>& all_names() {
   static const std::vector<std::string> all = [] {
@@ -178,7 +202,8 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
     else if (in_step)
       model.log.leave_out("*" + block.name, "what a step does beyond its supports and forces");
     else
-      model.log.miss(block.line, "*" + block.name, model.options, all_names());
+      model.log.miss(block.line, "*" + block.name, model.options, all_names(),
+                     instead_of_keyword(block.name));
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
+#include <set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus/beam_shapes.h"
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/abaqus/orientation.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 
@@ -41,14 +44,13 @@ class Sections {
           blocks.details.push_back(scope.blocks[j]);
         const std::string& name = scope.blocks[i]->name;
         const AbaqusBlock& block = *scope.blocks[i];
-        if (name == "SHELL SECTION") model_.guarded(block, [&] { add_shells(blocks); });
-        if (name == "SHELL GENERAL SECTION") model_.guarded(block, [&] { add_shells(blocks); });
+        if (name == "SHELL SECTION" || name == "SHELL GENERAL SECTION")
+          section(blocks, [&] { add_shells(blocks); });
         if (name == "BEAM SECTION")
-          model_.guarded(block, [&] { add_beams(blocks, read_beam_section(model_, blocks)); });
+          section(blocks, [&] { add_beams(blocks, read_beam_section(model_, blocks)); });
         if (name == "BEAM GENERAL SECTION")
-          model_.guarded(block,
-                         [&] { add_beams(blocks, read_general_beam_section(model_, blocks)); });
-        if (name == "SOLID SECTION") model_.guarded(block, [&] { add_solid_section(blocks); });
+          section(blocks, [&] { add_beams(blocks, read_general_beam_section(model_, blocks)); });
+        if (name == "SOLID SECTION") section(blocks, [&] { add_solid_section(blocks); });
         if (name == "ORIENTATION") model_.guarded(block, [] {});
       }
     }
@@ -60,6 +62,21 @@ class Sections {
   }
 
  private:
+  /// Of elements whose section is wrong that is said, and not that they have none.
+  template <typename Step>
+  void section(const SectionBlocks& blocks, const Step& step) {
+    model_.guarded(*blocks.block, [&] {
+      try {
+        step();
+      } catch (const CardError&) {
+        const auto found = blocks.scope->element_sets.find(blocks.block->value("ELSET"));
+        if (found != blocks.scope->element_sets.end())
+          of_wrong_sections_.insert(found->second.begin(), found->second.end());
+        throw;
+      }
+    });
+  }
+
   std::vector<int> elements(const SectionBlocks& blocks) const {
     return model_.elements_of(*blocks.scope, blocks.block->required("ELSET"));
   }
@@ -77,12 +94,12 @@ class Sections {
   // *SHELL SECTION, ELSET = , COMPOSITE / thickness, points, material, angle ...
   void add_shells(const SectionBlocks& blocks) {
     const AbaqusBlock& block = *blocks.block;
+    if (block.name == "SHELL GENERAL SECTION" && !block.has("MATERIAL") && !block.has("COMPOSITE"))
+      throw CardError{"a section by its stiffness is not known; MATERIAL or COMPOSITE is due"};
     for (const char* unknown : {"SHELL THICKNESS", "DENSITY"})
       if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
     if (block.data.empty() && !block.has("NODAL THICKNESS"))
       throw CardError{"the thickness is missing"};
-    if (block.name == "SHELL GENERAL SECTION" && !block.has("MATERIAL") && !block.has("COMPOSITE"))
-      throw CardError{"a section by its stiffness is not known; MATERIAL or COMPOSITE is due"};
     ShellSection section;
     if (block.has("COMPOSITE")) {
       read_layers(block, section);
@@ -107,7 +124,8 @@ class Sections {
     const auto place = static_cast<int>(mesh_.shell_sections.size());
     mesh_.shell_sections.push_back(section);
     const int of_region = region(blocks, section.material);
-    const Vector3 axis_1 = section.laminate < 0 ? Vector3(Vector3::Zero()) : laminate_axis(blocks);
+    std::optional<AbaqusAxes> axes;
+    if (section.laminate >= 0) axes.emplace(*blocks.scope, block.value("ORIENTATION"));
     for (const int e : elements(blocks)) {
       AbaqusDeckElement& element = model_.elements[at(e)];
       if (element.kind == AbaqusKind::nothing) continue;
@@ -115,7 +133,8 @@ class Sections {
         throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
       if (element.shell >= 0)
         throw CardError{fmt::format("element {} has two sections", element.label)};
-      add_shell(element, section_by_nodes(element, place, block), of_region, axis_1);
+      add_shell(element, section_by_nodes(element, place, block), of_region,
+                axes ? laminate_axis(*axes, element) : Vector3::Zero());
     }
   }
 
@@ -224,22 +243,13 @@ class Sections {
     mesh_.laminates.push_back(laminate);
   }
 
-  /// Axis 1 of the section's orientation, or the world's first.
-  Vector3 laminate_axis(const SectionBlocks& blocks) const {
-    const std::string name = blocks.block->value("ORIENTATION");
-    if (name.empty()) return blocks.scope->turn * Vector3::UnitX();
-    const AbaqusBlock& block = abaqus_orientation(*blocks.scope, name);
-    const std::string system = block.value("SYSTEM");
-    const bool is_plain =
-        (system.empty() || system == "RECTANGULAR") && !block.data.empty() &&
-        (block.data.size() < 2 || abaqus_real(block.data[1].fields(), 1, "angle", 0.0) == 0);
-    if (!is_plain)
-      throw CardError{
-          fmt::format("orientation {} is none of straight axes without further turn", name)};
-    const Fields fields = block.data[0].fields();
-    return blocks.scope->turn * Vector3(abaqus_real(fields, 0, "axis"),
-                                        abaqus_real(fields, 1, "axis"),
-                                        abaqus_real(fields, 2, "axis"));
+  /// Axis 1 of a plate's material by its section's orientation.
+  Vector3 laminate_axis(const AbaqusAxes& axes, const AbaqusDeckElement& element) const {
+    const std::size_t count = element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
+    Vector3 centre = Vector3::Zero();
+    for (std::size_t i = 0; i < count; ++i)
+      centre += model_.place(element.nodes[i]) / (static_cast<double>(count) * model_.units.length);
+    return axes.along_plate(centre);
   }
 
   void add_shell(AbaqusDeckElement& element, int section, int of_region, const Vector3& axis_1) {
@@ -278,6 +288,7 @@ class Sections {
     const int of_region = region(blocks, shape.material);
     for (const int e : elements(blocks)) {
       AbaqusDeckElement& element = model_.elements[at(e)];
+      if (element.kind == AbaqusKind::nothing) continue;
       if (element.kind != AbaqusKind::beam)
         throw CardError{fmt::format("element {} is a {}, no beam", element.label, element.type)};
       if (!element.beams.empty())
@@ -389,7 +400,9 @@ class Sections {
   void check_all_have_sections() {
     int without = -1;
     const bool has_any = !mesh_.shell_sections.empty();
-    for (AbaqusDeckElement& element : model_.elements) {
+    for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+      AbaqusDeckElement& element = model_.elements[e];
+      if (of_wrong_sections_.count(static_cast<int>(e)) > 0) continue;
       if (element.kind == AbaqusKind::shell && element.shell < 0) {
         if (has_any) {
           model_.log.complain(element.line, "*ELEMENT: shells have no *SHELL SECTION");
@@ -416,6 +429,7 @@ class Sections {
   Mesh& mesh_;
   std::map<int, double> thickness_of_;  ///< of nodes, m
   std::map<std::pair<int, double>, int> section_of_thickness_;
+  std::set<int> of_wrong_sections_;  ///< elements
 };
 
 }  // namespace

@@ -1,20 +1,18 @@
-// Solids, their faces, and the axes of materials that depend on the direction.
+// Solids, their faces, and their materials that depend on the direction.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
-#include <numbers>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/index.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/abaqus/orientation.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -22,93 +20,11 @@ namespace blocklift::structure {
 
 namespace {
 
-using Fields = std::vector<std::string_view>;
-
 SolidShape shape_by_nodes(std::size_t count) {
   if (count == 4 || count == 10) return SolidShape::tetrahedron;
   if (count == 6 || count == 15) return SolidShape::wedge;
   return count == 5 ? SolidShape::pyramid : SolidShape::hexahedron;
 }
-
-Vector3 vector_at(const Fields& fields, std::size_t first) {
-  return {abaqus_real(fields, first, "coordinate"), abaqus_real(fields, first + 1, "coordinate"),
-          abaqus_real(fields, first + 2, "coordinate")};
-}
-
-Eigen::Matrix3d axes_from(const Vector3& axis_1, const Vector3& axis_3, const std::string& name) {
-  if (!(axis_1.norm() > 0 && axis_3.norm() > 1e-9))
-    throw CardError{fmt::format("the points of orientation {} lie on a line", name)};
-  Eigen::Matrix3d axes;
-  axes.col(0) = axis_1.normalized();
-  axes.col(2) = axis_3.normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return axes;
-}
-
-/// Axes of a section's material.
-class MaterialAxes {
- public:
-  MaterialAxes(const AbaqusScope& scope, const std::string& name) : scope_(&scope), name_(name) {
-    if (!name_.empty()) read(abaqus_orientation(scope, name_));
-  }
-
-  bool is_straight() const { return !is_cylindrical_; }
-
-  /// Columns, at a place in the deck's units; the part's own where none are named.
-  Eigen::Matrix3d at(const Vector3& place) const {
-    if (!is_cylindrical_) return scope_->turn * straight_ * further_;
-    const Vector3 in_part = scope_->turn.transpose() * (place - scope_->shift) - origin_;
-    const Vector3 radius = in_part - in_part.dot(axis_) * axis_;
-    const bool is_on_axis = radius.norm() < 1e-9 * (1 + in_part.norm());
-    return scope_->turn * axes_from(is_on_axis ? axis_.unitOrthogonal() : radius, axis_, name_) *
-           further_;
-  }
-
- private:
-  // *ORIENTATION, NAME = , SYSTEM = / a, b, c / axis of a further turn, its angle in degrees
-  void read(const AbaqusBlock& block) {
-    const std::string system = block.value("SYSTEM"), definition = block.value("DEFINITION");
-    is_cylindrical_ = system == "CYLINDRICAL";
-    if (!system.empty() && system != "RECTANGULAR" && !is_cylindrical_)
-      throw CardError{
-          fmt::format("SYSTEM = {} of orientation {} is not known; RECTANGULAR and "
-                      "CYLINDRICAL are",
-                      system, name_)};
-    if (!definition.empty() && definition != "COORDINATES")
-      throw CardError{fmt::format("DEFINITION = {} of orientation {} is not known; COORDINATES is",
-                                  definition, name_)};
-    if (block.data.empty())
-      throw CardError{fmt::format("orientation {} has no line of data", name_)};
-    const Fields fields = block.data[0].fields();
-    const Vector3 a = vector_at(fields, 0), b = vector_at(fields, 3);
-    if (is_cylindrical_) {
-      if (!((b - a).norm() > 0))
-        throw CardError{fmt::format("the points of orientation {} are one", name_)};
-      origin_ = a;
-      axis_ = (b - a).normalized();
-    } else {
-      const Vector3 c = fields.size() > 6 ? vector_at(fields, 6) : Vector3(Vector3::Zero());
-      straight_ = axes_from(a - c, (a - c).cross(b - c), name_);
-    }
-    if (block.data.size() > 1) turn_further(block.data[1].fields());
-  }
-
-  void turn_further(const Fields& fields) {
-    const double number = abaqus_real(fields, 0, "axis", 1.0);
-    const double angle = abaqus_real(fields, 1, "angle", 0.0) * std::numbers::pi / 180;
-    if (number != 1 && number != 2 && number != 3)
-      throw CardError{
-          fmt::format("orientation {} turns about axis {}; 1, 2 and 3 are", name_, fields[0])};
-    further_ = Eigen::AngleAxisd(angle, Vector3::Unit(static_cast<Eigen::Index>(number) - 1))
-                   .toRotationMatrix();
-  }
-
-  const AbaqusScope* scope_;
-  std::string name_;
-  bool is_cylindrical_ = false;
-  Eigen::Matrix3d straight_ = Eigen::Matrix3d::Identity(), further_ = Eigen::Matrix3d::Identity();
-  Vector3 origin_ = Vector3::Zero(), axis_ = Vector3::UnitZ();
-};
 
 /// Gives solids the elasticity of their material along the section's axes.
 class SolidElasticity {
@@ -136,17 +52,11 @@ class SolidElasticity {
  private:
   AbaqusModel& model_;
   std::optional<Elasticity> own_;
-  MaterialAxes axes_;
+  AbaqusAxes axes_;
   int straight_ = -1;
 };
 
 }  // namespace
-
-const AbaqusBlock& abaqus_orientation(const AbaqusScope& scope, const std::string& name) {
-  for (const AbaqusBlock* block : scope.blocks)
-    if (block->name == "ORIENTATION" && block->value("NAME") == name) return *block;
-  throw CardError{fmt::format("orientation {} does not exist", name)};
-}
 
 void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const AbaqusBlock& section,
                        const std::vector<int>& elements, int material, int region) {

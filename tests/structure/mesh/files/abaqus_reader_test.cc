@@ -21,6 +21,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string steel = "*MATERIAL, NAME=Steel\n*ELASTIC\n206.e9, .3\n*DENSITY\n7850.,\n";
 const std::string nodes = "*NODE\n1, 0., 0., 0.\n2, 2., 0., 0.\n3, 2., 2., 0.\n4, 0., 2., 0.\n";
@@ -403,11 +404,97 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
   EXPECT_THAT(complaints_of_abaqus("hello\n"), HasSubstr("data before the first keyword"));
 }
 
+TEST(AbaqusReader, SaysWhatToGiveForElementsThatAreNotKnown) {
+  const auto said = [](const std::string& type) {
+    return complaints_of_abaqus(square_plate + "*ELEMENT, TYPE=" + type + "\n99, 1, 2, 3, 4\n");
+  };
+  EXPECT_THAT(said("S4X"), HasSubstr("elements of type S4X are not known here; did you mean S4?"));
+  EXPECT_THAT(said("S9R5"), HasSubstr("; S8R5, without the node in the middle, is"));
+  EXPECT_THAT(said("SC8R"), HasSubstr("; give S4R or S8R on the middle surface"));
+  EXPECT_THAT(said("CONN3D2"), HasSubstr("; say by *COUPLING, *MPC, *EQUATION or *SPRING"));
+  EXPECT_THAT(said("B31OS"), HasSubstr("; warping is not known; B31 is"));
+  const Deck without = abaqus(square_plate +
+                                  "*ELEMENT, TYPE=CONN3D2, ELSET=C\n99, 1, 2\n"
+                                  "*CONNECTOR SECTION, ELSET=C\nBEAM,\n",
+                              "m-kg-N", {.leave_out = {"CONN3D2", "CONNECTOR SECTION"}});
+  EXPECT_EQ(without.mesh.shells.size(), 1U);
+  EXPECT_THAT(entry(without, "*ELEMENT").left_out,
+              HasSubstr("elements of type CONN3D2, as was asked for"));
+}
+
+// That the elements of a wrong section have none would only lead astray.
+TEST(AbaqusReader, AWrongSectionIsSaidOnce) {
+  const std::string text = complaints_of_abaqus(
+      "*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n*ELEMENT, TYPE=B31, ELSET=B\n1,1,2\n*MATERIAL, NAME=S\n"
+      "*ELASTIC\n2e11,.3\n*BEAM SECTION, ELSET=B, MATERIAL=S, SECTION=OVAL\n1.,2.\n");
+  EXPECT_THAT(text, HasSubstr("SECTION = OVAL is not known"));
+  EXPECT_THAT(text, Not(HasSubstr("have no section")));
+}
+
+TEST(AbaqusReader, SpreadMassByVolume) {
+  const Deck deck =
+      abaqus(square_plate + "*NONSTRUCTURAL MASS, ELSET=Plate, UNITS=MASS PER VOLUME\n100.,\n");
+  const double plain = mass_properties(abaqus(square_plate).mesh).mass;
+  // As the plate's own steel, of 7850 kg/m^3.
+  EXPECT_NEAR(mass_properties(deck.mesh).mass, plain * (1 + 100 / 7850.0), 1e-9 * plain);
+}
+
+// A part that stands twice is listed as the deck has it, once.
+TEST(AbaqusReader, WhatIsUsedTwiceIsCountedOnce) {
+  const Deck deck = abaqus(
+      "*PART, NAME=A\n*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,1.,1.,0.\n4,0.,1.,0.\n*ELEMENT, TYPE=S4, "
+      "ELSET=P\n1,1,2,3,4\n*SHELL SECTION, ELSET=P, MATERIAL=S\n.01\n*END PART\n*ASSEMBLY, "
+      "NAME=X\n*INSTANCE, NAME=A1, PART=A\n*END INSTANCE\n*INSTANCE, NAME=A2, PART=A\n0.,0.,1.\n"
+      "*END INSTANCE\n*NODE\n1, .5, .5, .5\n*END ASSEMBLY\n*MATERIAL, NAME=S\n*ELASTIC\n2e11,.3\n"
+      "*DENSITY\n7850.,\n");
+  EXPECT_EQ(deck.mesh.shells.size(), 2U);
+  EXPECT_EQ(entry(deck, "*ELEMENT").read, 1);
+  EXPECT_EQ(entry(deck, "*ELEMENT").used, 1);
+  EXPECT_THAT(deck.remarks.back().text, HasSubstr("numbers of the assembly are raised by 30"));
+}
+
+// Layers along an orientation: turned about axis 3, or about a cylinder's axis.
+TEST(AbaqusReader, OrientationsOfPlates) {
+  const std::string wood =
+      "*NODE\n1,1.,0.,0.\n2,2.,0.,0.\n3,2.,1.,0.\n4,1.,1.,0.\n*ELEMENT, TYPE=S4, ELSET=P\n"
+      "1,1,2,3,4\n*SHELL SECTION, ELSET=P, COMPOSITE, ORIENTATION=O\n.02, 3, WOOD, 0.\n"
+      "*MATERIAL, NAME=WOOD\n*ELASTIC, TYPE=LAMINA\n12e9,5e8,.3,7e8,7e8,6e7\n*DENSITY\n600.,\n"
+      "*ORIENTATION, NAME=O";
+  const auto axis = [&](const std::string& orientation) -> Vector3 {
+    return abaqus(wood + orientation).mesh.shells.at(0).laminate_axis.normalized();
+  };
+  expect_near(axis("\n0.,2.,0., -1.,0.,0.\n"), Vector3::UnitY(), 1e-12);
+  expect_near(axis("\n1.,0.,0., 0.,1.,0.\n3, 30.\n"), Vector3(std::sqrt(0.75), 0.5, 0), 1e-12);
+  // The middle of the plate is at (1.5, 0.5).
+  const Vector3 radial = Vector3(1.5, 0.5, 0).normalized();
+  expect_near(axis(", SYSTEM=CYLINDRICAL\n0.,0.,0., 0.,0.,1.\n"), radial, 1e-12);
+  expect_near(axis(", SYSTEM=CYLINDRICAL\n0.,0.,0., 0.,0.,1.\n3, 90.\n"),
+              Vector3(-radial.y(), radial.x(), 0), 1e-12);
+  EXPECT_THAT(complaints_of_abaqus(wood + "\n1.,0.,0., 0.,1.,0.\n1, 30.\n"),
+              HasSubstr("orientation O turns about its axis 1; of plates an axis 3 that stands on "
+                        "them is known"));
+}
+
+TEST(AbaqusReader, AsksWhatWasMeantByAKeywordThatThereIsNot) {
+  EXPECT_THAT(complaints_of_abaqus(square_plate + "*Boundry\n1, 1\n"),
+              HasSubstr("the keyword *BOUNDRY is not known here (did you mean *BOUNDARY?)"));
+  EXPECT_THAT(complaints_of_abaqus(square_plate + "*Shell Secton, elset=P\n.01\n"),
+              HasSubstr("did you mean *SHELL SECTION?"));
+  EXPECT_THAT(complaints_of_abaqus(square_plate + "*Connector Section, elset=C\nBEAM,\n"),
+              HasSubstr("*CONNECTOR SECTION: say by *COUPLING, *MPC, *EQUATION or *SPRING what"));
+}
+
 TEST(AbaqusReader, LeavesOutUnknownKeywordsThatItsUserNames) {
   const std::string strange = square_plate + "*SUBMODEL, INTERACTION=A\nS1, S2\n";
   const Deck deck = abaqus(strange, "m-kg-N", {.leave_out = {"SUBMODEL"}});
   EXPECT_THAT(entry(deck, "*SUBMODEL").left_out, HasSubstr("as was asked for"));
   EXPECT_THAT(complaints_of_abaqus(strange, "m-kg-N"), HasSubstr("leave_out names what may"));
+  try {
+    abaqus(strange, "m-kg-N", {.leave_out = {"SUBMODE"}});
+    ADD_FAILURE() << "it is read";
+  } catch (const DeckError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("(did you mean SUBMODEL?)"));
+  }
 }
 
 }  // namespace
