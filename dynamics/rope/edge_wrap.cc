@@ -284,7 +284,7 @@ void EdgeConditions::add_edge(const Edge& edge) {
   jacobian_(row, node_[at(edge.first_node)].angle) += by_turn;
 }
 
-EdgeConditions::ByMotion EdgeConditions::calc_change() const {
+EdgeConditions::ByMotion EdgeConditions::calc_by_motion() const {
   ByMotion by = ByMotion::Zero(unknowns_, 6 * nodes_);
   for (int i = 0; i < edges_; ++i) {
     const Edge& edge = edge_[at(i)];
@@ -318,7 +318,22 @@ EdgeConditions::ByMotion EdgeConditions::calc_change() const {
     add_direction(row, along, come, weight, by);
     turn(row, along, u_in, weight);
   }
-  return -jacobian_.partialPivLu().solve(by);
+  return by;
+}
+
+EdgeConditions::ByMotion EdgeConditions::calc_change() const {
+  return -jacobian_.partialPivLu().solve(calc_by_motion());
+}
+
+EdgeConditions::Vector EdgeConditions::calc_rate(std::span<const MotionVector> velocities) const {
+  const ByMotion by = calc_by_motion();
+  Vector rate = Vector::Zero(unknowns_);
+  for (int i = 0; i < nodes_; ++i) {
+    const MotionVector& V = velocities[at(i)];
+    rate += by.middleCols<3>(Eigen::Index{6} * i) * V.angular;
+    rate += by.middleCols<3>(Eigen::Index{6} * i + 3) * V.linear;
+  }
+  return -jacobian_.partialPivLu().solve(rate);
 }
 
 EdgeConditions::NodeShift EdgeConditions::shift_of(int node) const {

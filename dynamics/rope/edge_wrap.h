@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "dynamics/spatial/pose.h"
+#include "dynamics/spatial/spatial_vector.h"
 
 namespace blocklift::dynamics {
 
@@ -97,6 +98,8 @@ class EdgeConditions {
   const Matrix& jacobian() const { return jacobian_; }
   /// dz by the motion of the nodes' bodies, so that the conditions stay fulfilled.
   ByMotion calc_change() const;
+  /// dz/dt by the velocities of the nodes' bodies there, one a node.
+  Vector calc_rate(std::span<const MotionVector> velocities) const;
   NodeShift shift_of(int node) const;
 
   /// Adds a step of z to the touches.
@@ -126,6 +129,8 @@ class EdgeConditions {
   void add_direction(int row, const Vector3& w, int part, double sign = 1.0);
   void add_direction(int row, const Vector3& w, int part, double sign, ByMotion& by) const;
   void add_edge(const Edge& edge);
+  // dF by the motion of the nodes' bodies at a held z.
+  ByMotion calc_by_motion() const;
 
   int unknowns_ = 0, nodes_ = 0, edges_ = 0;
   std::array<Node, most_nodes> node_;

@@ -95,6 +95,27 @@ void Rope::require_sound_law() const {
   if (hangs()) refuse("weight; only a rope of one stiffness hangs as a catenary");
   if (d.sheave_friction > 0.0)
     refuse("friction at its sheaves; ropes with friction have one stiffness");
+  if (std::ranges::any_of(d.edges, [](const RopeEdge& edge) { return edge.friction > 0.0; }))
+    refuse("friction at an edge; ropes with friction have one stiffness");
+}
+
+void Rope::calc_turning(const Kinematics& kinematics, const RopePath& path,
+                        std::span<Vector3> turning) const {
+  Vector3 p_previous = Vector3::Zero(), v_previous = Vector3::Zero();
+  for (std::size_t i = 0; i < path.count; ++i) {
+    const auto body = static_cast<std::size_t>(path.body[i]);
+    const Vector3 p = kinematics.X_WB[body].p + path.r_W[i];
+    const Vector3 v = shift(kinematics.V_WB[body], path.r_W[i]).linear;
+    if (i > 0) {
+      const Vector3& u = path.direction_W[i - 1];
+      const Vector3 apart = v - v_previous;
+      turning[i - 1].setZero();
+      if (!u.isZero(0.0)) turning[i - 1] = (apart - u.dot(apart) * u) / u.dot(p - p_previous);
+    }
+    p_previous = p;
+    v_previous = v;
+  }
+  if (!definition_.edges.empty()) add_sliding(kinematics, path, turning);
 }
 
 double Rope::stiffness(double unstretched_length, double tension) const {

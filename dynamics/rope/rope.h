@@ -11,6 +11,9 @@
 
 namespace blocklift::dynamics {
 
+/// That a path over edges may have; each edge counts as two.
+inline constexpr std::size_t most_points_over_edges = 32;
+
 /// A straight edge of a body, or a cylinder about it, that a rope may touch.
 struct RopeEdge {
   std::string name;
@@ -21,7 +24,8 @@ struct RopeEdge {
   /// Away from what it is an edge of; of any length, its part across the axis counts. The rope
   /// stays on that side.
   Vector3 outside_B = Vector3::Constant(not_a_number);
-  double radius = 0.0;  ///< m; zero: sharp
+  double radius = 0.0;    ///< m; zero: sharp
+  double friction = 0.0;  ///< mu between it and the rope (RopeSplit); zero: smooth
 };
 
 /// What a modeller says about a rope.
@@ -44,7 +48,7 @@ struct RopeDefinition {
   double weight_per_length = 0.0;
   /// mu between the rope and each of its sheaves (RopeSplit); zero: its tension is one all along.
   double sheave_friction = 0.0;
-  /// Edges that it may touch, in the order of its path; without friction.
+  /// Edges that it may touch, in the order of its path.
   std::vector<RopeEdge> edges = {};
 };
 
@@ -93,7 +97,7 @@ struct HangingForces {
   double feed_force = 0.0;     ///< d(stored_energy)/dL0 with the ends held, N
 };
 
-/// What a rope with friction at its sheaves does, where the friction acts (RopeSplit).
+/// What a rope with friction at sheaves or edges does, where the friction acts (RopeSplit).
 struct SplitLoad {
   bool acts = false;
   double first_tension = 0.0;     ///< of the length from the first point, N
@@ -147,12 +151,12 @@ struct RopeLoad {
 /// F(e) stands for k (L - L0), and k is the tangent 1/(L0/F'(e) + 1/k_crane), by which it is damped
 /// as well. Stored is L0 W(e) + F^2/(2 k_crane) with W = int F de, supplied -L0dot (T + e F - W).
 ///
-/// Edges that the rope touches are smooth: between two of its points it runs along the shortest
-/// line round them (find_shortest_line), whose arcs belong to L. Since that line is the shortest,
-/// the places where it touches may be held for the first variation: an edge's body bears the pulls
-/// of the two straight parts at the points where they come and leave. L and its rate are continuous
-/// where it begins or ceases to touch, so that the tension is, without an event; only the stiffness
-/// jumps.
+/// Between two of its points the rope runs along the shortest line round the edges that it touches
+/// (find_shortest_line), whose arcs belong to L. Edges without friction are smooth: since that line
+/// is the shortest, the places where it touches may be held for the first variation, and an edge's
+/// body bears the pulls of the two straight parts at the points where they come and leave. L and its
+/// rate are continuous where it begins or ceases to touch, so that the tension is, without an event;
+/// only the stiffness jumps. With friction it runs there, too, and the tensions differ (RopeSplit).
 ///
 /// A rope with weight w between two points is an elastic catenary at rest at each instant, with EA
 /// = k L0 (catenary.h): it always pulls, its ends do not pull alike, and its weight is in what they
@@ -171,11 +175,11 @@ class Rope {
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
   /// point of one body, segments are left out at an end or all or not told for each, a stiffness or
   /// length is not positive, a damping, the weight or the friction is negative, a rope with weight
-  /// has more than two points, one with friction has no sheave or leaves segments out, or one with
-  /// a tension law has a stiffness, a weight or friction besides; or if an
-  /// edge is not one of a body of the mechanism, has no length, no side outside or a negative
-  /// radius, if the edges are not in order or too many between two points, or if a rope with edges
-  /// has weight, friction at sheaves or leaves segments out.
+  /// has more than two points, one with friction at sheaves has none or leaves segments out, or one
+  /// with a tension law has a stiffness, a weight or friction besides; or if an
+  /// edge is not one of a body of the mechanism, has no length, no side outside, a negative radius
+  /// or friction, if the edges are not in order or too many between two points, or if a rope with
+  /// edges has weight or leaves segments out.
   Rope(const Mechanism& mechanism, RopeDefinition definition);
 
   const std::string& name() const { return definition_.name; }
@@ -188,6 +192,11 @@ class Rope {
   }
 
   const std::vector<RopeEdge>& edges() const { return definition_.edges; }
+  /// Of an edge's axis, unit.
+  Vector3 edge_along_W(const Kinematics& kinematics, std::size_t edge) const {
+    return kinematics.X_WB[static_cast<std::size_t>(edges()[edge].body)].R *
+           edge_axes_[edge].along_B;
+  }
   /// The most points that its path has.
   std::size_t most_path_points() const {
     return definition_.points.size() + 2 * definition_.edges.size();
@@ -211,6 +220,12 @@ class Rope {
   void calc_path(const Kinematics& kinematics, RopePath& path,
                  const RopeEndShifts* shifts = nullptr) const;
 
+  /// Rates of the directions of a path's segments, 1/s, zero for those without a direction. Where
+  /// the path turns about an edge the places of its touch move over the edge.
+  /// @param turning one for each segment. Does not allocate.
+  void calc_turning(const Kinematics& kinematics, const RopePath& path,
+                    std::span<Vector3> turning) const;
+
   /// Load by the law above; of a parted rope as if its ends had met.
   /// @throws ModelError if the winch has pulled the whole rope in (L0 <= 0).
   RopeLoad calc_load(const RopePath& path, const RopeFeed& feed) const;
@@ -231,6 +246,12 @@ class Rope {
   void add_derivatives(const Kinematics& kinematics, const RopePath& path, const RopeLoad& load,
                        ForceDerivatives& derivatives) const;
 
+  /// The part of it that comes of directions and places of touch alone, of a path over edges, with
+  /// a tension (N) for each segment.
+  void add_turning_over_edges(const Kinematics& kinematics, const RopePath& path,
+                              std::span<const double> tensions,
+                              ForceDerivatives& derivatives) const;
+
   /// Energy account of a load, see above.
   EnergyAccount calc_energy(const RopeLoad& load) const;
 
@@ -250,6 +271,14 @@ class Rope {
   std::size_t place_chain(const Kinematics& kinematics, std::size_t after, std::size_t begin,
                           std::span<PlacedEdge> placed) const;
   void calc_path_over_edges(const Kinematics& kinematics, RopePath& path) const;
+  // What calc_turning owes to places of touch that move over the edges.
+  void add_sliding(const Kinematics& kinematics, const RopePath& path,
+                   std::span<Vector3> turning) const;
+  // Calls `function` with each chain of a path over edges: the place where it begins in the path,
+  // and its conditions.
+  template <class Function>
+  void for_each_chain(const Kinematics& kinematics, const RopePath& path,
+                      const Function& function) const;
   void add_derivatives_over_edges(const Kinematics& kinematics, const RopePath& path,
                                   const RopeLoad& load, ForceDerivatives& derivatives) const;
   RopeLoad calc_elastic_and_damping(const RopePath& path, const RopeFeed& feed) const;

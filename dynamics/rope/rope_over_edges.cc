@@ -14,9 +14,6 @@ namespace {
 // Shorter segments than this have no usable direction (m).
 constexpr double shortest_straight_part = 1e-9;
 
-// That a path over edges may have.
-constexpr std::size_t most_points_over_edges = 32;
-
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -27,10 +24,9 @@ std::size_t index(BodyIndex body) { return static_cast<std::size_t>(body); }
 void Rope::check_edges(const Mechanism& mechanism) const {
   const RopeDefinition& d = definition_;
   if (d.edges.empty()) return;
-  if (hangs() || d.sheave_friction > 0.0 || !d.left_out.empty())
+  if (hangs() || !d.left_out.empty())
     throw ModelError("rope \"" + d.name +
-                     "\" may touch edges; it must run along its whole path, without weight and "
-                     "without friction at sheaves");
+                     "\" may touch edges; it must run along its whole path, and without weight");
   if (most_path_points() > most_points_over_edges)
     throw ModelError("rope \"" + d.name +
                      "\" has too many points and edges: each point counts as one, "
@@ -57,6 +53,8 @@ void Rope::check_edges(const Mechanism& mechanism) const {
       refuse("has no side outside: the direction lies along it, or is zero");
     if (!(edge.radius >= 0.0) || !std::isfinite(edge.radius))
       refuse("has the radius " + std::to_string(edge.radius) + "; zero or more is due");
+    if (!(edge.friction >= 0.0) || !std::isfinite(edge.friction))
+      refuse("has the friction " + std::to_string(edge.friction) + "; zero or more is due");
   }
 }
 
@@ -203,49 +201,94 @@ class ChainChange {
   std::array<std::array<Matrix36, most>, most> slide_;
 };
 
-// The pull T (u_i - u_i-1) of a chain's own segments at its places, as these turn and slide: forces
-// on the bodies, and their moments about the bodies' points that were there.
-void add_turning(const RopePath& path, std::size_t from, const ChainChange& chain, double tension,
-                 ForceDerivatives& derivatives) {
+// The pull T_i u_i - T_i-1 u_i-1 of a chain's own segments at its places, as these turn and slide:
+// forces on the bodies, and their moments about the bodies' points that were there.
+void add_turning(const RopePath& path, std::size_t from, const ChainChange& chain,
+                 std::span<const double> tensions, ForceDerivatives& derivatives) {
   for (std::size_t i = 0; i < chain.count(); ++i) {
+    const std::size_t k = from + i;
     Vector3 pull = Vector3::Zero();
-    if (i > 0) pull -= tension * path.direction_W[from + i - 1];
-    if (i + 1 < chain.count()) pull += tension * path.direction_W[from + i];
-    derivatives.add_held_force(from + i, pull);
+    if (i > 0) pull -= tensions[k - 1] * path.direction_W[k - 1];
+    if (i + 1 < chain.count()) pull += tensions[k] * path.direction_W[k];
+    derivatives.add_held_force(k, pull);
     for (std::size_t j = 0; j < chain.count(); ++j) {
       Matrix6 by_motion = Matrix6::Zero();
       by_motion.topRows<3>() = -skew(pull) * chain.slide(i, j);
-      if (i > 0) by_motion.bottomRows<3>() -= tension * chain.turn(i - 1, j);
-      if (i + 1 < chain.count()) by_motion.bottomRows<3>() += tension * chain.turn(i, j);
-      derivatives.add_wrench_block(from + i, from + j, by_motion, Matrix6::Zero());
+      if (i > 0) by_motion.bottomRows<3>() -= tensions[k - 1] * chain.turn(i - 1, j);
+      if (i + 1 < chain.count()) by_motion.bottomRows<3>() += tensions[k] * chain.turn(i, j);
+      derivatives.add_wrench_block(k, from + j, by_motion, Matrix6::Zero());
     }
   }
 }
 
 }  // namespace
 
+template <class Function>
+void Rope::for_each_chain(const Kinematics& kinematics, const RopePath& path,
+                          const Function& function) const {
+  std::array<PlacedEdge, most_edges_in_chain> placed;
+  const auto position = [&](std::size_t k) -> Vector3 {
+    return kinematics.X_WB[index(path.body[k])].p + path.r_W[k];
+  };
+  std::size_t begin = 0, from = 0;
+  for (std::size_t i = 0; i + 1 < points().size(); ++i) {
+    const std::size_t count = place_chain(kinematics, i, begin, placed);
+    std::size_t to = from + 1;
+    while (path.edge[to] >= 0) ++to;
+    function(from, EdgeConditions(position(from), position(to), {placed.data(), count},
+                                  {path.touches.data() + begin, count}));
+    begin += count;
+    from = to;
+  }
+}
+
+void Rope::add_sliding(const Kinematics& kinematics, const RopePath& path,
+                       std::span<Vector3> turning) const {
+  for_each_chain(kinematics, path, [&](std::size_t from, const EdgeConditions& conditions) {
+    if (conditions.unknown_count() == 0) return;
+    const auto count = static_cast<std::size_t>(conditions.node_count());
+    std::array<MotionVector, EdgeConditions::most_nodes> velocities;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t k = from + i;
+      velocities[i] = shift(kinematics.V_WB[index(path.body[k])], path.r_W[k]);
+    }
+    const EdgeConditions::Vector rate = conditions.calc_rate({velocities.data(), count});
+    const auto position = [&](std::size_t k) -> Vector3 {
+      return kinematics.X_WB[index(path.body[k])].p + path.r_W[k];
+    };
+    Vector3 previous = conditions.shift_of(0) * rate;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const std::size_t k = from + i;
+      const Vector3 next = conditions.shift_of(static_cast<int>(i + 1)) * rate;
+      const Vector3& u = path.direction_W[k];
+      const Vector3 apart = next - previous;
+      if (!u.isZero(0.0))
+        turning[k] += (apart - u.dot(apart) * u) / u.dot(position(k + 1) - position(k));
+      previous = next;
+    }
+  });
+}
+
+void Rope::add_turning_over_edges(const Kinematics& kinematics, const RopePath& path,
+                                  std::span<const double> tensions,
+                                  ForceDerivatives& derivatives) const {
+  for_each_chain(kinematics, path, [&](std::size_t from, const EdgeConditions& conditions) {
+    add_turning(path, from, ChainChange(kinematics, path, from, conditions), tensions, derivatives);
+  });
+}
+
 void Rope::add_derivatives_over_edges(const Kinematics& kinematics, const RopePath& path,
                                       const RopeLoad& load, ForceDerivatives& derivatives) const {
   for (std::size_t i = 0; i < path.count; ++i) derivatives.locate(i, path.body[i], path.r_W[i]);
   std::array<Row6, most_points_over_edges> rate;
   for (std::size_t i = 0; i < path.count; ++i) rate[i].setZero();
-  std::array<PlacedEdge, most_edges_in_chain> placed;
-  std::size_t begin = 0, from = 0;
-  for (std::size_t i = 0; i + 1 < points().size(); ++i) {
-    const std::size_t count = place_chain(kinematics, i, begin, placed);
-    const auto position = [&](std::size_t k) -> Vector3 {
-      return kinematics.X_WB[index(path.body[k])].p + path.r_W[k];
-    };
-    std::size_t to = from + 1;
-    while (path.edge[to] >= 0) ++to;
-    const EdgeConditions conditions(position(from), position(to), {placed.data(), count},
-                                    {path.touches.data() + begin, count});
+  std::array<double, most_points_over_edges> tensions;
+  tensions.fill(load.tension);
+  for_each_chain(kinematics, path, [&](std::size_t from, const EdgeConditions& conditions) {
     const ChainChange chain(kinematics, path, from, conditions);
-    add_turning(path, from, chain, load.tension, derivatives);
+    add_turning(path, from, chain, tensions, derivatives);
     for (std::size_t j = 0; j < chain.count(); ++j) rate[from + j] += chain.rate(j);
-    begin += count;
-    from = to;
-  }
+  });
   const double k = calc_tension_slope(load), c = damping(load.stiffness);
   const auto gradient = [&](std::size_t i) {
     Vector3 g = Vector3::Zero();

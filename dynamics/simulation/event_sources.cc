@@ -17,10 +17,10 @@ EventSources::EventSources(const LiftSystem& system, const AwaitedCondition* awa
     sources_.push_back({Kind::pad, ropes + i});
   contacts_end_ = sources_.size();
   for (std::size_t i = 0; i < w.splits.size(); ++i) {
-    for (std::size_t j = 0; j < w.splits[i].sheave_count(); ++j)
-      sources_.push_back({Kind::sheave, i, j});
+    for (std::size_t j = 0; j < w.splits[i].bend_count(); ++j)
+      sources_.push_back({Kind::bend, i, j});
   }
-  sheaves_end_ = sources_.size();
+  bends_end_ = sources_.size();
   if (awaited) sources_.push_back({Kind::condition});
   values_.setZero(count());
   if (awaited) values_[count() - 1] = -1.0;
@@ -29,10 +29,22 @@ EventSources::EventSources(const LiftSystem& system, const AwaitedCondition* awa
 bool EventSources::release(int rope) { return std::exchange(contacts_[rope], 0) != 0; }
 
 void EventSources::begin_splits(double t) {
-  if (!has_sheaves()) return;
+  if (!has_bends()) return;
   load(t);
   for (std::size_t i = 0; i < w_.splits.size(); ++i) {
     if (w_.splits[i].rubs()) begin_split(i);
+  }
+}
+
+void EventSources::carry_splits(double t) {
+  bool is_loaded = false;
+  for (std::size_t i = 0; i < w_.splits.size(); ++i) {
+    RopeSplit& split = w_.splits[i];
+    if (!split.rubs_at_edges() || !split.acts() || contacts_[i] == 0) continue;
+    if (!is_loaded) load(t);
+    is_loaded = true;
+    system_.ropes()[i].calc_path(w_.kinematics, w_.path);
+    split.carry(system_.ropes()[i], w_.kinematics, w_.path);
   }
 }
 
@@ -49,15 +61,15 @@ void EventSources::load(double t) {
   calc_contact_loads(system_, &contacts_, w_);
 }
 
-double EventSources::sheave_value(const Source& source) const {
+double EventSources::bend_value(const Source& source) const {
   // Where nothing is taut nothing slips.
-  return w_.rope_loads[source.index].split.acts ? w_.splits[source.index].indicator(source.sheave)
+  return w_.rope_loads[source.index].split.acts ? w_.splits[source.index].indicator(source.bend)
                                                 : 1.0;
 }
 
 void EventSources::find_values(bool may_be_met, double* values) {
   calc_contact_indicators(w_, values_.head(system_.contact_count()));
-  for (std::size_t k = contacts_end_; k < sheaves_end_; ++k) values_[k] = sheave_value(sources_[k]);
+  for (std::size_t k = contacts_end_; k < bends_end_; ++k) values_[k] = bend_value(sources_[k]);
   if (awaited_) values_[count() - 1] = may_be_met ? awaited_->indicator(system_, w_) : -1.0;
   Eigen::Map<Eigen::VectorXd>(values, count()) = values_;
 }
@@ -68,7 +80,7 @@ bool EventSources::stands(const Source& source) const {
     case Source::Kind::rope:
     case Source::Kind::pad:
       return contacts_[source.index] != 0;
-    case Source::Kind::sheave:
+    case Source::Kind::bend:
       return true;
     case Source::Kind::condition:
       break;
@@ -78,7 +90,7 @@ bool EventSources::stands(const Source& source) const {
 
 bool EventSources::may_change(const Source& source, double t,
                               const IntegrationResult& result) const {
-  if (source.kind == Source::Kind::sheave) return w_.rope_loads[source.index].split.acts;
+  if (source.kind == Source::Kind::bend) return w_.rope_loads[source.index].split.acts;
   if (source.kind != Source::Kind::condition) return true;
   return !result.met && t >= awaited_->from - beside && t <= awaited_->until + beside;
 }
@@ -90,9 +102,9 @@ bool EventSources::is_due(std::size_t k, const std::vector<int>* found) const {
   const int root = found ? (*found)[k] : 0;
   if (root != 0 && (root > 0) != stands(source)) return true;
   // Behind a root the values of the others are not those of that instant.
-  const bool is_sheave = source.kind == Source::Kind::sheave;
-  if (found && !is_sheave) return false;
-  const double value = is_sheave ? sheave_value(source) : values_[k];
+  const bool is_bend = source.kind == Source::Kind::bend;
+  if (found && !is_bend) return false;
+  const double value = is_bend ? bend_value(source) : values_[k];
   const double least = source.kind == Source::Kind::condition ? 0.0 : beyond;
   return !(std::abs(value) < least) && (value > 0.0) != stands(source);
 }
@@ -100,8 +112,8 @@ bool EventSources::is_due(std::size_t k, const std::vector<int>* found) const {
 bool EventSources::change(double t, const std::vector<int>* found, Ledger ledger) {
   bool anew = false;
   for (std::size_t k = 0; k < sources_.size(); ++k) {
-    // What sheaves do depends on which ropes are taut from now on.
-    if (k == contacts_end_ && has_sheaves()) load(t);
+    // What bends do depends on which ropes are taut from now on.
+    if (k == contacts_end_ && has_bends()) load(t);
     const Source& source = sources_[k];
     if (is_due(k, found) && may_change(source, t, ledger.result))
       anew |= switch_over(source, t, ledger);
@@ -115,12 +127,12 @@ bool EventSources::switch_over(const Source& source, double t, Ledger ledger) {
     ledger.result.met = t;
     return false;
   }
-  if (source.kind == Source::Kind::sheave) {
+  if (source.kind == Source::Kind::bend) {
     RopeSplit& split = w_.splits[source.index];
-    split.set_motion(source.sheave, split.motion(source.sheave) == SheaveMotion::sticks
-                                        ? split.tendency(source.sheave)
-                                        : SheaveMotion::sticks);
-    ++ledger.result.statistics.sheave_changes;
+    split.set_motion(source.bend, split.motion(source.bend) == BendMotion::sticks
+                                      ? split.tendency(source.bend)
+                                      : BendMotion::sticks);
+    ++ledger.result.statistics.bend_changes;
   } else {
     switch_contact(source, t, ledger);
   }

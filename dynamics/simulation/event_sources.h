@@ -12,17 +12,17 @@ namespace blocklift::dynamics {
 inline constexpr double beside = 2e-6;
 
 /// What changes at instants that the motion brings about: ropes that go slack or taut, pads that are
-/// loaded or lift off, sheaves at which a rope with friction begins to slip or to stick, and the
+/// loaded or lift off, bends at which a rope with friction begins to slip or to stick, and the
 /// condition that a run waits for.
 ///
 /// Each is a source of events with a value, continuous in time, whose sign says how it stands. It is
 /// held to that during a step; where the sign contradicts it, it is switched over, and the
-/// integration starts anew behind that instant. In kN, of a sheave that slips kN/s:
+/// integration starts anew behind that instant. In kN, of a bend that slips kN/s:
 ///
 /// | source | value | positive while |
 /// |---|---|---|
 /// | rope, pad | calc_contact_indicators | it acts, as Contacts says |
-/// | sheave | RopeSplit::indicator | always: behind a change the value is another one |
+/// | bend | RopeSplit::indicator | always: behind a change the value is another one |
 /// | condition | AwaitedCondition::indicator | it has been met; the integration goes on |
 ///
 /// A change that begins at the very start of a step has no root within it: it is seen by the values
@@ -49,9 +49,11 @@ class EventSources {
   /// The rope pulls no more. @return Did it?
   bool release(int rope);
   /// Does friction divide a rope anywhere?
-  bool has_sheaves() const { return sheaves_end_ > contacts_end_; }
+  bool has_bends() const { return bends_end_ > contacts_end_; }
   /// From now on friction divides the ropes that have any, from one tension.
   void begin_splits(double t);
+  /// At the end of a step (s): counts how ropes with friction have rolled over their edges.
+  void carry_splits(double t);
 
   /// Kinematics and loads of ropes and pads at a time, s.
   void load(double t);
@@ -67,13 +69,13 @@ class EventSources {
 
  private:
   struct Source {
-    enum class Kind { rope, pad, sheave, condition };
+    enum class Kind { rope, pad, bend, condition };
     Kind kind;
-    std::size_t index = 0;   // among Contacts; of the sheave's rope
-    std::size_t sheave = 0;  // which of the rope's
+    std::size_t index = 0;  // among Contacts; of the bend's rope
+    std::size_t bend = 0;   // which of the rope's
   };
 
-  double sheave_value(const Source& source) const;
+  double bend_value(const Source& source) const;
   bool stands(const Source& source) const;
   bool may_change(const Source& source, double t, const IntegrationResult& result) const;
   bool is_due(std::size_t k, const std::vector<int>* found) const;
@@ -87,8 +89,8 @@ class EventSources {
   LiftWorkspace& w_;
   MoveTo move_to_;
   Contacts contacts_;
-  std::vector<Source> sources_;  // ropes and pads, sheaves, the condition
-  std::size_t contacts_end_ = 0, sheaves_end_ = 0;
+  std::vector<Source> sources_;  // ropes and pads, bends, the condition
+  std::size_t contacts_end_ = 0, bends_end_ = 0;
   Eigen::VectorXd values_;  // at the end of the last step, where no root was found
 };
 

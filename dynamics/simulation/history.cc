@@ -1,5 +1,7 @@
 #include "dynamics/simulation/history.h"
 
+#include <algorithm>
+
 #include "dynamics/errors.h"
 #include "dynamics/simulation/energy_ledger.h"
 
@@ -71,7 +73,8 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
       EdgeHistory& e = r.edges.emplace_back();
       e.name = edge.name;
       e.force.resize(n, 3);
-      for (auto* values : {&e.wrap, &e.first_angle, &e.last_angle, &e.first_place, &e.last_place})
+      for (auto* values : {&e.wrap, &e.first_angle, &e.last_angle, &e.first_place, &e.last_place,
+                           &e.first_tension, &e.last_tension})
         values->resize(n);
     }
   }
@@ -163,12 +166,12 @@ void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWo
     system.ropes()[i].calc_path(w.kinematics, w.path, &w.end_shifts[i]);
     r.first_force.row(sample) = system.ropes()[i].first_force(w.path, pulling).transpose();
     r.last_force.row(sample) = system.ropes()[i].last_force(w.path, pulling).transpose();
-    if (!r.edges.empty()) record_edges(w.path, pulling.tension, sample, r);
+    if (!r.edges.empty()) record_edges(w.path, pulling, w.splits[i], sample, r);
   }
 }
 
-void History::record_edges(const RopePath& path, double tension, Eigen::Index sample,
-                           RopeHistory& rope) {
+void History::record_edges(const RopePath& path, const RopeLoad& load, const RopeSplit& split,
+                           Eigen::Index sample, RopeHistory& rope) {
   for (std::size_t i = 0; i < rope.edges.size(); ++i) {
     EdgeHistory& edge = rope.edges[i];
     const EdgeTouch& touch = path.touches[i];
@@ -179,11 +182,19 @@ void History::record_edges(const RopePath& path, double tension, Eigen::Index sa
     edge.last_angle[sample] = or_nothing(touch.last_angle);
     edge.first_place[sample] = or_nothing(touch.first_place);
     edge.last_place[sample] = or_nothing(touch.last_place);
+    edge.first_tension[sample] = edge.last_tension[sample] = 0.0;
   }
+  const auto tension_of = [&](std::size_t segment) {
+    return load.split.acts ? std::max(0.0, split.tension_of_segment(segment)) : load.tension;
+  };
   for (std::size_t k = 1; k + 1 < path.count; ++k) {
     if (path.edge[k] < 0) continue;
-    rope.edges[static_cast<std::size_t>(path.edge[k])].force.row(sample) +=
-        tension * (path.direction_W[k] - path.direction_W[k - 1]).transpose();
+    EdgeHistory& edge = rope.edges[static_cast<std::size_t>(path.edge[k])];
+    const double before = tension_of(k - 1), behind = tension_of(k);
+    edge.force.row(sample) +=
+        (behind * path.direction_W[k] - before * path.direction_W[k - 1]).transpose();
+    if (path.edge[k - 1] != path.edge[k]) edge.first_tension[sample] = before;
+    if (path.edge[k + 1] != path.edge[k]) edge.last_tension[sample] = behind;
   }
 }
 

@@ -38,6 +38,9 @@ struct EdgeHistory {
   /// Where it comes and leaves, not numbers where it does not touch: angles about the axis from the
   /// side outside (EdgeTouch), rad; places along the axis from its begin, m.
   Eigen::VectorXd first_angle, last_angle, first_place, last_place;
+  /// Of the spans before and behind it, N: with friction at the edge they may differ. Zero where it
+  /// does not touch.
+  Eigen::VectorXd first_tension, last_tension;
 
   bool touches(Eigen::Index sample) const { return wrap[sample] > 0.0; }
 };
@@ -46,7 +49,7 @@ struct EdgeHistory {
 struct RopeHistory {
   using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   std::string name;
-  Eigen::VectorXd tension;     ///< N
+  Eigen::VectorXd tension;     ///< N; with friction the largest of its spans
   Eigen::VectorXd elongation;  ///< stretched less unstretched length, m; negative when slack
   Eigen::VectorXd unstretched_length;   ///< m
   Eigen::VectorXd unstretched_rate;     ///< m/s
@@ -122,8 +125,8 @@ class History {
   void add_water_inertia(const RadiatedWater& water, const LiftWorkspace& w);
   void record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
   void record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
-  static void record_edges(const RopePath& path, double tension, Eigen::Index sample,
-                           RopeHistory& rope);
+  static void record_edges(const RopePath& path, const RopeLoad& load, const RopeSplit& split,
+                           Eigen::Index sample, RopeHistory& rope);
   void record_loops(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
 
   Eigen::VectorXd buoyancy_in_waves_;  ///< of StoredEnergy, at each sample, J

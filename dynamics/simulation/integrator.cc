@@ -193,6 +193,7 @@ void Integrator::step(double end) {
   }
   record_samples(time_);
   if (on_ground_) slide_pads(time_);
+  events_.carry_splits(time_);
   change_events(flag == CV_ROOT_RETURN);
 }
 

@@ -26,7 +26,7 @@ void calc_force_derivatives(const LiftSystem& system, double t, bool stretch_onl
     if (!pulls || system.ends_elastically(static_cast<int>(i))) continue;
     rope.calc_path(w.kinematics, w.path);
     if (w.rope_loads[i].split.acts) {
-      w.splits[i].add_derivatives(rope, w.path, tangent.forces);
+      w.splits[i].add_derivatives(rope, w.kinematics, w.path, tangent.forces);
       continue;
     }
     rope.add_derivatives(w.kinematics, w.path, w.rope_loads[i], tangent.forces);

@@ -270,7 +270,7 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
     if (w.splits[i].acts() && load.taut && !w.feeds[i].parted)
       w.splits[i].divide(ropes[i], w.kinematics, w.path, load);
     if (load.split.acts) {
-      w.splits[i].add_forces(ropes[i], w.path, w.loads.F_Bo_W);
+      w.splits[i].add_forces(w.path, w.loads.F_Bo_W);
     } else if (load.tension != 0.0) {
       ropes[i].add_forces(w.path, load, w.loads.F_Bo_W);
     }

@@ -82,7 +82,7 @@ struct IntegrationStatistics {
   long nonlinear_failures = 0;
   long restarts = 0;         ///< at events and jumps of a motion
   long contact_changes = 0;  ///< ropes that went slack or taut, pads loaded or lifted off
-  long sheave_changes = 0;   ///< sheaves with friction at which a rope began to slip or to stick
+  long bend_changes = 0;     ///< bends with friction at which a rope began to slip or to stick
 };
 
 /// A rope or pad that began or ceased to act.
@@ -121,7 +121,7 @@ struct IntegrationResult {
 /// from the interpolated state, so that each sample is consistent in itself. Largest loads are
 /// those of the samples.
 ///
-/// Ropes with friction at their sheaves begin with one tension all along, as in equilibrium, and
+/// Ropes with friction at sheaves or edges begin with one tension all along, as in equilibrium, and
 /// stick. Where one begins to slip, or ceases to, is an event likewise (RopeSplit).
 ///
 /// A condition that is awaited is one more event: its instant is found as those of ropes and pads

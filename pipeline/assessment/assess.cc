@@ -17,6 +17,7 @@
 #include "pipeline/checks/measure_checks.h"
 #include "pipeline/checks/standard_checks.h"
 #include "pipeline/coupling/block_flexibility.h"
+#include "pipeline/coupling/block_loads.h"
 #include "pipeline/formats/preparation.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/formats/run_identity.h"
@@ -128,34 +129,16 @@ void find_edges(const LiftRun& lift, const structure::ElasticModel& model,
 }
 
 /// What pulls and presses on a lifted block, at rest and in motion.
-struct BlockLoads {
-  BlockLoads(const LiftRun& lift, const BlockRun& block, const structure::ElasticModel& model)
-      : attachment(attach_block(lift.model.system, lift.model.load, model.mesh().lifting_points)),
-        at_rest(lift.static_history),
-        in_motion(lift.dynamic_history()) {
-    // In the order in which they joined the unit responses.
-    if (block.pressure)
-      add(*block.pressure, std::vector<int>(static_cast<std::size_t>(block.pressure->count()), -1));
-    if (block.edges) add(*block.edges, block.edges->ropes);
-  }
-  BlockAttachment attachment;
-  BlockHistory at_rest, in_motion;
-
- private:
-  template <class Basis>
-  void add(const Basis& basis, const std::vector<int>& ropes) {
-    Eigen::MatrixXd& resultants = attachment.added_resultants;
-    resultants.conservativeResize(6, resultants.cols() + basis.count());
-    resultants.rightCols(basis.count()) = basis.resultants;
-    attachment.added_ropes.insert(attachment.added_ropes.end(), ropes.begin(), ropes.end());
-    const auto append = [](BlockHistory& history, const Eigen::MatrixXd& factors) {
-      history.added.conservativeResize(history.added.rows() + factors.rows(), factors.cols());
-      history.added.bottomRows(factors.rows()) = factors;
-    };
-    append(at_rest, basis.static_factors);
-    append(in_motion, basis.dynamic_factors);
-  }
-};
+BlockLoads loads_on(const LiftRun& lift, const BlockRun& block,
+                    const structure::ElasticModel& model) {
+  BlockLoads loads(lift.model, lift.static_history, lift.dynamic_history(), model);
+  // In the order in which they joined the unit responses.
+  if (block.pressure)
+    loads.add(*block.pressure,
+              std::vector<int>(static_cast<std::size_t>(block.pressure->count()), -1));
+  if (block.edges) loads.add(*block.edges, block.edges->ropes);
+  return loads;
+}
 
 // Names of what a run that is stopped leaves behind.
 constexpr const char* flexibility_part = "flexibility of the block";
@@ -232,13 +215,13 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Pr
                            structure::UnitResponses& responses) -> structure::LoadFactors {
     find_pressure(lift, model, responses, block.pressure);
     find_edges(lift, model, responses, block.edges);
-    const BlockLoads loads(lift, block, model);
+    const BlockLoads loads = loads_on(lift, block, model);
     return {factors_of(responses, loads.attachment, loads.at_rest),
             factors_of(responses, loads.attachment, loads.in_motion)};
   };
   refine(the_case, factors, progress, unfinished, block);
   progress("block: stresses", 0.5, "");
-  const BlockLoads loads(lift, block, *block.model);
+  const BlockLoads loads = loads_on(lift, block, *block.model);
   const auto& [attachment, at_rest, in_motion] = loads;
   const structure::StressRecovery recovery(*block.responses);
   block.assessment = assess_block(*block.responses, recovery, attachment, at_rest, in_motion);

@@ -385,8 +385,8 @@ class LiftBuilder {
       if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
       ropes_.push_back({rope.name.value, index, rope.lug(), case_.hook_above(rope),
                         rope.rope.breaking_load, lift_edges(rope)});
-      note_end(rope.path.front(), {index, false, rope.path.front().point});
-      note_end(rope.path.back(), {index, true, rope.path.back().point});
+      note_end(rope.path.front(), {index, false, false, rope.path.front().point});
+      note_end(rope.path.back(), {index, true, !rope.is_basket(), rope.path.back().point});
       rope_definitions_.push_back(std::move(definition));
     }
   }
@@ -400,14 +400,16 @@ class LiftBuilder {
                                   .begin_B = edge.from,
                                   .end_B = edge.to,
                                   .outside_B = edge.outside,
-                                  .radius = edge.radius});
+                                  .radius = edge.radius,
+                                  .friction = edge.friction});
     }
   }
 
   static std::vector<LiftEdge> lift_edges(const RopeInCase& rope) {
     std::vector<LiftEdge> edges;
     for (const LoadEdge& edge : rope.edges)
-      edges.push_back({edge.name.value, edge.length(), edge.radius, edge.contact_length});
+      edges.push_back(
+          {edge.name.value, edge.length(), edge.radius, edge.contact_length, edge.friction});
     return edges;
   }
 

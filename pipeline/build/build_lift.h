@@ -50,6 +50,7 @@ struct LiftEdge {
   double length = dynamics::not_a_number;          ///< m
   double radius = 0;                               ///< m
   double contact_length = dynamics::not_a_number;  ///< m, see LoadEdge
+  double friction = 0;                             ///< mu; 0: smooth
 };
 
 /// A rope of the case within the dynamics.
@@ -61,6 +62,9 @@ struct LiftRope {
   std::string hoist;
   double breaking_load = dynamics::not_a_number;  ///< N
   std::vector<LiftEdge> edges = {};               ///< that it may touch
+
+  /// Does it hold the load, at a lug or by its edges?
+  bool holds_load() const { return !lug.empty() || !edges.empty(); }
 };
 
 /// A spreader of the case within the dynamics.
@@ -69,6 +73,7 @@ struct LiftSpreader {
   struct End {
     int rope = -1;                      ///< index in the system
     bool last = false;                  ///< the rope ends here, else it begins here
+    bool from_above = false;            ///< the bar hangs on the rope, else what is below does
     Vector3 p_BoQ_B = Vector3::Zero();  ///< from the bar's middle, in its frame, m
   };
   std::string name;

@@ -102,12 +102,13 @@ class LiftedFacts {
 
   void add_slings() {
     std::map<std::string, int> on_hook;
-    for (const LiftRope& sling : rigging_.slings()) ++on_hook[sling.hoist];
-    for (const auto* slings : {&rigging_.slings(), &rigging_.slings_to_bars()})
+    for (const auto* slings : {&rigging_.slings(), &rigging_.baskets()})
+      for (const LiftRope& sling : *slings) ++on_hook[sling.hoist];
+    for (const auto* slings : {&rigging_.slings(), &rigging_.slings_to_bars(), &rigging_.baskets()})
       for (const LiftRope& rope : *slings) {
         Index sample = 0;
         SlingFacts sling = sling_facts(rope, on_hook, sample);
-        sling.computed = rigging_.of_sling(rope, sample);
+        if (slings != &rigging_.baskets()) sling.computed = rigging_.of_sling(rope, sample);
         facts_.slings.push_back(std::move(sling));
       }
     // The motion has their weight in the loads of hooks, and not in those of the lugs.
@@ -168,7 +169,7 @@ class LiftedFacts {
     spreader.borne_at_rest = borne_load(column, bar, lift_.static_history);
     spreader.borne_in_motion = borne_load(column, bar, lift_.dynamic_history());
     for (const LiftSpreader::End& end : bar.ends) {
-      if (!end.last) continue;
+      if (!end.from_above) continue;
       const auto carries =
           std::find_if(facts_.slings.begin(), facts_.slings.end(), [&](const SlingFacts& sling) {
             return find_rope(lift_.model.ropes, lift_.model.hoists, sling.name) == end.rope;

@@ -124,13 +124,13 @@ Eigen::VectorXd pull_beyond_weight(const LiftRun& lift, std::size_t rope,
   return history.tension - weight * history.unstretched_length;
 }
 
-/// Ropes at lugs may lie slack while the load stands or floats; all others never.
+/// Ropes at lugs and round edges may lie slack while the load stands or floats; all others never.
 void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
   const auto static_hangs = find_hanging(lift_case, lift, lift.static_history);
   const auto dynamic_hangs = find_hanging(lift_case, lift, lift.dynamic_history());
   std::vector<char> is_sling(lift.static_history.ropes.size(), 0);
   for (const LiftRope& rope : lift.model.ropes) {
-    if (!rope.lug.empty()) is_sling[rope.rope] = 1;
+    if (rope.holds_load()) is_sling[rope.rope] = 1;
   }
   Peak smallest{std::numeric_limits<double>::infinity(), 0};
   std::string rope;
@@ -156,7 +156,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
       check_at_least("slack: smallest tension of any rope, " + rope, smallest.value,
                      lift_case.checks.smallest_tension, "N"),
       smallest.time,
-      std::string("the demand must stay above the limit; ropes at lugs: while the load hangs") +
+      std::string("the demand must stay above the limit; ropes at the load: while it hangs") +
           (lift_case.rope_weight && lift_case.rope_weight->value
                ? "; less the own weight of ropes that have some"
                : "")));

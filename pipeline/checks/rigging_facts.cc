@@ -42,6 +42,8 @@ RiggingFacts::RiggingFacts(const LiftCase& lift_case, const LiftRun& lift, Matri
   for (const LiftRope& rope : lift.model.ropes)
     if (!rope.lug.empty())
       slings_.push_back(rope);
+    else if (lift_case.find_rope(rope.name)->is_basket())
+      baskets_.push_back(rope);
     else if (lift_case.find_rope(rope.name)->is_sling())
       to_bars_.push_back(rope);
 }
@@ -139,17 +141,20 @@ const RiggingFacts::State& RiggingFacts::at(Index sample) const {
     tackle.lower = {RiggingEnd::Kind::hook, static_cast<int>(h), Vector3d::Zero()};
     tolerances.push_back(0);
   }
-  const RiggingBalance balance(ropes, static_cast<int>(hoists.size()), compliance_of(ropes, sample),
-                               static_cast<int>(lift_.model.spreaders.size()));
-
   auto state = std::make_shared<State>();
   state->at_rest.resize(index(ropes.size()));
   for (std::size_t i = 0; i < ropes.size(); ++i) state->at_rest[index(i)] = ropes[i].tension;
-  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say.
-  const bool is_balanced = std::none_of(hoists.begin(), hoists.end(),
-                                        [](const LiftHoist& hoist) { return hoist.hook_is_first; });
+  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say; nor
+  // has it where baskets go round the load.
+  const bool is_balanced =
+      baskets_.empty() && std::none_of(hoists.begin(), hoists.end(),
+                                       [](const LiftHoist& hoist) { return hoist.hook_is_first; });
+  std::optional<RiggingBalance> balance;
+  if (is_balanced)
+    balance.emplace(ropes, static_cast<int>(hoists.size()), compliance_of(ropes, sample),
+                    static_cast<int>(lift_.model.spreaders.size()));
   if (share && is_balanced && toleranced <= RiggingBalance::most_toleranced)
-    state->largest_by_tolerance = balance.largest_by_tolerance(
+    state->largest_by_tolerance = balance->largest_by_tolerance(
         Eigen::Map<const VectorXd>(tolerances.data(), index(tolerances.size())));
   if (const auto& box = standard.centre_box; box && is_balanced)
     for (int corner = 0; corner < 8; ++corner) {
@@ -158,7 +163,7 @@ const RiggingFacts::State& RiggingFacts::at(Index sample) const {
                            (corner & 4) != 0 ? box->z() : -box->z());
       const Vector3d shift_W = pose_of(lift_.model.load, sample).R * shift;
       state->at_corners_of_box.push_back(
-          balance.with_moment(shift_W.cross(Vector3d(0, 0, -weight_))));
+          balance->with_moment(shift_W.cross(Vector3d(0, 0, -weight_))));
     }
   states_.emplace_back(sample, std::move(state));
   return *states_.back().second;
@@ -218,7 +223,7 @@ ComputedFactors RiggingFacts::of_crane(std::size_t crane, Index sample) const {
 }
 
 std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index sample) const {
-  if (hook.empty()) return {};
+  if (hook.empty() || !baskets_.empty()) return {};
   const dynamics::History& history = lift_.static_history;
   const dynamics::Pose X_WB = history.bodies[lift_.model.load - 1].X_WB(sample);
   // Lift points of hooks and of cranes: where the vertical forces of their slings have their

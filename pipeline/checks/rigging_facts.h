@@ -25,6 +25,8 @@ class RiggingFacts {
   const std::vector<LiftRope>& slings() const { return slings_; }
   /// Slings to spreaders.
   const std::vector<LiftRope>& slings_to_bars() const { return to_bars_; }
+  /// Slings round edges of the load that end at no lug.
+  const std::vector<LiftRope>& baskets() const { return baskets_; }
   /// The name of a sling's hook; empty if it begins elsewhere.
   const std::string& hook_of(std::size_t sling) const { return slings_[sling].hoist; }
   /// Vertical part of all slings' forces on the load, at each sample, N.
@@ -53,7 +55,7 @@ class RiggingFacts {
   const LiftRun& lift_;
   Eigen::MatrixXd compliance_;
   std::vector<std::string> lugs_;
-  std::vector<LiftRope> slings_, to_bars_;
+  std::vector<LiftRope> slings_, to_bars_, baskets_;
   Eigen::Vector3d p_BoBcm_;
   double weight_ = 0;  ///< of the load, N
   mutable std::vector<std::pair<Eigen::Index, std::shared_ptr<const State>>> states_;

@@ -180,8 +180,7 @@ std::vector<EdgePush> edge_pushes(const History& history, Eigen::Index sample,
                                   const dynamics::LiftSystem& system, int rope, std::size_t edge) {
   const RopeHistory& pulling = history.ropes[static_cast<std::size_t>(rope)];
   const EdgeHistory& at = pulling.edges[edge];
-  const double tension = pulling.tension[sample];
-  if (!at.touches(sample) || !(tension > 0)) return {};
+  if (!at.touches(sample) || !(pulling.tension[sample] > 0)) return {};
   const dynamics::RopeEdge& definition =
       system.ropes()[static_cast<std::size_t>(rope)].edges()[edge];
   if (!(definition.radius > 0)) {
@@ -195,13 +194,20 @@ std::vector<EdgePush> edge_pushes(const History& history, Eigen::Index sample,
   const double turned = at.last_angle[sample] - at.first_angle[sample];
   const double advance = at.last_place[sample] - at.first_place[sample];
   const double across = definition.radius * at.wrap[sample];
-  const double pull = tension * across / std::hypot(across, advance) * at.wrap[sample];
+  const double cosine = across / std::hypot(across, advance);
+  const double sine = advance / std::hypot(across, advance);
+  const double first = at.first_tension[sample], last = at.last_tension[sample];
+  const double growth = first > 0 && last > 0 ? std::log(last / first) : 0;
   std::vector<EdgePush> pushes;
   for (const auto& [share, weight] : rule) {
     EdgePush push;
     push.place = at.first_place[sample] + share * advance;
     push.angle = at.first_angle[sample] + share * turned;
-    push.force_B = -pull * weight * placed.normal_W(push.angle);
+    const double tension = first * std::exp(growth * share);
+    const Vector3 direction =
+        cosine * (turned < 0 ? -1 : 1) * placed.tangent_W(push.angle) + sine * placed.along_W;
+    push.force_B = tension * weight *
+                   (growth * direction - cosine * at.wrap[sample] * placed.normal_W(push.angle));
     pushes.push_back(push);
   }
   return pushes;

@@ -25,7 +25,10 @@ struct EdgePush {
 /// At a sharp edge it is one force. Round a cylinder of the radius R the rope runs along a helix,
 /// and presses by T cos(b)^2 / R for each metre of it towards the axis, b being its slope, so that
 ///   dF = -n T cos(b) dtheta,   tan(b) = (advance along the axis) / (R wrap);
-/// the pushes are those of Gauss points over the wrap.
+/// the pushes are those of Gauss points over the wrap. Where friction makes the tensions of its two
+/// spans unequal, T grows from one to the other by an exponential over the wrap, as it does where
+/// the rope slips, and dT along the rope is added. All go through the axis: the moment of friction
+/// about it, R cos(b) times the difference of tensions, is not theirs.
 std::vector<EdgePush> edge_pushes(const dynamics::History& history, Eigen::Index sample,
                                   const dynamics::LiftSystem& system, int rope, std::size_t edge);
 

@@ -1,5 +1,6 @@
 #include "pipeline/coupling/load_mapping.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace blocklift::pipeline {
@@ -71,6 +72,7 @@ BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyI
   attachment.gravity_W = system.mechanism().gravity();
   for (std::size_t r = 0; r < system.ropes().size(); ++r) {
     const auto& points = system.ropes()[r].points();
+    const std::size_t known = attachment.ropes.size();
     for (const bool last : {false, true}) {
       const dynamics::BodyPoint& end = last ? points.back() : points.front();
       if (end.body != body) continue;
@@ -79,9 +81,14 @@ BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyI
           attachment.ropes.push_back({static_cast<int>(r), static_cast<int>(l), last});
       }
     }
+    const auto is_of_block = [body](const dynamics::RopeEdge& edge) { return edge.body == body; };
+    if (attachment.ropes.size() == known &&
+        std::ranges::any_of(system.ropes()[r].edges(), is_of_block))
+      attachment.baskets.push_back(static_cast<int>(r));
   }
-  if (attachment.ropes.empty())
-    throw std::runtime_error("no rope ends at a lug of the block: nothing loads it");
+  if (attachment.ropes.empty() && attachment.baskets.empty())
+    throw std::runtime_error(
+        "no rope ends at a lug of the block or goes round its edges: nothing loads it");
   return attachment;
 }
 
@@ -122,8 +129,11 @@ std::vector<Vector3> rope_forces(const History& history, Eigen::Index sample,
   return forces;
 }
 
-const std::string& rope_name(const History& history, const LugRope& rope) {
-  return history.ropes[rope.rope].name;
+std::vector<std::string> names_of_ropes(const History& history, const BlockAttachment& attachment) {
+  std::vector<std::string> names;
+  for (const LugRope& end : attachment.ropes) names.push_back(history.ropes[end.rope].name);
+  for (const int basket : attachment.baskets) names.push_back(history.ropes[basket].name);
+  return names;
 }
 
 LoadCase map_rope_maxima(const BlockHistory& of_block,

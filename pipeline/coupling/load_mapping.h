@@ -25,6 +25,8 @@ struct LugRope {
 struct BlockAttachment {
   dynamics::BodyIndex body = -1;
   std::vector<LugRope> ropes;
+  /// Ropes that may touch its edges and end at none of its lugs, indices in the lift system.
+  std::vector<int> baskets = {};
   std::vector<structure::LiftingPoint> lugs;  ///< all of the block's, loaded or not
   dynamics::Vector3 gravity_W = dynamics::Vector3::Constant(dynamics::not_a_number);  ///< m/s2
   /// Resultants of the loads besides those at lugs, 6 x loads: the fields of water pressure on its
@@ -54,8 +56,8 @@ struct BlockHistory {
 };
 
 /// Finds the ropes that end at a lug: those whose first or last point is a point of the body that
-/// coincides (to a micrometre) with the lug's pin.
-/// @throws std::runtime_error if no rope ends at any lug.
+/// coincides (to a micrometre) with the lug's pin. And those that go round its edges alone.
+/// @throws std::runtime_error if there are none.
 BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyIndex body,
                              const std::vector<structure::LiftingPoint>& lugs);
 
@@ -68,12 +70,13 @@ structure::LoadCase map_instant(const BlockHistory& history, Eigen::Index sample
                                 const BlockAttachment& attachment,
                                 const structure::MassProperties& mass);
 
-/// Force of each rope of the attachment on the block at one sample, in B, N.
+/// Force of each rope at a lug of the attachment on the block at one sample, in B, N.
 std::vector<structure::Vector3> rope_forces(const dynamics::History& history, Eigen::Index sample,
                                             const BlockAttachment& attachment);
 
-/// Name of a rope at a lug.
-const std::string& rope_name(const dynamics::History& history, const LugRope& rope);
+/// Names of the ropes at lugs, in the order of the attachment, then those of the baskets.
+std::vector<std::string> names_of_ropes(const dynamics::History& history,
+                                        const BlockAttachment& attachment);
 
 /// Every rope at its own largest load, all at once (the practice of Ku, Ha and Roh, section VII):
 /// each force, at lugs and edges, in the block frame of its own instant. Since these instants

@@ -116,8 +116,11 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
     return make_state(map_instant(history, maximum.sample, attachment, mass),
                       fmt::format("largest {} load of rope {}", state, rope), rope, maximum.time);
   };
-  for (const LugRope& end : attachment.ropes) {
-    const auto rope = static_cast<std::size_t>(end.rope);
+  std::vector<int> ropes;
+  for (const LugRope& end : attachment.ropes) ropes.push_back(end.rope);
+  ropes.insert(ropes.end(), attachment.baskets.begin(), attachment.baskets.end());
+  for (const int pulling : ropes) {
+    const auto rope = static_cast<std::size_t>(pulling);
     states.push_back(at_maximum(static_history, static_maxima[rope], "static"));
     states.push_back(at_maximum(dynamic_history, dynamic_maxima[rope], "dynamic"));
   }

@@ -88,11 +88,12 @@ class StateMaker {
     state_.largest_moment_residual = std::max(state_.largest_moment_residual, moment);
   }
 
-  // The rope with the largest share in a stress, as its place in the attachment.
+  // The rope with the largest share in a stress, as its place in the attachment: among the ropes at
+  // lugs, then the baskets.
   std::pair<int, double> governing_rope(const Eigen::MatrixXd& unit_stress, int instant) const {
     const std::vector<Vector3> forces = rope_forces(history_.motion, instant, attachment_);
-    Eigen::MatrixXd parts =
-        Eigen::MatrixXd::Zero(responses_.count(), static_cast<Eigen::Index>(forces.size()));
+    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(
+        responses_.count(), static_cast<Eigen::Index>(forces.size() + attachment_.baskets.size()));
     for (std::size_t i = 0; i < forces.size(); ++i)
       parts.col(static_cast<Eigen::Index>(i)).segment<3>(3 * attachment_.ropes[i].lug) = forces[i];
     add_edges(instant, parts);
@@ -103,18 +104,24 @@ class StateMaker {
     return {static_cast<int>(governing), share};
   }
 
-  // What a rope does at edges, beside its force at the first of its lugs.
+  // What a rope does at edges, beside its force at the first of its lugs if it has one.
   void add_edges(int instant, Eigen::MatrixXd& parts) const {
     const std::vector<LugRope>& ropes = attachment_.ropes;
+    const std::vector<int>& baskets = attachment_.baskets;
     for (std::size_t load = 0; load < attachment_.added_ropes.size(); ++load) {
-      const auto of = std::find_if(ropes.begin(), ropes.end(), [&](const LugRope& end) {
-        return end.rope == attachment_.added_ropes[load];
-      });
-      if (of == ropes.end()) continue;
+      const int rope = attachment_.added_ropes[load];
+      if (rope < 0) continue;
+      const auto of = std::find_if(ropes.begin(), ropes.end(),
+                                   [&](const LugRope& end) { return end.rope == rope; });
+      const Eigen::Index place =
+          of != ropes.end()
+              ? of - ropes.begin()
+              : static_cast<Eigen::Index>(ropes.size()) +
+                    (std::find(baskets.begin(), baskets.end(), rope) - baskets.begin());
       // Factors of the basis: lug forces, products of angular velocities, added loads.
       const Eigen::Index row =
           3 * responses_.model().lug_count() + 6 + static_cast<Eigen::Index>(load);
-      parts(row, of - ropes.begin()) += state_.factors(row, instant);
+      parts(row, place) += state_.factors(row, instant);
     }
   }
 
@@ -125,7 +132,7 @@ class StateMaker {
     if (extreme.unit_stress.size() == 0) return result;
     const auto [rope, share] = governing_rope(extreme.unit_stress, extreme.instant);
     if (rope < 0) return result;
-    result.rope = rope_name(history_.motion, attachment_.ropes[static_cast<std::size_t>(rope)]);
+    result.rope = names_of_ropes(history_.motion, attachment_)[static_cast<std::size_t>(rope)];
     result.share = share;
     return result;
   }
@@ -371,8 +378,7 @@ HistoryAssessment assess_history(const structure::UnitResponses& responses,
   result.curve = structure::fatigue_curve(settings.fatigue_curve);
   result.stress_concentration = settings.stress_concentration;
   result.lifts = settings.lifts;
-  for (const LugRope& end : attachment.ropes)
-    result.ropes.push_back(rope_name(dynamic_history.motion, end));
+  result.ropes = names_of_ropes(dynamic_history.motion, attachment);
   result.static_state = StateMaker(responses, attachment, static_history, "static").make(recovery);
   result.dynamic_state =
       StateMaker(responses, attachment, dynamic_history, "dynamic").make(recovery);

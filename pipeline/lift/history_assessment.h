@@ -40,7 +40,7 @@ struct HistoryState {
   std::vector<HistoryGroup> groups, lugs;
   Eigen::VectorXd square_von_mises;    ///< largest of each square of the checked stress, Pa
   Eigen::VectorXd square_time;         ///< when, s
-  Eigen::VectorXi square_rope;         ///< governing, place in BlockAttachment::ropes; -1: none
+  Eigen::VectorXi square_rope;         ///< governing, place in names_of_ropes; -1: none
   structure::LoadCase governing;       ///< the instant of the largest checked stress
   double largest_force_residual = 0;   ///< of all samples, over the load (LoadBalance)
   double largest_moment_residual = 0;  ///< likewise
@@ -76,7 +76,7 @@ struct HistoryAssessment {
   std::vector<structure::Square> squares;  ///< that the states' square values belong to
   std::vector<std::string> regions;        ///< names of single plates, by Square::region
   Eigen::VectorXd weights;                 ///< of the factors, for a LoadHistory
-  std::vector<std::string> ropes;          ///< of BlockAttachment::ropes
+  std::vector<std::string> ropes;          ///< names_of_ropes
   PracticeComparison per_rope_maxima;      ///< every rope at its own largest dynamic load, at once
   PracticeComparison rope_instants;  ///< only the instants of each rope's largest dynamic load
   std::vector<StressHistory> points;

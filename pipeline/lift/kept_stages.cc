@@ -19,7 +19,7 @@ template <class Values, class Edge>
 requires std::is_same_v<std::remove_const_t<Edge>, dynamics::EdgeHistory>
 void pass(Values& values, Edge& edge) {
   values(edge.name, edge.force, edge.wrap, edge.first_angle, edge.last_angle, edge.first_place,
-         edge.last_place);
+         edge.last_place, edge.first_tension, edge.last_tension);
 }
 
 template <class Values, class Rope>

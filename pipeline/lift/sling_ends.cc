@@ -16,11 +16,29 @@ std::vector<SlingEnd> find_sling_ends(const BuiltLift& model) {
   return ends;
 }
 
+std::vector<Eigen::Vector3d> bearing_places(const BuiltLift& model,
+                                            const dynamics::History& history, Eigen::Index sample) {
+  std::vector<Eigen::Vector3d> places;
+  for (const SlingEnd& end : find_sling_ends(model))
+    if (history.ropes[static_cast<std::size_t>(end.rope)].tension[sample] > 0)
+      places.push_back(end.p_BoQ_B);
+  for (const LiftRope& sling : model.ropes) {
+    const auto rope = static_cast<std::size_t>(sling.rope);
+    for (std::size_t i = 0; i < sling.edges.size(); ++i) {
+      const dynamics::EdgeHistory& touch = history.ropes[rope].edges[i];
+      if (!touch.touches(sample) || !(touch.force(sample, 2) > 0)) continue;
+      const dynamics::RopeEdge& edge = model.system.ropes()[rope].edges()[i];
+      const double place = 0.5 * (touch.first_place[sample] + touch.last_place[sample]);
+      places.emplace_back(edge.begin_B + place * (edge.end_B - edge.begin_B).normalized());
+    }
+  }
+  return places;
+}
+
 double lift_at_edges(const BuiltLift& model, const dynamics::History& history,
                      Eigen::Index sample) {
   double sum = 0;
   for (const LiftRope& sling : model.ropes) {
-    if (sling.lug.empty()) continue;
     for (const dynamics::EdgeHistory& edge :
          history.ropes[static_cast<std::size_t>(sling.rope)].edges)
       sum += edge.force(sample, 2);

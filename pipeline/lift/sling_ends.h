@@ -27,6 +27,11 @@ struct SlingEnd {
 /// Both ends at the load of each rope that ends at a lug, in the order of the ropes.
 std::vector<SlingEnd> find_sling_ends(const BuiltLift& model);
 
+/// Places of the load that bear, at a sample, in its frame, m: lugs whose slings pull, and where
+/// slings press on edges upwards, on the edge's axis in the middle of the touch.
+std::vector<Eigen::Vector3d> bearing_places(const BuiltLift& model,
+                                            const dynamics::History& history, Eigen::Index sample);
+
 /// Vertical part of what slings do at edges of the load, at a sample, N.
 double lift_at_edges(const BuiltLift& model, const dynamics::History& history, Eigen::Index sample);
 

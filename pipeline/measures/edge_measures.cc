@@ -80,6 +80,18 @@ void add_edge_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) 
                return presses(one, at, i) ? 0.5 * (at.first_place[i] + at.last_place[i])
                                           : no_number;
              });
+      if (rope.edges[edge].friction > 0) {
+        of.add("tension before", "N", Extreme::largest,
+               "of the span before the edge, in the order of the rope's path, while it touches",
+               [](const RopeHistory&, const EdgeHistory& at, Eigen::Index i) {
+                 return at.touches(i) ? at.first_tension[i] : no_number;
+               });
+        of.add("tension behind", "N", Extreme::largest,
+               "of the span behind the edge; friction makes the two unequal, at rest none acts",
+               [](const RopeHistory&, const EdgeHistory& at, Eigen::Index i) {
+                 return at.touches(i) ? at.last_tension[i] : no_number;
+               });
+      }
       const double length = rope.edges[edge].length;
       of.add("distance from edge end", "m", Extreme::smallest,
              "of the touch from the nearer end, while it presses; below zero the rope has run off "

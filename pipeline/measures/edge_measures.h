@@ -12,7 +12,7 @@ double distance_from_end(const dynamics::RopeHistory& rope, std::size_t edge, do
                          Eigen::Index sample);
 
 /// For each rope and each edge that it may touch: force on the edge, angle of wrap, where it
-/// touches, and how far that is from the edge's ends.
+/// touches, how far that is from the edge's ends, and with friction the tensions of both spans.
 void add_edge_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures);
 
 }  // namespace blocklift::pipeline

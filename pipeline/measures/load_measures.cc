@@ -62,7 +62,8 @@ double angle_of(const Eigen::Vector3d& pull) {
 void add_sling_angles(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   const std::vector<SlingEnd> ends = find_sling_ends(lift.model);
   for (std::size_t i = 0; i < lift.model.ropes.size(); ++i) {
-    if (lift.model.ropes[i].lug.empty()) continue;
+    const LiftRope& sling = lift.model.ropes[i];
+    if (!sling.holds_load()) continue;
     measures.push_back(make_measure(
         lift,
         {.subject = lift.model.ropes[i].name,
@@ -70,9 +71,14 @@ void add_sling_angles(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
          .unit = "rad",
          .extreme = Extreme::smallest,
          .meaning = "angle of the sling at its lug against the level, while it pulls; of a sling "
-                    "from lug to lug the lesser one"},
+                    "from lug to lug, or of both ends of a basket at their hooks, the lesser one"},
         [&](const dynamics::History& history, Eigen::Index sample) {
           double least = nothing;
+          if (sling.lug.empty()) {
+            const dynamics::RopeHistory& rope = history.ropes[static_cast<std::size_t>(sling.rope)];
+            for (const auto* pull : {&rope.first_force, &rope.last_force})
+              least = std::fmin(least, angle_of(-pull->row(sample)));
+          }
           for (const SlingEnd& end : ends)
             if (end.sling == i) least = std::fmin(least, angle_of(end.pull(history).row(sample)));
           return least;
@@ -93,18 +99,17 @@ void add_margin(const LiftCase& lift_case, const LiftRun& lift,
        .unit = "m",
        .extreme = Extreme::smallest,
        .meaning = "level distance of the centre of mass from the edge of the polygon of the lugs "
-                  "that carry, positive inside; while slings bear nine tenths of the weight"},
+                  "that carry and of the places where slings press on edges upwards, positive "
+                  "inside; while slings bear nine tenths of the weight"},
       [&](const dynamics::History& history, Eigen::Index sample) {
         const dynamics::Pose X_WB =
             history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample);
-        std::vector<Eigen::Vector2d> carrying;
         double borne = lift_at_edges(lift.model, history, sample);
-        for (const SlingEnd& end : ends) {
-          borne += end.pull(history)(sample, 2);
-          if (history.ropes[static_cast<std::size_t>(end.rope)].tension[sample] > 0)
-            carrying.push_back((X_WB.R * end.p_BoQ_B).head<2>());
-        }
+        for (const SlingEnd& end : ends) borne += end.pull(history)(sample, 2);
         if (borne < 0.9 * weight) return nothing;
+        std::vector<Eigen::Vector2d> carrying;
+        for (const Vector3& place_B : bearing_places(lift.model, history, sample))
+          carrying.push_back((X_WB.R * place_B).head<2>());
         return distance_within(carrying, (X_WB.R * centre_B).head<2>());
       });
   // Two lugs, or lugs in a line, span no area.

@@ -140,7 +140,9 @@ double largest_share(const structure::Column& column, const LiftSpreader& bar, c
 Eigen::VectorXd hung_load(const LiftSpreader& bar, const dynamics::History& history) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(history.sample_count());
   for (const LiftSpreader::End& end : bar.ends)
-    if (!end.last) load -= history.ropes[end.rope].first_force.col(2);
+    if (!end.from_above)
+      load -= (end.last ? history.ropes[end.rope].last_force : history.ropes[end.rope].first_force)
+                  .col(2);
   return load;
 }
 

@@ -32,6 +32,19 @@ std::string names_of_rubbing(const LiftCase& lift_case) {
   return names;
 }
 
+/// Edges with friction, or those without, that ropes may touch.
+std::string names_of_edges(const LiftCase& lift_case, bool rubbing) {
+  std::string names;
+  for (const RopeInCase& rope : lift_case.ropes) {
+    for (const LoadEdge& edge : rope.edges) {
+      if ((edge.friction > 0) != rubbing) continue;
+      names +=
+          fmt::format("{}{} over {}", names.empty() ? "" : ", ", rope.name.value, edge.name.value);
+    }
+  }
+  return names;
+}
+
 /// Ropes that may touch edges of the load.
 std::string names_of_bent(const LiftCase& lift_case) {
   std::string names;
@@ -80,10 +93,22 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
   const std::string bent = names_of_bent(lift_case);
   if (!bent.empty()) {
     list.push_back(
-        fmt::format("{} slide over edges of the load without friction, on the shortest way round "
-                    "them: their tension is one on both sides of an edge. With friction it would "
-                    "be larger on one side, by up to exp(mu x angle of wrap).",
+        fmt::format("{} run over edges of the load on the shortest way round them, and slide along "
+                    "them sideways without friction.",
                     bent));
+    const std::string smooth = names_of_edges(lift_case, false);
+    if (!smooth.empty())
+      list.push_back(fmt::format(
+          "Without friction at edges: {}. The tension is one on both sides there; with friction "
+          "it would be larger on one side, by up to exp(mu x angle of wrap).",
+          smooth));
+    const std::string rough = names_of_edges(lift_case, true);
+    if (!rough.empty())
+      list.push_back(fmt::format(
+          "In the motion ropes stick to edges with friction until the tensions on the two sides "
+          "differ by exp(mu x angle of wrap), and slip lengthwise at that ratio: {}. They begin "
+          "with one tension all along, which they have at rest.",
+          rough));
   }
   const std::string curved = names_of_curved(lift_case);
   if (!curved.empty()) {

@@ -211,11 +211,6 @@ void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
     else if (study.run == StudyRun::stress && lift_case.load.vessel)
       diagnostics.error(study.case_name.mark,
                         "water presses on the case's block: its stress needs run: assess");
-    else if (study.run == StudyRun::stress &&
-             std::any_of(lift_case.ropes.begin(), lift_case.ropes.end(),
-                         [](const RopeInCase& rope) { return !rope.edges.empty(); }))
-      diagnostics.error(study.case_name.mark,
-                        "ropes press on edges of the case's block: its stress needs run: assess");
     if (diagnostics.has_errors()) throw InputError(diagnostics);
   }
 }

@@ -12,7 +12,8 @@
 #include <fmt/format.h>
 
 #include "pipeline/coupling/block_flexibility.h"
-#include "pipeline/coupling/load_mapping.h"
+#include "pipeline/coupling/block_loads.h"
+#include "pipeline/coupling/edge_loads.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/content_hash.h"
@@ -37,6 +38,7 @@ struct StudyBlocks::Kept {
   std::unique_ptr<structure::ElasticModel> model;
   std::unique_ptr<structure::UnitResponses> responses;
   std::optional<structure::StressBasis> basis;
+  std::optional<structure::RefinedBlock> refined;  ///< that the basis is of, where it is needed
 };
 
 namespace {
@@ -66,6 +68,11 @@ std::unique_ptr<structure::ElasticModel> model_of(const LiftCase& lift_case) {
   return model;
 }
 
+bool runs_over_edges(const LiftCase& lift_case) {
+  return std::ranges::any_of(lift_case.ropes,
+                             [](const RopeInCase& rope) { return !rope.edges.empty(); });
+}
+
 template <class Value>
 std::optional<Value> stated(const std::optional<Located<Value>>& located) {
   return located ? std::optional<Value>(located->value) : std::nullopt;
@@ -77,7 +84,7 @@ MassProperties mass_of(const structure::ElasticModel& model, const BlockModel& b
 
 /// Holds a load case against the balance that a free body keeps.
 void require_balance(const structure::LoadCase& load_case, const MassProperties& mass,
-                     const std::vector<structure::LiftingPoint>& lugs) {
+                     const BlockAttachment& attachment) {
   const structure::InertiaField& field = load_case.field;
   const auto& w = field.angular_velocity_products;
   Eigen::Matrix3d products;
@@ -92,11 +99,16 @@ void require_balance(const structure::LoadCase& load_case, const MassProperties&
       -mass.inertia_BBcm_B * field.angular_acceleration -
       Vector3(spin(2, 1) - spin(1, 2), spin(0, 2) - spin(2, 0), spin(1, 0) - spin(0, 1));
   double load = mass.mass * std::max(field.acceleration_less_gravity.norm(), 9.80665), pull = 0;
-  for (std::size_t lug = 0; lug < lugs.size(); ++lug) {
+  for (std::size_t lug = 0; lug < attachment.lugs.size(); ++lug) {
     const Vector3& at_lug = load_case.lug_forces_B[lug];
     force += at_lug;
-    moment += (lugs[lug].p_BPin - centre).cross(at_lug);
+    moment += (attachment.lugs[lug].p_BPin - centre).cross(at_lug);
     pull += at_lug.norm();
+  }
+  if (load_case.added.size() > 0) {
+    const Eigen::Matrix<double, 6, 1> added = attachment.added_resultants * load_case.added;
+    force += added.head<3>();
+    moment += added.tail<3>() - centre.cross(Vector3(added.head<3>()));
   }
   load = std::max(load, pull);
   const double gyration = std::sqrt(mass.inertia_BBcm_B.trace() / (2 * mass.mass));
@@ -111,18 +123,18 @@ void require_balance(const structure::LoadCase& load_case, const MassProperties&
 
 /// Largest checked stress of one history: value, time and place.
 void find_largest(const structure::StressBasis& basis, const BlockAttachment& attachment,
-                  const dynamics::History& history, const MassProperties& mass, double& stress,
+                  const BlockHistory& history, const MassProperties& mass, double& stress,
                   double& time, Vector3& place) {
   Eigen::MatrixXd factors(basis.components.cols(), history.sample_count());
   for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample) {
     const structure::LoadCase load_case = map_instant(history, sample, attachment, mass);
-    require_balance(load_case, mass, attachment.lugs);
+    require_balance(load_case, mass, attachment);
     factors.col(sample) = basis.factors(load_case, mass);
   }
   const structure::LargestValue largest = find_largest_checked(basis, factors, 1);
   if (largest.point < 0) throw std::runtime_error("the block has no plating");
   stress = largest.value;
-  time = history.time[largest.instant];
+  time = history.motion.time[largest.instant];
   place = basis.squares[largest.point].centre_B;
 }
 
@@ -162,7 +174,7 @@ StudyBlocks::Kept& StudyBlocks::kept(const LiftCase& lift_case, const Eigen::Vec
     return *kept_.back();
   }
   if (kept_.size() == most_kept) kept_.erase(kept_.begin());
-  kept_.push_back(std::make_unique<Kept>(Kept{std::move(key), model_of(lift_case), {}, {}}));
+  kept_.push_back(std::make_unique<Kept>(Kept{std::move(key), model_of(lift_case), {}, {}, {}}));
   return *kept_.back();
 }
 
@@ -181,7 +193,7 @@ KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& val
   return known;
 }
 
-structure::StressBasis StudyBlocks::basis_of(const Eigen::VectorXd& values) const {
+structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) const {
   const Progress nobody_watches = [](const std::string&, double, const std::string&) {};
   const LiftCase lift_case = member_case(study_, values, &changing_);
   auto model = model_of(lift_case);
@@ -194,44 +206,72 @@ structure::StressBasis StudyBlocks::basis_of(const Eigen::VectorXd& values) cons
                                prepare_lift(lift_case, load_mass(model->mass_properties()),
                                             nobody_watches, flexibility ? &*flexibility : nullptr),
                                nobody_watches);
-  const BlockAttachment attachment =
-      attach_block(run.model.system, run.model.load, model->mesh().lifting_points);
-  const auto factors = [&](const structure::ElasticModel&, structure::UnitResponses& of_mesh) {
-    return structure::LoadFactors{factors_of(of_mesh, attachment, run.static_history),
-                                  factors_of(of_mesh, attachment, run.dynamic_history())};
+  const auto factors = [&](const structure::ElasticModel& of, structure::UnitResponses& of_mesh) {
+    BlockLoads loads(run.model, run.static_history, run.dynamic_history(), of);
+    if (const auto edges =
+            find_edge_basis(of, run.model, run.static_history, run.dynamic_history())) {
+      of_mesh.add_loads(edges->loads);
+      loads.add(*edges, edges->ropes);
+    }
+    return structure::LoadFactors{factors_of(of_mesh, loads.attachment, loads.at_rest),
+                                  factors_of(of_mesh, loads.attachment, loads.in_motion)};
   };
-  const structure::RefinedBlock refined = structure::refine_checked_stress(
+  structure::RefinedBlock refined = structure::refine_checked_stress(
       std::move(model), std::move(responses), factors,
       {lift_case.structure.accuracy, lift_case.structure.most_unknowns});
   if (refined.model->space().shells().empty())
     throw std::runtime_error(
         "the block has no plates, over which the stress would be checked: run: assess finds the "
         "stress of its bars and solids");
+  return refined;
+}
+
+structure::StressBasis StudyBlocks::basis_of(const structure::RefinedBlock& block) {
+  const structure::OneBlasThread whatever_the_threads;
   // Another member's stress may be largest elsewhere: all squares are looked at.
   return structure::make_stress_basis(
-      *refined.responses,
-      structure::CheckedStress(*refined.model, refined.responses->displacements().leftCols<1>(),
+      *block.responses,
+      structure::CheckedStress(*block.model, block.responses->displacements().leftCols<1>(),
                                structure::AccuracyGoal().square_size, 1)
           .squares(),
       1);
 }
 
+void StudyBlocks::find_basis(Kept& block, bool over_edges, const Eigen::VectorXd& values) const {
+  if (block.basis) return;
+  if (over_edges) {
+    block.refined = refine(values);
+    block.basis = basis_of(*block.refined);
+    return;
+  }
+  const fs::path file = file_of(block.key);
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) write_file(file, bytes_of_stress_basis(basis_of(refine(values))));
+  block.basis = stress_basis_of(read_file(file));
+}
+
 LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun& run,
                                         const Eigen::VectorXd& values) {
   Kept& block = kept(lift_case, values);
-  if (!block.basis) {
-    const fs::path file = file_of(block.key);
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) write_file(file, bytes_of_stress_basis(basis_of(values)));
-    block.basis = stress_basis_of(read_file(file));
-  }
+  find_basis(block, runs_over_edges(lift_case), values);
   const MassProperties mass = mass_of(*block.model, *lift_case.load.model);
-  const BlockAttachment attachment =
-      attach_block(run.model.system, run.model.load, block.model->mesh().lifting_points);
+  BlockLoads loads(run.model, run.static_history, run.dynamic_history(), *block.model);
+  const structure::StressBasis* basis = &*block.basis;
+  structure::StressBasis with_edges;
+  if (block.refined) {
+    const structure::OneBlasThread whatever_the_threads;
+    if (const auto edges = find_edge_basis(*block.refined->model, run.model, run.static_history,
+                                           run.dynamic_history())) {
+      with_edges = *basis;
+      structure::add_loads(*block.refined->responses, edges->loads, with_edges, 1);
+      loads.add(*edges, edges->ropes);
+      basis = &with_edges;
+    }
+  }
   LargestChecked largest;
-  find_largest(*block.basis, attachment, run.static_history, mass, largest.at_rest,
-               largest.time_at_rest, largest.place_at_rest);
-  find_largest(*block.basis, attachment, run.dynamic_history(), mass, largest.in_motion,
+  find_largest(*basis, loads.attachment, loads.at_rest, mass, largest.at_rest, largest.time_at_rest,
+               largest.place_at_rest);
+  find_largest(*basis, loads.attachment, loads.in_motion, mass, largest.in_motion,
                largest.time_in_motion, largest.place_in_motion);
   return largest;
 }
@@ -244,8 +284,8 @@ void StudyBlocks::prepare(const Eigen::MatrixXd& design, int process, int proces
     if (!seen.insert(key).second || static_cast<int>(seen.size() - 1) % processes != process)
       continue;
     std::error_code ignored;
-    if (!fs::exists(file_of(key), ignored))
-      write_file(file_of(key), bytes_of_stress_basis(basis_of(values)));
+    if (fs::exists(file_of(key), ignored) || runs_over_edges(member_case(study_, values))) continue;
+    write_file(file_of(key), bytes_of_stress_basis(basis_of(refine(values))));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "pipeline/files/study/study_file.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/simulation/lift_simulation.h"
+#include "structure/response/accuracy.h"
 #include "structure/response/stress_basis.h"
 
 namespace blocklift::pipeline {
@@ -42,7 +43,8 @@ class StudyBlocks {
                              const Eigen::VectorXd& values);
 
   /// Finds the unit stresses of the design's blocks that are not kept yet; of several processes
-  /// each takes every so-many-th.
+  /// each takes every so-many-th. Blocks with ropes on their edges are left to their members: where
+  /// those press follows from the motion, and needs the block's factor.
   void prepare(const Eigen::MatrixXd& design, int process, int processes);
 
  private:
@@ -51,7 +53,9 @@ class StudyBlocks {
   /// The values by which a member's block differs from the case's in more than its mass.
   std::string key_of(const Eigen::VectorXd& values) const;
   std::filesystem::path file_of(const std::string& key) const;
-  structure::StressBasis basis_of(const Eigen::VectorXd& values) const;
+  structure::RefinedBlock refine(const Eigen::VectorXd& values) const;
+  static structure::StressBasis basis_of(const structure::RefinedBlock& block);
+  void find_basis(Kept& block, bool over_edges, const Eigen::VectorXd& values) const;
 
   const StudyFile& study_;
   std::filesystem::path folder_;

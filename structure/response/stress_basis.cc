@@ -41,10 +41,12 @@ void balance(const ElasticModel& model, Eigen::MatrixXd& loads) {
 
 Eigen::VectorXd StressBasis::factors(const LoadCase& load_case, const MassProperties& mass) const {
   const auto lug_forces = static_cast<Eigen::Index>(3 * load_case.lug_forces_B.size());
-  if (components.cols() != lug_forces + densities * fields)
-    throw ModelError(fmt::format("load case \"{}\" has {} lug forces; the block has {} lugs",
-                                 load_case.name, load_case.lug_forces_B.size(),
-                                 (components.cols() - densities * fields) / 3));
+  if (components.cols() != lug_forces + densities * fields + load_case.added.size())
+    throw ModelError(
+        fmt::format("load case \"{}\" has {} lug forces and {} added loads; the block's basis has "
+                    "{} forces and added loads in all",
+                    load_case.name, load_case.lug_forces_B.size(), load_case.added.size(),
+                    components.cols() - densities * fields));
   Eigen::VectorXd all(components.cols());
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
     all.segment<3>(static_cast<Eigen::Index>(3 * lug)) = load_case.lug_forces_B[lug];
@@ -52,6 +54,7 @@ Eigen::VectorXd StressBasis::factors(const LoadCase& load_case, const MassProper
   all.segment<fields>(lug_forces) = mass.factor_alpha * field;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     all.segment<fields>(lug_forces + (1 + axis) * fields) = mass.factor_beta[axis] * field;
+  all.tail(load_case.added.size()) = load_case.added;
   return all;
 }
 
@@ -75,6 +78,16 @@ StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square
         CheckedStress(model, responses.solve(loads), basis.squares, threads).components();
   }
   return basis;
+}
+
+void add_loads(const UnitResponses& responses, Eigen::MatrixXd loads, StressBasis& basis,
+               int threads) {
+  const ElasticModel& model = responses.model();
+  balance(model, loads);
+  const Eigen::MatrixXd added =
+      CheckedStress(model, responses.solve(loads), basis.squares, threads).components();
+  basis.components.conservativeResize(Eigen::NoChange, basis.components.cols() + added.cols());
+  basis.components.rightCols(added.cols()) = added;
 }
 
 LargestValue find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,

@@ -19,11 +19,12 @@ namespace blocklift::structure {
 struct StressBasis {
   std::vector<Square> squares;
   /// Membrane stresses (11, 22, 12 a square) of each unit load, Pa: 3 squares x (3 lugs + 48); of
-  /// the inertia first all twelve fields of the steel's density, then those of x, y and z times it.
+  /// the inertia first all twelve fields of the steel's density, then those of x, y and z times it;
+  /// then loads that were added.
   Eigen::MatrixXd components;
 
   /// Factors of the unit loads for a load case of a block of some mass, which is in balance.
-  /// @throws ModelError if the number of lug forces is not that of the basis.
+  /// @throws ModelError if the number of lug forces or added loads is not that of the basis.
   Eigen::VectorXd factors(const LoadCase& load_case, const MassProperties& mass) const;
 };
 
@@ -31,6 +32,11 @@ struct StressBasis {
 /// responses have it; in a balanced load case these accelerations cancel.
 StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square> squares,
                               int threads = 0);
+
+/// Adds loads to a basis of the responses' block (a column each, freedoms), behind those that it has:
+/// forces of ropes on its edges, which other motions have in other places.
+void add_loads(const UnitResponses& responses, Eigen::MatrixXd loads, StressBasis& basis,
+               int threads = 0);
 
 /// The largest checked stress over squares and instants, Pa.
 /// @param factors StressBasis::factors, a column an instant.

@@ -53,6 +53,43 @@ operation:
 settle: 5 s
 )";
 
+// The same box in two baskets, each round a bar at one end of it, straight below its hook.
+
+inline const std::string basket_edges = R"(edges:
+  aft_out: {from: [-0.1 m, -0.5 m, 0.8 m], to: [-0.1 m, 0.5 m, 0.8 m], outside: [-1, 0, -1]}
+  aft_in: {from: [0.1 m, -0.5 m, 0.8 m], to: [0.1 m, 0.5 m, 0.8 m], outside: [1, 0, -1]}
+  fore_in: {from: [3.9 m, -0.5 m, 0.8 m], to: [3.9 m, 0.5 m, 0.8 m], outside: [-1, 0, -1]}
+  fore_out: {from: [4.1 m, -0.5 m, 0.8 m], to: [4.1 m, 0.5 m, 0.8 m], outside: [1, 0, -1]}
+)";
+
+inline const std::string basket_case = R"(case: baskets
+gravity: 9.81 m/s^2
+load: {model: plate, position: [-2 m, 5 m, 2 m]}
+cranes:
+  C1:
+    model: gantry
+    start: {travel: 0 m, traverse: 5 m, left: 5 m, right: 5 m}
+ropes:
+  R1: {from: C1.left, to: C1.left, over: [aft_out, aft_in], model: ropes/tackle, length: 4.6 m}
+  R2: {from: C1.right, to: C1.right, over: [fore_in, fore_out], model: ropes/tackle, length: 4.6 m}
+operation:
+  - stage: hoist up
+    pause: 2 s
+    moves:
+      - {drives: [C1.left, C1.right], by: -0.5 m}
+  - stage: carry
+    moves:
+      - {drives: [C1.travel], by: 3 m, speed: 15 m/min}
+settle: 5 s
+)";
+
+inline SampleLift basket_lift() {
+  SampleLift lift;
+  lift.lift_case = basket_case;
+  lift.block = sling_over_edge_block.substr(0, sling_over_edge_block.find("edges:")) + basket_edges;
+  return lift;
+}
+
 inline SampleLift sling_over_edge_lift() {
   SampleLift lift;
   lift.lift_case = sling_over_edge_case;

@@ -182,9 +182,10 @@ const SpreaderInCase* LiftCase::find_spreader(const std::string& spreader) const
 std::string LiftCase::hook_above(const RopeInCase& rope) const {
   std::string hook;
   std::set<std::string> passed;  // spreaders; a ring of them hangs on nothing
-  std::vector<const RopeInCase*> open = {&rope};
+  std::vector<const ResolvedPoint*> open = {&rope.path.front()};
+  if (rope.is_basket()) open.push_back(&rope.path.back());
   while (!open.empty()) {
-    const ResolvedPoint& first = open.back()->path.front();
+    const ResolvedPoint& first = *open.back();
     open.pop_back();
     if (first.kind == ResolvedPoint::Kind::hook) {
       const std::string found = first.body_name(cranes);
@@ -193,7 +194,7 @@ std::string LiftCase::hook_above(const RopeInCase& rope) const {
     } else if (first.kind == ResolvedPoint::Kind::spreader) {
       if (!passed.insert(first.part).second) continue;
       for (const RopeInCase& above : ropes)
-        if (above.ends_at_spreader(first.part)) open.push_back(&above);
+        if (above.ends_at_spreader(first.part)) open.push_back(&above.path.front());
     } else {
       return {};
     }

@@ -121,15 +121,19 @@ struct RopeInCase {
   std::optional<double> least_bend() const;
   /// mu at its sheaves, whichever way it was given; zero: none.
   double friction() const;
-  /// Does it end at a lug or at a spreader?
+  /// Does it go round edges of the load from above and back, without a lug?
+  bool is_basket() const {
+    return !edges.empty() && !path.empty() && path.front().lug.empty() && path.back().lug.empty();
+  }
+  /// Does it end at a lug or at a spreader, or hold the load as a basket?
   bool is_sling() const {
-    return !path.empty() &&
-           (!path.back().lug.empty() || path.back().kind == ResolvedPoint::Kind::spreader);
+    return !path.empty() && (!path.back().lug.empty() ||
+                             path.back().kind == ResolvedPoint::Kind::spreader || is_basket());
   }
   /// Is it a sling from above to that spreader?
   bool ends_at_spreader(const std::string& spreader) const {
     return !path.empty() && path.back().kind == ResolvedPoint::Kind::spreader &&
-           path.back().part == spreader;
+           path.back().part == spreader && !is_basket();
   }
 };
 

@@ -283,7 +283,8 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
         .optional("over", &RopeInCase::over, list_of(edge_on_the_way_format()),
                   "edges of the load that it may touch, in the order of its path from its upper "
                   "end, up to 6 between two of its points; names, or {edge: name, span: 2} for one "
-                  "behind the first of through. It ends at a lug of the load");
+                  "behind the first of through. It ends at a lug of the load or, as a basket, goes "
+                  "back to a hook, the same or another");
   table.rule(check_sheave_friction);
   return table.format();
 }

@@ -56,7 +56,11 @@ void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
       if (rope.path.empty()) continue;
       above += int{rope.ends_at_spreader(bar.name.value)};
       const ResolvedPoint& first = rope.path.front();
-      below += int{first.kind == ResolvedPoint::Kind::spreader && first.part == bar.name.value};
+      const ResolvedPoint& last = rope.path.back();
+      const auto is_at_bar = [&](const ResolvedPoint& point) {
+        return point.kind == ResolvedPoint::Kind::spreader && point.part == bar.name.value;
+      };
+      below += int{is_at_bar(first) || (rope.is_basket() && is_at_bar(last))};
     }
     if (all_known && (above == 0 || below == 0))
       diagnostics.error(bar.name.mark,
@@ -93,12 +97,16 @@ void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
   bool all_known = true;
   bool load_hangs = false;
   for (const RopeInCase& rope : lift_case.ropes) {
-    all_known &= !rope.path.empty();
+    all_known &= !rope.path.empty() && rope.edges.size() == rope.over.size();
+    load_hangs |= rope.is_basket();
     check_sheaves(rope, diagnostics);
     check_bend(rope, diagnostics);
     for (std::size_t i = 0; i < rope.path.size(); ++i) {
       load_hangs |= rope.path[i].kind == ResolvedPoint::Kind::load;
-      if (i > 0 && same_point(rope.path[i - 1], rope.path[i])) {
+      const bool is_bent = std::ranges::any_of(rope.over, [i](const EdgeOnTheWay& passage) {
+        return passage.span.value == static_cast<int>(i);
+      });
+      if (i > 0 && !is_bent && same_point(rope.path[i - 1], rope.path[i])) {
         diagnostics.error(rope.name.mark,
                           fmt::format("rope {} runs from a point to itself", rope.name.value));
       }
@@ -112,7 +120,8 @@ void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
   if (all_known && !lift_case.ropes.empty() && !load_hangs) {
     diagnostics.error(lift_case.load.vessel_name ? lift_case.load.vessel_name->mark
                                                  : lift_case.load.model_name.mark,
-                      "no rope holds the load", {"a rope that ends at one of its lugs does"});
+                      "no rope holds the load",
+                      {"a rope that ends at one of its lugs does, or goes round its edges"});
   }
 }
 
@@ -256,23 +265,27 @@ void check_spans(const RopeInCase& rope, Diagnostics& diagnostics) {
                     rope.name.value, most_places));
 }
 
+/// Both ways round a bar from one point are alike: which of them is meant, two edges say.
+void check_way_round(const RopeInCase& rope, Diagnostics& diagnostics) {
+  for (std::size_t i = 1; i < rope.path.size(); ++i) {
+    if (!same_point(rope.path[i - 1], rope.path[i])) continue;
+    const auto is_here = [i](const EdgeOnTheWay& passage) {
+      return passage.span.value == static_cast<int>(i);
+    };
+    if (std::ranges::count_if(rope.over, is_here) != 1) continue;
+    const EdgeOnTheWay& passage = *std::ranges::find_if(rope.over, is_here);
+    diagnostics.error(passage.edge.mark,
+                      fmt::format("rope {} goes round edge {} alone, from a point and back to it",
+                                  rope.name.value, passage.edge.value),
+                      {"a rope that goes round a bar meets two edges, one at either side of it"});
+  }
+}
+
 /// What a rope over edges may not have besides.
 void check_edges(const LiftCase& lift_case, Diagnostics& diagnostics) {
   for (const RopeInCase& rope : lift_case.ropes) {
     if (rope.edges.empty() || rope.path.empty()) continue;
     const Mark& mark = rope.over.front().edge.mark;
-    if (rope.path.front().lug.empty() && rope.path.back().lug.empty())
-      diagnostics.error(mark,
-                        fmt::format("rope {} runs over edges of the load and ends at none of its "
-                                    "lugs",
-                                    rope.name.value),
-                        {"a sling over edges begins or ends at a lug, or does both"});
-    const auto& friction = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
-    if (friction && rope.friction() > 0)
-      diagnostics.error(
-          friction->mark,
-          fmt::format("rope {} has friction at its sheaves, and runs over edges", rope.name.value),
-          {"ropes over edges slide without friction: leave one of the two out"});
     if (lift_case.dynamics.flexibility != Flexibility::rigid)
       diagnostics.error(
           mark,
@@ -281,6 +294,7 @@ void check_edges(const LiftCase& lift_case, Diagnostics& diagnostics) {
           {"ropes to a block that gives way touch no edges: leave over or dynamics.flexibility "
            "out"});
     check_spans(rope, diagnostics);
+    check_way_round(rope, diagnostics);
     for (std::size_t i = 0; i < rope.edges.size(); ++i) {
       const LoadEdge& edge = rope.edges[i];
       if (!rope.rope.diameter || !(2 * edge.radius < *rope.rope.diameter)) continue;
@@ -299,12 +313,21 @@ void check_edges(const LiftCase& lift_case, Diagnostics& diagnostics) {
 }  // namespace
 
 void check_curve_without_friction(const RopeInCase& rope, Diagnostics& diagnostics) {
+  const std::string hint =
+      "ropes with friction have one stiffness: leave the friction out, or give axial_stiffness";
+  for (std::size_t i = 0; i < rope.edges.size(); ++i) {
+    if (rope.edges[i].friction == 0 || !rope.rope.tension_curve) continue;
+    diagnostics.error(rope.over[i].edge.mark,
+                      fmt::format("rope {} rubs on edge {}, and has a tension_curve",
+                                  rope.name.value, rope.edges[i].name.value),
+                      {hint});
+  }
   const auto& given = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
   if (!given || rope.friction() == 0 || !rope.rope.tension_curve) return;
   diagnostics.error(
       given->mark,
       fmt::format("rope {} has friction at its sheaves, and a tension_curve", rope.name.value),
-      {"ropes with friction have one stiffness: leave the friction out, or give axial_stiffness"});
+      {hint});
 }
 
 void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {

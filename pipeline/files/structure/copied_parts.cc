@@ -120,6 +120,12 @@ void place_part(const Placing& placing, LugModel& lug) {
   placing.place(lug.pin.value);
 }
 
+void place_part(const Placing& placing, LoadEdge& edge) {
+  placing.place(edge.from);
+  placing.place(edge.to);
+  placing.turn(edge.outside);
+}
+
 /// How far parts reach along an axis, m; empty where it is not known.
 using Reach = std::vector<double>;
 
@@ -148,6 +154,12 @@ Reach reach_of(const BarModel& bar, std::size_t axis) {
   return reach;
 }
 
+Reach reach_of(const LoadEdge& edge, std::size_t axis) {
+  Reach reach;
+  add_points({edge.from, edge.to}, axis, reach);
+  return reach;
+}
+
 template <class T>
 Reach reach_of_one(const T& part, std::size_t axis) {
   if (part.is_in_plate_frame) return {};
@@ -165,12 +177,12 @@ Reach reach_of(const OpeningModel& opening, std::size_t axis) {
 
 /// Parts that are copied, by their names.
 struct Selection {
-  std::set<std::string> plates, bars, openings, pads, lugs;
+  std::set<std::string> plates, bars, openings, pads, lugs, edges;
 };
 
 /// Where they stand in the lists of a block.
 struct Places {
-  std::vector<std::size_t> plates, bars, openings, pads, lugs;
+  std::vector<std::size_t> plates, bars, openings, pads, lugs, edges;
 };
 
 bool has_name(const std::set<std::string>& names, const std::string& name) {
@@ -204,6 +216,8 @@ class Copying {
     keep_openings_beside(mirror, selected);
     keep_beside(mirror, block_.pads, "pad", selected.pads);
     keep_beside(mirror, block_.lugs, "lug", selected.lugs);
+    drop_own_images(mirror, selected.edges);
+    keep_beside(mirror, block_.edges, "edge", selected.edges);
     const std::size_t plates = block_.plates.size(), openings = block_.openings.size();
     copy(mirror, selected, places_of(selected), Placing::mirrored(mirror.normal, mirror.at.value),
          mirror.label);
@@ -236,6 +250,7 @@ class Copying {
     select(block_.openings, what, selected.openings);
     select(block_.pads, what, selected.pads);
     select(block_.lugs, what, selected.lugs);
+    select(block_.edges, what, selected.edges);
     for (const OpeningModel& opening : block_.openings)
       if (has_name(selected.plates, opening.plate.value))
         selected.openings.insert(opening.name.value);
@@ -254,6 +269,7 @@ class Copying {
     add(names_of(block_.openings));
     add(names_of(block_.pads));
     add(names_of(block_.lugs));
+    add(names_of(block_.edges));
     if (name.value.empty() || std::find(names.begin(), names.end(), name.value) != names.end())
       return;
     complain(
@@ -305,9 +321,9 @@ class Copying {
   }
 
   Places places_of(const Selection& selected) const {
-    return {places_of(block_.plates, selected.plates), places_of(block_.bars, selected.bars),
+    return {places_of(block_.plates, selected.plates),     places_of(block_.bars, selected.bars),
             places_of(block_.openings, selected.openings), places_of(block_.pads, selected.pads),
-            places_of(block_.lugs, selected.lugs)};
+            places_of(block_.lugs, selected.lugs),         places_of(block_.edges, selected.edges)};
   }
 
   void copy(const CopiedParts& what, const Selection& selected, const Places& places,
@@ -332,6 +348,8 @@ class Copying {
       place_part(placing, lug);
       refer(selected.pads, lug.pad.value);
     });
+    copy_items(what, "edge", suffix, places.edges, block_.edges, names_.edges,
+               [&](LoadEdge& edge) { place_part(placing, edge); });
   }
 
   void place_opening(const Placing& placing, OpeningModel& opening) const {
@@ -393,6 +411,21 @@ class Copying {
     return lower < -same_place || upper > same_place;
   }
 
+  /// An edge across the mirror plane, from one side as far to the other, is its own image.
+  void drop_own_images(const MirrorModel& mirror, std::set<std::string>& selected) const {
+    const Placing placing = Placing::mirrored(mirror.normal, mirror.at.value);
+    for (const LoadEdge& edge : block_.edges) {
+      LoadEdge image = edge;
+      place_part(placing, image);
+      const auto is_at = [](const Vector3& a, const Vector3& b) {
+        return (a - b).norm() < same_place;
+      };
+      if (is_at(image.from, edge.to) && is_at(image.to, edge.from) &&
+          is_at(image.outside, edge.outside))
+        selected.erase(edge.name.value);
+    }
+  }
+
   /// An opening is copied with its plate. In a plate that is not copied it has a place of its own;
   /// across the mirror's axis its image is itself.
   void keep_openings_beside(const MirrorModel& mirror, Selection& selected) {
@@ -441,8 +474,8 @@ Table<T>& add_parts_key(Table<T>& table) {
   return table
       .optional(
           "parts", &T::parts, list_of(located(reference()), 1),
-          "names of plates, bars, openings, pads and lugs, each with the copies made of it before; "
-          "openings go with their plate; all parts of the block if left out")
+          "names of plates, bars, openings, pads, lugs and edges, each with the copies made of it "
+          "before; openings go with their plate; all parts of the block if left out")
       .place(&T::place);
 }
 

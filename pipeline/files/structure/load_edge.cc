@@ -37,8 +37,8 @@ Format<LoadEdge> load_edge_format() {
   Table<LoadEdge> table("edge",
                         "A straight edge of the load, sharp or round, that ropes may touch: a "
                         "coaming, a bilge, the edge of a deck. A rope that names it stays on its "
-                        "side outside and takes the shortest way round it, without friction; "
-                        "whether it touches follows from the motion.");
+                        "side outside and takes the shortest way round it; whether it touches "
+                        "follows from the motion.");
   table
       .required("from", &LoadEdge::from, position_format(),
                 "one end of the edge; of a round one, of its axis")
@@ -48,6 +48,10 @@ Format<LoadEdge> load_edge_format() {
                 "between their normals")
       .by_default("radius", &LoadEdge::radius, quantity(Dimension::length, Range::not_negative()),
                   "0 m", "of the round that the rope lies on, about the axis; 0 m: sharp")
+      .by_default("friction", &LoadEdge::friction, number(Range::between(0, 1)), "0",
+                  "coefficient of friction mu between the edge and a rope that slips over it "
+                  "lengthwise. Tensions on the two sides differ by exp(mu x angle of wrap) before "
+                  "the rope slips; 0: smooth")
       .by_default("contact_length", &LoadEdge::contact_length,
                   quantity(Dimension::length, Range::positive()), "0.3 m",
                   "of the edge over which the force of a touching rope is spread where the block's "

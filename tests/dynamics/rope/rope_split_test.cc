@@ -138,8 +138,8 @@ TEST(RopeSplit, DividesByHand) {
   EXPECT_NEAR(split.tension(1), 6e6 * (std::hypot(12.001, 5.0) / l - 1.0), 1e-6);
   EXPECT_EQ(load.tension, split.tension(1));
   // Slipping, the ratio is that of the wrap, and what leaves one side is on the other.
-  ASSERT_EQ(split.tendency(0), SheaveMotion::to_last);
-  split.set_motion(0, SheaveMotion::to_last);
+  ASSERT_EQ(split.tendency(0), BendMotion::to_last);
+  split.set_motion(0, BendMotion::to_last);
   load = divide({3, 12.1, -1.0}, {0, 1, 0});
   EXPECT_NEAR(split.tension(1) / split.tension(0), std::exp(0.2 * split.wrap(0)), 1e-12);
   EXPECT_NEAR(split.unstretched_length(0) + split.unstretched_length(1), 17.9, 1e-12);
@@ -159,7 +159,7 @@ TEST(RopeSplit, SticksWithinTheCone) {
   const LiftSystem lift = model.build();
   const IntegrationResult run = integrate(lift, model.hang(10.5e3 * standard_gravity),
                                           lift.v_start(), {.relative_tolerance = 1e-9});
-  EXPECT_EQ(run.statistics.sheave_changes, 0);
+  EXPECT_EQ(run.statistics.bend_changes, 0);
   const auto [first, last] = tensions(run);
   EXPECT_NEAR(first.tail(1)[0] / (model.first_mass * standard_gravity), 1.0, 1e-6);
   EXPECT_NEAR(last.tail(1)[0] / (model.last_mass * standard_gravity), 1.0, 1e-6);
@@ -184,7 +184,7 @@ TEST(RopeSplit, SlipsAtTheSharesOfStandards) {
     const IntegrationResult run =
         integrate(lift, model.hang(model.first_mass * (standard_gravity + a)), lift.v_start(),
                   {.relative_tolerance = 1e-9, .sample_interval = 0.01});
-    ASSERT_GE(run.statistics.sheave_changes, 1);
+    ASSERT_GE(run.statistics.bend_changes, 1);
     const auto [first, last] = tensions(run);
     for (Eigen::Index i = 100; i < first.size(); ++i) {
       EXPECT_NEAR(last[i] / (first[i] + last[i]), share, 1e-9) << run.history.time[i];
@@ -214,8 +214,8 @@ TEST(RopeSplit, ComesToAStandAndSticks) {
   const double travel = 0.5 * v * v / braking;
   EXPECT_NEAR(run.q_end[2] - model.hang(weight)[2], travel, 0.02 * travel);
   EXPECT_LT(run.v_end.norm(), 1e-3 * v);
-  EXPECT_GE(run.statistics.sheave_changes, 2);
-  EXPECT_LT(run.statistics.sheave_changes, 60);
+  EXPECT_GE(run.statistics.bend_changes, 2);
+  EXPECT_LT(run.statistics.bend_changes, 60);
   // All of what they had is friction's in the end, but for a bounce.
   const EnergyHistory& energy = run.history.energy;
   EXPECT_LT(imbalance_of(energy), 1e-6 * weight);
@@ -253,7 +253,7 @@ TEST(RopeSplit, EnergyClosesOverSlackSlipAndStick) {
       integrate(lift, model.hang(10e3 * standard_gravity), speeds(1.5, 1.0),
                 {.relative_tolerance = 1e-9, .sample_interval = 0.01});
   EXPECT_GE(run.statistics.contact_changes, 2);
-  EXPECT_GE(run.statistics.sheave_changes, 2);
+  EXPECT_GE(run.statistics.bend_changes, 2);
   EXPECT_LT(imbalance_of(run.history.energy), 1e-5 * 10e3 * standard_gravity);
   const auto [first, last] = tensions(run);
   const double capstan = std::exp(0.05 * pi);
@@ -279,7 +279,7 @@ TEST(RopeSplit, VanishesWithTheFriction) {
       1e-5 * 8e3 * standard_gravity);
   const auto [first, last] = tensions(without);
   EXPECT_TRUE((first == last).all());
-  EXPECT_EQ(without.statistics.sheave_changes, 0);
+  EXPECT_EQ(without.statistics.bend_changes, 0);
 }
 
 // A run that goes on from an instant at which the rope slips goes on as it did.
@@ -313,7 +313,7 @@ TEST(RopeSplit, AllocatesNothing) {
   lift.ropes()[0].calc_path(w.kinematics, w.path);
   w.splits[0].begin(lift.ropes()[0], w.kinematics, w.path, w.rope_loads[0]);
   calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
-  for (const SheaveMotion motion : {SheaveMotion::sticks, SheaveMotion::to_last}) {
+  for (const BendMotion motion : {BendMotion::sticks, BendMotion::to_last}) {
     w.splits[0].set_motion(0, motion);
     const long before = blocklift::testing::allocations();
     double sum = 0.0;
@@ -345,7 +345,7 @@ TEST(RopeSplit, JacobianIsThatOfTheForces) {
   w.splits[0].begin(lift.ropes()[0], w.kinematics, w.path, w.rope_loads[0]);
   JacobianWorkspace workspace(lift);
   Eigen::MatrixXd jacobian(lift.state_size(), lift.state_size());
-  for (const SheaveMotion motion : {SheaveMotion::sticks, SheaveMotion::to_last}) {
+  for (const BendMotion motion : {BendMotion::sticks, BendMotion::to_last}) {
     calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
     w.splits[0].set_motion(1, motion);
     calc_jacobian(lift, 0.0, y, &contacts, w, workspace, jacobian);

@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-Mechanism one_load() {
+Mechanism single_load() {
   MechanismBuilder builder;
   builder.add_body({.name = "load", .joint = {.kind = JointKind::translational}, .mass = 1.0});
   return builder.build();
@@ -28,7 +28,7 @@ RopeDefinition simple_rope() {
 // A right triangle 3-4-5 and a vertical part: from the world over a sheave on the world to the
 // load.
 TEST(Rope, PathOverASheaveByHand) {
-  const Mechanism mechanism = one_load();
+  const Mechanism mechanism = single_load();
   RopeDefinition definition = simple_rope();
   definition.points = {{world_index, {0, 0, 0}}, {world_index, {3, 0, 4}}, {1, {0, 0, 0}}};
   const std::vector<Rope> ropes{Rope(mechanism, definition)};
@@ -52,15 +52,15 @@ TEST(Rope, PathOverASheaveByHand) {
 // SIMO theory manual, simple wire coupling: 1/k = L/EA + 1/k0.
 TEST(Rope, CraneStiffnessActsInSeries) {
   RopeDefinition definition = simple_rope();
-  EXPECT_DOUBLE_EQ(Rope(one_load(), definition).stiffness(3.0), 2e6);
+  EXPECT_DOUBLE_EQ(Rope(single_load(), definition).stiffness(3.0), 2e6);
   definition.crane_stiffness = 2e6;
-  EXPECT_DOUBLE_EQ(Rope(one_load(), definition).stiffness(3.0), 1e6);
+  EXPECT_DOUBLE_EQ(Rope(single_load(), definition).stiffness(3.0), 1e6);
 }
 
 TEST(Rope, PullsButNeverPushes) {
   RopeDefinition definition = simple_rope();
   definition.damping_time = 0.01;
-  const Rope rope(one_load(), definition);
+  const Rope rope(single_load(), definition);
   RopePath path;
   const auto tension = [&](double elongation, double rate) {
     path.length = 3.0 + elongation;
@@ -150,7 +150,7 @@ TEST(Rope, AccountsForItsEnergy) {
   definition.crane_stiffness = 5e6;
   definition.damping_time = 0.02;
   definition.damping = 1e3;
-  const Rope rope(one_load(), definition);
+  const Rope rope(single_load(), definition);
   const auto load_at = [&](double t) {
     RopePath path;
     path.length = 3.2 + 0.7 * t;
@@ -171,7 +171,7 @@ TEST(Rope, AccountsForItsEnergy) {
 }
 
 TEST(Rope, RefusesWhatCannotBe) {
-  const Mechanism mechanism = one_load();
+  const Mechanism mechanism = single_load();
   const auto refusal = [&](auto&& change) {
     RopeDefinition definition = simple_rope();
     change(definition);
@@ -202,7 +202,7 @@ TEST(Rope, RefusesWhatCannotBe) {
 }
 
 TEST(Rope, NamesItselfWhereItsPullHasNoDirection) {
-  const Mechanism mechanism = one_load();
+  const Mechanism mechanism = single_load();
   const std::vector<Rope> ropes{Rope(mechanism, simple_rope())};
   RopePath path = make_rope_path(ropes);
   Kinematics kinematics(mechanism);

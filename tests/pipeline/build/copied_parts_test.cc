@@ -348,6 +348,38 @@ TEST(CopiedParts, RepeatedLongitudinalsMakeAGridByLabels) {
   EXPECT_LT((below->corners->value[1] - Vector3(3, -1, 0)).norm(), 1e-12);
 }
 
+// Edges that ropes may touch are parts like others. One that lies across the mirror plane is its own
+// image, one in the plane is not doubled.
+TEST(CopiedParts, EdgesComeAgain) {
+  const std::string edges =
+      "edges:\n"
+      "  sill: {from: [0 m, -1 m, 1 m], to: [0.5 m, -1 m, 1 m], outside: [0, -1, 1], radius: 50 "
+      "mm, friction: 0.2}\n"
+      "  across: {from: [1 m, -1 m, 1 m], to: [1 m, 1 m, 1 m], outside: [-1, 0, 1]}\n"
+      "  middle: {from: [1 m, 0 m, 1 m], to: [2 m, 0 m, 1 m], outside: [0, 0, 1]}\n";
+  const BlockOfText block = block_of("plates:\n" + deck + edges +
+                                     "repeat:\n"
+                                     "  - {parts: [sill], count: 2, step: [1 m, 0 m, 0 m]}\n"
+                                     "mirror:\n"
+                                     "  - {parts: [sill, across, middle], normal: y, at: 0 m}\n");
+  ASSERT_EQ(block.complaints, "");
+  std::vector<std::string> names;
+  for (const LoadEdge& edge : block.block->edges) names.push_back(edge.name.value);
+  EXPECT_EQ(names, (std::vector<std::string>{"sill", "across", "middle", "sill.1", "sill.2",
+                                             "sill.mirrored", "sill.1.mirrored",
+                                             "sill.2.mirrored"}));
+  const LoadEdge& far = block.block->edges.back();
+  EXPECT_LT((far.from - Vector3(2, 1, 1)).norm(), 1e-12);
+  EXPECT_LT((far.to - Vector3(2.5, 1, 1)).norm(), 1e-12);
+  EXPECT_LT((far.outside - Vector3(0, 1, 1).normalized()).norm(), 1e-12);
+  EXPECT_DOUBLE_EQ(far.radius, 0.05);
+  EXPECT_DOUBLE_EQ(far.friction, 0.2);
+  EXPECT_THAT(block_of("plates:\n" + deck + edges +
+                       "mirror:\n  - {parts: [across], normal: y, at: 0.5 m}\n")
+                  .complaints,
+              HasSubstr("the mirror plane y = 0.5 m passes through edge across"));
+}
+
 TEST(CopiedParts, SaysWhatIsWrong) {
   const auto complaints = [](const std::string& added) {
     return block_of(repeated_frames().substr(0, repeated_frames().find("repeat:")) + added)

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/pipeline/run_program.h"
+#include "tests/pipeline/sling_over_edge_lift.h"
 #include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
@@ -172,6 +173,34 @@ TEST_F(SweepCommand, FindsTheStressOfAllMembersWithOneFactor) {
   const double heavier = assessed["largest"].get<double>();
   EXPECT_NEAR(stress["largest"].get<double>(), heavier, 0.01 * heavier);  // on a mesh of its own
   EXPECT_TRUE(fs::is_regular_file("one/worst/report.html"));
+}
+
+// Where ropes press on the block's edges follows from each member's motion: its stress is that of an
+// assessment all the same.
+TEST_F(SweepCommand, FindsTheStressOfBlocksWithRopesOnTheirEdges) {
+  fs::remove_all("lift");
+  fs::create_directory("lift");
+  test::SampleLift files = test::sling_over_edge_lift();
+  files.block =
+      test::with(files.block, "outside: [1, 0, 1],", "outside: [1, 0, 1], friction: 0.2,");
+  files.lift_case += "structure: {element_degree: 2, accuracy: 100 %}\n";
+  folder_.write("lift/case.yaml", files.lift_case);
+  folder_.write("lift/gantry/crane.yaml", files.crane);
+  folder_.write("lift/plate.yaml", files.block);
+  folder_.write("lift/gantry/ropes/tackle.yaml", files.rope);
+  const std::string lengths = "design: grid\nfigures: [" + std::string(checked) +
+                              "]\nvary: {R1: {keys: [ropes.R1.length], values: [4 m, 4.01 m]}}\n";
+  write_study("run: stress\n" + lengths);
+  ASSERT_EQ(run("sweep study.yaml -o one --workers 1 -q").exit_code, 0);
+  ASSERT_EQ(run("sweep study.yaml -o two --workers 2 -q").exit_code, 0);
+  EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("two/study.csv"));
+  write_study("run: assess\n" + lengths);
+  ASSERT_EQ(run("sweep study.yaml -o assessed -q").exit_code, 0);
+  for (const char* value : {"smallest", "largest"}) {
+    const double assessed = figure("assessed", checked)[value].get<double>();
+    EXPECT_GT(assessed, 1e6);
+    EXPECT_NEAR(figure("one", checked)[value].get<double>(), assessed, 1e-7 * assessed);
+  }
 }
 
 TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {

@@ -106,14 +106,47 @@ TEST(EdgesOfALoad, SpansAndOrder) {
               HasSubstr("more than 6 edges between two of its points"));
 }
 
+TEST(EdgesOfALoad, MayRub) {
+  SampleLift lift = sling_over_edge_lift();
+  lift.block = with(lift.block, "outside: [1, 0, 1],", "outside: [1, 0, 1], friction: 0.2,");
+  lift.lift_case =
+      with(lift.lift_case, "from: C1.left, to: L2, over: [fore]",
+           "from: L1, through: [C1.left], to: L2, sheave_friction: 0.1, over: [aft, {edge: fore, "
+           "span: 2}]");
+  const TemporaryFolder folder;
+  lift.write(folder);
+  const LiftCase lift_case = read_lift_case(".");
+  EXPECT_EQ(lift_case.ropes[0].edges[0].friction, 0.0);
+  EXPECT_EQ(lift_case.ropes[1].edges[1].friction, 0.2);
+  lift.rope = with(lift.rope, "axial_stiffness: 200 MN",
+                   "tension_curve: [[0 %, 0 kN], [1 %, 500 kN], [2 %, 1500 kN]]");
+  EXPECT_THAT(complaints_about_edges(lift),
+              HasSubstr("rope R2 rubs on edge fore, and has a tension_curve"));
+  EXPECT_THAT(about_block("outside: [1, 0, 1],", "outside: [1, 0, 1], friction: 2,"),
+              HasSubstr("friction"));
+}
+
+// A sling from hook to hook holds the load without a lug.
+TEST(EdgesOfALoad, MayBeAllThatHoldsIt) {
+  SampleLift lift = test::basket_lift();
+  EXPECT_THAT(complaints_about_edges(lift), IsEmpty());
+  const TemporaryFolder folder;
+  lift.write(folder);
+  const LiftCase lift_case = read_lift_case(".");
+  EXPECT_TRUE(lift_case.ropes[0].is_basket() && lift_case.ropes[0].is_sling());
+  EXPECT_EQ(lift_case.hook_above(lift_case.ropes[0]), "C1.left");
+  lift.lift_case =
+      with(lift.lift_case, "R1: {from: C1.left, to: C1.left", "R1: {from: C1.left, to: C1.right");
+  folder.write("case.yaml", lift.lift_case);
+  const LiftCase apart = read_lift_case(".");
+  EXPECT_EQ(apart.hook_above(apart.ropes[0]), "");
+}
+
 TEST(EdgesOfALoad, WhatDoesNotGoWithThem) {
-  EXPECT_THAT(about_case("from: C1.left, to: L2", "from: C1.left, to: C1.right"),
-              HasSubstr("rope R2 runs over edges of the load and ends at none of its lugs"));
+  EXPECT_THAT(about_case("from: C1.left, to: L2", "from: C1.left, to: C1.left"),
+              HasSubstr("rope R2 goes round edge fore alone, from a point and back to it"));
   EXPECT_THAT(about_case("settle: 5 s", "settle: 5 s\ndynamics: {flexibility: static}"),
               HasSubstr("runs over edges of the load, and the block is flexible"));
-  EXPECT_THAT(about_case("from: C1.left, to: L2, over: [fore]",
-                         "from: L1, through: [C1.left], to: L2, sheave_friction: 0.1, over: [aft]"),
-              HasSubstr("has friction at its sheaves, and runs over edges"));
   SampleLift lift = sling_over_edge_lift();
   lift.rope += "diameter: 400 mm\n";
   EXPECT_THAT(complaints_about_edges(lift),
