@@ -26,6 +26,9 @@ struct RopeEdge {
   Vector3 outside_B = Vector3::Constant(not_a_number);
   double radius = 0.0;    ///< m; zero: sharp
   double friction = 0.0;  ///< mu between it and the rope (RopeSplit); zero: smooth
+
+  /// As it lies in its body's frame.
+  PlacedEdge in_body() const;
 };
 
 /// What a modeller says about a rope.

@@ -21,6 +21,12 @@ std::size_t index(BodyIndex body) { return static_cast<std::size_t>(body); }
 
 }  // namespace
 
+PlacedEdge RopeEdge::in_body() const {
+  const Vector3 along = (end_B - begin_B).normalized();
+  const Vector3 outside = outside_B - outside_B.dot(along) * along;
+  return {begin_B, along, outside.normalized(), radius};
+}
+
 void Rope::check_edges(const Mechanism& mechanism) const {
   const RopeDefinition& d = definition_;
   if (d.edges.empty()) return;

@@ -92,7 +92,7 @@ void write_result_file(const Assessment& assessment, const std::string& run, con
     write_history(file, layout::dynamic_history, system, assessment.lift->dynamic_history(), scene);
     write_measures(file, assessment.measures);
     write_natural_modes(file, system.mechanism(), assessment.lift->natural_modes);
-    write_scene(file, system, scene);
+    write_scene(file, system, assessment.lift->dynamic_history(), scene);
     if (assessment.lift_case.compare) write_measured(file, *assessment.lift_case.compare);
   }
   if (assessment.block.model) {

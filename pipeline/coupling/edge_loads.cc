@@ -40,13 +40,6 @@ std::array<std::pair<double, double>, gauss_points> make_gauss_rule() {
   return rule;
 }
 
-/// An edge in its body's frame.
-PlacedEdge in_body(const dynamics::RopeEdge& edge) {
-  const Vector3 along = (edge.end_B - edge.begin_B).normalized();
-  const Vector3 outside = edge.outside_B - edge.outside_B.dot(along) * along;
-  return {edge.begin_B, along, outside.normalized(), edge.radius};
-}
-
 /// Shares of equal steps from `low` to `high` in a value between them.
 struct Steps {
   double low = 0, width = 0;
@@ -73,8 +66,7 @@ class RopeAtEdge {
  public:
   RopeAtEdge(const BuiltLift& lift, const LiftRope& rope, std::size_t edge,
              const History& static_history, const History& dynamic_history)
-      : edge_(in_body(
-            lift.system.ropes()[static_cast<std::size_t>(rope.rope)].definition().edges[edge])),
+      : edge_(lift.system.ropes()[static_cast<std::size_t>(rope.rope)].edges()[edge].in_body()),
         length_(rope.edges[edge].length),
         contact_length_(rope.edges[edge].contact_length) {
     take(static_history, lift.system, rope.rope, edge, pushes_[0]);
@@ -190,7 +182,7 @@ std::vector<EdgePush> edge_pushes(const History& history, Eigen::Index sample,
              X_WB.R.transpose() * Vector3(at.force.row(sample).transpose())}};
   }
   static const auto rule = make_gauss_rule();
-  const PlacedEdge placed = in_body(definition);
+  const PlacedEdge placed = definition.in_body();
   const double turned = at.last_angle[sample] - at.first_angle[sample];
   const double advance = at.last_place[sample] - at.first_place[sample];
   const double across = definition.radius * at.wrap[sample];

@@ -10,6 +10,7 @@
 #include "pipeline/checks/loop_loads.h"
 #include "pipeline/formats/results_layout.h"
 #include "pipeline/lift/history_figures.h"
+#include "pipeline/results/drawn_path.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -190,7 +191,8 @@ void write_measures(ResultsWriter& file, const std::vector<LiftMeasure>& measure
   }
 }
 
-void write_scene(ResultsWriter& file, const LiftSystem& system, const Scene& scene) {
+void write_scene(ResultsWriter& file, const LiftSystem& system, const dynamics::History& history,
+                 const Scene& scene) {
   for (const DrawnBody& body : scene.bodies) {
     RowMajorMatrix boxes(static_cast<Eigen::Index>(body.boxes.size()), 10);
     for (std::size_t i = 0; i < body.boxes.size(); ++i) {
@@ -206,7 +208,7 @@ void write_scene(ResultsWriter& file, const LiftSystem& system, const Scene& sce
   }
   for (std::size_t i = 0; i < system.ropes().size(); ++i) {
     if (is_hoist(scene, i)) continue;
-    write_path(file, system, system.ropes()[i].name(), "sling", system.ropes()[i].points());
+    write_path(file, system, system.ropes()[i].name(), "sling", drawn_path(system, i, history));
   }
   for (const DrawnTackle& tackle : scene.hoists) {
     // From sheave to hook; of one rope over two hooks its own part.

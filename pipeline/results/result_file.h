@@ -55,7 +55,9 @@ void write_history(ResultsWriter& file, std::string_view group, const dynamics::
                    const dynamics::History& history, const Scene& scene);
 /// Measures beside both histories.
 void write_measures(ResultsWriter& file, const std::vector<LiftMeasure>& measures);
-void write_scene(ResultsWriter& file, const dynamics::LiftSystem& system, const Scene& scene);
+/// @param history in which ropes touch edges that they are drawn over.
+void write_scene(ResultsWriter& file, const dynamics::LiftSystem& system,
+                 const dynamics::History& history, const Scene& scene);
 /// Measured series beside the computed ones.
 void write_measured(ResultsWriter& file, const Comparison& compare);
 /// Surface of the block and the four states of both ways that the report shows.

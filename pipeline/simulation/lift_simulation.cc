@@ -128,7 +128,7 @@ void write_lift_simulation(const LiftSimulation& simulation, const std::filesyst
   write_history(file, layout::dynamic_history, system, simulation.run.dynamic_history(), scene);
   write_measures(file, measures);
   write_natural_modes(file, system.mechanism(), simulation.run.natural_modes);
-  write_scene(file, system, scene);
+  write_scene(file, system, simulation.run.dynamic_history(), scene);
   if (lift_case.compare) write_measured(file, *lift_case.compare);
   write_statistics(file, simulation.run.dynamic_result.statistics);
   file.finish();

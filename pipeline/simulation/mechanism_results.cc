@@ -49,7 +49,7 @@ void write_results(const MechanismFile& file, const MechanismRun& run, const std
       {"s", "time of each sample of the outputs"});
   for (const OutputSeries& series : run.outputs) write_output(results, series);
   write_natural_modes(results, system.mechanism(), run.natural_modes);
-  write_scene(results, system, scene);
+  write_scene(results, system, run.result.history, scene);
   write_statistics(results, run.result.statistics);
   results.finish();
 }

@@ -19,6 +19,7 @@
 #include "pipeline/lift/sling_ends.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/results/doubts.h"
+#include "pipeline/results/drawn_path.h"
 #include "structure/response/block_field.h"
 #include "structure/response/line_loads.h"
 #include "structure/system/matter.h"
@@ -115,6 +116,22 @@ TEST(SlingOverEdge, ForceIsTheSumOfBothPullsInMotion) {
     EXPECT_LT((Vector3(load.load.row(i).tail<3>()) - sum).norm(), 1e-9 * sum.norm());
   }
   EXPECT_GT(most - least, 0.005);  // the slings wander along their edges as the load swings
+}
+
+// In pictures it bends where it touches on average.
+TEST(SlingOverEdge, IsDrawnOverItsEdge) {
+  const OverEdges& lift = over_edges();
+  const std::vector<dynamics::BodyPoint> path =
+      drawn_path(lift.run->model.system, static_cast<std::size_t>(lift.run->model.ropes[1].rope),
+                 lift.run->dynamic_history());
+  ASSERT_EQ(path.size(), 4U);
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_EQ(path[i].body, lift.run->model.load);
+    const Vector3& place = path[i].p_BoQ_B;
+    EXPECT_NEAR(std::hypot(place.x() - 4, place.z() - 1), 0.15, 1e-12);
+    EXPECT_NEAR(place.y(), 0, 0.1);
+  }
+  EXPECT_LT(path[1].p_BoQ_B.x(), path[2].p_BoQ_B.x());
 }
 
 TEST(SlingOverEdge, IsMeasured) {
