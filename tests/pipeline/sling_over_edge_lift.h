@@ -53,30 +53,30 @@ operation:
 settle: 5 s
 )";
 
-// The same box in two baskets, each round a bar at one end of it, straight below its hook.
+// The same box on one hook in two baskets that cross below it, round its four lower edges.
 
 inline const std::string basket_edges = R"(edges:
-  aft_out: {from: [-0.1 m, -0.5 m, 0.8 m], to: [-0.1 m, 0.5 m, 0.8 m], outside: [-1, 0, -1]}
-  aft_in: {from: [0.1 m, -0.5 m, 0.8 m], to: [0.1 m, 0.5 m, 0.8 m], outside: [1, 0, -1]}
-  fore_in: {from: [3.9 m, -0.5 m, 0.8 m], to: [3.9 m, 0.5 m, 0.8 m], outside: [-1, 0, -1]}
-  fore_out: {from: [4.1 m, -0.5 m, 0.8 m], to: [4.1 m, 0.5 m, 0.8 m], outside: [1, 0, -1]}
+  aft: {from: [0 m, -1 m, 0 m], to: [0 m, 1 m, 0 m], outside: [-1, 0, -1], friction: 0.3}
+  fore: {from: [4 m, -1 m, 0 m], to: [4 m, 1 m, 0 m], outside: [1, 0, -1], friction: 0.3}
+  port: {from: [0 m, -1 m, 0 m], to: [4 m, -1 m, 0 m], outside: [0, -1, -1], friction: 0.3}
+  starboard: {from: [0 m, 1 m, 0 m], to: [4 m, 1 m, 0 m], outside: [0, 1, -1], friction: 0.3}
 )";
 
 inline const std::string basket_case = R"(case: baskets
 gravity: 9.81 m/s^2
-load: {model: plate, position: [-2 m, 5 m, 2 m]}
+load: {model: plate, position: [-4 m, 5 m, 1 m]}
 cranes:
   C1:
     model: gantry
     start: {travel: 0 m, traverse: 5 m, left: 5 m, right: 5 m}
 ropes:
-  R1: {from: C1.left, to: C1.left, over: [aft_out, aft_in], model: ropes/tackle, length: 4.6 m}
-  R2: {from: C1.right, to: C1.right, over: [fore_in, fore_out], model: ropes/tackle, length: 4.6 m}
+  R1: {from: C1.left, to: C1.left, over: [aft, fore], model: ropes/tackle, length: 12.94 m}
+  R2: {from: C1.left, to: C1.left, over: [port, starboard], model: ropes/tackle, length: 10.24 m}
 operation:
   - stage: hoist up
     pause: 2 s
     moves:
-      - {drives: [C1.left, C1.right], by: -0.5 m}
+      - {drives: [C1.left], by: -0.5 m}
   - stage: carry
     moves:
       - {drives: [C1.travel], by: 3 m, speed: 15 m/min}

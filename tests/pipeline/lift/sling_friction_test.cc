@@ -17,13 +17,14 @@ namespace {
 
 using test::OverEdges;
 
-constexpr double mu = 0.2;
+// By so little the round edges are left slipping; the sharp ones hold the slings.
+constexpr double mu(bool sharp) { return sharp ? 0.2 : 0.01; }
 
 test::SampleLift rubbing_lift(bool sharp) {
   test::SampleLift files = test::sling_over_edge_lift();
   const std::string aft = "outside: [-1, 0, 1], radius: 0.15 m";
   const std::string fore = "outside: [1, 0, 1], radius: 0.15 m";
-  const std::string rubs = sharp ? "friction: 0.2" : "radius: 0.15 m, friction: 0.2";
+  const std::string rubs = sharp ? "friction: 0.2" : "radius: 0.15 m, friction: 0.01";
   files.block = test::with(files.block, aft, "outside: [-1, 0, 1], " + rubs);
   files.block = test::with(files.block, fore, "outside: [1, 0, 1], " + rubs);
   return files;
@@ -38,7 +39,7 @@ const OverEdges& rubbing(bool sharp) {
 TEST(SlingWithFriction, HasTwoTensions) {
   for (const bool sharp : {false, true}) {
     const OverEdges& lift = rubbing(sharp);
-    EXPECT_GE(lift.run->dynamic_result.statistics.bend_changes, 1);
+    EXPECT_EQ(lift.run->dynamic_result.statistics.bend_changes > 1, !sharp);
     double apart = 0;
     for (const std::size_t sling : {0U, 1U}) {
       const dynamics::EdgeHistory& still = lift.rope(lift.run->static_history, sling).edges[0];
@@ -47,14 +48,15 @@ TEST(SlingWithFriction, HasTwoTensions) {
       const dynamics::EdgeHistory& edge = rope.edges[0];
       for (Eigen::Index i = 0; i < rope.tension.size(); ++i) {
         const double ratio = std::log(edge.first_tension[i] / edge.last_tension[i]);
-        EXPECT_LT(std::abs(ratio), mu * edge.wrap[i] + 1e-6);
+        // Where it sticks each span is damped by itself.
+        EXPECT_LT(std::abs(ratio), mu(sharp) * edge.wrap[i] + 2e-3);
         EXPECT_DOUBLE_EQ(rope.tension[i], std::max(edge.first_tension[i], edge.last_tension[i]));
         EXPECT_NEAR(edge.first_tension[i], rope.first_force.row(i).norm(), 1e-9 * rope.tension[i]);
         EXPECT_NEAR(edge.last_tension[i], rope.last_force.row(i).norm(), 1e-9 * rope.tension[i]);
         apart = std::max(apart, std::abs(ratio));
       }
     }
-    EXPECT_GT(apart, 0.02);
+    EXPECT_GT(apart, sharp ? 0.01 : 0.005);
   }
 }
 
