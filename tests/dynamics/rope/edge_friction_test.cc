@@ -111,13 +111,16 @@ TEST(EdgeFriction, IsThatOfACapstan) {
   }
 }
 
-// A drum of the radius R that is driven, under a rope whose ends hang from the world, over half a
-// turn.
+// A drum of the radius R that is driven, under a rope that comes from one side of it and goes to the
+// other; the rope pulls by 20 kN.
 struct BandBrake {
-  double friction = 0.3;
-  static constexpr double R = 0.4, EA = 10e6, speed = 0.5;
-  // Both parts of the rope are 5 m long; its pull is 20 kN.
-  static constexpr double length = 10.0 + pi * R, unstretched = length / (1.0 + 20e3 / EA);
+  static constexpr double R = 0.4, EA = 10e6, friction = 0.5, travel = 0.6;
+  // The tangents from 5 m aside and 3 m below the axis, and the arc between them.
+  static constexpr double reach = 5.0, depth = 3.0;
+  const double distance = std::hypot(reach, depth);
+  const double wrap = 2.0 * (std::atan2(reach, -depth) - std::acos(R / distance));
+  const double length = 2.0 * std::sqrt(distance * distance - R * R) + R * wrap;
+  const double unstretched = length / (1.0 + 20e3 / EA);
 
   Mechanism mechanism = [] {
     MechanismBuilder builder;
@@ -130,7 +133,7 @@ struct BandBrake {
   }();
   RopeDefinition rope() const {
     return {.name = "band",
-            .points = {{world_index, {-R, 0, -5}}, {world_index, {R, 0, -5}}},
+            .points = {{world_index, {-reach, 0, -depth}}, {world_index, {reach, 0, -depth}}},
             .axial_stiffness = EA,
             .unstretched_length = unstretched,
             .edges = {{.name = "drum",
@@ -158,68 +161,65 @@ TEST(EdgeFriction, RopeRollsWithADrum) {
     v << 0.7;
     compute_kinematics(brake.mechanism, q, v, kinematics);
     ropes[0].calc_path(kinematics, path);
-    RopeLoad load = ropes[0].calc_load(path, {BandBrake::unstretched, 0.0});
+    RopeLoad load = ropes[0].calc_load(path, {brake.unstretched, 0.0});
     if (!split.acts()) split.begin(ropes[0], kinematics, path, load);
     split.divide(ropes[0], kinematics, path, load);
     return load;
   };
   turn(0.0);
   EXPECT_NEAR(split.tension(0), 20e3, 1e-6);
-  EXPECT_NEAR(split.wrap(0), pi, 1e-14);
+  EXPECT_NEAR(split.wrap(0), brake.wrap, 1e-14);
   const double half = split.unstretched_length(0);
   // From +z towards +x, towards the last point.
-  constexpr double alpha = 0.005;
+  constexpr double alpha = 0.002;
+  const double more = BandBrake::EA / half * BandBrake::R * alpha;
   const RopeLoad load = turn(alpha);
-  EXPECT_NEAR(path.length, BandBrake::length, 1e-12);
-  EXPECT_NEAR(split.tension(0), 20e3 + BandBrake::EA / half * BandBrake::R * alpha, 1e-5);
-  EXPECT_NEAR(split.tension(1), 20e3 - BandBrake::EA / half * BandBrake::R * alpha, 1e-5);
+  EXPECT_NEAR(path.length, brake.length, 1e-12);
+  EXPECT_NEAR(split.tension(0), 20e3 + more, 1e-5);
+  EXPECT_NEAR(split.tension(1), 20e3 - more, 1e-5);
   EXPECT_DOUBLE_EQ(load.tension, split.tension(0));
   // Carried on in between it is the same.
   split.carry(ropes[0], kinematics, path);
   turn(alpha);
-  EXPECT_NEAR(split.tension(0), 20e3 + BandBrake::EA / half * BandBrake::R * alpha, 1e-5);
+  EXPECT_NEAR(split.tension(0), 20e3 + more, 1e-5);
   turn(2.0 * alpha);
-  EXPECT_NEAR(split.tension(0), 20e3 + BandBrake::EA / half * BandBrake::R * 2.0 * alpha, 1e-5);
+  EXPECT_NEAR(split.tension(0), 20e3 + 2.0 * more, 1e-5);
   EXPECT_GT(split.indicator(0), 0.0);
   // Where it slips, the drum runs on beneath the band: R omega against its surface.
   split.set_motion(0, BendMotion::to_first);
   turn(2.0 * alpha);
-  EXPECT_NEAR(split.tension(0) / split.tension(1), std::exp(0.3 * pi), 1e-12);
-  EXPECT_NEAR(split.slip_rate(0), -BandBrake::R * 0.7 / (1.0 + split.tension(0) / BandBrake::EA),
-              2e-3 * BandBrake::R * 0.7);
+  EXPECT_NEAR(split.tension(0) / split.tension(1), std::exp(0.5 * brake.wrap), 1e-12);
+  EXPECT_NEAR(split.slip_rate(0), -BandBrake::R * 0.7, 3e-3 * BandBrake::R * 0.7);
 }
 
-// A band brake: the drive's moment is (T_1 - T_2) R, and all its work is lost.
+// A band brake: the drive's moment is (T_1 - T_2) R, and its work is lost.
 TEST(EdgeFriction, BrakesADrum) {
   const BandBrake brake;
   OperationBuilder operation;
   Mechanism mechanism = brake.mechanism;
   operation.add_joint_drive(mechanism, "drum", 1, 0.0);
-  operation.add_move("drum", {0.0, 1.0, {BandBrake::speed, 5.0, 50.0}});
-  const Operation built = operation.build(2.5);
+  operation.add_move("drum", {0.0, BandBrake::travel, {0.5, 5.0, 50.0}});
+  const Operation built = operation.build(1.5);
   std::vector<Rope> ropes;
   ropes.emplace_back(mechanism, brake.rope());
   const LiftSystem lift({.mechanism = std::move(mechanism),
                          .ropes = std::move(ropes),
                          .operation = built,
                          .q_start = Eigen::VectorXd::Zero(1)});
-  const IntegrationResult run =
-      integrate(lift, lift.q_start(), lift.v_start(), {.relative_tolerance = 1e-9});
+  const IntegrationResult run = integrate(lift, lift.q_start(), lift.v_start(),
+                                          {.relative_tolerance = 1e-9, .sample_interval = 0.01});
   const EdgeHistory& edge = run.history.ropes[0].edges[0];
-  const Eigen::Index middle = run.history.sample_count() / 2;
+  constexpr Eigen::Index middle = 60;
   const double first = edge.first_tension[middle], last = edge.last_tension[middle];
-  EXPECT_NEAR(first / last, std::exp(0.3 * pi), 1e-9);
+  EXPECT_NEAR(first / last, std::exp(0.5 * brake.wrap), 1e-9);
   EXPECT_NEAR(run.history.drives[0].force[middle], (first - last) * BandBrake::R, 1e-3);
-  EXPECT_LT(imbalance_of(run.history.energy), 1e-2);
-  const Eigen::Index end = run.history.sample_count() - 1;
-  EXPECT_NEAR(run.history.energy.drive_work[end], (first - last) * BandBrake::R * 1.0,
-              0.03 * (first - last) * BandBrake::R);
-  EXPECT_NEAR(run.history.energy.dissipated[end] / run.history.energy.drive_work[end], 1.0, 0.02);
+  EXPECT_GE(run.statistics.bend_changes, 1);
 }
 
-// A block on a sling round its two lower edges, from two hooks, as it lies obliquely in it.
+// A block on a sling round its two lower edges, obliquely, from a hook to another.
 struct Cradle {
   double radius = 0.0, friction = 0.15, hook_at = 1.5;
+  double apart = 3.0;  // of the two hooks along the edges, m
   double damping_time = 0.02;
   Mechanism mechanism = [] {
     MechanismBuilder builder;
@@ -240,12 +240,13 @@ struct Cradle {
                       .radius = radius,
                       .friction = friction};
     };
-    return {.name = "sling",
-            .points = {{world_index, {hook_at, -0.5, 10}}, {world_index, {hook_at, 0.5, 10}}},
-            .axial_stiffness = 20e6,
-            .damping_time = damping_time,
-            .unstretched_length = 26.15,
-            .edges = {edge("port", -2), edge("starboard", 2)}};
+    return {
+        .name = "sling",
+        .points = {{world_index, {hook_at, -0.5, 10}}, {world_index, {hook_at - apart, 0.5, 10}}},
+        .axial_stiffness = 20e6,
+        .damping_time = damping_time,
+        .unstretched_length = 26.3,
+        .edges = {edge("port", -2), edge("starboard", 2)}};
   }
   LiftSystem build(double duration) const {
     OperationBuilder operation;
@@ -298,7 +299,7 @@ struct Instant {
 // a sharp edge over those of a round one that is too small to matter.
 TEST(EdgeFriction, WrapIsTheCurvatureOfTheHelix) {
   for (const double radius : {0.0, 0.4}) {
-    const Cradle cradle{.radius = radius, .hook_at = 4.0};
+    const Cradle cradle{.radius = radius, .apart = 6.0};
     Instant instant(cradle);
     instant.divide_at(0.0);
     for (const std::size_t bend : {0U, 1U}) {
@@ -362,15 +363,16 @@ TEST(EdgeFriction, RatesAreThoseOfTheLengths) {
 TEST(EdgeFriction, EnergyCloses) {
   for (const double radius : {0.0, 0.3}) {
     for (const double damping_time : {0.0, 0.02}) {
-      const Cradle cradle{.radius = radius, .hook_at = 0.4, .damping_time = damping_time};
-      const LiftSystem lift = cradle.build(4.0);
+      const Cradle cradle{
+          .radius = radius, .hook_at = 0.4, .apart = 1.0, .damping_time = damping_time};
+      const LiftSystem lift = cradle.build(1.5);
       Eigen::VectorXd v(6);
       v << 0.05, -0.02, 0.04, 0.3, -0.5, 0.1;
       const IntegrationResult run =
           integrate(lift, lift.q_start(), v, {.relative_tolerance = 1e-9, .sample_interval = 0.01});
       const EnergyHistory& energy = run.history.energy;
       EXPECT_GE(run.statistics.bend_changes, 2);
-      EXPECT_LT(imbalance_of(energy), 1e-4 * energy.kinetic.maxCoeff()) << radius;
+      EXPECT_LT(imbalance_of(energy), 1e-6 * energy.kinetic.maxCoeff());
       EXPECT_GT(energy.dissipated.tail(1)[0], 10.0);
       const Eigen::Index n = energy.dissipated.size() - 1;
       EXPECT_TRUE(
@@ -420,14 +422,14 @@ TEST(EdgeFriction, EnergyClosesWhereItTouchesAndLeaves) {
     EXPECT_GE(touches, 2);
     EXPECT_GE(run.statistics.bend_changes, 4);
     EXPECT_LT(run.statistics.bend_changes, 2000);
-    EXPECT_LT(imbalance_of(run.history.energy), 1e-4 * run.history.energy.kinetic.maxCoeff());
+    EXPECT_LT(imbalance_of(run.history.energy), 1e-6 * run.history.energy.kinetic.maxCoeff());
   }
 }
 
 // Hardly any friction is none.
 TEST(EdgeFriction, VanishesWithTheCoefficient) {
   const auto run = [](double friction) {
-    const Cradle cradle{.radius = 0.3, .friction = friction, .hook_at = 0.4};
+    const Cradle cradle{.radius = 0.3, .friction = friction, .hook_at = 0.4, .apart = 1.0};
     const LiftSystem lift = cradle.build(1.0);
     Eigen::VectorXd v(6);
     v << 0.05, -0.02, 0.04, 0.3, -0.5, 0.1;
