@@ -27,7 +27,7 @@ std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh) {
         .try_emplace({cell(p.x()), cell(p.y()), cell(p.z())}, static_cast<int>(vertices.size()))
         .first->second;
   };
-  std::map<Pair, int> first_at;
+  std::map<Pair, Pair> first_at;  // panel and side
   std::vector<SharedEdge> shared;
   for (int k = 0; k < mesh.size(); ++k) {
     const Panel& panel = mesh.panels[static_cast<std::size_t>(k)];
@@ -36,8 +36,10 @@ std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh) {
       const Vector3& b = panel.vertices[static_cast<std::size_t>((v + 1) % panel.vertex_count)];
       const int from = number_of(a), to = number_of(b);
       const auto [known, is_new] =
-          first_at.try_emplace({std::min(from, to), std::max(from, to)}, k);
-      if (!is_new) shared.push_back({{known->second, k}, (b - a).norm()});
+          first_at.try_emplace({std::min(from, to), std::max(from, to)}, Pair(k, v));
+      if (is_new) continue;
+      const auto [panel_before, side_before] = known->second;
+      shared.push_back({{panel_before, k}, {side_before, v}, (b - a).norm()});
     }
   }
   return shared;

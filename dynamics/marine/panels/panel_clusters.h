@@ -11,7 +11,8 @@ namespace blocklift::dynamics {
 /// An edge that two panels have in common.
 struct SharedEdge {
   std::pair<int, int> panels;
-  double length = 0.0;  ///< m
+  std::pair<int, int> sides;  ///< number of the edge on either: from that vertex to the next
+  double length = 0.0;        ///< m
 };
 
 /// All edges that two panels of a mesh share. Images in planes of symmetry share none.

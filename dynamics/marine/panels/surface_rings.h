@@ -31,7 +31,12 @@ std::vector<double> ring_edges(double distance, RingWidths& widths);
 void add_surface_panel(const std::vector<Eigen::Vector2d>& points, double tolerance,
                        std::vector<Panel>& panels);
 
-/// Appends rings between two neighbouring rays a -> a_end and b -> b_end.
+/// Number of the edge with which a panel of a ring meets the next one out along its rays, and the
+/// one before: from that vertex to the next.
+inline constexpr int outer_side = 1, inner_side = 3;
+
+/// Appends rings between two neighbouring rays a -> a_end and b -> b_end. Quadrangles have
+/// outer_side and inner_side; where rays meet there is a triangle, which has neither.
 /// @param edges in shares of the rays, 0 to 1.
 void add_surface_rings(const std::array<Eigen::Vector2d, 2>& from,
                        const std::array<Eigen::Vector2d, 2>& to, const std::vector<double>& edges,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include "dynamics/errors.h"
 
@@ -91,15 +93,59 @@ void add_panels(const Polygon& polygon, std::vector<Panel>& panels) {
   }
 }
 
+/// One polygon among those of a hull.
+struct Face {
+  const Polygon* polygon;
+  Vector3 mean, area;
+  bool is_kept = true;
+};
+
+/// Do two faces cover the same place, one from either side?
+bool are_opposite(const Face& a, const Face& b, double tolerance) {
+  return (a.mean - b.mean).norm() < tolerance && (a.area + b.area).norm() < 1e-6 * a.area.norm();
+}
+
+/// Where a hull has no thickness, as at a ship's stem in the centre plane, its two sides lie on each
+/// other. No water is kept out between them, and no panel method can tell their potentials apart:
+/// both go.
+std::vector<Polygon> without_sheets(const std::vector<Polygon>& polygons) {
+  std::vector<Face> faces;
+  for (const Polygon& polygon : polygons) {
+    const Vector3 sum = std::accumulate(polygon.begin(), polygon.end(), Vector3(0.0, 0.0, 0.0));
+    faces.push_back({&polygon, sum / static_cast<double>(polygon.size()), area_vector(polygon)});
+  }
+  std::vector<Face*> ordered;
+  for (Face& face : faces) ordered.push_back(&face);
+  std::sort(ordered.begin(), ordered.end(),
+            [](const Face* a, const Face* b) { return a->mean.x() < b->mean.x(); });
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    Face& face = *ordered[i];
+    const double tolerance = 1e-6 * diameter_of(*face.polygon);
+    for (std::size_t j = i + 1; face.is_kept && j < ordered.size(); ++j) {
+      Face& other = *ordered[j];
+      if (other.mean.x() - face.mean.x() > tolerance) break;
+      if (other.is_kept && are_opposite(face, other, tolerance)) {
+        face.is_kept = other.is_kept = false;
+      }
+    }
+  }
+  std::vector<Polygon> kept;
+  for (const Face& face : faces) {
+    if (face.is_kept) kept.push_back(*face.polygon);
+  }
+  return kept;
+}
+
 }  // namespace
 
 WettedBody make_wetted_body(const Hull& hull, const Pose& X_WB, const Vector3& p_BoR_B) {
   WettedBody body{hull.name(), {}, X_WB.apply(p_BoR_B)};
+  std::vector<Polygon> wet;
   const auto add = [&](const Polygon& polygon) {
     const Polygon below = cut_at_surface(polygon);
     const bool on_surface = std::all_of(below.begin(), below.end(),
                                         [](const Vector3& vertex) { return vertex.z() == 0.0; });
-    if (below.size() >= 3 && !on_surface) add_panels(below, body.hull.panels);
+    if (below.size() >= 3 && !on_surface) wet.push_back(below);
   };
   const Polygon vertices = vertices_in_world(hull, X_WB);
   for (int k = 0; k < hull.panel_count(); ++k) {
@@ -115,6 +161,7 @@ WettedBody make_wetted_body(const Hull& hull, const Pose& X_WB, const Vector3& p
       add({polygon[0], polygon[number + 1], polygon[number + 2]});
     }
   }
+  for (const Polygon& polygon : without_sheets(wet)) add_panels(polygon, body.hull.panels);
   if (body.hull.panels.empty()) {
     throw ModelError("hull " + hull.name() + " is wholly above the water at z = 0: lower it first");
   }

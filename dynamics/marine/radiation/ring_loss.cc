@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
+
+#include "dynamics/marine/panels/surface_rings.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -16,22 +19,20 @@ struct RingNeighbours {
   int inner = -1, outer = -1;
 };
 
-std::vector<RingNeighbours> find_ring_neighbours(const SurfaceMesh& surface) {
-  // A neighbour on the next ring lies along the radius, one on the same ring across it.
-  constexpr double along = 0.8;
-  const auto& panels = surface.mesh.panels;
-  std::vector<RingNeighbours> neighbours(panels.size());
-  const auto add = [&](int of, int other) {
-    const Vector3& p = panels[static_cast<std::size_t>(of)].centroid;
-    const Vector3 way = panels[static_cast<std::size_t>(other)].centroid - p;
-    const double cosine = way.normalized().dot((p - surface.centre).normalized());
-    RingNeighbours& found = neighbours[static_cast<std::size_t>(of)];
-    if (cosine > along) found.outer = other;
-    if (cosine < -along) found.inner = other;
+std::vector<RingNeighbours> find_ring_neighbours(const PanelMesh& mesh) {
+  std::vector<RingNeighbours> neighbours(mesh.panels.size());
+  const auto is_quadrangle = [&](int panel) {
+    return mesh.panels[static_cast<std::size_t>(panel)].vertex_count == 4;
   };
-  for (const SharedEdge& edge : find_shared_edges(surface.mesh)) {
-    add(edge.panels.first, edge.panels.second);
-    add(edge.panels.second, edge.panels.first);
+  const auto join = [&](int inner, int outer) {
+    neighbours[static_cast<std::size_t>(inner)].outer = outer;
+    neighbours[static_cast<std::size_t>(outer)].inner = inner;
+  };
+  for (const SharedEdge& edge : find_shared_edges(mesh)) {
+    const auto [first, second] = edge.panels;
+    if (!is_quadrangle(first) || !is_quadrangle(second)) continue;
+    if (edge.sides == std::pair(outer_side, inner_side)) join(first, second);
+    if (edge.sides == std::pair(inner_side, outer_side)) join(second, first);
   }
   return neighbours;
 }
@@ -54,7 +55,7 @@ std::vector<int> find_columns(const SurfaceMesh& surface, const PanelClusters* c
 
 RingDifferences make_ring_differences(const SurfaceMesh& surface, double gravity,
                                       const PanelClusters* clusters) {
-  const std::vector<RingNeighbours> neighbours = find_ring_neighbours(surface);
+  const std::vector<RingNeighbours> neighbours = find_ring_neighbours(surface.mesh);
   const std::vector<int> columns = find_columns(surface, clusters);
   std::vector<Eigen::Triplet<double>> entries;
   int rows = 0;
@@ -65,7 +66,6 @@ RingDifferences make_ring_differences(const SurfaceMesh& surface, double gravity
     if (std::min({columns[inner], columns[k], columns[outer]}) < 0) continue;
     const auto& panels = surface.mesh.panels;
     const Vector3& middle = panels[k].centroid;
-    if ((middle - surface.centre).norm() < surface.inner_radius) continue;
     const double to_inner = (panels[inner].centroid - middle).norm();
     const double to_outer = (panels[outer].centroid - middle).norm();
     const double distance = 0.5 * (to_inner + to_outer);

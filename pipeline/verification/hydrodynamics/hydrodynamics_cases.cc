@@ -10,6 +10,7 @@ std::vector<VerificationCase> hydrodynamics_cases() {
           deep_sphere(),
           floating_hemisphere(),
           truncated_cylinder(),
+          long_barge(),
           two_hemispheres(),
           distant_cubes(),
           haskind_relation(),

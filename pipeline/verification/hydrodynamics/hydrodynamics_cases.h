@@ -24,6 +24,8 @@ VerificationCase deep_sphere();
 VerificationCase floating_hemisphere();
 /// Surge and heave of a cylinder with a flat bottom, with their order of convergence.
 VerificationCase truncated_cylinder();
+/// Short waves beside long barges, in a long run, against the section in two dimensions.
+VerificationCase long_barge();
 /// Symmetry of two bodies' coefficients.
 VerificationCase two_hemispheres();
 /// Surge and heave of a cube on another one five waves away.

@@ -1,5 +1,9 @@
 #include "dynamics/marine/panels/wetted_body.h"
 
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +11,7 @@
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "dynamics/marine/hull/hydrostatics.h"
 #include "dynamics/marine/panels/hull_intersection.h"
+#include "dynamics/marine/panels/rankine_problem.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -53,6 +58,40 @@ TEST(WettedBody, WaterLineOfAShipClosesAtAnyDraught) {
     const double volume = calc_hydrostatics(HullClusters(hull), X_WB).volume;
     EXPECT_NEAR(body.hull.displaced_volume(), volume, 0.01 * volume) << draught;
   }
+}
+
+// At the foot of its stem this ship is a sheet in the centre plane: two panels in one place, whose
+// potentials nothing tells apart. With them the surface's operator had a negative eigenvalue at the
+// bow (-0.72 per metre), and waves grew there by themselves.
+TEST(WettedBody, LeavesOutSheetsWithoutThickness) {
+  const Hull hull = make_ship({.length = 118,
+                               .breadth = 20,
+                               .depth = 10.6,
+                               .draught = 7.6,
+                               .bow_length = 38,
+                               .stern_length = 32,
+                               .bow_exponent = 2.2,
+                               .stern_exponent = 2.6,
+                               .transom_breadth = 12,
+                               .midship_section_exponent = 9},
+                              PanelDivision::of_size(4, 118, 20, 10.6));
+  const Pose X_WB = Pose::translation({0, 0, -1});
+  const std::vector<WettedBody> bodies{make_wetted_body(hull, X_WB)};
+  for (const Panel& panel : bodies[0].hull.panels) {
+    EXPECT_FALSE(std::abs(panel.centroid.y()) < 1e-6 && std::abs(panel.normal.y()) > 0.99)
+        << panel.centroid.transpose();
+  }
+  const double volume = calc_hydrostatics(HullClusters(hull), X_WB).volume;
+  EXPECT_NEAR(bodies[0].hull.displaced_volume(), volume, 0.01 * volume);
+  const PanelModel model(
+      bodies,
+      make_surface_mesh(find_water_lines(bodies),
+                        {.first_ring = 3.0, .growth = 1.4, .radius = 150.0, .edge_share = 0.25}),
+      {});
+  const RankinePart part(model, {});
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part.surface_operator(),
+                                                              Eigen::EigenvaluesOnly);
+  EXPECT_GT(solver.eigenvalues()[0], 0.0);
 }
 
 // Heeled and trimmed, the volume is that of the hydrostatics, which cut the hull exactly.

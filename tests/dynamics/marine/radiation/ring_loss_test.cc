@@ -96,6 +96,39 @@ TEST(RingLoss, GrowsWithTheFourthPowerOfTheWaveNumber) {
   }
 }
 
+// Beside a long barge the rings run along its side: waves that run off from it lose within the circle
+// that holds the barge what its rings do not carry, waves along it nothing.
+TEST(RingLoss, ActsBesideALongBarge) {
+  const std::vector<WettedBody> bodies{
+      {"barge", make_box_hull(100, 10, 5, {40, 4, 2, 1.0}), Vector3::Zero()}};
+  const PanelModel model(bodies,
+                         make_surface_mesh(find_water_lines(bodies),
+                                           {.first_ring = 1.0, .growth = 1.1, .radius = 200.0}),
+                         {1000.0, gravity});
+  const RingDifferences R = make_ring_differences(model.surface(), gravity);
+  const auto loss_of = [&](const auto& wave) {
+    Eigen::VectorXd values = model.surface_areas().cwiseSqrt();
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      const Vector3& p = model.surface_mesh().panels[static_cast<std::size_t>(k)].centroid;
+      const bool beside = std::abs(p.x()) < 30.0 && std::abs(p.y()) < 40.0;
+      values[k] *= beside ? wave(p) : 0.0;
+    }
+    const Eigen::VectorXd differences = R * values;
+    double lost = 0.0;
+    for (Eigen::Index row = 0; row < R.rows(); ++row) {
+      const Vector3& p = model.surface_mesh()
+                             .panels[static_cast<std::size_t>(read_row(R, row, model).middle)]
+                             .centroid;
+      if (std::abs(p.x()) < 15.0 && std::abs(p.y()) < 25.0) lost += std::pow(differences[row], 2);
+    }
+    return lost;
+  };
+  const double away = loss_of([](const Vector3& p) { return std::cos(p.y()); });
+  const double along = loss_of([](const Vector3& p) { return std::cos(p.x()); });
+  EXPECT_GT(away, 0.0);
+  EXPECT_LT(along, 0.02 * away);
+}
+
 // A quarter of the surface loses what the whole does: rows go outwards and cross no plane of
 // symmetry.
 TEST(RingLoss, CrossesNoPlaneOfSymmetry) {
