@@ -21,7 +21,8 @@ std::vector<VerificationCase> hydrodynamics_cases() {
           free_decay_of_a_sphere(),
           sphere_through_files(),
           bodies_at_a_joint(),
-          moonpool()};
+          moonpool(),
+          barges_side_by_side()};
 }
 
 }  // namespace blocklift::pipeline

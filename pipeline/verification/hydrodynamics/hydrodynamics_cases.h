@@ -50,5 +50,7 @@ VerificationCase sphere_through_files();
 VerificationCase bodies_at_a_joint();
 /// Water that swings in a moonpool, without and with a lid that damps it.
 VerificationCase moonpool();
+/// Two barges with a gap between them: forces, and the resonance of its water.
+VerificationCase barges_side_by_side();
 
 }  // namespace blocklift::pipeline

@@ -70,7 +70,8 @@ std::vector<VerificationRow> long_barge_rows() {
       const Complex middle =
           (force_on(whole, k, mode.freedom) - force_on(half, k, mode.freedom)) / short_length;
       const Complex section = dynamics::testing::calc_section_force(
-          {barge_breadth, barge_draught, 80.0}, mode.freedom, w, barge_water.gravity);
+          {.breadth = barge_breadth, .draught = barge_draught, .depth = 80.0}, mode.freedom, w,
+          barge_water.gravity);
       rows.push_back(bound(fmt::format("{}, B + i w A of the middle, {} rad/s, {} panels, relative "
                                        "error",
                                        mode.name, w, whole.panels),

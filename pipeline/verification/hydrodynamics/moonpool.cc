@@ -1,12 +1,14 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"
+#include "pipeline/verification/models/resonance.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -22,22 +24,17 @@ struct Swing {
   int panels = 0;
 };
 
-// About a resonance A + B/(i w) is r/(w - p) and something smooth, p = frequency + i rate. Times
-// w - p, with a parabola for what is smooth, that is linear in p and four more constants.
 Swing swing_of(const HydrodynamicDatabase& database) {
-  const auto count = static_cast<Eigen::Index>(database.frequencies.size()) - 1;
-  Eigen::MatrixXcd columns(count, 5);
-  Eigen::VectorXcd values(count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const auto index = static_cast<std::size_t>(k) + 1;  // the first is the lowest of the march
-    const double w = database.frequencies[index], x = w / database.frequencies.back() - 1.0;
-    const std::complex<double> mass(database.added_mass[index](heave, heave),
-                                    -database.damping[index](heave, heave) / w);
-    columns.row(k) << mass, 1.0, x, x * x, x * x * x;
-    values[k] = w * mass;
+  std::vector<double> frequencies;
+  std::vector<std::complex<double>> masses;
+  for (std::size_t k = 1; k < database.frequencies.size();
+       ++k) {  // the first is the march's lowest
+    frequencies.push_back(database.frequencies[k]);
+    masses.emplace_back(database.added_mass[k](heave, heave),
+                        -database.damping[k](heave, heave) / frequencies.back());
   }
-  const Eigen::VectorXcd found = columns.colPivHouseholderQr().solve(values);
-  return {found[0].real(), found[0].imag(), 0};
+  const std::complex<double> found = dynamics::testing::find_resonance(frequencies, masses);
+  return {found.real(), found.imag(), 0};
 }
 
 Swing compute_swing(int meridians, double lid_rate) {

@@ -1,5 +1,6 @@
 #include "pipeline/verification/models/rectangular_section.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -10,138 +11,184 @@ namespace blocklift::dynamics::testing {
 namespace {
 
 using Complex = std::complex<double>;
+using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
 
-/// By Simpson's rule.
-template <class Function>
-double integrate(double from, double to, const Function& f) {
-  constexpr int cells = 2000;
-  const double step = (to - from) / cells;
-  double sum = f(from) + f(to);
-  for (int k = 1; k < cells; ++k) sum += (k % 2 == 0 ? 2.0 : 4.0) * f(from + k * step);
-  return sum * step / 3.0;
-}
-
-/// alpha_m: the wave sent out (m = 0), and what stays, kappa tan(kappa h) = -w^2/g.
-std::vector<Complex> find_decays(double depth, double wave_number, double deep_number, int terms) {
-  std::vector<Complex> decays{Complex(0.0, wave_number)};
-  const auto miss = [&](double x) { return x * std::sin(x) + deep_number * depth * std::cos(x); };
+/// Roots alpha of -alpha tan(alpha h) = number: i times the wave's number, then what stays. Those of
+/// the real part first, from there by Newton's method.
+std::vector<Complex> find_roots(double depth, Complex number, double wave_number, int terms) {
+  std::vector<Complex> roots{Complex(0.0, wave_number)};
+  const auto miss = [&](auto x) {
+    return x * std::sin(x * depth) + number.real() * std::cos(x * depth);
+  };
   for (int m = 1; m <= terms; ++m) {
-    double low = (m - 0.5) * pi, high = m * pi;
+    double low = (m - 0.5) * pi / depth, high = m * pi / depth;
     for (int k = 0; k < 60; ++k) {
       const double middle = 0.5 * (low + high);
       ((miss(middle) > 0.0) == (miss(low) > 0.0) ? low : high) = middle;
     }
-    decays.emplace_back(low / depth);
+    roots.emplace_back(low);
   }
-  return decays;
+  for (Complex& x : roots) {
+    for (int k = 0; k < 20 && number.imag() != 0.0; ++k) {
+      const Complex tangent = std::tan(x * depth);
+      x -= (x * tangent + number) / (tangent + x * depth * (1.0 + tangent * tangent));
+    }
+  }
+  return roots;
 }
 
-/// One motion of the section, its potential beneath and beside.
-class SectionInWaves {
+/// Beneath the box: cosines over the height, and the solution with its motion.
+class WaterBeneath {
  public:
-  SectionInWaves(const RectangularSection& section, DegreeOfFreedom mode, double wave_number,
-                 double deep_number, int terms)
-      : half_(0.5 * section.breadth),
-        depth_(section.depth),
-        gap_(section.depth - section.draught),
-        mode_(mode),
-        terms_(terms),
-        decays_(find_decays(section.depth, wave_number, deep_number, terms)) {}
+  WaterBeneath(const RectangularSection& section, DegreeOfFreedom mode)
+      : half_(0.5 * section.breadth), height_(section.depth - section.draught), mode_(mode) {}
 
-  Complex force() const;
+  double height() const { return height_; }
+  double number(int n) const { return n * pi / height_; }
+  static double sign(int n) { return n % 2 == 0 ? 1.0 : -1.0; }
+  double norm(int n) const { return n == 0 ? height_ : 0.5 * height_; }
+
+  /// Slope of f_n, 1 at its own side and 0 at the other, at either; outwards.
+  double own_slope(int n) const {
+    return n == 0 ? 0.5 / half_ : number(n) / std::tanh(2.0 * number(n) * half_);
+  }
+  double other_slope(int n) const {
+    return n == 0 ? 0.5 / half_ : number(n) / std::sinh(std::min(600.0, 2.0 * number(n) * half_));
+  }
+  /// Integral of f_n times the bottom's velocity, f_n of the side x = half.
+  double push(int n) const {
+    if (mode_ == sway) return 0.0;
+    const double q = number(n), b = half_;
+    if (mode_ == heave) return n == 0 ? b : std::tanh(q * b) / q;
+    return n == 0 ? b * b / 3.0 : b / (q * std::tanh(q * b)) - 1.0 / (q * q);
+  }
+  /// Of phi_p.
+  double particular_push() const {
+    const double b = half_, d = height_;
+    if (mode_ == sway) return 0.0;
+    if (mode_ == heave) return b * d - b * b * b / (3.0 * d);
+    return b * b * b * (d / 3.0 - b * b / (15.0 * d));
+  }
+  /// Integral of phi_p cos(n pi s/d) at the side x = +-half.
+  double particular(double side, int n) const {
+    const double b = half_, d = height_;
+    if (mode_ == sway) return 0.0;
+    if (mode_ == heave) {
+      return n == 0 ? d * d / 6.0 - 0.5 * b * b : sign(n) / std::pow(number(n), 2);
+    }
+    return side * b * (n == 0 ? (d * d - b * b) / 6.0 : sign(n) / std::pow(number(n), 2));
+  }
+  /// Integral of dphi_p/dx cos(alpha s) at the side x = +-half.
+  Complex particular_slope(double side, Complex alpha) const {
+    const double b = half_, d = height_;
+    const Complex sine = std::sin(alpha * d), cosine = std::cos(alpha * d);
+    if (mode_ == sway) return 0.0;
+    if (mode_ == heave) return -side * b / d * sine / alpha;
+    const Complex square =
+        d * d * sine / alpha + 2.0 * d * cosine / (alpha * alpha) - 2.0 * sine / std::pow(alpha, 3);
+    return (square - b * b * sine / alpha) / (2.0 * d);
+  }
 
  private:
-  double cosine(int n, double s) const { return std::cos(n * pi * s / gap_); }
-  /// Z_m, for the wave cosh(k s)/cosh(k h).
-  double beside(int m, double s) const {
-    if (m > 0) return std::cos(decays_[static_cast<std::size_t>(m)].real() * s);
-    const double k = decays_[0].imag();
-    return (std::exp(k * (s - depth_)) + std::exp(-k * (s + depth_))) /
-           (1.0 + std::exp(-2.0 * k * depth_));
-  }
-  bool is_odd() const { return mode_ != heave; }
-  /// f_n, 1 at x = b, and its slope there.
-  double beneath(int n, double x) const {
-    if (n == 0) return is_odd() ? x / half_ : 1.0;
-    const double q = n * pi / gap_, sign = is_odd() ? -1.0 : 1.0;
-    return std::exp(q * (x - half_)) * (1.0 + sign * std::exp(-2.0 * q * x)) /
-           (1.0 + sign * std::exp(-2.0 * q * half_));
-  }
-  double slope(int n) const {
-    if (n == 0) return is_odd() ? 1.0 / half_ : 0.0;
-    const double q = n * pi / gap_;
-    return is_odd() ? q / std::tanh(q * half_) : q * std::tanh(q * half_);
-  }
-  /// phi_p, with the motion of the box at its bottom, and its slope along x.
-  double particular(double x, double s) const {
-    if (mode_ == sway) return 0.0;
-    if (mode_ == heave) return (s * s - x * x) / (2.0 * gap_);
-    return x * (s * s - x * x / 3.0) / (2.0 * gap_);
-  }
-  double particular_slope(double x, double s) const {
-    if (mode_ == sway) return 0.0;
-    return mode_ == heave ? -x / gap_ : (s * s - x * x) / (2.0 * gap_);
-  }
-  /// Velocity of the box at its side and at its bottom.
-  double side_velocity(double s) const {
-    return mode_ == heave ? 0.0 : (mode_ == sway ? 1.0 : depth_ - s);
-  }
-  double bottom_velocity(double x) const {
-    return mode_ == sway ? 0.0 : (mode_ == heave ? 1.0 : x);
-  }
-  void solve(VectorXcd& c, VectorXcd& a) const;
-
-  double half_, depth_, gap_;
+  double half_, height_;
   DegreeOfFreedom mode_;
-  int terms_;
-  std::vector<Complex> decays_;
 };
 
-void SectionInWaves::solve(VectorXcd& c, VectorXcd& a) const {
-  const int count = terms_ + 1;
-  Eigen::MatrixXd overlap(count, count);
-  VectorXd pressures(count), velocities(count), slopes(count);
-  VectorXcd impedances(count);
-  for (int m = 0; m < count; ++m) {
-    const auto Z = [&](double s) { return beside(m, s); };
-    for (int n = 0; n < count; ++n) {
-      overlap(n, m) = integrate(0.0, gap_, [&](double s) { return cosine(n, s) * Z(s); });
+/// The water on one side, +1 right, -1 left, as Galerkin's method sees it from beneath.
+struct WaterBeside {
+  MatrixXcd overlap;      ///< of cosines (rows) and Z
+  VectorXcd admittance;   ///< amplitude of Z for a velocity towards +x
+  VectorXcd velocity;     ///< of the box and of phi_p, on each Z
+  VectorXcd on_the_side;  ///< integral of Z times the side's velocity
+};
+
+/// @param even_over half the width over which the water goes on as its own image; infinite: open.
+WaterBeside make_water(const RectangularSection& section, DegreeOfFreedom mode, double side,
+                       const std::vector<Complex>& roots, double even_over) {
+  const WaterBeneath beneath(section, mode);
+  const double h = section.depth, d = beneath.height();
+  const auto count = static_cast<Eigen::Index>(roots.size());
+  WaterBeside water{MatrixXcd(count, count), VectorXcd(count), VectorXcd(count), VectorXcd(count)};
+  for (Eigen::Index m = 0; m < count; ++m) {
+    const Complex alpha = roots[static_cast<std::size_t>(m)];
+    const Complex scale = m == 0 ? std::cos(alpha * h) : 1.0;
+    const Complex above = mode == sway
+                              ? (std::sin(alpha * h) - std::sin(alpha * d)) / alpha
+                              : (std::cos(alpha * d) - std::cos(alpha * h)) / (alpha * alpha) -
+                                    (h - d) * std::sin(alpha * d) / alpha;
+    water.on_the_side[m] = mode == heave ? 0.0 : above / scale;
+    water.velocity[m] = water.on_the_side[m] + beneath.particular_slope(side, alpha) / scale;
+    const Complex norm = (0.5 * h + std::sin(2.0 * alpha * h) / (4.0 * alpha)) / (scale * scale);
+    const Complex way = alpha * even_over;
+    const Complex image = way.real() > 20.0 ? 1.0 : std::tanh(way);
+    water.admittance[m] = -side / (norm * alpha * (std::isinf(even_over) ? 1.0 : image));
+    for (Eigen::Index n = 0; n < count; ++n) {
+      const double q = beneath.number(static_cast<int>(n));
+      water.overlap(n, m) = WaterBeneath::sign(static_cast<int>(n)) * alpha * std::sin(alpha * d) /
+                            ((alpha * alpha - q * q) * scale);
     }
-    velocities[m] =
-        integrate(0.0, gap_, [&](double s) { return particular_slope(half_, s) * Z(s); }) +
-        integrate(gap_, depth_, [&](double s) { return side_velocity(s) * Z(s); });
-    const double norm = integrate(0.0, depth_, [&](double s) { return Z(s) * Z(s); });
-    impedances[m] = -1.0 / (decays_[static_cast<std::size_t>(m)] * norm);
-    pressures[m] =
-        integrate(0.0, gap_, [&](double s) { return particular(half_, s) * cosine(m, s); });
-    slopes[m] = slope(m);
   }
-  // a from the velocities, a_m = impedance (velocities + sum_n overlap slope c); then c.
-  const Eigen::MatrixXcd from_velocities = overlap * impedances.asDiagonal();
-  Eigen::MatrixXcd matrix =
-      -(from_velocities * overlap.transpose().cast<Complex>()) * slopes.asDiagonal();
-  for (int n = 0; n < count; ++n) matrix(n, n) += n == 0 ? gap_ : 0.5 * gap_;
-  c = matrix.partialPivLu().solve(from_velocities * velocities - pressures.cast<Complex>());
-  a = impedances.cwiseProduct(overlap.transpose() * slopes.cast<Complex>().cwiseProduct(c) +
-                              velocities.cast<Complex>());
+  return water;
 }
 
-/// -phi over the box, both halves: what its motion pushes out pushes back.
-Complex SectionInWaves::force() const {
-  VectorXcd c, a;
-  solve(c, a);
-  Complex sum =
-      -integrate(0.0, half_, [&](double x) { return particular(x, gap_) * bottom_velocity(x); });
-  for (int n = 0; n <= terms_; ++n) {
-    sum -= c[n] * cosine(n, gap_) *
-           integrate(0.0, half_, [&](double x) { return beneath(n, x) * bottom_velocity(x); });
-    sum +=
-        a[n] * integrate(gap_, depth_, [&](double s) { return beside(n, s) * side_velocity(s); });
+/// What stands beneath the box, for each cosine.
+struct SeriesBeneath {
+  SeriesBeneath(const RectangularSection& section, DegreeOfFreedom mode, int terms)
+      : own(terms + 1),
+        other(terms + 1),
+        norm(terms + 1),
+        push(terms + 1),
+        at_left(terms + 1),
+        at_right(terms + 1) {
+    const WaterBeneath beneath(section, mode);
+    for (int n = 0; n <= terms; ++n) {
+      own[n] = beneath.own_slope(n);
+      other[n] = beneath.other_slope(n);
+      norm[n] = beneath.norm(n);
+      push[n] = WaterBeneath::sign(n) * beneath.push(n);
+      at_left[n] = beneath.particular(-1.0, n);
+      at_right[n] = beneath.particular(1.0, n);
+    }
   }
-  return -2.0 * sum;
+
+  VectorXcd own, other;  ///< slopes of f_n at its side and at the other
+  VectorXd norm;
+  VectorXcd push;               ///< of f_n on the bottom
+  VectorXcd at_left, at_right;  ///< phi_p
+};
+
+/// Values of phi - phi_p at both sides beneath the box.
+struct SideValues {
+  VectorXcd left, right;
+};
+
+// Beneath, velocities towards +x follow from the values; with the waters' amplitudes they give the
+// values back.
+SideValues solve(const SeriesBeneath& beneath, const WaterBeside& left, const WaterBeside& right) {
+  const MatrixXcd from_left = left.overlap * left.admittance.asDiagonal();
+  const MatrixXcd from_right = right.overlap * right.admittance.asDiagonal();
+  const MatrixXcd to_left = from_left * left.overlap.transpose();
+  const MatrixXcd to_right = from_right * right.overlap.transpose();
+  const Eigen::Index count = beneath.norm.size();
+  MatrixXcd matrix(2 * count, 2 * count);
+  matrix << to_left * beneath.own.asDiagonal(), -(to_left * beneath.other.asDiagonal()),
+      to_right * beneath.other.asDiagonal(), -(to_right * beneath.own.asDiagonal());
+  matrix.diagonal().head(count) += beneath.norm;
+  matrix.diagonal().tail(count) += beneath.norm;
+  VectorXcd known(2 * count);
+  known << from_left * left.velocity - beneath.at_left,
+      from_right * right.velocity - beneath.at_right;
+  const VectorXcd values = matrix.partialPivLu().solve(known);
+  return {values.head(count), values.tail(count)};
+}
+
+/// Integral of phi times the side's velocity, given the slopes beneath towards +x.
+Complex push_on_side(const WaterBeside& water, const VectorXcd& slopes) {
+  const VectorXcd velocity = water.overlap.transpose() * slopes + water.velocity;
+  return water.on_the_side.cwiseProduct(water.admittance.cwiseProduct(velocity)).sum();
 }
 
 }  // namespace
@@ -150,7 +197,25 @@ Complex calc_section_force(const RectangularSection& section, DegreeOfFreedom mo
                            double frequency, double gravity, int terms) {
   const double wave_number =
       calc_wave_number(frequency, {.gravity = gravity, .depth = section.depth});
-  return SectionInWaves(section, mode, wave_number, frequency * frequency / gravity, terms).force();
+  const auto roots_at = [&](double rate) {
+    return find_roots(section.depth, std::pow(Complex(frequency, -rate), 2) / gravity, wave_number,
+                      terms);
+  };
+  const WaterBeside left =
+      make_water(section, mode, -1.0, roots_at(section.lid_rate), 0.5 * section.gap);
+  const WaterBeside right =
+      make_water(section, mode, 1.0, roots_at(0.0), std::numeric_limits<double>::infinity());
+  const SeriesBeneath beneath(section, mode, terms);
+  const SideValues value = solve(beneath, left, right);
+  // In roll the bottom's velocity is odd.
+  const double odd = mode == roll ? -1.0 : 1.0;
+  const Complex bottom = WaterBeneath(section, mode).particular_push() +
+                         beneath.push.cwiseProduct(value.right + odd * value.left).sum();
+  const VectorXcd left_slopes =
+      beneath.other.cwiseProduct(value.right) - beneath.own.cwiseProduct(value.left);
+  const VectorXcd right_slopes =
+      beneath.own.cwiseProduct(value.right) - beneath.other.cwiseProduct(value.left);
+  return bottom + push_on_side(left, left_slopes) - push_on_side(right, right_slopes);
 }
 
 }  // namespace blocklift::dynamics::testing
