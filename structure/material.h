@@ -11,7 +11,7 @@ struct Material {
   double youngs_modulus = 0;  ///< E, Pa, positive
   double poisson_ratio = 0;   ///< nu, above -1 and below 0.5
   double density = 0;         ///< kg/m^3, not negative
-  double yield_stress = 0;    ///< Pa, positive
+  double yield_stress = 0;    ///< Pa, positive; infinite where it is not known
 
   /// First Lame constant lambda = E nu / ((1 + nu)(1 - 2 nu)), Pa.
   double lame_lambda() const {
