@@ -23,8 +23,8 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
 
 /// Stiffness of the block, its factor, and responses to unit loads. The model must outlive them.
 ///
-/// A mechanism is wrong in the input, too: it is said by the block's file, with what the supports of
-/// a deck, which a lift leaves out, had to do with it.
+/// A mechanism is wrong in the input, too: it is said by the block's file, with what the supports
+/// of a deck, which a lift leaves out, had to do with it.
 /// @throws InputError if a part of the block can move and nothing resists.
 /// @throws structure::NotEnoughMemory
 std::unique_ptr<structure::UnitResponses> make_unit_responses(const structure::ElasticModel& model,
