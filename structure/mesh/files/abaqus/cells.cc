@@ -85,7 +85,7 @@ std::string instead_of_type(const std::string& type) {
   std::vector<std::string> names;
   for (const auto& [name, what] : element_types()) names.push_back(name);
   const std::string nearest = nearest_name(type, names);
-  return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+  return nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest);
 }
 
 class Cells {

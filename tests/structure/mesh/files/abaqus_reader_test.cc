@@ -408,7 +408,7 @@ TEST(AbaqusReader, SaysWhatToGiveForElementsThatAreNotKnown) {
   const auto said = [](const std::string& type) {
     return complaints_of_abaqus(square_plate + "*ELEMENT, TYPE=" + type + "\n99, 1, 2, 3, 4\n");
   };
-  EXPECT_THAT(said("S4X"), HasSubstr("elements of type S4X are not known here; did you mean S4?"));
+  EXPECT_THAT(said("S4X"), HasSubstr("elements of type S4X are not known here (did you mean S4?)"));
   EXPECT_THAT(said("S9R5"), HasSubstr("; S8R5, without the node in the middle, is"));
   EXPECT_THAT(said("SC8R"), HasSubstr("; give S4R or S8R on the middle surface"));
   EXPECT_THAT(said("CONN3D2"), HasSubstr("; say by *COUPLING, *MPC, *EQUATION or *SPRING"));
