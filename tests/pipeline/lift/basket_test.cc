@@ -72,7 +72,9 @@ TEST(Basket, HangsAsByHand) {
   // In the motion friction holds the box in its slings.
   const dynamics::History& motion = lift.run->dynamic_history();
   for (const LiftMeasure& measure : measures)
-    if (measure.name() == "load: tilt") EXPECT_LT(measure.in_motion.maxCoeff(), 0.1);
+    if (measure.name() == "load: tilt") {
+      EXPECT_LT(measure.in_motion.maxCoeff(), 0.1);
+    }
   double apart = 0;
   for (const dynamics::EdgeHistory& edge : lift.rope(motion, 0).edges)
     apart = std::max(apart, (edge.first_tension - edge.last_tension).cwiseAbs().maxCoeff());
