@@ -38,8 +38,8 @@ enum class BendMotion : signed char {
 /// friction began to act:
 ///   L_a -> L_a - G,   L_b -> L_b + G,
 /// whose rates are those by the bodies' motion alone, without that of the places of touch. In the
-/// plane G is R (angle of the middle) exactly; round oblique edges, over which the rope also moves
-/// sideways, it is a sum over the steps of the integration (carry), by trapezoids.
+/// plane G is R (angle of the middle) exactly; where the rope also moves sideways over an oblique
+/// edge it is a sum over the steps of the integration (carry), by trapezoids.
 ///
 /// Lengths joined by slipping bends, or one between bends at which the rope sticks, are damped
 /// together, as their tensions are to one another, so that the ratios stay and nothing pushes:
