@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -54,7 +56,8 @@ TEST(Basket, HangsAsByHand) {
     EXPECT_NEAR(rope.tension[0], hand.tension, 1e-6 * hand.tension);
     EXPECT_NEAR(rope.elongation[0], hand.stretch, 1e-8);
     for (const std::size_t edge : {0U, 1U}) {
-      EXPECT_NEAR(rope.edges[edge].wrap[0], hand.angle, 1e-6);
+      // It comes down outwards and goes on inwards, below the box.
+      EXPECT_NEAR(rope.edges[edge].wrap[0], std::numbers::pi - hand.angle, 1e-6);
       EXPECT_NEAR(rope.edges[edge].force(0, 2), 0.5 * hand.lift, 1e-5 * weight);
     }
   }
