@@ -188,6 +188,7 @@ TEST_F(SweepCommand, FindsTheStressOfBlocksWithRopesOnTheirEdges) {
   folder_.write("lift/gantry/crane.yaml", files.crane);
   folder_.write("lift/plate.yaml", files.block);
   folder_.write("lift/gantry/ropes/tackle.yaml", files.rope);
+  folder_.write("lift/ropes/tackle.yaml", files.rope);
   const std::string lengths = "design: grid\nfigures: [" + std::string(checked) +
                               "]\nvary: {R1: {keys: [ropes.R1.length], values: [4 m, 4.01 m]}}\n";
   write_study("run: stress\n" + lengths);
