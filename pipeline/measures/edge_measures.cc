@@ -1,6 +1,7 @@
 #include "pipeline/measures/edge_measures.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
@@ -18,6 +19,15 @@ bool presses(const RopeHistory& rope, const EdgeHistory& edge, Eigen::Index samp
   return edge.touches(sample) && rope.tension[sample] > 0;
 }
 
+/// "R1 over sill"; where the rope comes to that edge again, "R1 over sill (2)".
+std::string subject_of(const LiftRope& rope, std::size_t edge) {
+  const std::string& name = rope.edges[edge].name;
+  const auto times =
+      1 + std::count_if(rope.edges.begin(), rope.edges.begin() + static_cast<std::ptrdiff_t>(edge),
+                        [&](const LiftEdge& one) { return one.name == name; });
+  return rope.name + " over " + name + (times > 1 ? " (" + std::to_string(times) + ")" : "");
+}
+
 /// Measures of one rope at one edge.
 class EdgeMeasures {
  public:
@@ -26,7 +36,7 @@ class EdgeMeasures {
       : lift_(lift),
         rope_(static_cast<std::size_t>(rope.rope)),
         edge_(edge),
-        subject_(rope.name + " over " + rope.edges[edge].name),
+        subject_(subject_of(rope, edge)),
         measures_(measures) {}
 
   template <class Value>
