@@ -29,7 +29,8 @@ Eigen::Index values_of(const dynamics::History& history) {
   for (const dynamics::RopeHistory& rope : history.ropes)
     for (const dynamics::EdgeHistory& edge : rope.edges)
       values += edge.force.size() + edge.wrap.size() + edge.first_angle.size() +
-                edge.last_angle.size() + edge.first_place.size() + edge.last_place.size();
+                edge.last_angle.size() + edge.first_place.size() + edge.last_place.size() +
+                edge.first_tension.size() + edge.last_tension.size();
   for (const dynamics::DriveHistory& drive : history.drives)
     values += drive.position.size() + drive.velocity.size() + drive.force.size();
   for (const dynamics::SupportHistory& pad : history.supports) values += pad.normal_force.size();
