@@ -259,11 +259,16 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
         "the panels are coarse: those of twice the size have no solution for {}, and nothing is "
         "known of the error of these; take smaller panels",
         database.body_names[body]);
-  return fmt::format(
+  std::string doubt = fmt::format(
       "the panels are coarse: the radiation force of {} in {} changes by {:.0f} % from panels of "
       "twice the size to these; take smaller panels until that is below {:.0f} %",
       database.body_names[body], mode_names[worst % modes_per_body], 100.0 * change,
       100.0 * acceptable_change);
+  // Panels alone do not change a force by more than itself; a resonance that moves does.
+  if (change > 1.0) {
+    doubt += "; water that swings in a gap or moonpool without damping does that, which lids give";
+  }
+  return doubt;
 }
 
 std::string note_on_groups(const dynamics::PanelModel& model,

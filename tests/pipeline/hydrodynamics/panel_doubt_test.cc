@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 dynamics::HydrodynamicDatabase two_bodies() {
   dynamics::HydrodynamicDatabase database;
@@ -31,6 +32,14 @@ TEST(DoubtAboutPanels, NamesTheWorstMode) {
   dynamics::HydrodynamicDatabase database = two_bodies();
   database.change_from_coarser[8] = 0.4;
   EXPECT_THAT(doubt_about_panels(database), HasSubstr("of ship in heave changes by 40 %"));
+}
+
+TEST(DoubtAboutPanels, ThinksOfGapsWhereAForceChangesByMoreThanItself) {
+  dynamics::HydrodynamicDatabase database = two_bodies();
+  database.change_from_coarser[8] = 0.9;
+  EXPECT_THAT(doubt_about_panels(database), Not(HasSubstr("gap or moonpool")));
+  database.change_from_coarser[8] = 2.7;
+  EXPECT_THAT(doubt_about_panels(database), HasSubstr("gap or moonpool"));
 }
 
 TEST(DoubtAboutPanels, SaysThatCoarserOnesHaveNoSolution) {
