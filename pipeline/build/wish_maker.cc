@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include <fmt/format.h>
+#include "pipeline/files/lift_case/own_laws.h"
 
 namespace blocklift::pipeline {
 
@@ -27,26 +27,9 @@ dynamics::Sight WishMaker::make_sight(const SightInCase& sight) const {
   return seen;
 }
 
-// A law is given the coordinate and the rate of its drive, then what it sees besides.
 dynamics::OwnLaw WishMaker::make_law(const KeepInCase& keep) const {
-  const auto law = lift_case_.laws.find(keep.law->value);
-  if (law == lift_case_.laws.end()) {
-    Diagnostics diagnostics;
-    diagnostics.error(
-        keep.law->mark,
-        fmt::format("nobody gives the law \"{}\" by which this drive is steered", keep.law->value),
-        {fmt::format("laws are functions of Python: blocklift.Case(...).simulate(laws={{\"{}\": "
-                     "...}})",
-                     keep.law->value)});
-    throw InputError(diagnostics);
-  }
-  dynamics::OwnLaw own{keep.law->value, {dynamics::SeenCoordinate{}, dynamics::SeenRate{}}, {}};
-  std::vector<std::string> figures{"position", "speed"};
-  for (const SightInCase& sight : keep.sees) {
-    own.sights.push_back(make_sight(sight));
-    figures.push_back(sight.name.value);
-  }
-  own.begin = [make = law->second, figures] { return make(figures); };
+  dynamics::OwnLaw own = make_own_law(keep, lift_case_.laws);
+  for (const SightInCase& sight : keep.sees) own.sights.push_back(make_sight(sight));
   return own;
 }
 

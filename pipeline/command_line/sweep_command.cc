@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -20,11 +19,10 @@
 #include "pipeline/command_line/worker_process.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/quantity.h"
-#include "pipeline/study/figure_limit.h"
 #include "pipeline/study/members.h"
-#include "pipeline/study/search.h"
 #include "pipeline/study/study_design.h"
 #include "pipeline/study/study_results.h"
+#include "pipeline/study/study_run.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
@@ -34,13 +32,6 @@ namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-
-StudyFile read_study(const std::string& path) {
-  Diagnostics diagnostics;
-  std::optional<StudyFile> study = read_study_file(path, diagnostics);
-  if (!study) throw InputError(diagnostics);
-  return std::move(*study);
-}
 
 fs::path folder_of(const SweepOptions& options, const StudyFile& study) {
   return options.output ? fs::path(*options.output) : fs::path("results") / study.name;
@@ -155,23 +146,12 @@ void run_members(const SweepOptions& options, const StudyFile& study, const fs::
     throw std::runtime_error("workers of the study ended before their members were done");
 }
 
-std::vector<Member> read_members(const MemberStore& store, int count) {
-  std::vector<Member> members;
-  for (int number = 0; number < count; ++number)
-    members.push_back(store.read(number).value_or(Member{number, "is missing", {}, {}}));
-  return members;
-}
-
-/// The member with the worst of the first leading figure, with a report of its own.
-std::optional<int> write_worst(const SweepOptions& options, const fs::path& folder,
-                               const StudyResults& results) {
-  if (results.leading.empty()) return std::nullopt;
-  const int worst = results.spreads[results.leading.front()].member_of_worst();
+/// The whole results of a member, in a process of its own: this one holds much by now.
+bool write_whole(const SweepOptions& options, const fs::path& folder, int member) {
   std::vector<std::string> arguments = arguments_of_process(options, folder);
-  arguments.insert(arguments.end(), {"--whole", std::to_string(worst)});
+  arguments.insert(arguments.end(), {"--whole", std::to_string(member)});
   ProgressBar bar("the worst member's report");
-  const bool well = run_this_program(std::move(arguments), [&] { bar.show(0); });
-  return well ? std::optional<int>(worst) : std::nullopt;
+  return run_this_program(std::move(arguments), [&] { bar.show(0); });
 }
 
 void warn_of_failures(const StudyResults& results) {
@@ -217,63 +197,44 @@ void print_part(const SweepOptions& options, const fs::path& folder, const Membe
       *options.part, store.count_all(count), count, (folder / "members").string(), options.study));
 }
 
-/// A member of a search: what a run before it computed is taken.
-Member member_of_search(const StudyFile& study, const MemberStore& store, StudyBlocks& blocks,
-                        const Eigen::VectorXd& values, int number) {
-  if (std::optional<Member> known = store.read(number)) return std::move(*known);
-  Member member = number == 0 ? run_first_member(study, values, blocks)
-                              : run_member(study, values, number, blocks);
-  const HeldSignals until_it_is_written;
-  store.write(member);
-  return member;
+/// Workers of this program side by side, and a search in this process.
+/// @param most members of a search.
+StudyCrew crew_of(const SweepOptions& options, const fs::path& folder, int most) {
+  // It appears with the first member of the search: the workers have one of their own.
+  const auto bar = std::make_shared<std::unique_ptr<ProgressBar>>();
+  return {.compute_missing =
+              [&options, folder](const StudyFile& study, const Eigen::MatrixXd& design,
+                                 const MemberStore& store) {
+                run_members(options, study, folder, store, static_cast<int>(design.rows()));
+              },
+          .write =
+              [](const MemberStore& store, const Member& member) {
+                const HeldSignals until_it_is_written;
+                store.write(member);
+              },
+          .begin_of_search_member =
+              [bar, most](int number) {
+                if (!*bar) *bar = std::make_unique<ProgressBar>("search");
+                (*bar)->show(static_cast<double>(number) / most,
+                             fmt::format("member {} of {} at most", number, most));
+              }};
 }
 
-/// Removes what a study has put into a folder so far, and the folder if there is nothing else.
-void remove_new_folder(const fs::path& folder) {
-  std::error_code ignored;
-  fs::remove_all(folder / "members", ignored);
-  if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
-}
-
-/// Runs the sample side by side, then the search, a member after another.
-SearchResults run_search(const SweepOptions& options, const fs::path& folder,
-                         const StudyFile& study, const Eigen::MatrixXd& sample,
-                         const MemberStore& store) {
-  StudyBlocks blocks(study, folder / "members");
-  // Before all others: it tells whether the lift has the figures. Where it has not, nothing is
-  // left.
-  const bool is_new = store.count_done(static_cast<int>(sample.rows())) == 0;
-  try {
-    check_figure_limits(study, {member_of_search(study, store, blocks, sample.row(0), 0)});
-  } catch (const InputError&) {
-    if (is_new) remove_new_folder(folder);
-    throw;
-  }
-  const auto count = static_cast<int>(sample.rows());
-  run_members(options, study, folder, store, count);
-  ProgressBar bar("search");
-  return search_members(study, sample, read_members(store, count),
-                        [&](const Eigen::VectorXd& values, int number) {
-                          bar.show(static_cast<double>(number) / study.members,
-                                   fmt::format("member {} of {} at most", number, study.members));
-                          return member_of_search(study, store, blocks, values, number);
-                        });
-}
-
-/// All results of a search, its page and the report of its best member.
+/// A search, its page and the report of its best member.
 int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
-           const Eigen::MatrixXd& sample) {
+           Eigen::MatrixXd sample) {
   const MemberStore store(folder, identity_of_study(study));
-  SearchResults found = run_search(options, folder, study, sample, store);
-  const StudyResults results = evaluate_search(std::move(study), std::move(found));
+  const int most = study.members;
+  const StudyResults results =
+      run_study(std::move(study), std::move(sample), folder, store, crew_of(options, folder, most));
   {
     const HeldSignals until_all_is_in_place;
     write_study(results, folder);
   }
-  const int best = results.search->best;
+  const ShownMember best = *shown_member(results, folder);
   StudyBlocks blocks(results.study, folder / "members");
   const Member whole =
-      run_member(results.study, results.design.row(best), best, blocks, folder / "best");
+      run_member(results.study, results.design.row(best.number), best.number, blocks, best.folder);
   warn_of_failures(results);
   if (!is_quiet()) {
     fmt::print("{}\n\n{}", results.study.title.empty() ? results.study.name : results.study.title,
@@ -283,7 +244,7 @@ int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
   }
   if (!whole.failure.empty())
     throw std::runtime_error(fmt::format(
-        "the report of member {}, the best, could not be written: {}", best, whole.failure));
+        "the report of member {}, the best, could not be written: {}", best.number, whole.failure));
   return results.search->is_feasible ? exit_code::done : exit_code::lift_fails;
 }
 
@@ -338,39 +299,35 @@ int sweep_alone_or_first(const SweepOptions& options) {
   if (study.design == StudyDesign::search &&
       (options.part || !options.join.empty() || options.slurm))
     refuse_parts_of_search(study);
-  check_figure_limits(study);
   require_writable(folder);
-  if (study.limits && study.limits->scatter)
-    read_sea_states(study.beside(study.limits->scatter->value), false);
-  if (study.limits && study.limits->forecast)
-    read_sea_states(study.beside(study.limits->forecast->value), true);
-  Eigen::MatrixXd design = make_design(study);
-  {
+  Eigen::MatrixXd design = [&] {
     ProgressBar bar("reading members");
-    check_members(study, design, [&](double fraction) { bar.show(fraction); });
-  }
-  if (study.design == StudyDesign::search) return search(options, folder, std::move(study), design);
+    return plan_members(study, [&](double fraction) { bar.show(fraction); });
+  }();
+  if (study.design == StudyDesign::search)
+    return search(options, folder, std::move(study), std::move(design));
   const auto count = static_cast<int>(design.rows());
   if (options.slurm) return run_as_jobs(options, folder, study, count);
   const MemberStore store(folder, identity_of_study(study), part);
   take_over_parts(options, store);
-  run_members(options, study, folder, store, count);
   if (options.part) {
+    run_members(options, study, folder, store, count);
     print_part(options, folder, store, count);
     return exit_code::done;
   }
-  const StudyResults results =
-      evaluate_study(std::move(study), std::move(design), read_members(store, count));
+  const StudyResults results = run_study(std::move(study), std::move(design), folder, store,
+                                         crew_of(options, folder, count));
   {
     const HeldSignals until_all_is_in_place;
     write_study(results, folder);
   }
-  const std::optional<int> worst = write_worst(options, folder, results);
-  print_study(results, folder, worst);
-  if (worst || results.leading.empty()) return exit_code::done;
+  const std::optional<ShownMember> worst = shown_member(results, folder);
+  const bool is_written = worst && write_whole(options, folder, worst->number);
+  print_study(results, folder, is_written ? std::optional<int>(worst->number) : std::nullopt);
+  if (is_written || !worst) return exit_code::done;
   throw std::runtime_error(fmt::format(
       "the report of member {}, the worst, could not be written; all else of the study is",
-      results.spreads[results.leading.front()].member_of_worst()));
+      worst->number));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/content_hash.h"
+#include "pipeline/formats/run_identity.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
@@ -115,10 +116,10 @@ Json stress_json(const LargestChecked& largest) {
 
 Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBlocks& blocks,
                 const std::optional<fs::path>& full) {
-  const Progress nobody_watches = [](const std::string&, double, const std::string&) {};
+  const Progress& progress = blocks.progress();
   LiftCase lift_case = member_case(study, values);
   if (study.run == StudyRun::assess || (full && study.run == StudyRun::stress)) {
-    const Assessment assessment = assess(std::move(lift_case), nobody_watches);
+    const Assessment assessment = assess(std::move(lift_case), progress);
     if (full) write_results(assessment, *full);
     return make_summary(assessment);
   }
@@ -132,8 +133,8 @@ Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBloc
   std::optional<KnownBlock> block;
   if (has_block) block = blocks.of(lift_case, values);
   const LiftSimulation simulation =
-      block ? simulate_lift(std::move(lift_case), std::move(*block), nobody_watches, extent)
-            : simulate_lift(std::move(lift_case), nobody_watches);
+      block ? simulate_lift(std::move(lift_case), std::move(*block), progress, extent)
+            : simulate_lift(std::move(lift_case), progress);
   if (full) write_lift_simulation(simulation, *full, false);
   const std::vector<LiftMeasure> measures =
       asks_for(study, "measures.") ? find_measures(simulation.lift_case, simulation.run)
@@ -189,7 +190,10 @@ LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
   ModelLibrary library = ModelLibrary::of_installation();
   library.set_changes(std::move(changes));
   std::optional<LiftCase> lift_case = read_lift_case(study.case_path(), library, diagnostics);
-  if (!diagnostics.has_errors()) return std::move(*lift_case);
+  if (!diagnostics.has_errors()) {
+    lift_case->laws = study.laws;
+    return std::move(*lift_case);
+  }
   // Complaints name the study's own lines, or those of the case and its models as they were
   // changed.
   diagnostics.error(
@@ -329,6 +333,8 @@ std::vector<int> MemberStore::find_missing(int members) const {
 }
 
 std::string identity_of_study(const StudyFile& study) {
+  // What laws from outside do is not known: members that they steered are those of one run.
+  if (!study.laws.empty()) return new_run_identity();
   ContentHash hash;
   hash.add(std::string_view(study.yaml));
   hash.add(std::string_view(hash_of_input(read_lift_case(study.case_path()))));

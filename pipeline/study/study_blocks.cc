@@ -140,8 +140,8 @@ void find_largest(const structure::StressBasis& basis, const BlockAttachment& at
 
 }  // namespace
 
-StudyBlocks::StudyBlocks(const StudyFile& study, fs::path folder)
-    : study_(study), folder_(std::move(folder)) {
+StudyBlocks::StudyBlocks(const StudyFile& study, fs::path folder, Progress progress)
+    : study_(study), folder_(std::move(folder)), progress_(std::move(progress)) {
   const LiftCase as_written = read_lift_case(study.case_path());
   for (std::size_t v = 0; v < study.variables.size(); ++v)
     for (const Located<std::string>& key : study.variables[v].keys)
@@ -194,7 +194,6 @@ KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& val
 }
 
 structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) const {
-  const Progress nobody_watches = [](const std::string&, double, const std::string&) {};
   const LiftCase lift_case = member_case(study_, values, &changing_);
   auto model = model_of(lift_case);
   const structure::OneBlasThread whatever_the_threads;
@@ -204,8 +203,8 @@ structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) const
     flexibility = make_flexibility(*responses, lift_case.dynamics);
   const LiftRun run = run_lift(lift_case,
                                prepare_lift(lift_case, load_mass(model->mass_properties()),
-                                            nobody_watches, flexibility ? &*flexibility : nullptr),
-                               nobody_watches);
+                                            progress_, flexibility ? &*flexibility : nullptr),
+                               progress_);
   const auto factors = [&](const structure::ElasticModel& of, structure::UnitResponses& of_mesh) {
     BlockLoads loads(run.model, run.static_history, run.dynamic_history(), of);
     if (const auto edges =

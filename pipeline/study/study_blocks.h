@@ -29,8 +29,15 @@ struct LargestChecked {
 class StudyBlocks {
  public:
   /// @param folder where unit stresses are kept for all processes of the study.
-  StudyBlocks(const StudyFile& study, std::filesystem::path folder);
+  /// @param progress is told of what members are at, and may end it by what it throws.
+  StudyBlocks(
+      const StudyFile& study, std::filesystem::path folder,
+      Progress progress = [](const std::string&, double, const std::string&) {});
   ~StudyBlocks();
+  StudyBlocks(const StudyBlocks&) = delete;
+  StudyBlocks& operator=(const StudyBlocks&) = delete;
+
+  const Progress& progress() const { return progress_; }
 
   /// What the motion of a member takes from its block.
   /// @param values of the study's variables.
@@ -59,6 +66,7 @@ class StudyBlocks {
 
   const StudyFile& study_;
   std::filesystem::path folder_;
+  Progress progress_;
   std::vector<int> changing_;  ///< variables that change more of the block than its mass
   std::vector<std::unique_ptr<Kept>> kept_;  ///< the latest last
 };

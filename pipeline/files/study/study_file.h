@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "pipeline/declaration/parameters_format.h"
+#include "pipeline/files/lift_case/own_laws.h"
 
 namespace blocklift::pipeline {
 
@@ -91,6 +92,7 @@ struct StudyFile {
   std::string yaml;
   std::filesystem::path file;
   Mark place;
+  OwnLaws laws = {};  ///< that steer drives of its case; not from the file
 
   /// The case's file or folder: beside the study, or in the working folder.
   std::filesystem::path case_path() const;

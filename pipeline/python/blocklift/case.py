@@ -101,17 +101,27 @@ class Case:
         with self._on_disk() as file:
             self._run(["validate", file], file)
 
-    def assess(self, output: str | os.PathLike[str] | None = None, *, decks: bool = False) -> Result:
+    def assess(self, output: str | os.PathLike[str] | None = None, *, decks: bool = False,
+               laws: Mapping[str, kernel.LawOrClass] | None = None) -> Result:
         """The whole lift: motion, stress, checks. A lift that fails its checks is a result.
 
         output: folder of the results, results/<name> if not given.
         decks: write the governing load cases for other solvers, too.
+        laws: functions that steer drives, as :meth:`simulate` has them. Each run of the lift
+        within the assessment (what errors in lengths of slings do, the worst instant of a fault)
+        begins with laws of its own.
 
-        Raises InputError, RunError.
+        Raises InputError, RunError, and with laws what :meth:`simulate` raises.
         """
         folder = Path(output) if output is not None else Path("results") / self.name
         with self._on_disk() as file:
-            self._run(["assess", file, "--output", folder, *(["--decks"] if decks else [])], file)
+            if laws is None:
+                self._run(["assess", file, "--output", folder, *(["--decks"] if decks else [])],
+                          file)
+            else:
+                self._refuse_mechanism()
+                with self._naming_own_file(file):
+                    kernel.assess(file, folder, laws, decks)
         return Result(folder)
 
     def simulate(self, output: str | os.PathLike[str] | None = None, *, files: bool = True,
@@ -148,12 +158,15 @@ class Case:
             if laws is None:
                 self._run(["simulate", file, "--output", folder], file)
                 return
-            if "mechanism" in self.data:
-                raise InputError([Complaint(str(self.file), None, None,
-                                            "laws steer drives of lift cases alone, and this "
-                                            "is a mechanism")])
+            self._refuse_mechanism()
             with self._naming_own_file(file):
                 kernel.simulate(file, folder, laws)
+
+    def _refuse_mechanism(self) -> None:
+        if "mechanism" in self.data:
+            raise InputError([Complaint(str(self.file), None, None,
+                                        "laws steer drives of lift cases alone, and this is a "
+                                        "mechanism")])
 
     def _run(self, arguments: list[str | os.PathLike[str]], file: Path) -> str:
         with self._naming_own_file(file):

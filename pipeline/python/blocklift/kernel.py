@@ -7,6 +7,7 @@ import os
 import sys
 import sysconfig
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from types import ModuleType
 from typing import Union
 
@@ -22,17 +23,30 @@ LawOrClass = Union[Law, Callable[[], Law]]
 _NAME = "blocklift._kernel"
 
 
-def simulate(case: str | os.PathLike[str], folder: str | os.PathLike[str],
-             laws: Mapping[str, LawOrClass]) -> None:
+def simulate(case: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
     """Simulates a case file in this process and writes its results into a folder.
 
     Raises ImportError if the module is not built, InputError, RunError, TypeError if a law cannot
-    be called or gives no number, and whatever a law raises.
+    be called or gives no number, and whatever a law raises. So do the others.
     """
+    load().simulate(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws))
+
+
+def assess(case: Path, folder: Path, laws: Mapping[str, LawOrClass], decks: bool) -> None:
+    """Assesses a case file in this process and writes its results into a folder."""
+    load().assess(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws), decks)
+
+
+def sweep(study: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
+    """Runs a study in this process, a member after another, and writes its results."""
+    load().sweep(os.fspath(study), os.fspath(folder), os.fspath(executable()), _checked(laws))
+
+
+def _checked(laws: Mapping[str, LawOrClass]) -> dict[str, LawOrClass]:
     for name, law in laws.items():
         if not callable(law):
             raise TypeError(f'law "{name}" is {law!r}, which cannot be called')
-    load().simulate(os.fspath(case), os.fspath(folder), os.fspath(executable()), dict(laws))
+    return dict(laws)
 
 
 def load() -> ModuleType:

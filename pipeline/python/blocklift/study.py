@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from . import kernel
 from .program import run
 from .results import Result
 
@@ -146,8 +148,24 @@ class Study:
 
 
 def sweep(study: str | os.PathLike[str], output: str | os.PathLike[str], *,
-          workers: int | None = None) -> Study:
-    """Runs a study's file; one that was stopped goes on. Raises InputError, RunError."""
-    run(["sweep", study, "--output", output,
-         *(["--workers", str(workers)] if workers else [])])
+          workers: int | None = None,
+          laws: Mapping[str, kernel.LawOrClass] | None = None) -> Study:
+    """Runs a study's file; one that was stopped goes on.
+
+    workers: lifts side by side, as many as the machine has processors if not given.
+    laws: functions that steer drives, as :meth:`Case.simulate` has them. They cannot be handed to
+    other processes: members run in this one, one after another, and what an earlier run left is
+    not gone on with, since nobody knows whether its laws were the same.
+
+    Raises InputError, also where the folder has members of an earlier run with laws; RunError; with
+    laws what :meth:`Case.simulate` raises.
+    """
+    if laws is None:
+        run(["sweep", study, "--output", output,
+             *(["--workers", str(workers)] if workers else [])])
+    elif workers is not None and workers > 1:
+        raise ValueError("laws are functions of this process, in which one member runs at a time; "
+                         "leave workers out")
+    else:
+        kernel.sweep(Path(study), Path(output), laws)
     return Study(output)

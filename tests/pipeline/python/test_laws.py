@@ -1,7 +1,9 @@
 """Laws of drives that are written in Python, on the small lift."""
 
+import json
 import math
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -200,6 +202,95 @@ class LawTest(InATemporaryFolder):
         Path("out/summary.json").write_text('{"verdict": "pass"}')
         with self.assertRaisesRegex(blocklift.InputError, "holds the assessment"):
             blocklift.Case("lift").simulate("out", laws={})
+
+    def test_an_assessment_has_the_motion_that_the_laws_make(self):
+        case = self.follow(FOLLOW)
+        laws = {"follow": lambda time, seen: seen["height"] / 4}
+        motion = case.simulate("motion", laws=laws).history("dynamic")
+        result = case.assess("assessed", laws=laws, decks=True)
+        np.testing.assert_array_equal(result.history("dynamic").tension, motion.tension)
+        self.assertIn(result.verdict, ("pass", "fail"))
+        self.assertGreater(float(result.envelope().von_mises.max()), 0)
+        self.assertTrue(list(Path("assessed").glob("*.inp")))
+        # The same of a wish that the program keeps.
+        built_in = self.follow({"level": "C1.right", "with": "C1.left", "reaction": "0.5 s",
+                                "correction": "4 s"}).assess("built-in")
+        self.assertAlmostEqual(result.summary["structure"]["history"]["stress_increase_percent"],
+                               built_in.summary["structure"]["history"]["stress_increase_percent"],
+                               places=3)
+
+    def test_what_is_raised_on_the_way_to_lengths_of_slings_ends_the_assessment(self):
+        class OutOfSight(Exception):
+            pass
+
+        def law(time, seen):
+            raise OutOfSight("fog")
+
+        with self.assertRaises(OutOfSight):
+            self.hoist().assess("out", laws={"go": law})
+        self.assertFalse(Path("out/summary.json").exists())
+
+    def study(self, **more):
+        self.follow(FOLLOW).save("lift/case.yaml")
+        Path("study.yaml").write_text(json.dumps({
+            "study": "steered", "case": "lift", "design": "grid",
+            "figures": ["ropes.R1.max_dynamic_tension_N"],
+            "vary": {"mass": {"keys": ["block:mass"], "values": ["7.8 t", "8 t", "8.2 t"]}},
+            **more}))
+
+    def test_members_of_a_study_are_steered(self):
+        self.study()
+        laws = {"follow": lambda time, seen: seen["height"] / 4}
+        members = blocklift.sweep("study.yaml", "swept", laws=laws).members
+        self.assertEqual(len(members), 3)
+        for mass, figure in zip(("7.8 t", "8 t", "8.2 t"),
+                                members["ropes.R1.max_dynamic_tension_N"]):
+            shutil.copytree("lift", "alone", dirs_exist_ok=True)
+            block = Path("alone/block.yaml")
+            block.write_text(block.read_text().replace("mass: 8 t", f"mass: {mass}"))
+            alone = blocklift.Case("alone").simulate(files=False, laws=laws)
+            tension = alone.history("dynamic").tension.sel(rope="R1")
+            self.assertAlmostEqual(float(tension.max()) / figure, 1, places=9)
+        self.assertTrue(Path("swept/worst/report.html").is_file())
+
+    def test_a_study_with_laws_goes_on_with_nothing(self):
+        self.study()
+        laws = {"follow": lambda time, seen: seen["height"] / 4}
+        blocklift.sweep("study.yaml", "swept", laws=laws)
+        with self.assertRaisesRegex(blocklift.InputError, "members of another study"):
+            blocklift.sweep("study.yaml", "swept", laws=laws)
+        with self.assertRaisesRegex(ValueError, "one member runs at a time"):
+            blocklift.sweep("study.yaml", "other", laws=laws, workers=2)
+
+    def test_a_study_without_its_law_runs_nothing(self):
+        self.study()
+        with self.assertRaisesRegex(blocklift.InputError, 'nobody gives the law "follow"'):
+            blocklift.sweep("study.yaml", "swept")
+        with self.assertRaisesRegex(blocklift.InputError, 'did you mean "follow"'):
+            blocklift.sweep("study.yaml", "swept", laws={"folow": lambda time, seen: 0.0})
+        self.assertFalse(Path("swept/members").exists())
+
+    def test_what_a_law_raises_ends_the_study(self):
+        self.study()
+        raised = KeyError("fog")
+
+        def law(time, seen):
+            if seen["height"] > 0.1:
+                raise raised
+            return 0.0
+
+        with self.assertRaises(KeyError) as caught:
+            blocklift.sweep("study.yaml", "swept", laws={"follow": law})
+        self.assertIs(caught.exception, raised)
+
+    def test_a_search_is_steered(self):
+        self.study(design="search", members=12, minimise="ropes.R1.max_dynamic_tension_N", vary={
+            "length": {"keys": ["ropes.R1.length"], "between": ["2.99 m", "3.01 m"]}})
+        found = blocklift.sweep("study.yaml", "found",
+                                laws={"follow": lambda time, seen: seen["height"] / 4})
+        # The longer sling pulls less.
+        self.assertAlmostEqual(found.search["variables"]["length"]["value"], 3.01, delta=2e-3)
+        self.assertTrue(Path("found/best/report.html").is_file())
 
     def test_without_the_module_it_says_what_to_install(self):
         # A program that has no module beside it, in a process of its own: this one has loaded it.
