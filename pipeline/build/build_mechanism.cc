@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <exception>
+#include <span>
 #include <utility>
 
 #include "dynamics/errors.h"
 #include "dynamics/multibody/assembly.h"
 #include "dynamics/multibody/loop_constraint.h"
 #include "pipeline/build/rope_stretch.h"
+#include "pipeline/files/lift_case/own_laws.h"
 #include "pipeline/files/mechanism/mechanism_schedule.h"
 #include "pipeline/mechanism/build_parts.h"
 #include "pipeline/mechanism/joint_values.h"
@@ -52,8 +54,9 @@ double mass_on(const MechanismFile& file, const std::string& vessel) {
 class MechanismAssembler {
  public:
   MechanismAssembler(const MechanismFile& file, const dynamics::HydrodynamicSeries* radiation,
-                     MarchedWater marched)
+                     MarchedWater marched, const FoundMotion& found)
       : file_(file),
+        schedule_(schedule_of(file, found)),
         radiation_(radiation),
         marched_(std::move(marched)),
         marine_(file, -file.gravity.z()),
@@ -82,9 +85,12 @@ class MechanismAssembler {
     };
     const bool gusts = file_.wind && file_.wind->gusts != dynamics::GustSpectrum::none;
     const bool moves = gusts || marine_.has_waves();
-    return {system(false), std::move(carried_by),
-            moves ? std::optional(system(true)) : std::nullopt, marched_,
-            water ? marine_.arrangement(place()) : dynamics::Arrangement{}};
+    return {system(false),
+            std::move(carried_by),
+            moves ? std::optional(system(true)) : std::nullopt,
+            marched_,
+            water ? marine_.arrangement(place()) : dynamics::Arrangement{},
+            schedule_};
   }
 
  private:
@@ -181,10 +187,49 @@ class MechanismAssembler {
     }
   }
 
-  dynamics::Operation make_operation(const dynamics::Mechanism& mechanism) const {
+  static Schedule schedule_of(const MechanismFile& file, const FoundMotion& found) {
     Diagnostics diagnostics;
-    const Schedule schedule = schedule_operation(file_, diagnostics);
+    Schedule schedule = schedule_operation(file, diagnostics, found);
     if (diagnostics.has_errors()) throw InputError(diagnostics);
+    return schedule;
+  }
+
+  dynamics::BodyPoint point_of(const Located<RopePoint>& at) const {
+    return parts_.point(at.value.body->value, at.value.point);
+  }
+
+  int rope_of(const std::string& name) const {
+    const auto found = std::ranges::find_if(
+        file_.ropes, [&](const RopeInCase& rope) { return rope.name.value == name; });
+    return static_cast<int>(found - file_.ropes.begin());
+  }
+
+  dynamics::Sight make_sight(const SightInCase& sight) const {
+    if (sight.over) return dynamics::SeenPlumb{point_of(*sight.with), point_of(*sight.over)};
+    if (sight.pull) return dynamics::SeenTension{rope_of(sight.pull->value)};
+    if (sight.share) {
+      dynamics::SeenShare seen{rope_of(sight.share->value), {}};
+      for (const Located<std::string>& other : sight.of)
+        seen.others.push_back(rope_of(other.value));
+      return seen;
+    }
+    dynamics::SeenHeight seen{point_of(*sight.level), {dynamics::world_index, Vector3::Zero()}};
+    if (sight.with) seen.reference = point_of(*sight.with);
+    return seen;
+  }
+
+  void add_steerings(dynamics::OperationBuilder& builder) const {
+    for (const ScheduledSteering& steered : schedule_.steerings) {
+      if (steered.course) continue;
+      dynamics::OwnLaw law = make_own_law(steered.keep, file_.laws);
+      for (const SightInCase& sight : steered.keep.sees) law.sights.push_back(make_sight(sight));
+      dynamics::Steering steering = steered.steering;
+      steering.wish = std::move(law);
+      builder.add_steering(steered.steering.drive, std::move(steering));
+    }
+  }
+
+  dynamics::Operation make_operation(const dynamics::Mechanism& mechanism) const {
     dynamics::OperationBuilder builder;
     for (const DrivenFreedom& freedom : parts_.driven()) {
       const DriveModel& drive = *freedom.drive;
@@ -209,7 +254,8 @@ class MechanismAssembler {
       const RopeInCase& rope = file_.ropes[i];
       if (rope.winch) builder.add_winch(rope.name.value, static_cast<int>(i), rope.length.value);
     }
-    add_schedule(schedule, builder);
+    add_schedule(schedule_, builder);
+    add_steerings(builder);
     builder.add_breakpoints(breakpoints_);
     return builder.build(file_.simulate.duration.value);
   }
@@ -255,6 +301,7 @@ class MechanismAssembler {
   }
 
   const MechanismFile& file_;
+  Schedule schedule_;
   const dynamics::HydrodynamicSeries* radiation_;
   MarchedWater marched_;
   MarineBuilder marine_;
@@ -273,9 +320,9 @@ RadiationProblem radiation_problem(const MechanismFile& file) {
 }
 
 BuiltMechanism build_mechanism(const MechanismFile& file,
-                               const dynamics::HydrodynamicSeries* radiation,
-                               MarchedWater marched) {
-  return MechanismAssembler(file, radiation, std::move(marched)).build();
+                               const dynamics::HydrodynamicSeries* radiation, MarchedWater marched,
+                               const FoundMotion& found) {
+  return MechanismAssembler(file, radiation, std::move(marched), found).build();
 }
 
 std::optional<MechanismFile> read_mechanism(const std::filesystem::path& path,
@@ -283,7 +330,15 @@ std::optional<MechanismFile> read_mechanism(const std::filesystem::path& path,
   std::optional<MechanismFile> file = read_mechanism_file(path, library, diagnostics);
   if (!file) return std::nullopt;
   try {
-    build_mechanism(*file);
+    // Laws are given later: until then the drives that they steer stand.
+    MechanismFile trial = *file;
+    for (const StageInCase& stage : trial.operation)
+      for (const MoveInCase& move : stage.moves)
+        if (move.keeps)
+          trial.laws[move.keeps->law->value] = [](const std::vector<std::string>&) {
+            return [](double, std::span<const double>) { return 0.0; };
+          };
+    build_mechanism(trial);
     return file;
   } catch (const std::exception& error) {
     diagnostics.error(file->place, error.what());

@@ -8,6 +8,7 @@
 
 #include "dynamics/simulation/lift_system.h"
 #include "pipeline/build/build_marine.h"
+#include "pipeline/files/lift_case/operation_schedule.h"
 #include "pipeline/files/mechanism/mechanism_file.h"
 
 namespace blocklift::pipeline {
@@ -24,6 +25,8 @@ struct BuiltMechanism {
   MarchedWater marched = {};
   /// What the water of `system` was computed for; empty where vessels make no waves.
   dynamics::Arrangement arrangement = {};
+  /// Of its operation. Drives whose course is not known in it are steered in the system.
+  Schedule schedule = {};
 
   /// The mechanism whose static equilibrium is asked.
   const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }
@@ -38,10 +41,11 @@ RadiationProblem radiation_problem(const MechanismFile& file);
 /// waves.
 /// @throws dynamics::ModelError, dynamics::SimulationError if the parts do not make a mechanism,
 ///   the loops cannot be closed, or are open where they must not be; a file that was read without
-///   complaints does.
+///   complaints does. InputError if nobody gives a law that steers a drive.
+/// @param found of its operation by running it.
 BuiltMechanism build_mechanism(const MechanismFile& file,
                                const dynamics::HydrodynamicSeries* radiation = nullptr,
-                               MarchedWater marched = {});
+                               MarchedWater marched = {}, const FoundMotion& found = {});
 
 /// Reads a mechanism file with all that it names, checks it, and builds it once to see that it can
 /// be.

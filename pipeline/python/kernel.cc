@@ -12,11 +12,16 @@
 #include <Eigen/Core>
 
 #include "pipeline/assessment/assess.h"
+#include "pipeline/build/build_mechanism.h"
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/files/file_kind.h"
+#include "pipeline/files/library/model_library.h"
 #include "pipeline/files/lift_case/own_laws.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/python/python_laws.h"
 #include "pipeline/simulation/lift_simulation.h"
+#include "pipeline/simulation/mechanism_results.h"
+#include "pipeline/simulation/mechanism_run.h"
 #include "pipeline/study/study_blocks.h"
 #include "pipeline/study/study_run.h"
 #include "pipeline/version.h"
@@ -36,11 +41,29 @@ LiftCase read_steered_case(const std::string& path, const OwnLaws& laws) {
   return lift_case;
 }
 
+void simulate_mechanism(const std::string& path, const std::string& folder, const OwnLaws& laws) {
+  ModelLibrary library = ModelLibrary::of_installation();
+  Diagnostics diagnostics;
+  std::optional<MechanismFile> file = read_mechanism(path, library, diagnostics);
+  if (file) check_laws(laws, file->operation, file->file, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  file->laws = laws;
+  require_writable(folder);
+  require_no_verdict(folder);
+  const MechanismRun run = run_mechanism(
+      *file, [](double fraction, double) { see_to_signals("time integration", fraction, ""); });
+  write_mechanism_results(*file, run, folder, false);
+}
+
 /// @param program beside which models are sought.
 void simulate(const std::string& path, const std::string& folder, const std::string& program,
               const py::dict& laws) {
   take_models_of(program);
   run_beside_python([&, laws = laws_of(laws)] {
+    if (kind_of_file(path) == FileKind::mechanism) {
+      simulate_mechanism(path, folder, laws);
+      return;
+    }
     LiftCase lift_case = read_steered_case(path, laws);
     require_motion(lift_case);
     require_writable(folder);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,12 +15,59 @@
 #include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
+
+namespace {
+
+/// Where the motion begins.
+Eigen::VectorXd start_of(const MechanismFile& file, const BuiltMechanism& mechanism) {
+  Eigen::VectorXd q = mechanism.system.q_start();
+  if (file.simulate.start == Start::equilibrium)
+    dynamics::EquilibriumSolver(mechanism.at_rest()).solve(0, q);
+  return q;
+}
+
+dynamics::IntegrationSettings settings_of(const MechanismFile& file,
+                                          const BuiltMechanism& mechanism) {
+  dynamics::IntegrationSettings settings;
+  settings.relative_tolerance = file.simulate.relative_tolerance;
+  settings.sample_interval = file.sample_interval();
+  settings.surface = mechanism.marched.radiation.get();
+  settings.surface_step = mechanism.marched.step;
+  return settings;
+}
+
+/// How steered drives went until a move that leads on from there to a place of its own, whose way is
+/// not known before.
+std::vector<dynamics::Course> find_courses(const MechanismFile& file,
+                                           const BuiltMechanism& mechanism) {
+  const Schedule& schedule = mechanism.schedule;
+  const std::size_t last = schedule.last_known_stage();
+  dynamics::IntegrationSettings settings = settings_of(file, mechanism);
+  settings.end = schedule.stages[last].end;
+  dynamics::IntegrationResult result = dynamics::integrate(
+      mechanism.system, start_of(file, mechanism), mechanism.system.v_start(), settings);
+  const auto known = [&](const ScheduledSteering& one) { return !one.course && one.stage <= last; };
+  result.courses.resize(static_cast<std::size_t>(std::ranges::count_if(schedule.steerings, known)));
+  return std::move(result.courses);
+}
+
+}  // namespace
+
 MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress) {
   const auto start = std::chrono::steady_clock::now();
   const RadiationProblem problem = radiation_problem(file);
   const auto radiation = find_radiation(problem, {});
-  BuiltMechanism mechanism = build_mechanism(file, radiation.get(), find_marched_water(problem));
+  const auto build = [&](const FoundMotion& found) {
+    return build_mechanism(file, radiation.get(), find_marched_water(problem), found);
+  };
+  FoundMotion found;
+  BuiltMechanism mechanism = build(found);
+  while (mechanism.schedule.provisional_from) {
+    for (dynamics::Course& course : find_courses(file, mechanism))
+      found.courses.push_back(std::move(course));
+    mechanism = build(found);
+  }
   std::vector<NaturalModes> natural_modes;
   std::vector<std::string> findings;
   const dynamics::LiftSystem& system = mechanism.system;
@@ -32,12 +82,8 @@ MechanismRun run_mechanism(const MechanismFile& file,
   if (!system.mechanism().loops().empty()) {
     findings = dynamics::diagnose_loops(system.mechanism(), q).sentences(system.mechanism());
   }
-  dynamics::IntegrationSettings settings;
-  settings.relative_tolerance = file.simulate.relative_tolerance;
-  settings.sample_interval = file.sample_interval();
+  dynamics::IntegrationSettings settings = settings_of(file, mechanism);
   settings.progress = progress;
-  settings.surface = mechanism.marched.radiation.get();
-  settings.surface_step = mechanism.marched.step;
   const Eigen::Index samples =
       dynamics::sample_times(system.operation().duration(), settings.sample_interval).size();
   OutputRecorder recorder(file, mechanism, samples);

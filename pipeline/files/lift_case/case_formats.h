@@ -10,6 +10,10 @@ Format<Located<RopePoint>> rope_point_format();
 
 /// What the operator of a drive keeps, and what laws of Python see, at points in that format.
 Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point);
+/// A law of a mechanism's drive, and what it sees, likewise.
+Format<KeepInCase> mechanism_law_format(const Format<Located<RopePoint>>& point);
+/// A stage of a mechanism's operation, which ends with the last of its moves.
+Format<StageInCase> steered_stage_format(const Format<KeepInCase>& keeps);
 /// What goes wrong.
 Format<FaultInCase> fault_format();
 

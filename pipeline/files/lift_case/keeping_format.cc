@@ -64,6 +64,18 @@ void check_sight(const SightInCase& sight, Reading& reading, const Mark& mark) {
   only_with(sight.share.has_value(), "share", !sight.of.empty(), "of");
 }
 
+void check_sight_of_mechanism(const SightInCase& sight, Reading& reading, const Mark& mark) {
+  const int figures = sight.level.has_value() + sight.over.has_value() + sight.pull.has_value() +
+                      sight.share.has_value();
+  if (figures != 1)
+    reading.error(mark, figures == 0 ? "nothing is seen" : "two things are seen under one name",
+                  {"give one of level, over, tension and share"});
+  if (sight.over.has_value() != (sight.with.has_value() && !sight.level))
+    reading.error(mark, "what is plumb or not is told by two points, over and from");
+  if (sight.share.has_value() == sight.of.empty())
+    reading.error(mark, "a share takes share and of, both");
+}
+
 void check_names_of_sights(const KeepInCase& keep, Reading& reading, const Mark&) {
   for (const SightInCase& sight : keep.sees) {
     if (sight.name.value == "position" || sight.name.value == "speed")
@@ -95,6 +107,29 @@ Format<SightInCase> sight_format(const Format<Located<RopePoint>>& point) {
       .optional("of", &SightInCase::of, list_of(located(reference()), 1),
                 "ropes, or hoists (C1.main) whose tackle it is")
       .rule(check_sight)
+      .place(&SightInCase::place);
+  return table.format();
+}
+
+// What the head of a case is here a point of a body, which stands in `with`.
+Format<SightInCase> mechanism_sight_format(const Format<Located<RopePoint>>& point) {
+  Table<SightInCase> table(
+      "seen figure",
+      "A figure that a law of a mechanism sees: a height (`level`), how far "
+      "its drive would have to go to bring a point plumb over another (`from`, "
+      "`over`), a `tension`, or a `share` of what ropes pull.");
+  table.optional("level", &SightInCase::level, point, "the height of this point, m")
+      .optional(
+          "from", &SightInCase::with, point,
+          "over that of this point; a height in the world if left out. With `over`: the point "
+          "that the drive moves")
+      .optional("over", &SightInCase::over, point,
+                "from plumb over this point: travel of the drive of a joint, m or rad")
+      .optional("tension", &SightInCase::pull, located(reference()), "of this rope, N")
+      .optional("share", &SightInCase::share, located(reference()),
+                "that this rope pulls of what it and those of `of` pull together, 0 to 1")
+      .optional("of", &SightInCase::of, list_of(located(reference()), 1), "ropes")
+      .rule(check_sight_of_mechanism)
       .place(&SightInCase::place);
   return table.format();
 }
@@ -156,6 +191,31 @@ Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
                 "time between two looks of the law, shortened so that the reaction is a number of "
                 "them; 0.2 s if left out")
       .rule(check_keep)
+      .rule(check_names_of_sights)
+      .place(&KeepInCase::place);
+  return table.format();
+}
+
+Format<KeepInCase> mechanism_law_format(const Format<Located<RopePoint>>& point) {
+  Table<KeepInCase> table("law",
+                          "A law of your own, a function of Python, that gives the speed of a "
+                          "mechanism's drive after what it sees.");
+  table
+      .optional("law", &KeepInCase::law, located(reference()),
+                "name of the function: such a mechanism is run from Python, by the argument `laws` "
+                "of Case.simulate")
+      .optional("sees", &KeepInCase::sees, named_tables(mechanism_sight_format(point)),
+                "what the law is given, by name, beside the `position` and `speed` of its drive")
+      .optional("every", &KeepInCase::every, quantity(Dimension::time, Range::between(0.01, 1)),
+                "time between two looks of the law, shortened so that the reaction is a number of "
+                "them; 0.2 s if left out")
+      .by_default("reaction", &KeepInCase::reaction,
+                  quantity(Dimension::time, Range::not_negative()), "1 s",
+                  "from what the law sees to what is done")
+      .rule([](const KeepInCase& keep, Reading& reading, const Mark& mark) {
+        if (!keep.law)
+          reading.error(mark, "the move does not name its law", {"for example {law: go}"});
+      })
       .rule(check_names_of_sights)
       .place(&KeepInCase::place);
   return table.format();

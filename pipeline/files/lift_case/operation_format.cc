@@ -4,18 +4,16 @@
 namespace blocklift::pipeline {
 namespace {
 
-/// @param may_keep whether drives may be steered after a wish.
-Format<MoveInCase> move_format(bool may_keep) {
+/// @param keeps after what drives may be steered.
+/// @param what that is, for the manual.
+Format<MoveInCase> move_format(const Format<KeepInCase>& keeps, const std::string& what) {
   const auto limit = [](Dimension linear, Dimension angular) {
     return quantity_of({linear, angular}, Range::positive());
   };
   Table<MoveInCase> table(
-      "move", may_keep ? "What one or several drives or winches do, alike. It goes `by` a "
-                         "distance or `to` a place, from rest to rest, `follows` another "
-                         "one, or `keeps` something."
-                       : "What one or several drives or winches do, alike. It goes `by` a "
-                         "distance or `to` a place, from rest to rest, or `follows` "
-                         "another one.");
+      "move",
+      "What one or several drives or winches do, alike. It goes `by` a distance or `to` a place, "
+      "from rest to rest, `follows` another one, or `keeps` something.");
   table
       .required("drives", &MoveInCase::drives, list_of(located(reference()), 1),
                 "crane and drive or hoist (C1.travel, C1.upper_1), or a rope with its own winch")
@@ -41,10 +39,8 @@ Format<MoveInCase> move_format(bool may_keep) {
                 "own travel over the leader's travel, a smooth curve through these points: "
                 "[[leader, own], ...]")
       .place(&MoveInCase::place);
-  if (may_keep)
-    table.optional("keeps", &MoveInCase::keeps, keep_format(rope_point_format()),
-                   "the drive is steered after what its operator sees, until the other moves of "
-                   "the stage have ended, or for the duration");
+  table.optional("keeps", &MoveInCase::keeps, keeps,
+                 what + ", until the other moves of the stage have ended, or for the duration");
   return table.format();
 }
 
@@ -88,7 +84,9 @@ Format<StageUntil> stage_until_format() {
 
 }  // namespace
 
-Format<StageInCase> stage_format(bool may_wait) {
+namespace {
+
+Format<StageInCase> stage_format_with(const Format<MoveInCase>& move, bool may_wait) {
   Table<StageInCase> table("stage", may_wait ? "A part of the operation; it ends with the last of "
                                                "its moves, or by a condition."
                                              : "A part of the operation; it ends with the last of "
@@ -96,11 +94,23 @@ Format<StageInCase> stage_format(bool may_wait) {
   table.required("stage", &StageInCase::name, text(), "its name, for people")
       .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
                   "0 s", "before the stage begins")
-      .optional("moves", &StageInCase::moves, list_of(move_format(may_wait)), "what moves");
+      .optional("moves", &StageInCase::moves, list_of(move), "what moves");
   if (may_wait)
     table.optional("until", &StageInCase::until, stage_until_format(),
                    "what ends the stage, before its moves have ended; they go as far as it takes");
   return table.format();
+}
+
+}  // namespace
+
+Format<StageInCase> stage_format(bool may_wait) {
+  return stage_format_with(move_format(keep_format(rope_point_format()),
+                                       "the drive is steered after what its operator sees"),
+                           may_wait);
+}
+
+Format<StageInCase> steered_stage_format(const Format<KeepInCase>& keeps) {
+  return stage_format_with(move_format(keeps, "the drive is steered by a law of your own"), false);
 }
 
 Format<FaultInCase> fault_format() {

@@ -7,6 +7,7 @@
 
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/files/lift_case/lift_case.h"
+#include "pipeline/files/lift_case/own_laws.h"
 #include "pipeline/mechanism/mechanism_parts.h"
 
 namespace blocklift::pipeline {
@@ -86,6 +87,7 @@ struct MechanismFile : MechanismParts, MarineParts {
   std::string yaml;                ///< the file as it stands
   std::filesystem::path file;      ///< where it is
   Mark place;
+  OwnLaws laws = {};  ///< that its operation names; not from the file
 
   const RopeInCase* find_rope(const std::string& rope) const;
   const SpringModel* find_spring(const std::string& spring) const;

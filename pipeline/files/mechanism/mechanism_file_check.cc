@@ -248,8 +248,27 @@ class MechanismCheck {
     }
   }
 
+  /// What a law sees is there, and can be seen from its drive.
+  void check_sights(const ScheduledSteering& steering, const Mover& mover) {
+    const std::string user = "the law of " + mover.name;
+    for (const SightInCase& sight : steering.keep.sees) {
+      for (const auto& point : {sight.level, sight.with, sight.over})
+        if (point && point->value.body)
+          check_point(file_, {*point->value.body, Vector3::Zero(), point->mark}, user, reading_);
+      for (const auto& rope : {sight.pull, sight.share})
+        if (rope) find(file_.ropes, *rope, user, "rope");
+      for (const Located<std::string>& rope : sight.of) find(file_.ropes, rope, user, "rope");
+      if (sight.over && mover.is_winch)
+        reading_.error(sight.over->mark,
+                       fmt::format("{} is a winch and brings nothing over a point", mover.name),
+                       {"drives of joints do"});
+    }
+  }
+
   void check_operation() {
     const Schedule schedule = schedule_operation(file_, reading_.diagnostics());
+    for (const ScheduledSteering& steering : schedule.steerings)
+      check_sights(steering, schedule.movers[steering.mover]);
     const Located<double>& duration = file_.simulate.duration;
     if (!std::isfinite(duration.value) || schedule.duration <= duration.value) return;
     reading_.error(duration.mark,

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "pipeline/files/lift_case/case_formats.h"
 #include "pipeline/files/mechanism/mechanism_file.h"
 
 namespace blocklift::pipeline {
@@ -205,7 +206,8 @@ Format<MechanismFile> mechanism_file_format() {
   table
       .optional("drives", &MechanismFile::drives, named_tables(drive_format()),
                 "that prescribe coordinates of joints")
-      .optional("operation", &MechanismFile::operation, list_of(stage_format(false)),
+      .optional("operation", &MechanismFile::operation,
+                list_of(steered_stage_format(mechanism_law_format(body_rope_point_format()))),
                 "stages of moves, one after another")
       .by_default("initial", &MechanismFile::initial, initial_format(), "{}",
                   "where the motion begins")

@@ -4,7 +4,8 @@
 
 namespace blocklift::pipeline {
 
-Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics) {
+Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics,
+                            const FoundMotion& found) {
   std::vector<Mover> movers;
   for (const DriveModel& drive : file.drives) {
     if (drive.constant_speed || drive.table) continue;
@@ -20,8 +21,8 @@ Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics)
     const DriveModel* drive = file.find_drive(name);
     return (rope && rope->winch) || (drive && !drive->constant_speed && !drive->table);
   };
-  return schedule_operation({"the mechanism", std::move(movers), &file.operation, 0, is_known},
-                            diagnostics);
+  return schedule_operation(
+      {"the mechanism", std::move(movers), &file.operation, 0, is_known, found}, diagnostics);
 }
 
 }  // namespace blocklift::pipeline

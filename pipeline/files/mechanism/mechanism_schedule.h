@@ -6,6 +6,7 @@
 namespace blocklift::pipeline {
 
 /// When everything of a mechanism's operation happens; complains as for a case.
-Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics);
+Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics,
+                            const FoundMotion& found = {});
 
 }  // namespace blocklift::pipeline

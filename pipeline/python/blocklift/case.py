@@ -119,7 +119,6 @@ class Case:
                 self._run(["assess", file, "--output", folder, *(["--decks"] if decks else [])],
                           file)
             else:
-                self._refuse_mechanism()
                 with self._naming_own_file(file):
                     kernel.assess(file, folder, laws, decks)
         return Result(folder)
@@ -158,15 +157,8 @@ class Case:
             if laws is None:
                 self._run(["simulate", file, "--output", folder], file)
                 return
-            self._refuse_mechanism()
             with self._naming_own_file(file):
                 kernel.simulate(file, folder, laws)
-
-    def _refuse_mechanism(self) -> None:
-        if "mechanism" in self.data:
-            raise InputError([Complaint(str(self.file), None, None,
-                                        "laws steer drives of lift cases alone, and this is a "
-                                        "mechanism")])
 
     def _run(self, arguments: list[str | os.PathLike[str]], file: Path) -> str:
         with self._naming_own_file(file):

@@ -189,8 +189,8 @@ class LawTest(InATemporaryFolder):
         self.assertGreater(found.line, 1)
         found = message(self.hoist(sees={"pull": {"tension": "R11"}}), {"go": stand})
         self.assertIn('did you mean "R1"?', found.hints[0])
-        with self.assertRaisesRegex(blocklift.InputError, "laws steer drives of lift cases"):
-            blocklift.Case(MECHANISMS / "slider-crank").simulate("out", laws={})
+        with self.assertRaisesRegex(blocklift.InputError, 'steered by a law "go"'):
+            blocklift.Case(MECHANISMS / "slider-crank").simulate("out", laws={"go": stand})
 
     def test_the_program_says_where_such_a_case_runs(self):
         with self.assertRaisesRegex(blocklift.InputError, "laws are functions of Python"):
@@ -291,6 +291,74 @@ class LawTest(InATemporaryFolder):
         # The longer sling pulls less.
         self.assertAlmostEqual(found.search["variables"]["length"]["value"], 3.01, delta=2e-3)
         self.assertTrue(Path("found/best/report.html").is_file())
+
+    def trolley(self, **keeps):
+        """A load that swings under a trolley: 10 m of rod without mass, a ball in 2 degrees."""
+        limits = {"speed": "5 m/s", "acceleration": "50 m/s^2", "jerk": "5000 m/s^3",
+                  "range": ["-20 m", "20 m"]}
+        Path("trolley.yaml").write_text(json.dumps({
+            "mechanism": "trolley", "gravity": "9.81 m/s^2",
+            "bodies": {"trolley": {"mass": "1 t", "radii_of_gyration": ["1 m", "1 m", "1 m"]},
+                       "load": {"mass": "5 t", "radii_of_gyration": ["1 mm", "1 mm", "1 mm"],
+                                "centre_of_mass": ["0 m", "0 m", "-10 m"]}},
+            "joints": {"rail": {"kind": "prismatic", "child": "trolley", "axis": [1, 0, 0]},
+                       "swing": {"kind": "revolute", "parent": "trolley", "child": "load",
+                                 "axis": [0, 1, 0]}},
+            "drives": {"motor": {"joint": "rail", **limits}},
+            "operation": [{"stage": "calm", "moves": [
+                {"drives": ["motor"], "duration": "30 s", "keeps": {"reaction": "0 s", **keeps}}]}],
+            "initial": {"positions": {"swing": "2 deg"}},
+            "simulate": {"duration": "33 s", "relative_tolerance": 1e-9},
+            "outputs": {"swing": {"joint": "swing"}, "rail": {"joint": "rail"}}}))
+        return blocklift.Case("trolley.yaml")
+
+    def test_a_mechanism_is_steered_too(self):
+        # x' = k d, d = the load's place before the trolley's: d'' + k d' + g/L d = 0 for small d.
+        k, every = 0.2, 0.01
+        ahead = {"from": {"body": "trolley"},
+                 "over": {"body": "load", "position": ["0 m", "0 m", "-10 m"]}}
+        case = self.trolley(law="calm", every=f"{every} s", sees={"ahead": ahead})
+        case.validate()
+        result = case.simulate("calm", laws={"calm": lambda time, seen: k * seen["ahead"]})
+        swing = result.outputs().swing
+        time = swing.time.values
+        # Acted on an interval and a half later.
+        lag = 1.5 * every
+        rates = np.array([1j, -1j])
+        for _ in range(20):
+            delayed = k * np.exp(-rates * lag)
+            rates = -delayed / 2 + np.array([1j, -1j]) * np.sqrt(9.81 / 10 - delayed**2 / 4)
+        rate = rates[0]
+        # The trolley sets off at once with the speed k d, so that d' begins with -k d.
+        due = math.radians(2) * np.exp(rate.real * time) * (
+            np.cos(rate.imag * time) + rate.real / rate.imag * np.sin(rate.imag * time))
+        np.testing.assert_allclose(swing.values[time < 29], due[time < 29],
+                                   atol=math.radians(0.02))
+        self.assertLess(abs(float(swing[time < 29][-1])), math.radians(0.15))
+
+    def test_a_mechanism_goes_on_from_where_a_law_left_it(self):
+        case = self.trolley(law="go")
+        case.data["operation"].append({"stage": "home", "moves": [
+            {"drives": ["motor"], "to": "1 m", "speed": "1 m/s"}]})
+        case.set("simulate.duration", "40 s")
+        result = case.simulate("home", laws={"go": lambda time, seen: 0.1 if time < 10 else 0.0})
+        rail = result.outputs().rail
+        self.assertAlmostEqual(float(rail.interp(time=25.0)), 1.0, delta=0.03)
+        self.assertAlmostEqual(float(rail[-1]), 1.0, places=9)
+
+    def test_wrong_sights_of_a_mechanism_have_their_place(self):
+        with self.assertRaisesRegex(blocklift.InputError, 'did you mean "trolley"'):
+            self.trolley(law="go", sees={"up": {"level": {"body": "troley"}}}).validate()
+        with self.assertRaisesRegex(blocklift.InputError, "two points, over and from"):
+            self.trolley(law="go", sees={"up": {"over": {"body": "load"}}}).validate()
+        with self.assertRaisesRegex(blocklift.InputError, 'names rope "R1"'):
+            self.trolley(law="go", sees={"pull": {"tension": "R1"}}).validate()
+        with self.assertRaisesRegex(blocklift.InputError, "does not name its law"):
+            self.trolley(every="0.1 s").validate()
+        with self.assertRaisesRegex(blocklift.InputError, 'nobody gives the law "go"'):
+            self.trolley(law="go").simulate("out")
+        with self.assertRaisesRegex(blocklift.InputError, 'nobody gives the law "go"'):
+            self.trolley(law="go").simulate("out", laws={})
 
     def test_without_the_module_it_says_what_to_install(self):
         # A program that has no module beside it, in a process of its own: this one has loaded it.
