@@ -66,6 +66,10 @@ struct EquilibriumSolver::Implementation {
   bool contacts_known = false;
   TangentMatrices tangent_matrices;
   Eigen::VectorXd residual_here;
+  /// Where the workspace is: at these unknowns, with this set; null: elsewhere, or with the ropes'
+  /// own laws.
+  Eigen::VectorXd evaluated;
+  const Contacts* evaluated_set = nullptr;
   Eigen::MatrixXd stiffness;  ///< of the unknowns
 
   sundials::Context context;
@@ -120,6 +124,7 @@ void EquilibriumSolver::Implementation::make_kinsol(Eigen::Index n) {
 
 // Unknowns count from here, brought onto the loops with the drives as they are at the time.
 void EquilibriumSolver::Implementation::set_reference(const Eigen::VectorXd& q) {
+  evaluated_set = nullptr;
   w.q = q;
   set_drives(system, time, false, w);
   coordinates.set_reference(w.q);
@@ -164,6 +169,7 @@ void EquilibriumSolver::Implementation::report_weightless(int velocity) const {
 // Generalised force on each unknown with everything at rest at q(u).
 void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, const Contacts* set,
                                                       Eigen::VectorXd& residual) {
+  evaluated_set = nullptr;
   coordinates.move_to(u, w.q);
   w.v.setZero();
   w.vdot.setZero();
@@ -177,6 +183,8 @@ void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, 
     coordinates.balance(free_force, w.loops->lambda);
   }
   residual.noalias() = coordinates.basis().transpose() * free_force;
+  evaluated = u;
+  evaluated_set = set;
 }
 
 // Minus the derivative of the residual by u: the stiffness at q(u), times what a further increment
@@ -184,10 +192,10 @@ void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, 
 void EquilibriumSolver::Implementation::calc_stiffness(const Eigen::VectorXd& u,
                                                        const Contacts* set,
                                                        Eigen::MatrixXd& result) {
-  calc_residual(u, set, residual_here);
+  // Newton's method asks for the residual at each of its points before it asks for the stiffness.
+  if (!set || set != evaluated_set || u != evaluated) calc_residual(u, set, residual_here);
   calc_tangent_matrices(system, time, w, tangent_matrices);
-  result.noalias() = coordinates.virtual_motions().transpose() * tangent_matrices.stiffness *
-                     coordinates.tangent();
+  result = coordinates.seen_along(tangent_matrices.stiffness);
   result.diagonal() += holding_stiffness * weight;
 }
 
@@ -266,6 +274,7 @@ bool EquilibriumSolver::Implementation::solve_active_set() {
       const char acts = indicator > 0.0 ? 1 : 0;
       if (acts != contacts[i] && std::abs(indicator) > 1e-9) {
         contacts[i] = acts;
+        evaluated_set = nullptr;
         agrees = false;
       }
     }

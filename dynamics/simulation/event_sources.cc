@@ -1,5 +1,6 @@
 #include "dynamics/simulation/event_sources.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -24,6 +25,10 @@ EventSources::EventSources(const LiftSystem& system, const AwaitedCondition* awa
   if (awaited) sources_.push_back({Kind::condition});
   values_.setZero(count());
   if (awaited) values_[count() - 1] = -1.0;
+  foreseen_ = values_;
+  const bool hangs =
+      std::ranges::any_of(system.ropes(), [](const Rope& rope) { return rope.hangs(); });
+  may_foresee_ = contacts_end_ == sources_.size() && !hangs;
 }
 
 bool EventSources::release(int rope) { return std::exchange(contacts_[rope], 0) != 0; }
@@ -72,6 +77,38 @@ void EventSources::find_values(bool may_be_met, double* values) {
   for (std::size_t k = contacts_end_; k < bends_end_; ++k) values_[k] = bend_value(sources_[k]);
   if (awaited_) values_[count() - 1] = may_be_met ? awaited_->indicator(system_, w_) : -1.0;
   Eigen::Map<Eigen::VectorXd>(values, count()) = values_;
+}
+
+void EventSources::foresee(double nearness) {
+  is_foreseen_ = may_foresee_;
+  if (!may_foresee_) return;
+  calc_contact_indicators(w_, foreseen_);
+  // By a millimetre here and there a load changes by its stiffness, by a millimetre a second by its
+  // damping, at each point of its path.
+  const auto is_clear = [&](std::size_t k, double stiffness, double damping, double points) {
+    return std::abs(foreseen_[static_cast<Eigen::Index>(k)]) >
+           1e-3 * nearness * points * (stiffness + damping);
+  };
+  const std::vector<Rope>& ropes = system_.ropes();
+  for (std::size_t i = 0; i < ropes.size() && is_foreseen_; ++i) {
+    const double stiffness = w_.rope_loads[i].stiffness;
+    is_foreseen_ = is_clear(i, stiffness, ropes[i].damping(stiffness),
+                            static_cast<double>(ropes[i].points().size()));
+  }
+  for (std::size_t i = 0; i < system_.supports().size() && is_foreseen_; ++i) {
+    const SupportPad::Definition& pad = system_.supports()[i].definition();
+    is_foreseen_ = is_clear(ropes.size() + i, pad.stiffness, pad.damping, 1);
+  }
+}
+
+bool EventSources::take_foreseen(double* values) {
+  // A step may be several times as long as the one before.
+  constexpr double most_steps_ahead = 5;
+  const auto change = (foreseen_ - values_).array().abs();
+  if (!is_foreseen_ || !(foreseen_.array().abs() > most_steps_ahead * change).all()) return false;
+  values_ = foreseen_;
+  Eigen::Map<Eigen::VectorXd>(values, count()) = values_;
+  return true;
 }
 
 // Is the value positive as long as nothing changes?

@@ -61,6 +61,15 @@ class EventSources {
   /// @param may_be_met: is it the condition's time? Before, it counts as not met.
   /// @param values count() of them. Does not allocate.
   void find_values(bool may_be_met, double* values);
+  /// Notes the values by the loads that the workspace holds, which are those of a state near to that
+  /// of the step's end. Not where sheaves rub, ropes hang by their weight or a condition is awaited.
+  /// @param nearness by how much positions (m) and velocities (m/s) of points may differ from it.
+  void foresee(double nearness);
+  /// The values that were foreseen, as find_values has them, where they serve as well as those of
+  /// the step's end: none can have the other sign there, and none is on its way to zero, whose
+  /// instant would be sought from here.
+  /// @returns false if they do not serve; nothing is done then.
+  bool take_foreseen(double* values);
   /// Switches over what is due at t (s), the end of a step.
   /// @param found for each source whether its value rises (1), falls (-1) or does not pass zero
   /// there; null: the step did not end at a root.
@@ -92,6 +101,8 @@ class EventSources {
   std::vector<Source> sources_;  // ropes and pads, bends, the condition
   std::size_t contacts_end_ = 0, bends_end_ = 0;
   Eigen::VectorXd values_;  // at the end of the last step, where no root was found
+  Eigen::VectorXd foreseen_;
+  bool may_foresee_ = false, is_foreseen_ = false;
 };
 
 }  // namespace blocklift::dynamics

@@ -113,7 +113,7 @@ void Integrator::project_state(double t, VectorRef y) {
 
 // q, v and feeds of the workspace to y_.
 void Integrator::move_to(double t) {
-  loaded_time_ = evaluated_time_ = not_a_number;
+  loaded_time_ = evaluated_time_ = foreseen_time_ = not_a_number;
   set_state(system_, sundials::view(y_.get()), w_);
   set_drives(system_, within_interval(t), true, w_);
 }
@@ -138,7 +138,7 @@ bool Integrator::motion_jumps(double t) const {
 // Begins anew at (t, y_): the method's memory of the past does not hold any more.
 void Integrator::restart(double t) {
   count_before_restart();
-  loaded_time_ = not_a_number;  // other contacts act
+  loaded_time_ = foreseen_time_ = not_a_number;  // other contacts act
   project_state(t, sundials::view(y_.get()));
   sundials::check(CVodeReInit(cvode_, t, y_.get()), "CVodeReInit");
   if (settings_.works) sundials::check(CVodeQuadReInit(cvode_, work_.get()), "CVodeQuadReInit");
@@ -147,7 +147,7 @@ void Integrator::restart(double t) {
 
 void Integrator::record_samples(double up_to) {
   while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
-    loaded_time_ = evaluated_time_ = not_a_number;
+    loaded_time_ = evaluated_time_ = foreseen_time_ = not_a_number;
     const double t = sample_times_[next_sample_];
     if (t > begin_) {
       sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");

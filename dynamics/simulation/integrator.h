@@ -87,6 +87,10 @@ class Integrator {
   double evaluated_time_ =
       not_a_number;  ///< of the right-hand side's last evaluation by the method, s
 
+  /// Likewise, of which the events' values are foreseen; a root is sought behind it by states of
+  /// other times.
+  double foreseen_time_ = not_a_number;
+
   sundials::Context context_;
   sundials::Vector y_, rates_, sample_, work_, sampled_work_;
   sundials::Matrix matrix_;

@@ -8,6 +8,15 @@
 
 namespace blocklift::dynamics {
 
+namespace {
+
+// By how many tolerances a point may be elsewhere than where a step that is accepted has it: Newton's
+// correction is the local error times up to 7 by the order, and a turn has an arm of tens of metres.
+// Were it more, a change would be found at the beginning of the next step.
+constexpr double reach_of_errors = 100;
+
+}  // namespace
+
 // What a callback returns to CVODES.
 template <class Function>
 int Integrator::guarded(Function&& function) {
@@ -26,11 +35,13 @@ int Integrator::guarded(Function&& function) {
 
 int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data) {
   auto& self = *static_cast<Integrator*>(data);
-  self.loaded_time_ = self.evaluated_time_ = not_a_number;
+  self.loaded_time_ = self.evaluated_time_ = self.foreseen_time_ = not_a_number;
   return self.guarded([&] {
     calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y),
                          &self.events_.contacts(), self.w_, sundials::view(ydot));
     self.evaluated_time_ = t;
+    self.events_.foresee(reach_of_errors * self.settings_.relative_tolerance);
+    self.foreseen_time_ = t;
   });
 }
 
@@ -69,6 +80,8 @@ int Integrator::solve_newton(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Ve
 
 int Integrator::event_values(double t, N_Vector y, double* g, void* data) {
   auto& self = *static_cast<Integrator*>(data);
+  // At a step's end the last right-hand side was of a state that differs by what the step may err.
+  if (t == self.foreseen_time_ && self.events_.take_foreseen(g)) return 0;
   return self.guarded([&] {
     const auto state = sundials::view(y);
     // At the end of a step the works have just been evaluated.

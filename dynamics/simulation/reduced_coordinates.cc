@@ -64,6 +64,11 @@ Eigen::VectorXd ReducedCoordinates::closing_move(const Eigen::MatrixXd& incremen
   return -(free_jacobian_ * increments * normal_).partialPivLu().solve(residual);
 }
 
+Eigen::MatrixXd ReducedCoordinates::seen_along(const Eigen::MatrixXd& stiffness) {
+  if (!projector_) return stiffness * tangent();
+  return virtual_motions().transpose() * stiffness * tangent();
+}
+
 void ReducedCoordinates::move_to(const Eigen::VectorXd& z, VectorRef q) {
   const Mechanism& mechanism = system_.mechanism();
   const std::vector<int>& free = mechanism.free_velocities();
@@ -94,6 +99,7 @@ Eigen::MatrixXd ReducedCoordinates::tangent() {
   Eigen::MatrixXd whole(mechanism.nv(), mechanism.nv());
   increment_jacobian(mechanism, increment_, whole);
   const Eigen::MatrixXd increments = whole(free, free);
+  if (!projector_) return increments;
   Eigen::MatrixXd moves = basis_;
   if (rows_.count() > 0) {
     const Eigen::MatrixXd closed = free_jacobian_ * increments;

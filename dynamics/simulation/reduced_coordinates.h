@@ -38,6 +38,10 @@ class ReducedCoordinates {
   /// P there: the virtual motions that forces are weighed with, nv_free x n.
   Eigen::MatrixXd virtual_motions() const;
 
+  /// P^T K T there, n x n: how forces that are weighed with P change with dz, K (nv_free x nv_free)
+  /// being their change with the free velocities' increments and T tangent().
+  Eigen::MatrixXd seen_along(const Eigen::MatrixXd& stiffness);
+
   /// Multipliers (all rows) of forces f (nv_free) there, which becomes f + G^T lambda. Where rows
   /// repeat others those left out are zero.
   void balance(VectorRef f, VectorRef lambda) const;

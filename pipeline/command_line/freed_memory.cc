@@ -12,4 +12,10 @@ void return_freed_memory() {
 #endif
 }
 
+void return_what_is_free() {
+#if defined(__GLIBC__)
+  ::malloc_trim(0);
+#endif
+}
+
 }  // namespace blocklift::pipeline

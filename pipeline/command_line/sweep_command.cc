@@ -13,6 +13,7 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/slurm_jobs.h"
 #include "pipeline/command_line/sweep_team.h"
@@ -75,12 +76,18 @@ void work(const SweepOptions& options, const StudyFile& study, const fs::path& f
   const Eigen::MatrixXd design = make_design(study);
   fs::create_directories(folder / "members");
   StudyBlocks blocks(study, folder / "members");
+  bool is_first = true;
   answer_orders([&](const WorkOrder& order) -> std::string {
     if (!is_the_study)
       throw std::invalid_argument(
           "its study, case or version of the program is another than that of the first process");
-    if (order.kind == WorkOrder::Kind::member)
-      return text_of_member(run_member(study, design.row(order.number), order.number, blocks));
+    if (order.kind == WorkOrder::Kind::member) {
+      std::string text =
+          text_of_member(run_member(study, design.row(order.number), order.number, blocks));
+      // Of making the block more was needed than is kept of it.
+      if (std::exchange(is_first, false)) return_what_is_free();
+      return text;
+    }
     blocks.prepare(rows_of_part(design, part_of(options)), order.number, order.of);
     return {};
   });

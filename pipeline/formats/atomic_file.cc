@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -72,7 +73,17 @@ std::string read_file(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) fail(path, "cannot read the file", errno == 0 ? EIO : errno);
-  std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  // At once where the size is known; what has none, or grows, is read on to its end.
+  std::error_code without_size;
+  const std::uintmax_t size = std::filesystem::file_size(path, without_size);
+  std::string content;
+  if (!without_size && size > 0) {
+    content.resize(size);
+    stream.read(content.data(), static_cast<std::streamsize>(size));
+    content.resize(static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream)
+    content.append(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   if (stream.bad()) fail(path, "cannot read the file", errno == 0 ? EIO : errno);
   return content;
 }
