@@ -204,7 +204,7 @@ std::string bytes_of_stress_basis(const structure::StressBasis& basis) {
   return values.take();
 }
 
-structure::StressBasis stress_basis_of(const std::string& bytes) {
+structure::StressBasis stress_basis_of(std::string_view bytes) {
   KeptValuesReader values(bytes);
   structure::StressBasis basis;
   values(basis.squares, basis.components);

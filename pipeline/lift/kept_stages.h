@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "pipeline/lift/lift_run.h"
 #include "structure/response/accuracy.h"
@@ -25,7 +26,7 @@ std::string bytes_of_motion(const LiftRun& run);
 LiftRun motion_of(const std::string& bytes, BuiltLift model);
 
 std::string bytes_of_stress_basis(const structure::StressBasis& basis);
-structure::StressBasis stress_basis_of(const std::string& bytes);
+structure::StressBasis stress_basis_of(std::string_view bytes);
 
 std::string bytes_of_refinement(const KeptRefinement& refinement);
 KeptRefinement refinement_of(const std::string& bytes);

@@ -17,6 +17,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/content_hash.h"
+#include "pipeline/formats/mapped_file.h"
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/history_assessment.h"
@@ -246,7 +247,7 @@ void StudyBlocks::find_basis(Kept& block, bool over_edges, const Eigen::VectorXd
   const fs::path file = file_of(block.key);
   std::error_code ignored;
   if (!fs::exists(file, ignored)) write_file(file, bytes_of_stress_basis(basis_of(refine(values))));
-  block.basis = stress_basis_of(read_file(file));
+  block.basis = stress_basis_of(MappedFile(file).bytes());
 }
 
 LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun& run,
