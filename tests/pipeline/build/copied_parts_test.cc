@@ -365,9 +365,9 @@ TEST(CopiedParts, EdgesComeAgain) {
   ASSERT_EQ(block.complaints, "");
   std::vector<std::string> names;
   for (const LoadEdge& edge : block.block->edges) names.push_back(edge.name.value);
-  EXPECT_EQ(names, (std::vector<std::string>{"sill", "across", "middle", "sill.1", "sill.2",
-                                             "sill.mirrored", "sill.1.mirrored",
-                                             "sill.2.mirrored"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"sill", "across", "middle", "sill.1", "sill.2",
+                                      "sill.mirrored", "sill.1.mirrored", "sill.2.mirrored"}));
   const LoadEdge& far = block.block->edges.back();
   EXPECT_LT((far.from - Vector3(2, 1, 1)).norm(), 1e-12);
   EXPECT_LT((far.to - Vector3(2.5, 1, 1)).norm(), 1e-12);
