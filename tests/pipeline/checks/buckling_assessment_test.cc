@@ -105,14 +105,14 @@ TEST(BucklingAssessment, TheSummaryHasBarsAndRods) {
 TEST(BucklingAssessment, StiffenersOfTheMeshAreNotToldBySpacing) {
   BlockModel block;
   PlateModel plate;
-  plate.name = {"deck"};
+  plate.name.value = "deck";
   plate.stiffeners = StiffenersModel{};
   plate.stiffeners->spacing = 0.7;
   block.plates.push_back(plate);
-  plate.name = {"bottom"};
+  plate.name.value = "bottom";
   plate.stiffeners->profile = structure::flat_bar(0.2, 0.01);
   block.plates.push_back(plate);
-  plate.name = {"sides"};
+  plate.name.value = "sides";
   plate.stiffeners->are_plates = true;
   block.plates.push_back(plate);
   const std::vector<structure::PlateStiffening> stiffening = stiffening_beside_mesh(block);
