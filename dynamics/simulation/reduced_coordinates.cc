@@ -98,8 +98,8 @@ Eigen::MatrixXd ReducedCoordinates::tangent() {
   const std::vector<int>& free = mechanism.free_velocities();
   Eigen::MatrixXd whole(mechanism.nv(), mechanism.nv());
   increment_jacobian(mechanism, increment_, whole);
+  if (!projector_) return whole(free, free);
   const Eigen::MatrixXd increments = whole(free, free);
-  if (!projector_) return increments;
   Eigen::MatrixXd moves = basis_;
   if (rows_.count() > 0) {
     const Eigen::MatrixXd closed = free_jacobian_ * increments;
