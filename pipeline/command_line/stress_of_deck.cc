@@ -95,7 +95,8 @@ void print_remarks(const DeckAssessment& assessment) {
   if (!assessment.solution.idle_supports.empty())
     print_wrapped(fmt::format("{} held nodes hold nothing: no element is joined to them",
                               assessment.solution.idle_supports.size()));
-  for (const std::string& sentence : left_out_of_cases(deck)) print_wrapped(sentence);
+  for (const std::string& sentence : left_out_of_cases(deck))
+    print_wrapped("warning: these cases lack what the deck has: " + sentence);
   for (const structure::DeckRemark& remark : deck.remarks)
     print_wrapped(fmt::format("{}: {}", remark.place, remark.text));
 }

@@ -85,10 +85,13 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
 
 std::vector<std::string> left_out_of_cases(const structure::Deck& deck) {
   std::vector<std::string> sentences;
-  for (const structure::LedgerEntry& entry : deck.ledger)
-    if (!entry.left_out.empty() && !is_wish_of_solver(entry))
-      sentences.push_back(fmt::format("{}: {} of {} used; left out: {}", entry.name, entry.used,
-                                      entry.read, entry.left_out));
+  for (const structure::LedgerEntry& entry : deck.ledger) {
+    if (entry.left_out.empty() || is_wish_of_solver(entry)) continue;
+    const std::string how_many = entry.used < entry.read
+                                     ? fmt::format("{} of {} used", entry.used, entry.read)
+                                     : "used in part";
+    sentences.push_back(fmt::format("{}: {}; left out: {}", entry.name, how_many, entry.left_out));
+  }
   return sentences;
 }
 
